@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
+#include <cstdio>
+#include <span>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "app/bench/suites.h"
+#include "core/files/atomic_file.h"
+#include "core/task/error.h"
+
+namespace {
+
+void save(const std::string &path, const std::string &text) {
+    if (path.empty())
+        return;
+    pellucid::files::AtomicFile file(path);
+    file.write(std::as_bytes(std::span(text)));
+    file.commit();
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    using namespace pellucid;
+    std::signal(SIGXFSZ, SIG_IGN);
+    CLI::App app("Speed and error, side by side", "pellucid-bench");
+    std::string suite = "quick", json, csv;
+    app.add_option("--suite", suite, "What to measure")->check(CLI::IsMember({"quick"}));
+    app.add_option("--json", json, "Write the rows as JSON");
+    app.add_option("--csv", csv, "Write the rows as CSV");
+    try {
+        app.parse(argc, argv);
+        const auto machine = bench::thisMachine();
+        const auto rows = bench::runQuickSuite();
+        std::fputs(bench::tableText(machine, rows).c_str(), stdout);
+        save(json, bench::jsonText(machine, rows));
+        save(csv, bench::csvText(rows));
+    } catch (const CLI::Success &success) {
+        return app.exit(success);
+    } catch (const CLI::ParseError &error) {
+        std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
+        return 2;
+    } catch (const task::Error &error) {
+        std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
+        return int(error.code());
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
+        return 1;
+    }
+    return 0;
+}

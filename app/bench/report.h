@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/volume/lattice.h"
+
+namespace pellucid::bench {
+
+/// What the run ran on.
+struct Machine {
+    std::string processor, system;
+    int threads = 1;
+    double memoryGiB = 0.0;
+};
+Machine thisMachine();
+
+/// One measurement: time and error side by side. Figures that were not measured stay empty.
+struct Row {
+    std::string suite, name;
+    volume::GridSize size;
+    std::string engine, kernel;
+    int taps = 0;
+    double padding = 0.0;
+    std::string storage;
+    int threads = 1;
+    std::optional<double> prepareMs = {}, fft3dMs = {}, sliceMs = {}, transformMs = {}, frameMs = {};
+    std::optional<double> bytes = {}, predictedError = {}, relativeL2 = {}, predictedMax = {}, maxError = {}, psnrDb = {};
+    std::optional<double> raySumMs = {}, raySumMsamplesPerSecond = {}, raySumRelativeL2 = {}, shearWarpMs = {};
+    std::string note = {};
+};
+
+/// A table for the eye.
+std::string tableText(const Machine &machine, const std::vector<Row> &rows);
+/// {"machine": ..., "rows": [...]}; a figure that was not measured is null.
+std::string jsonText(const Machine &machine, const std::vector<Row> &rows);
+std::string csvText(const std::vector<Row> &rows);
+
+} // namespace pellucid::bench

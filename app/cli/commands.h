@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <stop_token>
+
+namespace CLI {
+class App;
+}
+
+namespace pellucid::cli {
+
+/// What every command is run with.
+struct Context {
+    std::stop_token stop;
+};
+
+/// Each adds its subcommand with its options; the callback runs it and throws on failure.
+void addInfoCommand(CLI::App &app, const Context &context);
+void addRenderCommand(CLI::App &app, const Context &context);
+void addVolumeCommand(CLI::App &app, const Context &context);
+void addPhantomCommand(CLI::App &app, const Context &context);
+
+} // namespace pellucid::cli

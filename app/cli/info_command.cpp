@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/commands.h"
+#include "app/cli/json_text.h"
+#include "core/dicom/scan.h"
+#include "core/task/error.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double degrees = 180.0 / 3.14159265358979323846;
+
+json volumeJson(const dicom::VolumeEntry &v) {
+    const volume::Lattice &l = v.geometry.lattice;
+    json windows = json::array();
+    for (const auto &w : v.notes.windows)
+        windows.push_back({{"center", w.center}, {"width", w.width}, {"name", w.name}});
+    const auto vector = [](const glm::dvec3 &x) { return json{x.x, x.y, x.z}; };
+    json out = {{"label", v.label},
+                {"volume", v.placed},
+                {"size", {l.size().i, l.size().j, l.size().k}},
+                {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
+                {"tilt_deg", l.shearRad() * degrees},
+                {"origin_mm", vector(l.origin().mm)},
+                {"steps_mm", {vector(l.step(0)), vector(l.step(1)), vector(l.step(2))}},
+                {"frames", v.frames.size()},
+                {"resampled", !v.geometry.frameOffsetsMm.empty()},
+                {"unit", v.unit == volume::ValueUnit::hounsfield ? "HU" : ""},
+                {"lossy", v.notes.lossy},
+                {"windows", windows},
+                {"warnings", v.notes.warnings}};
+    if (!v.placed)
+        out["reason"] = v.notPlacedReason;
+    return out;
+}
+
+json catalogueJson(const dicom::Catalogue &catalogue) {
+    json patients = json::array();
+    for (const auto &p : catalogue.patients) {
+        json studies = json::array();
+        for (const auto &s : p.studies) {
+            json series = json::array();
+            for (const auto &e : s.series) {
+                json volumes = json::array();
+                for (const auto &v : e.volumes)
+                    volumes.push_back(volumeJson(v));
+                series.push_back({{"uid", e.uid}, {"number", e.number}, {"description", e.description},
+                                  {"modality", e.modality}, {"body_part", e.bodyPart}, {"volumes", volumes}});
+            }
+            studies.push_back({{"uid", s.uid}, {"date", s.date}, {"description", s.description}, {"series", series}});
+        }
+        patients.push_back({{"id", p.id}, {"name", p.name}, {"birth_date", p.birthDate}, {"sex", p.sex}, {"studies", studies}});
+    }
+    json skipped = json::array();
+    for (const auto &s : catalogue.skipped)
+        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason}});
+    return {{"patients", patients}, {"skipped", skipped}};
+}
+
+void printCatalogue(const dicom::Catalogue &catalogue) {
+    for (const auto &p : catalogue.patients) {
+        fmt::print("Patient {} ({})\n", p.name.empty() ? "without name" : p.name, p.id);
+        for (const auto &s : p.studies) {
+            fmt::print("  Study {} {}\n", s.date, s.description);
+            for (const auto &e : s.series) {
+                fmt::print("    Series {} {} {}\n", e.number, e.modality, e.description);
+                for (const auto &v : e.volumes) {
+                    const volume::Lattice &l = v.geometry.lattice;
+                    fmt::print("      {}{} x {} x {}, {:.3f} x {:.3f} x {:.3f} mm{}{}\n",
+                               v.label.empty() ? "" : v.label + ": ", l.size().i, l.size().j, l.size().k, l.spacingMm(0),
+                               l.spacingMm(1), l.sliceDistanceMm(),
+                               v.unit == volume::ValueUnit::hounsfield ? ", HU" : "", v.notes.lossy ? ", lossy" : "");
+                    for (const auto &w : v.notes.warnings)
+                        fmt::print("        {}\n", w);
+                }
+            }
+        }
+    }
+    if (!catalogue.skipped.empty())
+        fmt::print("Not used ({}):\n", catalogue.skipped.size());
+    for (const auto &s : catalogue.skipped)
+        fmt::print("  {}: {}\n", s.path.string(), s.reason);
+}
+
+} // namespace
+
+void addInfoCommand(CLI::App &app, const Context &context) {
+    struct Options {
+        std::vector<std::string> paths;
+        bool json = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App *command = app.add_subcommand("info", "List patients, studies, series, geometry, warnings and skipped files");
+    command->add_option("PATH", options->paths, "Files, folders, DICOMDIRs or NRRD files")->required();
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([options, context] {
+        const std::vector<std::filesystem::path> paths(options->paths.begin(), options->paths.end());
+        const dicom::Catalogue catalogue = dicom::scan(paths, task::Progress(context.stop));
+        if (options->json)
+            std::puts(jsonText(catalogueJson(catalogue)).c_str());
+        else
+            printCatalogue(catalogue);
+        if (catalogue.empty()) {
+            if (catalogue.skipped.size() == 1)
+                throw task::Error(task::ErrorCode::unusable, catalogue.skipped[0].reason, catalogue.skipped[0].path);
+            throw task::Error(task::ErrorCode::unusable, "holds no usable images", paths.front());
+        }
+    });
+}
+
+} // namespace pellucid::cli

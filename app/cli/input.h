@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/cli/commands.h"
+#include "core/classify/density_field.h"
+#include "core/dicom/catalogue.h"
+#include "core/dicom/load_volume.h"
+
+namespace pellucid::cli {
+
+/// A volume that a command works on, with everything that was said on the way.
+struct Input {
+    dicom::LoadedVolume loaded;
+    std::string seriesUid, seriesDescription;
+    std::vector<dicom::Skipped> skipped;
+    double scanMs = 0.0, loadMs = 0.0;
+};
+
+/// Scans a path and loads one volume of it: of the series named, else the one with most voxels.
+/// *Throws* Error{unusable} naming the path.
+Input openInput(const std::filesystem::path &path, const std::string &series, const Context &context);
+
+/// "LO,HI". *Throws* Error{usage}.
+classify::FieldWindow parseWindow(const std::string &text);
+
+/// Numbers separated by a character, exactly `count`. *Throws* Error{usage} naming the option.
+std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator, std::size_t count);
+
+/// Milliseconds since the last call on the same object.
+class Stopwatch {
+public:
+    Stopwatch();
+    double lapMs();
+
+private:
+    double m_last;
+};
+
+} // namespace pellucid::cli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace pellucid::cli {
+
+/// Indented JSON; bytes of a header that are no UTF-8 are replaced instead of refused.
+inline std::string jsonText(const nlohmann::json &value) {
+    return value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+} // namespace pellucid::cli

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <pthread.h>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "app/cli/commands.h"
+#include "core/task/error.h"
+#include "core/task/progress.h"
+
+namespace {
+
+constexpr int cancelledExit = 130, usageExit = 2, memoryExit = 4, internalExit = 1;
+
+int report(const std::string &what, int code) {
+    std::string line = what;
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::fprintf(stderr, "pellucid-cli: %s\n", line.c_str());
+    return code;
+}
+
+// Ctrl+C asks the running command to stop instead of killing it half way.
+std::stop_source &stopOnInterrupt() {
+    static std::stop_source source;
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    std::thread([signals] {
+        int received = 0;
+        sigwait(&signals, &received);
+        source.request_stop();
+    }).detach();
+    return source;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    using namespace pellucid;
+    // A file that may not grow further is an error to report, not a reason to die.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    const cli::Context context{stopOnInterrupt().get_token()};
+
+    CLI::App app("Projections of DICOM studies in the frequency domain", "pellucid-cli");
+    app.set_version_flag("--version", "pellucid-cli " PELLUCID_VERSION);
+    app.require_subcommand(1);
+    cli::addInfoCommand(app, context);
+    cli::addRenderCommand(app, context);
+    cli::addVolumeCommand(app, context);
+    cli::addPhantomCommand(app, context);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success &success) {
+        return app.exit(success);
+    } catch (const CLI::ParseError &error) {
+        return report(error.what(), usageExit);
+    } catch (const task::Error &error) {
+        return report(error.what(), int(error.code()));
+    } catch (const task::Cancelled &) {
+        return report("cancelled", cancelledExit);
+    } catch (const std::bad_alloc &) {
+        return report("not enough memory", memoryExit);
+    } catch (const std::exception &error) {
+        return report(std::string("internal error: ") + error.what(), internalExit);
+    }
+    return 0;
+}

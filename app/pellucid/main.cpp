@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <csignal>
+#include <cstdio>
+
+#include <QApplication>
+#include <QSettings>
+#include <QSurfaceFormat>
+
+#include <CLI/CLI.hpp>
+
+#include "core/task/error.h"
+#include "ui/main_window.h"
+#include "ui/theme.h"
+
+int main(int argc, char **argv) {
+    using namespace pellucid;
+    std::signal(SIGXFSZ, SIG_IGN);
+    CLI::App options("Pellucid: DICOM studies, transparent", "pellucid");
+    std::vector<std::string> paths;
+    options.set_version_flag("--version", "pellucid " PELLUCID_VERSION);
+    options.add_option("PATH", paths, "Files, folders, a DICOMDIR or NRRD files to open");
+    try {
+        options.parse(argc, argv);
+    } catch (const CLI::Success &success) {
+        return options.exit(success);
+    } catch (const CLI::ParseError &error) {
+        std::fprintf(stderr, "pellucid: %s\n", error.what());
+        return int(task::ErrorCode::usage);
+    }
+    QSurfaceFormat format;
+    format.setVersion(3, 3);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    QSurfaceFormat::setDefaultFormat(format);
+    QApplication application(argc, argv);
+    QApplication::setApplicationName("pellucid");
+    QApplication::setOrganizationName("pellucid");
+    QApplication::setApplicationVersion(PELLUCID_VERSION);
+    try {
+        const ui::Theme theme = ui::Theme::named(QSettings().value("theme", "dark").toString());
+        theme.apply(application);
+        ui::MainWindow window(theme);
+        window.show();
+        QStringList files;
+        for (const std::string &path : paths)
+            files << QString::fromStdString(path);
+        if (!files.isEmpty())
+            window.openPaths(files);
+        return QApplication::exec();
+    } catch (const task::Error &error) {
+        std::fprintf(stderr, "pellucid: %s\n", error.what());
+        return int(error.code());
+    }
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/classify/density_field.h"
+
+#include <algorithm>
+#include <new>
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include "core/task/error.h"
+#include "core/volume/statistics.h"
+
+namespace pellucid::classify {
+
+namespace {
+
+using volume::VoxelBox;
+
+// The union of two boxes; a box with hi <= lo is empty.
+VoxelBox united(const VoxelBox &a, const VoxelBox &b) {
+    if (a.hi.i <= a.lo.i)
+        return b;
+    if (b.hi.i <= b.lo.i)
+        return a;
+    return {{std::min(a.lo.i, b.lo.i), std::min(a.lo.j, b.lo.j), std::min(a.lo.k, b.lo.k)},
+            {std::max(a.hi.i, b.hi.i), std::max(a.hi.j, b.hi.j), std::max(a.hi.k, b.hi.k)}};
+}
+
+struct Mapping {
+    float low, scale;
+    template <class T> float operator()(T value) const {
+        const float f = (float(value) - low) * scale;
+        // Written so that NaN fails both comparisons and ends as 0.
+        return f >= 1.0F ? 1.0F : f > 0.0F ? f : 0.0F;
+    }
+};
+
+template <class T>
+VoxelBox mapSlices(std::span<const T> in, std::vector<float> &out, volume::GridSize size,
+                   const Mapping &map, const task::Progress &progress) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<int>(0, size.k), VoxelBox{},
+        [&](const tbb::blocked_range<int> &range, VoxelBox box) {
+            for (int k = range.begin(); k != range.end(); ++k) {
+                progress.check();
+                for (int j = 0; j < size.j; ++j) {
+                    const std::size_t row = (std::size_t(k) * size.j + j) * size.i;
+                    int first = size.i, last = -1;
+                    for (int i = 0; i < size.i; ++i) {
+                        const float f = map(in[row + i]);
+                        out[row + i] = f;
+                        if (f > 0.0F) {
+                            first = std::min(first, i);
+                            last = i;
+                        }
+                    }
+                    if (last >= 0)
+                        box = united(box, {{first, j, k}, {last + 1, j + 1, k + 1}});
+                }
+            }
+            return box;
+        },
+        united);
+}
+
+} // namespace
+
+FieldWindow defaultFieldWindow(const volume::Volume &volume) {
+    if (volume.unit() == volume::ValueUnit::hounsfield)
+        return {-900.0, 2000.0};
+    const auto q = volume::quantiles(volume, {0.005, 0.995});
+    return {q[0], q[1]};
+}
+
+DensityField densityField(const volume::Volume &volume, const FieldWindow &window,
+                          const task::Progress &progress) {
+    const volume::GridSize size = volume.lattice().size();
+    const double width = window.high - window.low;
+    const Mapping map{float(window.low), width > 0.0 ? float(1.0 / width) : 0.0F};
+    try {
+        std::vector<float> values(size.count());
+        VoxelBox box = volume.visit([&](auto samples) {
+            using T = std::remove_const_t<typename decltype(samples)::element_type>;
+            return mapSlices<T>(samples, values, size, map, progress);
+        });
+        if (box.hi.i <= box.lo.i)
+            box = {{size.i / 2, size.j / 2, size.k / 2}, {size.i / 2 + 1, size.j / 2 + 1, size.k / 2 + 1}};
+        progress.report(1.0);
+        return {volume::Volume(volume.lattice(), std::move(values), volume::ValueUnit::none, volume.notes()),
+                box};
+    } catch (const std::bad_alloc &) {
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          fmt::format("not enough memory for a field of {} x {} x {}", size.i, size.j, size.k));
+    }
+}
+
+} // namespace pellucid::classify

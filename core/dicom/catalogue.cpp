@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/catalogue.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/task/error.h"
+
+namespace pellucid::dicom {
+
+namespace {
+
+const Selection &largest(const std::vector<Selection> &candidates) {
+    return *std::max_element(candidates.begin(), candidates.end(), [](const Selection &a, const Selection &b) {
+        return std::tuple(a.volume->placed, a.volume->voxels()) < std::tuple(b.volume->placed, b.volume->voxels());
+    });
+}
+
+} // namespace
+
+std::vector<Selection> selections(const Catalogue &catalogue) {
+    std::vector<Selection> all;
+    for (const Patient &patient : catalogue.patients)
+        for (const Study &study : patient.studies)
+            for (const Series &series : study.series)
+                for (const VolumeEntry &volume : series.volumes)
+                    all.push_back({&patient, &study, &series, &volume});
+    return all;
+}
+
+Selection defaultSelection(const Catalogue &catalogue) {
+    const auto all = selections(catalogue);
+    if (all.empty())
+        throw task::Error(task::ErrorCode::unusable, "holds no usable images");
+    return largest(all);
+}
+
+Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid) {
+    std::vector<Selection> matching;
+    std::string known;
+    for (const Selection &s : selections(catalogue)) {
+        if (s.series->uid == numberOrUid || std::to_string(s.series->number) == numberOrUid)
+            matching.push_back(s);
+        const std::string number = std::to_string(s.series->number);
+        if ((", " + known + ",").find(", " + number + ",") == std::string::npos)
+            known += (known.empty() ? "" : ", ") + number;
+    }
+    if (matching.empty())
+        throw task::Error(task::ErrorCode::unusable, "no series '" + numberOrUid + "'; there are " + known);
+    return largest(matching);
+}
+
+} // namespace pellucid::dicom

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/volume/volume.h"
+
+namespace pellucid::dicom {
+
+/// A file that is not used, and why.
+struct Skipped {
+    std::filesystem::path path;
+    std::string reason;
+};
+
+/// One image plane: a file, or one frame of a multi-frame file.
+struct FrameReference {
+    std::filesystem::path path;
+    int frame = 0;
+    bool operator==(const FrameReference &) const = default;
+};
+
+/// Where the planes of a stack lie and where the volume's slices will be.
+struct StackGeometry {
+    volume::Lattice lattice;
+    /// For an uneven stack: distance of every frame from the first, along the slices' normal, mm; the
+    /// lattice's slices are interpolated between them. Empty if every frame is a slice.
+    std::vector<double> frameOffsetsMm;
+};
+
+/// Frames that make one volume, or, without positions, a set of images.
+struct VolumeEntry {
+    std::string label;              ///< what tells it from the other volumes of its series, may be empty
+    std::vector<FrameReference> frames; ///< in the order of the stack
+    StackGeometry geometry;
+    bool placed = true;             ///< false: images only, not a volume
+    std::string notPlacedReason;
+    volume::ValueUnit unit = volume::ValueUnit::none;
+    volume::VolumeNotes notes;
+    std::filesystem::path nrrd;     ///< set instead of frames for a NRRD file
+
+    std::size_t voxels() const { return geometry.lattice.size().count(); }
+};
+
+struct Series {
+    std::string uid, description, modality, bodyPart;
+    int number = 0;
+    std::vector<VolumeEntry> volumes;
+};
+
+struct Study {
+    std::string uid, date, description;
+    std::vector<Series> series;
+};
+
+struct Patient {
+    std::string id, name, birthDate, sex;
+    std::vector<Study> studies;
+};
+
+/// What a scan found.
+struct Catalogue {
+    std::vector<Patient> patients;
+    std::vector<Skipped> skipped;
+
+    bool empty() const { return patients.empty(); }
+};
+
+/// A volume's place in a catalogue.
+struct Selection {
+    const Patient *patient = nullptr;
+    const Study *study = nullptr;
+    const Series *series = nullptr;
+    const VolumeEntry *volume = nullptr;
+};
+
+/// Every volume, in the catalogue's order.
+std::vector<Selection> selections(const Catalogue &catalogue);
+
+/// The volume with most voxels; sets of images come after every volume.
+/// *Throws* Error{unusable} if there is none.
+Selection defaultSelection(const Catalogue &catalogue);
+
+/// A series by its number or UID, its largest volume. *Throws* Error{unusable}.
+Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid);
+
+} // namespace pellucid::dicom

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/dictionary.h"
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmdata/dcrledrg.h>
+#include <dcmtk/dcmdata/dcrleerg.h>
+#include <dcmtk/dcmjpeg/djdecode.h>
+#include <dcmtk/dcmjpeg/djencode.h>
+#include <dcmtk/dcmjpls/djdecode.h>
+#include <dcmtk/dcmjpls/djencode.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::dicom {
+
+void prepareDcmtk() {
+    static const bool loaded = [] {
+        // DCMTK complains on the console about every odd file; the reasons come back as values.
+        OFLog::configure(OFLogger::OFF_LOG_LEVEL);
+        // Attributes that passed through systems which did not know them come as UN.
+        dcmEnableUnknownVRConversion.set(OFTrue);
+        DcmRLEDecoderRegistration::registerCodecs();
+        DcmRLEEncoderRegistration::registerCodecs();
+        DJDecoderRegistration::registerCodecs();
+        DJEncoderRegistration::registerCodecs();
+        DJLSDecoderRegistration::registerCodecs();
+        DJLSEncoderRegistration::registerCodecs();
+        return dcmDataDict.isDictionaryLoaded() == OFTrue;
+    }();
+    if (!loaded)
+        throw task::Error(task::ErrorCode::internal, "the DICOM data dictionary is missing");
+}
+
+} // namespace pellucid::dicom

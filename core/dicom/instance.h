@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/volume/volume.h"
+
+namespace pellucid::dicom {
+
+/// How stored values become values: value = slope * stored + intercept, or a modality table.
+struct Rescale {
+    double slope = 1.0, intercept = 0.0;
+    bool operator==(const Rescale &) const = default;
+};
+
+/// What a header says about one frame.
+struct FrameHeader {
+    std::optional<glm::dvec3> positionMm;           ///< ImagePositionPatient
+    std::optional<glm::dvec3> rowAxis, columnAxis;  ///< ImageOrientationPatient, normalised
+    std::optional<glm::dvec2> spacingMm;            ///< distance of columns, distance of rows
+    double sliceThicknessMm = 0.0;                  ///< 0 if unknown
+    Rescale rescale;
+    std::string imageType;                          ///< values joined with backslashes
+    /// Attributes that can tell apart volumes at the same positions, by name: temporal position,
+    /// acquisition, echo, ... Absent ones are missing.
+    std::map<std::string, std::string> dimensions;
+};
+
+/// What a header says about a file.
+struct InstanceHeader {
+    std::string sopClassUid, sopClassName, sopInstanceUid, transferSyntax;
+    std::string patientId, patientName, birthDate, sex;
+    std::string studyUid, studyDate, studyDescription;
+    std::string seriesUid, seriesDescription, modality, bodyPart;
+    int seriesNumber = 0, instanceNumber = 0;
+    bool hasPixels = false, floatPixels = false;
+    int rows = 0, columns = 0, samplesPerPixel = 1;
+    int bitsAllocated = 0, bitsStored = 0, highBit = 0;
+    bool isSigned = false, lossy = false;
+    std::string photometric, rescaleType;
+    std::optional<int> paddingValue, paddingLimit;
+    std::vector<volume::ValueWindow> windows;
+    std::vector<std::uint16_t> modalityTable;  ///< values, empty if there is none
+    int modalityTableFirst = 0;
+    std::vector<FrameHeader> frames;           ///< at least one
+};
+
+/// A decoded file: stored values, high bits masked, sign extended to 16 bits.
+struct DecodedImage {
+    InstanceHeader header;
+    /// *Shape*: frames x rows x columns. Signed if header.isSigned.
+    std::vector<std::uint16_t> samples;
+};
+
+} // namespace pellucid::dicom

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pellucid::dicom {
+
+/// One component of a JPEG 2000 image. *Shape*: rows x columns.
+struct Jpeg2000Image {
+    int rows = 0, columns = 0;
+    int precision = 0;
+    bool isSigned = false;
+    std::vector<std::int32_t> samples;
+};
+
+/// Decodes a codestream or JP2 file of one component of at most 16 bits.
+/// *Throws* Error{unusable}.
+Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows, int expectedColumns);
+
+/// Encodes one component without loss as a codestream. *Throws* Error{internal}.
+std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &image);
+
+} // namespace pellucid::dicom

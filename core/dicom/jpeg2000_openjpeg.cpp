@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/jpeg2000.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include <openjpeg.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::dicom {
+
+namespace {
+
+using task::Error;
+using task::ErrorCode;
+
+template <class T, void (*Free)(T *)> struct Freer {
+    void operator()(T *p) const { Free(p); }
+};
+using Stream = std::unique_ptr<opj_stream_t, Freer<opj_stream_t, [](opj_stream_t *p) { opj_stream_destroy(p); }>>;
+using Codec = std::unique_ptr<opj_codec_t, Freer<opj_codec_t, [](opj_codec_t *p) { opj_destroy_codec(p); }>>;
+using Image = std::unique_ptr<opj_image_t, Freer<opj_image_t, [](opj_image_t *p) { opj_image_destroy(p); }>>;
+
+struct Source {
+    std::span<const std::byte> data;
+    std::size_t at = 0;
+};
+
+OPJ_SIZE_T readBytes(void *buffer, OPJ_SIZE_T count, void *user) {
+    auto &source = *static_cast<Source *>(user);
+    const std::size_t part = std::min<std::size_t>(count, source.data.size() - source.at);
+    if (part == 0)
+        return OPJ_SIZE_T(-1);
+    std::memcpy(buffer, source.data.data() + source.at, part);
+    source.at += part;
+    return part;
+}
+OPJ_OFF_T skipBytes(OPJ_OFF_T count, void *user) {
+    auto &source = *static_cast<Source *>(user);
+    if (count < 0)
+        return -1;
+    const auto part = std::min<std::size_t>(std::size_t(count), source.data.size() - source.at);
+    source.at += part;
+    return OPJ_OFF_T(part);
+}
+OPJ_BOOL seekBytes(OPJ_OFF_T to, void *user) {
+    auto &source = *static_cast<Source *>(user);
+    if (to < 0 || std::size_t(to) > source.data.size())
+        return OPJ_FALSE;
+    source.at = std::size_t(to);
+    return OPJ_TRUE;
+}
+
+struct Sink {
+    std::vector<std::byte> data;
+    std::size_t at = 0;
+};
+
+OPJ_SIZE_T writeBytes(void *buffer, OPJ_SIZE_T count, void *user) {
+    auto &sink = *static_cast<Sink *>(user);
+    sink.data.resize(std::max(sink.data.size(), sink.at + count));
+    std::memcpy(sink.data.data() + sink.at, buffer, count);
+    sink.at += count;
+    return count;
+}
+OPJ_OFF_T skipWrite(OPJ_OFF_T count, void *user) {
+    static_cast<Sink *>(user)->at += std::size_t(count);
+    return count;
+}
+OPJ_BOOL seekWrite(OPJ_OFF_T to, void *user) {
+    static_cast<Sink *>(user)->at = std::size_t(to);
+    return OPJ_TRUE;
+}
+
+} // namespace
+
+Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows, int expectedColumns) {
+    const auto fail = [](const char *why) { throw Error(ErrorCode::unusable, std::string("JPEG 2000: ") + why); };
+    if (data.size() < 12)
+        fail("truncated");
+    const bool codestream = data[0] == std::byte(0xFF) && data[1] == std::byte(0x4F);
+    Source source{data};
+    Stream stream(opj_stream_create(1 << 16, OPJ_TRUE));
+    opj_stream_set_user_data(stream.get(), &source, nullptr);
+    opj_stream_set_user_data_length(stream.get(), data.size());
+    opj_stream_set_read_function(stream.get(), readBytes);
+    opj_stream_set_skip_function(stream.get(), skipBytes);
+    opj_stream_set_seek_function(stream.get(), seekBytes);
+    const Codec codec(opj_create_decompress(codestream ? OPJ_CODEC_J2K : OPJ_CODEC_JP2));
+    opj_dparameters_t parameters;
+    opj_set_default_decoder_parameters(&parameters);
+    if (opj_setup_decoder(codec.get(), &parameters) == OPJ_FALSE)
+        fail("the decoder cannot be set up");
+    opj_image_t *raw = nullptr;
+    const OPJ_BOOL header = opj_read_header(stream.get(), codec.get(), &raw);
+    const Image image(raw);
+    if (header == OPJ_FALSE || !image || image->numcomps < 1)
+        fail("damaged header");
+    // The sizes are checked before the decoder asks for memory.
+    if (image->numcomps != 1 || image->x1 - image->x0 != OPJ_UINT32(expectedColumns) ||
+        image->y1 - image->y0 != OPJ_UINT32(expectedRows) || image->comps[0].prec > 16)
+        fail("the image is not what the header says");
+    if (opj_decode(codec.get(), stream.get(), image.get()) == OPJ_FALSE || image->comps[0].data == nullptr ||
+        image->comps[0].w != OPJ_UINT32(expectedColumns) || image->comps[0].h != OPJ_UINT32(expectedRows))
+        fail("damaged or truncated");
+    const opj_image_comp_t &component = image->comps[0];
+    return {expectedRows, expectedColumns, int(component.prec), component.sgnd != 0,
+            std::vector<std::int32_t>(component.data, component.data + std::size_t(expectedRows) * expectedColumns)};
+}
+
+std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {
+    const auto fail = [] { throw Error(ErrorCode::internal, "JPEG 2000 encoding failed"); };
+    opj_cparameters_t parameters;
+    opj_set_default_encoder_parameters(&parameters);
+    parameters.irreversible = 0;
+    parameters.tcp_numlayers = 1;
+    parameters.tcp_rates[0] = 0;
+    parameters.cp_disto_alloc = 1;
+    // Each resolution halves the image; small images have room for fewer.
+    parameters.numresolution = 1;
+    while (parameters.numresolution < 6 && (std::min(in.rows, in.columns) >> parameters.numresolution) > 0)
+        ++parameters.numresolution;
+    opj_image_cmptparm_t component{};
+    component.dx = component.dy = 1;
+    component.w = OPJ_UINT32(in.columns);
+    component.h = OPJ_UINT32(in.rows);
+    component.prec = OPJ_UINT32(in.precision);
+    component.sgnd = in.isSigned ? 1 : 0;
+    const Image image(opj_image_create(1, &component, OPJ_CLRSPC_GRAY));
+    if (!image)
+        throw std::bad_alloc();
+    image->x1 = component.w;
+    image->y1 = component.h;
+    std::copy(in.samples.begin(), in.samples.end(), image->comps[0].data);
+    Sink sink;
+    Stream stream(opj_stream_create(1 << 16, OPJ_FALSE));
+    opj_stream_set_user_data(stream.get(), &sink, nullptr);
+    opj_stream_set_write_function(stream.get(), writeBytes);
+    opj_stream_set_skip_function(stream.get(), skipWrite);
+    opj_stream_set_seek_function(stream.get(), seekWrite);
+    const Codec codec(opj_create_compress(OPJ_CODEC_J2K));
+    if (opj_setup_encoder(codec.get(), &parameters, image.get()) == OPJ_FALSE ||
+        opj_start_compress(codec.get(), image.get(), stream.get()) == OPJ_FALSE ||
+        opj_encode(codec.get(), stream.get()) == OPJ_FALSE || opj_end_compress(codec.get(), stream.get()) == OPJ_FALSE)
+        fail();
+    stream.reset(); // flushes
+    return std::move(sink.data);
+}
+
+} // namespace pellucid::dicom

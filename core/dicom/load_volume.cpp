@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/load_volume.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <new>
+#include <optional>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/dicom/group_series.h"
+#include "core/dicom/read_instance.h"
+#include "core/task/error.h"
+#include "core/volume/nrrd.h"
+
+namespace pellucid::dicom {
+
+namespace {
+
+using task::Error;
+using task::ErrorCode;
+using Clock = std::chrono::steady_clock;
+
+// Previews copy the volume; more often than this they would cost more than the decoding.
+constexpr auto previewInterval = std::chrono::milliseconds(400);
+
+// Padding must not be taken for tissue, but some scanners write a padding value that is also a
+// value of tissue (0 in a CT of signed HU): between these bounds it is believed to be tissue.
+constexpr double lowestTissueHu = -900.0, highestTissueHu = 4000.0;
+
+template <class T> struct Missing;
+template <> struct Missing<std::int16_t> {
+    static constexpr std::int16_t value = std::numeric_limits<std::int16_t>::min();
+    static bool is(std::int16_t v) { return v == value; }
+};
+template <> struct Missing<float> {
+    static constexpr float value = std::numeric_limits<float>::quiet_NaN();
+    static bool is(float v) { return std::isnan(v); }
+};
+
+double rescaled(const InstanceHeader &h, int frame, int stored) {
+    if (!h.modalityTable.empty()) {
+        const int at = std::clamp(stored - h.modalityTableFirst, 0, int(h.modalityTable.size()) - 1);
+        return h.modalityTable[std::size_t(at)];
+    }
+    const Rescale &r = h.frames[std::size_t(frame)].rescale;
+    return r.slope * stored + r.intercept;
+}
+
+// Whether every value of a file fits int16 without loss. HU beyond int16 do not occur: they saturate.
+bool fitsShort(const InstanceHeader &h, volume::ValueUnit unit) {
+    if (!h.modalityTable.empty())
+        return *std::max_element(h.modalityTable.begin(), h.modalityTable.end()) <= 32767;
+    const double top = h.isSigned ? std::exp2(h.bitsStored - 1) - 1 : std::exp2(h.bitsStored) - 1;
+    const double bottom = h.isSigned ? -std::exp2(h.bitsStored - 1) : 0.0;
+    return std::all_of(h.frames.begin(), h.frames.end(), [&](const FrameHeader &f) {
+        const Rescale &r = f.rescale;
+        if (r.slope != std::round(r.slope) || r.intercept != std::round(r.intercept))
+            return false;
+        const double a = r.slope * bottom + r.intercept, b = r.slope * top + r.intercept;
+        return unit == volume::ValueUnit::hounsfield ? std::abs(r.slope) == 1.0 : std::max(a, b) <= 32767 && std::min(a, b) >= -32767;
+    });
+}
+
+struct Padding {
+    int low = 0, high = 0;
+    bool holds(int stored) const { return stored >= low && stored <= high; }
+};
+
+std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit) {
+    if (!h.paddingValue)
+        return std::nullopt;
+    int value = *h.paddingValue, limit = h.paddingLimit.value_or(value);
+    if (h.isSigned) { // written as unsigned by some
+        value = value > 32767 ? value - 65536 : value;
+        limit = limit > 32767 ? limit - 65536 : limit;
+    }
+    if (unit == volume::ValueUnit::hounsfield) {
+        const double hu = rescaled(h, 0, value);
+        if (hu > lowestTissueHu && hu < highestTissueHu)
+            return std::nullopt;
+    }
+    return Padding{std::min(value, limit), std::max(value, limit)};
+}
+
+template <class T> void place(const DecodedImage &image, int frame, volume::ValueUnit unit, T *out) {
+    const InstanceHeader &h = image.header;
+    const std::size_t plane = std::size_t(h.rows) * h.columns;
+    const std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
+    const auto padding = paddingOf(h, unit);
+    for (std::size_t n = 0; n < plane; ++n) {
+        const int stored = h.isSigned ? int(std::int16_t(in[n])) : int(in[n]);
+        if (padding && padding->holds(stored)) {
+            out[n] = Missing<T>::value;
+            continue;
+        }
+        const double value = rescaled(h, frame, stored);
+        if constexpr (std::is_same_v<T, float>)
+            out[n] = float(value);
+        else // the lowest code marks missing samples
+            out[n] = T(std::clamp(value, -32767.0, 32767.0));
+    }
+}
+
+// Linear interpolation along the stack, from where the frames are to where the slices shall be.
+template <class T>
+std::vector<T> resampled(const std::vector<T> &frames, const StackGeometry &geometry, const task::Progress &progress) {
+    const volume::Lattice &lattice = geometry.lattice;
+    const std::size_t plane = std::size_t(lattice.size().i) * lattice.size().j;
+    const std::vector<double> &at = geometry.frameOffsetsMm;
+    std::vector<T> out(lattice.size().count());
+    tbb::parallel_for(0, lattice.size().k, [&](int k) {
+        progress.check();
+        const double depth = std::min(k * lattice.sliceDistanceMm(), at.back());
+        const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, depth);
+        const auto high = std::size_t(above - at.begin()), low = high - 1;
+        const double w = std::clamp((depth - at[low]) / (at[high] - at[low]), 0.0, 1.0);
+        const T *a = frames.data() + low * plane, *b = frames.data() + high * plane;
+        T *to = out.data() + std::size_t(k) * plane;
+        for (std::size_t n = 0; n < plane; ++n) {
+            const double value = double(a[n]) + w * (double(b[n]) - double(a[n]));
+            if constexpr (std::is_same_v<T, float>)
+                to[n] = float(value);
+            else
+                to[n] = T(std::lround(value));
+        }
+    });
+    return out;
+}
+
+template <class T> void fillMissing(std::vector<T> &samples) {
+    T lowest = std::numeric_limits<T>::max();
+    bool any = false, all = true;
+    for (const T v : samples)
+        if (Missing<T>::is(v)) {
+            any = true;
+        } else {
+            lowest = std::min(lowest, v);
+            all = false;
+        }
+    if (any)
+        std::replace_if(samples.begin(), samples.end(), Missing<T>::is, all ? T(0) : lowest);
+}
+
+class Assembly {
+public:
+    Assembly(const VolumeEntry &entry, const task::Progress &progress, const LoadObserver &observer)
+        : m_entry(entry), m_progress(progress), m_observer(observer) {
+        // Multi-frame files are read once for all of their frames.
+        for (std::size_t n = 0; n < entry.frames.size(); ++n)
+            m_files[entry.frames[n].path].push_back(n);
+        for (const auto &[path, frames] : m_files)
+            m_paths.push_back(path);
+        std::sort(m_paths.begin(), m_paths.end(), [&](const auto &a, const auto &b) {
+            return m_files[a].front() < m_files[b].front();
+        });
+    }
+
+    LoadedVolume load() {
+        // The first file decides the type; one that disagrees later sends everything to float.
+        for (const auto &path : m_paths) {
+            try {
+                const DecodedImage first = decode(path);
+                if (fitsShort(first.header, m_entry.unit))
+                    if (auto loaded = loadAs<std::int16_t>())
+                        return std::move(*loaded);
+                return std::move(*loadAs<float>());
+            } catch (const Error &error) {
+                if (error.code() != ErrorCode::unusable || path == m_paths.back())
+                    throw;
+            }
+        }
+        throw Error(ErrorCode::unusable, "holds no images");
+    }
+
+private:
+    DecodedImage decode(const std::filesystem::path &path) const {
+        try {
+            DecodedImage image = decodeImage(readFile(path));
+            if (image.header.columns != m_columns() || image.header.rows != m_rows())
+                throw Error(ErrorCode::unusable, "changed while it was read");
+            return image;
+        } catch (const Error &error) {
+            throw Error(error.code(), error.reason(), path);
+        }
+    }
+    int m_columns() const { return m_entry.geometry.lattice.size().i; }
+    int m_rows() const { return m_entry.geometry.lattice.size().j; }
+
+    // Nothing if a value does not fit T.
+    template <class T> std::optional<LoadedVolume> loadAs() {
+        const std::size_t plane = std::size_t(m_columns()) * m_rows();
+        std::vector<T> samples(plane * m_entry.frames.size(), Missing<T>::value);
+        std::vector<std::pair<std::size_t, Skipped>> failed;
+        std::mutex guard;
+        std::size_t done = 0;
+        bool fits = true;
+        auto lastPreview = Clock::now();
+        tbb::parallel_for(std::size_t(0), m_paths.size(), [&](std::size_t n) {
+            m_progress.check();
+            const auto &frames = m_files[m_paths[n]];
+            try {
+                const DecodedImage image = decode(m_paths[n]);
+                if (std::is_same_v<T, std::int16_t> && !fitsShort(image.header, m_entry.unit)) {
+                    const std::lock_guard lock(guard);
+                    fits = false;
+                    return;
+                }
+                for (const std::size_t slice : frames)
+                    if (m_entry.frames[slice].frame < int(image.header.frames.size()))
+                        place(image, m_entry.frames[slice].frame, m_entry.unit, samples.data() + slice * plane);
+            } catch (const Error &error) {
+                if (error.code() != ErrorCode::unusable)
+                    throw;
+                const std::lock_guard lock(guard);
+                for (const std::size_t slice : frames)
+                    failed.emplace_back(slice, Skipped{m_paths[n], error.reason()});
+            }
+            const std::lock_guard lock(guard);
+            m_progress.report(0.9 * double(++done) / double(m_paths.size()));
+            if (m_observer.preview && m_entry.geometry.frameOffsetsMm.empty() && done < m_paths.size() &&
+                Clock::now() - lastPreview > previewInterval) {
+                m_observer.preview(volumeOf(std::vector<T>(samples), m_entry.geometry.lattice, m_entry.notes));
+                lastPreview = Clock::now();
+            }
+        });
+        if (!fits)
+            return std::nullopt;
+        if (!failed.empty())
+            return loadWithout(failed);
+        fillMissing(samples);
+        if (!m_entry.geometry.frameOffsetsMm.empty())
+            samples = resampled(samples, m_entry.geometry, m_progress);
+        LoadedVolume loaded{volumeOf(std::move(samples), m_entry.geometry.lattice, m_entry.notes), {}};
+        m_progress.report(1.0);
+        return loaded;
+    }
+
+    template <class T>
+    volume::Volume volumeOf(std::vector<T> samples, const volume::Lattice &lattice, const volume::VolumeNotes &notes) const {
+        return volume::Volume(lattice, std::move(samples), m_entry.unit, notes);
+    }
+
+    // Slices that cannot be decoded are missing slices: the geometry is worked out again without
+    // them, as if they had never been in the folder.
+    LoadedVolume loadWithout(const std::vector<std::pair<std::size_t, Skipped>> &failed) const {
+        std::vector<Skipped> skipped;
+        VolumeEntry rest = m_entry;
+        rest.frames.clear();
+        std::vector<SeriesFile> files;
+        for (const auto &path : m_paths) {
+            const auto &frames = m_files.at(path);
+            const auto it = std::find_if(failed.begin(), failed.end(), [&](const auto &f) { return f.first == frames.front(); });
+            if (it != failed.end()) {
+                skipped.push_back(it->second);
+                continue;
+            }
+            SeriesFile file{path, readHeader(path)};
+            // Only the frames of this volume.
+            std::vector<FrameHeader> kept;
+            for (const std::size_t slice : frames)
+                kept.push_back(file.header.frames.at(std::size_t(m_entry.frames[slice].frame)));
+            file.header.frames = std::move(kept);
+            for (const std::size_t slice : frames)
+                rest.frames.push_back(m_entry.frames[slice]);
+            files.push_back(std::move(file));
+        }
+        if (files.empty())
+            throw Error(ErrorCode::unusable, skipped.front().reason, skipped.front().path);
+        std::vector<Skipped> ignored;
+        const auto entries = groupSeries(files, ignored);
+        if (entries.size() != 1)
+            throw Error(ErrorCode::unusable, skipped.front().reason + "; the other slices make no volume", skipped.front().path);
+        rest.geometry = entries[0].geometry;
+        rest.placed = entries[0].placed;
+        rest.notes.placed = rest.placed;
+        for (const Skipped &s : skipped)
+            rest.notes.warnings.push_back("without " + s.path.filename().string() + ": " + s.reason);
+        rest.notes.warnings.insert(rest.notes.warnings.end(), entries[0].notes.warnings.begin(), entries[0].notes.warnings.end());
+        if (!rest.placed)
+            rest.notes.warnings.push_back("images only: " + entries[0].notPlacedReason);
+        LoadedVolume loaded = loadVolume(rest, m_progress, m_observer);
+        loaded.skipped.insert(loaded.skipped.begin(), skipped.begin(), skipped.end());
+        return loaded;
+    }
+
+    const VolumeEntry &m_entry;
+    const task::Progress &m_progress;
+    const LoadObserver &m_observer;
+    std::map<std::filesystem::path, std::vector<std::size_t>> m_files;
+    std::vector<std::filesystem::path> m_paths;
+};
+
+} // namespace
+
+std::vector<std::byte> readFile(const std::filesystem::path &path) {
+    errno = 0;
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    const auto size = in ? std::streamoff(in.tellg()) : std::streamoff(-1);
+    if (size < 0)
+        throw Error(ErrorCode::unusable, errno != 0 ? std::strerror(errno) : "cannot be read", path);
+    std::vector<std::byte> bytes(std::size_t(size), std::byte(0));
+    in.seekg(0);
+    if (!in.read(reinterpret_cast<char *>(bytes.data()), size))
+        throw Error(ErrorCode::unusable, "cannot be read to its end", path);
+    return bytes;
+}
+
+LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress, const LoadObserver &observer) {
+    try {
+        if (!entry.nrrd.empty())
+            return {volume::readNrrd(entry.nrrd, progress), {}};
+        return Assembly(entry, progress, observer).load();
+    } catch (const std::bad_alloc &) {
+        const volume::GridSize n = entry.geometry.lattice.size();
+        throw Error(ErrorCode::outOfMemory, fmt::format("not enough memory for a volume of {} x {} x {}", n.i, n.j, n.k));
+    }
+}
+
+} // namespace pellucid::dicom

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/dicom/dataset.h"
+#include "core/dicom/dictionary.h"
+#include "core/dicom/read_instance.h"
+#include "core/task/error.h"
+
+namespace pellucid::dicom {
+
+namespace {
+
+using task::Error;
+using task::ErrorCode;
+
+std::string text(DcmItem *item, const DcmTagKey &tag) {
+    OFString value;
+    if (item == nullptr || item->findAndGetOFStringArray(tag, value).bad())
+        return {};
+    const auto first = value.find_first_not_of(" \0");
+    if (first == OFString_npos)
+        return {};
+    std::string result(value.c_str() + first);
+    while (!result.empty() && result.back() == ' ')
+        result.pop_back();
+    return result;
+}
+
+std::vector<double> numbers(DcmItem *item, const DcmTagKey &tag, std::size_t most = 64) {
+    // As text, whatever the type: DCMTK's typed getters each take one value representation only.
+    std::vector<double> values;
+    DcmElement *element = nullptr;
+    if (item == nullptr || item->findAndGetElement(tag, element).bad())
+        return values;
+    OFString value;
+    while (values.size() < most && element->getOFString(value, static_cast<unsigned long>(values.size())).good()) {
+        OFBool valid = OFFalse;
+        const double parsed = OFStandard::atof(value.c_str(), &valid);
+        if (!valid)
+            break;
+        values.push_back(parsed);
+    }
+    return values;
+}
+
+std::optional<double> number(DcmItem *item, const DcmTagKey &tag) {
+    const auto values = numbers(item, tag, 1);
+    return values.empty() || !std::isfinite(values[0]) ? std::nullopt : std::optional(values[0]);
+}
+
+int integer(DcmItem *item, const DcmTagKey &tag, int otherwise = 0) {
+    const auto value = number(item, tag);
+    return value && std::abs(*value) < 2e9 ? int(*value) : otherwise;
+}
+
+DcmItem *sequenceItem(DcmItem *item, const DcmTagKey &tag, long index = 0) {
+    DcmItem *found = nullptr;
+    if (item == nullptr || item->findAndGetSequenceItem(tag, found, index).bad())
+        return nullptr;
+    return found;
+}
+
+std::optional<glm::dvec3> vector3(const std::vector<double> &v, std::size_t at) {
+    if (v.size() < at + 3 || !std::isfinite(v[at] + v[at + 1] + v[at + 2]))
+        return std::nullopt;
+    return glm::dvec3(v[at], v[at + 1], v[at + 2]);
+}
+
+// Everything that can stand at the top of a file, in the shared groups, or in the groups of a frame.
+void readOrientation(DcmItem *item, FrameHeader &frame) {
+    const auto cosines = numbers(item, DCM_ImageOrientationPatient, 6);
+    const auto row = vector3(cosines, 0), column = vector3(cosines, 3);
+    // Both axes must be about unit length and about orthogonal, or the attribute is rubbish.
+    if (row && column && std::abs(glm::length(*row) - 1.0) < 0.05 && std::abs(glm::length(*column) - 1.0) < 0.05 &&
+        std::abs(glm::dot(*row, *column)) < 0.05) {
+        frame.rowAxis = glm::normalize(*row);
+        frame.columnAxis = glm::normalize(*column - glm::dot(*row, *column) * *row);
+    }
+}
+
+void readPosition(DcmItem *item, FrameHeader &frame) {
+    if (const auto position = vector3(numbers(item, DCM_ImagePositionPatient, 3), 0))
+        frame.positionMm = position;
+}
+
+void readMeasures(DcmItem *item, FrameHeader &frame) {
+    const auto spacing = numbers(item, DCM_PixelSpacing, 2);
+    // The attribute gives the distance of rows first.
+    if (spacing.size() == 2 && spacing[0] > 0.0 && spacing[1] > 0.0)
+        frame.spacingMm = glm::dvec2(spacing[1], spacing[0]);
+    for (const DcmTagKey &tag : {DCM_SliceThickness, DCM_SpacingBetweenSlices})
+        if (const auto mm = number(item, tag); mm && *mm > 0.0)
+            frame.sliceThicknessMm = *mm;
+}
+
+void readRescale(DcmItem *item, FrameHeader &frame) {
+    if (const auto slope = number(item, DCM_RescaleSlope); slope && *slope != 0.0)
+        frame.rescale.slope = *slope;
+    if (const auto intercept = number(item, DCM_RescaleIntercept))
+        frame.rescale.intercept = *intercept;
+}
+
+void readDimensions(DcmItem *item, FrameHeader &frame) {
+    static const std::array<std::pair<const char *, DcmTagKey>, 12> tags{{
+        {"temporal position", DCM_TemporalPositionIdentifier},
+        {"temporal position", DCM_TemporalPositionIndex},
+        {"acquisition", DCM_AcquisitionNumber},
+        {"echo", DCM_EchoNumbers},
+        {"echo", DCM_EchoTime},
+        {"b-value", DCM_DiffusionBValue},
+        {"b-value", DcmTagKey(0x0043, 0x1039)}, // GE's private place for it
+        {"trigger time", DCM_TriggerTime},
+        {"stack", DCM_StackID},
+        {"acquisition time", DCM_AcquisitionTime},
+        {"acquisition time", DCM_AcquisitionDateTime},
+        {"content time", DCM_ContentTime},
+    }};
+    for (const auto &[name, tag] : tags)
+        if (std::string value = text(item, tag); !value.empty())
+            frame.dimensions[name] = value;
+}
+
+void readFunctionalGroups(DcmItem *groups, FrameHeader &frame) {
+    readOrientation(sequenceItem(groups, DCM_PlaneOrientationSequence), frame);
+    readPosition(sequenceItem(groups, DCM_PlanePositionSequence), frame);
+    readMeasures(sequenceItem(groups, DCM_PixelMeasuresSequence), frame);
+    readRescale(sequenceItem(groups, DCM_PixelValueTransformationSequence), frame);
+    readDimensions(sequenceItem(groups, DCM_FrameContentSequence), frame);
+    readDimensions(sequenceItem(groups, DCM_MRDiffusionSequence), frame);
+    readDimensions(sequenceItem(groups, DCM_TemporalPositionSequence), frame);
+    for (const DcmTagKey &tag : {DCM_MRImageFrameTypeSequence, DCM_CTImageFrameTypeSequence})
+        if (DcmItem *type = sequenceItem(groups, tag))
+            if (std::string value = text(type, DCM_FrameType); !value.empty())
+                frame.imageType = value;
+    if (DcmItem *echo = sequenceItem(groups, DCM_MREchoSequence))
+        if (std::string value = text(echo, DCM_EffectiveEchoTime); !value.empty())
+            frame.dimensions["echo"] = value;
+}
+
+std::vector<volume::ValueWindow> readWindows(DcmItem *item) {
+    const auto centers = numbers(item, DCM_WindowCenter), widths = numbers(item, DCM_WindowWidth);
+    std::vector<volume::ValueWindow> windows;
+    for (std::size_t n = 0; n < std::min(centers.size(), widths.size()); ++n) {
+        OFString name;
+        item->findAndGetOFString(DCM_WindowCenterWidthExplanation, name, n);
+        const volume::ValueWindow window{centers[n], widths[n], name.c_str()};
+        const bool known = std::any_of(windows.begin(), windows.end(), [&](const auto &w) {
+            return w.center == window.center && w.width == window.width;
+        });
+        if (std::isfinite(window.center) && window.width >= 1e-6 && std::isfinite(window.width) && !known)
+            windows.push_back(window);
+    }
+    return windows;
+}
+
+void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
+    DcmItem *item = sequenceItem(&dataset, DCM_ModalityLUTSequence);
+    if (item == nullptr)
+        return;
+    const auto descriptor = numbers(item, DCM_LUTDescriptor, 3);
+    const Uint16 *data = nullptr;
+    unsigned long count = 0;
+    if (descriptor.size() != 3 || item->findAndGetUint16Array(DCM_LUTData, data, &count).bad() || data == nullptr)
+        return;
+    // The descriptor's first value 0 means 65536 entries; the second is signed as the pixels are.
+    const std::size_t entries = descriptor[0] == 0.0 ? 65536 : std::size_t(descriptor[0]);
+    header.modalityTable.assign(data, data + std::min<std::size_t>(entries, count));
+    header.modalityTableFirst = int(descriptor[1]);
+    if (header.isSigned && header.modalityTableFirst > 32767)
+        header.modalityTableFirst -= 65536;
+}
+
+// Files without a preamble start with an element of group 2 or 8 in either byte order.
+bool looksLikeDicom(std::span<const char> start) {
+    if (start.size() >= 132 && std::memcmp(start.data() + 128, "DICM", 4) == 0)
+        return true;
+    if (start.size() < 8)
+        return false;
+    const auto byte = [&](int n) { return (unsigned char)(start[n]); };
+    const bool little = (byte(0) == 8 || byte(0) == 2) && byte(1) == 0;
+    const bool big = byte(0) == 0 && (byte(1) == 8 || byte(1) == 2);
+    return (little && byte(3) == 0) || (big && byte(2) == 0);
+}
+
+} // namespace
+
+InstanceHeader headerOf(DcmDataset &dataset) {
+    // Names in any character set come out as UTF-8; where conversion fails the bytes stay.
+    if (dataset.tagExistsWithValue(DCM_SpecificCharacterSet))
+        (void)dataset.convertToUTF8();
+    InstanceHeader h;
+    h.sopClassUid = text(&dataset, DCM_SOPClassUID);
+    h.sopInstanceUid = text(&dataset, DCM_SOPInstanceUID);
+    const char *const name = dcmFindNameOfUID(h.sopClassUid.c_str());
+    h.sopClassName = name != nullptr ? name : h.sopClassUid;
+    h.transferSyntax = DcmXfer(dataset.getOriginalXfer()).getXferName();
+    h.patientId = text(&dataset, DCM_PatientID);
+    h.patientName = text(&dataset, DCM_PatientName);
+    h.birthDate = text(&dataset, DCM_PatientBirthDate);
+    h.sex = text(&dataset, DCM_PatientSex);
+    h.studyUid = text(&dataset, DCM_StudyInstanceUID);
+    h.studyDate = text(&dataset, DCM_StudyDate);
+    h.studyDescription = text(&dataset, DCM_StudyDescription);
+    h.seriesUid = text(&dataset, DCM_SeriesInstanceUID);
+    h.seriesDescription = text(&dataset, DCM_SeriesDescription);
+    h.modality = text(&dataset, DCM_Modality);
+    h.bodyPart = text(&dataset, DCM_BodyPartExamined);
+    h.seriesNumber = integer(&dataset, DCM_SeriesNumber);
+    h.instanceNumber = integer(&dataset, DCM_InstanceNumber);
+    h.hasPixels = dataset.tagExists(DCM_PixelData) == OFTrue;
+    h.floatPixels = dataset.tagExists(DCM_FloatPixelData) || dataset.tagExists(DCM_DoubleFloatPixelData);
+    h.rows = integer(&dataset, DCM_Rows);
+    h.columns = integer(&dataset, DCM_Columns);
+    h.samplesPerPixel = integer(&dataset, DCM_SamplesPerPixel, 1);
+    h.bitsAllocated = integer(&dataset, DCM_BitsAllocated);
+    h.bitsStored = integer(&dataset, DCM_BitsStored, h.bitsAllocated);
+    h.highBit = integer(&dataset, DCM_HighBit, h.bitsStored - 1);
+    h.isSigned = integer(&dataset, DCM_PixelRepresentation) == 1;
+    h.lossy = text(&dataset, DCM_LossyImageCompression) == "01";
+    h.photometric = text(&dataset, DCM_PhotometricInterpretation);
+    h.rescaleType = text(&dataset, DCM_RescaleType);
+    if (const auto value = number(&dataset, DCM_PixelPaddingValue))
+        h.paddingValue = int(*value);
+    if (const auto value = number(&dataset, DCM_PixelPaddingRangeLimit))
+        h.paddingLimit = int(*value);
+    h.windows = readWindows(&dataset);
+    readModalityTable(dataset, h);
+
+    FrameHeader shared;
+    shared.imageType = text(&dataset, DCM_ImageType);
+    readOrientation(&dataset, shared);
+    readPosition(&dataset, shared);
+    readMeasures(&dataset, shared);
+    readRescale(&dataset, shared);
+    readDimensions(&dataset, shared);
+    DcmItem *const sharedGroups = sequenceItem(&dataset, DCM_SharedFunctionalGroupsSequence);
+    if (sharedGroups != nullptr) {
+        readFunctionalGroups(sharedGroups, shared);
+        if (h.windows.empty())
+            if (DcmItem *lut = sequenceItem(sharedGroups, DCM_FrameVOILUTSequence))
+                h.windows = readWindows(lut);
+    }
+    const auto count = number(&dataset, DCM_NumberOfFrames);
+    const int frames = count && *count >= 1.0 && *count < 1e6 ? int(*count) : 1;
+    const auto offsets = numbers(&dataset, DCM_GridFrameOffsetVector, 100000);
+    for (int n = 0; n < frames; ++n) {
+        FrameHeader frame = shared;
+        if (DcmItem *groups = sequenceItem(&dataset, DCM_PerFrameFunctionalGroupsSequence, n)) {
+            readFunctionalGroups(groups, frame);
+            if (n == 0 && h.windows.empty())
+                if (DcmItem *lut = sequenceItem(groups, DCM_FrameVOILUTSequence))
+                    h.windows = readWindows(lut);
+        } else if (frames > 1) {
+            // A multi-frame image without groups of its own repeats one position: it says nothing.
+            frame.positionMm.reset();
+        }
+        h.frames.push_back(std::move(frame));
+    }
+    if (DcmItem *transform = sequenceItem(sharedGroups, DCM_PixelValueTransformationSequence);
+        transform != nullptr && h.rescaleType.empty())
+        h.rescaleType = text(transform, DCM_RescaleType);
+    return h;
+}
+
+InstanceHeader readHeader(const std::filesystem::path &path) {
+    prepareDcmtk();
+    std::array<char, 132> start{};
+    errno = 0;
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+        throw Error(ErrorCode::unusable, errno != 0 ? std::strerror(errno) : "cannot be read", path);
+    in.read(start.data(), start.size());
+    const auto got = std::size_t(in.gcount());
+    if (got == 0)
+        throw Error(ErrorCode::unusable, "is empty", path);
+    if (!looksLikeDicom(std::span(start).first(got)))
+        throw Error(ErrorCode::unusable, "is not a DICOM file", path);
+    in.close();
+    DcmFileFormat file;
+    // Values above 4 KiB, pixels above all, stay on the disk.
+    const OFCondition loaded = file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096, ERM_autoDetect);
+    DcmDataset *dataset = file.getDataset();
+    if (dataset == nullptr || dataset->card() == 0)
+        throw Error(ErrorCode::unusable, loaded.bad() ? std::string("is not readable: ") + loaded.text() : "holds no data", path);
+    InstanceHeader header = headerOf(*dataset);
+    if (header.sopClassUid.empty())
+        header.sopClassUid = text(file.getMetaInfo(), DCM_MediaStorageSOPClassUID);
+    // What follows damaged elements is lost, but a complete image in front of them is not.
+    if (loaded.bad() && !(header.hasPixels && header.rows > 0))
+        throw Error(ErrorCode::unusable, std::string("is damaged: ") + loaded.text(), path);
+    return header;
+}
+
+std::optional<std::string> whyUnusable(const InstanceHeader &h) {
+    if (h.sopClassUid == UID_MediaStorageDirectoryStorage)
+        return "is an index of files, not an image";
+    if (h.sopClassUid == UID_SegmentationStorage)
+        return "segmentations are not shown";
+    if (h.floatPixels)
+        return "floating-point pixels are not supported";
+    if (!h.hasPixels)
+        return h.sopClassName.empty() ? std::string("has no pixels") : "has no pixels (" + h.sopClassName + ")";
+    if (h.rows < 1 || h.columns < 1)
+        return "has an image without size";
+    if (h.samplesPerPixel != 1 || (h.photometric != "MONOCHROME1" && h.photometric != "MONOCHROME2" && !h.photometric.empty()))
+        return "is a colour image (" + h.photometric + ")";
+    if (h.bitsAllocated != 8 && h.bitsAllocated != 16)
+        return fmt::format("has {} bits per sample; 8 and 16 are supported", h.bitsAllocated);
+    if (h.bitsStored < 1 || h.bitsStored > h.bitsAllocated || h.highBit >= h.bitsAllocated ||
+        h.highBit + 1 < h.bitsStored)
+        return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored, h.bitsAllocated, h.highBit);
+    return std::nullopt;
+}
+
+} // namespace pellucid::dicom

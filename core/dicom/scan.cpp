@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/scan.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/dicom/group_series.h"
+#include "core/dicom/read_instance.h"
+#include "core/task/error.h"
+#include "core/volume/nrrd.h"
+
+namespace pellucid::dicom {
+
+namespace {
+
+namespace fs = std::filesystem;
+using task::Error;
+using task::ErrorCode;
+
+class FileList {
+public:
+    explicit FileList(const task::Progress &progress) : m_progress(progress) {}
+
+    void add(const fs::path &path) {
+        std::error_code error;
+        const fs::file_status status = fs::status(path, error);
+        if (!fs::exists(status))
+            throw Error(ErrorCode::unusable, error && status.type() != fs::file_type::not_found ? error.message() : "does not exist", path);
+        if (fs::is_directory(status))
+            addFolder(path);
+        else if (!fs::is_regular_file(status))
+            throw Error(ErrorCode::unusable, "is neither a file nor a folder", path);
+        else if (isDicomdir(path))
+            addDicomdir(path);
+        else
+            addFile(path);
+    }
+
+    std::vector<fs::path> files;
+    std::vector<Skipped> skipped;
+
+private:
+    void addFile(const fs::path &path) {
+        if (m_seen.insert(fs::weakly_canonical(path)).second)
+            files.push_back(path);
+    }
+
+    void addDicomdir(const fs::path &path) {
+        for (const fs::path &listed : readDicomdir(path)) {
+            std::error_code ignored;
+            if (fs::is_regular_file(listed, ignored))
+                addFile(listed);
+            else
+                skipped.push_back({listed, "is listed in the DICOMDIR but missing"});
+        }
+    }
+
+    void addFolder(const fs::path &folder) {
+        std::error_code error;
+        fs::directory_iterator top(folder, error);
+        if (error)
+            throw Error(ErrorCode::unusable, error.message(), folder);
+        std::vector<fs::path> pending{folder}, found;
+        while (!pending.empty()) {
+            m_progress.check();
+            const fs::path current = pending.back();
+            pending.pop_back();
+            fs::directory_iterator entries(current, error);
+            if (error) {
+                skipped.push_back({current, error.message()});
+                continue;
+            }
+            for (const fs::directory_entry &entry : entries) {
+                std::error_code ignored;
+                const bool link = entry.is_symlink(ignored);
+                if (entry.is_directory(ignored)) {
+                    if (link)
+                        skipped.push_back({entry.path(), "is a link to a folder"});
+                    else
+                        pending.push_back(entry.path());
+                } else if (entry.is_regular_file(ignored)) {
+                    found.push_back(entry.path());
+                } else {
+                    skipped.push_back({entry.path(), link ? "is a broken link" : "is not a regular file"});
+                }
+            }
+        }
+        std::sort(found.begin(), found.end());
+        for (const fs::path &path : found)
+            addFile(path);
+    }
+
+    const task::Progress &m_progress;
+    std::set<fs::path> m_seen;
+};
+
+// What the volume's values and notes are, from the first file of a series' entry.
+void describe(VolumeEntry &entry, const std::vector<SeriesFile> &files) {
+    const auto it = std::find_if(files.begin(), files.end(),
+                                 [&](const SeriesFile &f) { return f.path == entry.frames.front().path; });
+    const InstanceHeader &h = it->header;
+    entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
+    entry.notes.modality = h.modality;
+    entry.notes.windows = h.windows;
+    entry.notes.darkIsHigh = h.photometric == "MONOCHROME1";
+    entry.notes.placed = entry.placed;
+    if (!entry.placed)
+        entry.notes.warnings.push_back("images only: " + entry.notPlacedReason);
+    for (const FrameReference &frame : entry.frames)
+        for (const SeriesFile &f : files)
+            if (f.path == frame.path && f.header.lossy)
+                entry.notes.lossy = true;
+    const bool hounsfield = h.rescaleType == "HU" || (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
+    entry.unit = hounsfield && entry.placed && h.modality == "CT" ? volume::ValueUnit::hounsfield : volume::ValueUnit::none;
+    // Tilt as the table needs it, so that nobody wonders about the leaning stack.
+    const double tilt = entry.geometry.lattice.shearRad() * 180.0 / 3.14159265358979323846;
+    if (entry.placed && tilt > 0.1 && entry.geometry.lattice.size().k > 1)
+        entry.notes.warnings.push_back(fmt::format("tilted by {:.1f} degrees; shown from its own lattice", tilt));
+}
+
+Patient &patientFor(Catalogue &catalogue, const InstanceHeader &h) {
+    for (Patient &p : catalogue.patients)
+        if (p.id == h.patientId && p.name == h.patientName)
+            return p;
+    catalogue.patients.push_back({h.patientId, h.patientName, h.birthDate, h.sex, {}});
+    return catalogue.patients.back();
+}
+
+Study &studyFor(Patient &patient, const InstanceHeader &h) {
+    for (Study &s : patient.studies)
+        if (s.uid == h.studyUid)
+            return s;
+    patient.studies.push_back({h.studyUid, h.studyDate, h.studyDescription, {}});
+    return patient.studies.back();
+}
+
+void addNrrd(Catalogue &catalogue, const fs::path &path, const volume::NrrdHeader &header) {
+    if (catalogue.patients.empty() || catalogue.patients.back().id != "files")
+        catalogue.patients.push_back({"files", "Files", "", "", {{"", "", "Volume files", {}}}});
+    Series series;
+    series.description = path.filename().string();
+    series.number = int(catalogue.patients.back().studies[0].series.size()) + 1;
+    VolumeEntry entry;
+    entry.nrrd = path;
+    entry.geometry.lattice = header.lattice;
+    entry.notes = header.notes;
+    series.volumes.push_back(std::move(entry));
+    catalogue.patients.back().studies[0].series.push_back(std::move(series));
+}
+
+} // namespace
+
+Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress) {
+    FileList list(progress);
+    for (const fs::path &path : paths)
+        list.add(path);
+
+    std::vector<InstanceHeader> headers(list.files.size());
+    std::vector<std::string> reasons(list.files.size());
+    std::atomic<std::size_t> done = 0;
+    std::mutex reporting;
+    tbb::parallel_for(std::size_t(0), list.files.size(), [&](std::size_t n) {
+        progress.check();
+        if (!volume::isNrrdPath(list.files[n])) {
+            try {
+                headers[n] = readHeader(list.files[n]);
+                if (const auto reason = whyUnusable(headers[n]))
+                    reasons[n] = *reason;
+            } catch (const Error &error) {
+                reasons[n] = error.reason();
+            }
+        }
+        const std::lock_guard lock(reporting);
+        progress.report(double(++done) / double(list.files.size()));
+    });
+
+    Catalogue catalogue;
+    catalogue.skipped = std::move(list.skipped);
+    // Never two series in one volume: the key is the series with its study and patient.
+    std::map<std::tuple<std::string, std::string, std::string, std::string>, std::vector<SeriesFile>> series;
+    std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
+    for (std::size_t n = 0; n < list.files.size(); ++n) {
+        if (volume::isNrrdPath(list.files[n])) {
+            try {
+                addNrrd(catalogue, list.files[n], volume::readNrrdHeader(list.files[n]));
+            } catch (const Error &error) {
+                catalogue.skipped.push_back({list.files[n], error.reason()});
+            }
+            continue;
+        }
+        if (!reasons[n].empty()) {
+            catalogue.skipped.push_back({list.files[n], reasons[n]});
+            continue;
+        }
+        const InstanceHeader &h = headers[n];
+        const auto key = std::tuple(h.patientId, h.patientName, h.studyUid, h.seriesUid);
+        auto &files = series[key];
+        if (files.empty())
+            order.push_back(key);
+        files.push_back({list.files[n], std::move(headers[n])});
+    }
+    for (const auto &key : order) {
+        const std::vector<SeriesFile> &files = series[key];
+        const InstanceHeader &h = files.front().header;
+        Series entry{h.seriesUid, h.seriesDescription, h.modality, h.bodyPart, h.seriesNumber, groupSeries(files, catalogue.skipped)};
+        for (VolumeEntry &volume : entry.volumes)
+            describe(volume, files);
+        studyFor(patientFor(catalogue, h), h).series.push_back(std::move(entry));
+    }
+    for (Patient &patient : catalogue.patients)
+        for (Study &study : patient.studies)
+            std::stable_sort(study.series.begin(), study.series.end(),
+                             [](const Series &a, const Series &b) { return a.number < b.number; });
+    return catalogue;
+}
+
+} // namespace pellucid::dicom

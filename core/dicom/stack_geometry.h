@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/dicom/catalogue.h"
+#include "core/dicom/instance.h"
+
+namespace pellucid::dicom {
+
+/// A frame together with where it comes from.
+struct PlacedFrame {
+    FrameReference reference;
+    FrameHeader header;
+    int rows = 0, columns = 0;
+    int instanceNumber = 0;
+    std::string sopInstanceUid;
+
+    /// Position along the slices' normal, mm. Needs a position and an orientation.
+    double depthMm() const;
+};
+
+struct StackResult {
+    StackGeometry geometry;
+    std::vector<std::string> warnings;
+    /// Set if the frames make no volume.
+    std::string refusal;
+};
+
+/// Neighbouring slices that differ by less than this from the common distance are evenly spaced.
+double spacingToleranceMm(double spacingMm);
+
+/// The lattice of frames that are sorted by depth and share size, orientation and pixel spacing.
+/// Spacing and tilt come from the positions alone. Uneven distances are resampled onto the smallest
+/// gap that occurs more than once, with a warning that names the files where the distance changes; a gap of more
+/// than 2.5 times the median is refused.
+StackResult stackGeometry(const std::vector<PlacedFrame> &frames);
+
+} // namespace pellucid::dicom

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <complex>
+#include <memory>
+
+#include "core/volume/lattice.h"
+
+namespace pellucid::fourier {
+
+/// Real-to-complex 3D transform in place, exp(-i 2 pi ...), unnormalised.
+/// *Shape*: `data` points at sample (0,0,0) of a row-major array whose rows hold `rowStride` complex
+/// numbers and whose planes hold `planeRows` rows; the real samples of a row lie in its first
+/// size.i reals, the result in its first size.i/2 + 1 complex numbers.
+void forwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride, int planeRows);
+void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride, int planeRows);
+
+/// Complex-to-real inverse 2D transform, exp(+i 2 pi ...), unnormalised, of one size: planned once,
+/// run often, from any thread. The input is overwritten.
+/// *Shape*: in: rows x (columns/2 + 1), out: rows x columns, contiguous; any alignment.
+template <class Real> class InverseTransform2d {
+public:
+    InverseTransform2d(int rows, int columns);
+    ~InverseTransform2d();
+    InverseTransform2d(const InverseTransform2d &) = delete;
+    InverseTransform2d &operator=(const InverseTransform2d &) = delete;
+
+    int rows() const;
+    int columns() const;
+    void run(std::complex<Real> *in, Real *out) const;
+
+private:
+    struct Plan;
+    std::unique_ptr<Plan> m_plan;
+};
+
+} // namespace pellucid::fourier

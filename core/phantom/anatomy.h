@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/task/progress.h"
+#include "core/volume/volume.h"
+
+namespace pellucid::phantom {
+
+volume::Volume makeHead(const volume::Lattice &lattice, const task::Progress &progress);
+volume::Volume makeChest(const volume::Lattice &lattice, const task::Progress &progress);
+/// Metal at 30000 HU among air: a water cylinder with rods and a screw.
+volume::Volume makeMetal(const volume::Lattice &lattice, const task::Progress &progress);
+/// 1000 HU everywhere: a field that fills its lattice to the corners.
+volume::Volume makeCube(const volume::Lattice &lattice, const task::Progress &progress);
+/// Bar patterns of 1 to 6 voxels along each axis.
+volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &progress);
+volume::Volume makeEllipsoids(const volume::Lattice &lattice, const task::Progress &progress);
+
+} // namespace pellucid::phantom

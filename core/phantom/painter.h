@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/task/progress.h"
+#include "core/volume/volume.h"
+
+namespace pellucid::phantom {
+
+/// A solid: the signed distance from its surface (negative inside, mm) near the surface, and a box
+/// in the patient outside of which it is not evaluated.
+struct Shape {
+    std::function<double(const glm::dvec3 &mm)> distance;
+    glm::dvec3 low{0.0}, high{0.0};
+
+    double operator()(const glm::dvec3 &mm) const { return distance(mm); }
+};
+
+Shape ellipsoid(glm::dvec3 center, glm::dvec3 radii, glm::dquat rotation = glm::dquat(1, 0, 0, 0));
+/// A rod with round ends of different radii.
+Shape rod(glm::dvec3 from, glm::dvec3 to, double fromRadius, double toRadius);
+/// Rods of one radius along a polyline.
+Shape tube(const std::vector<glm::dvec3> &points, double radius);
+Shape roundedBox(glm::dvec3 center, glm::dvec3 halfSize, double rounding,
+                 glm::dquat rotation = glm::dquat(1, 0, 0, 0));
+
+/// The union with a fillet of about `fillet` mm.
+Shape united(const Shape &a, const Shape &b, double fillet = 0.0);
+Shape intersected(const Shape &a, const Shape &b);
+Shape without(const Shape &a, const Shape &b);
+/// Grown by a distance; shrunk if negative.
+Shape grown(const Shape &shape, double mm);
+/// The same shape reflected in the patient's median plane.
+Shape mirrored(const Shape &shape);
+
+/// Fills a volume with shapes, later ones over earlier ones, edges softened over about one voxel as
+/// a scanner does. The shapes live in the patient, so any lattice, tilted ones too, samples the same
+/// anatomy.
+class Painter {
+public:
+    using Texture = std::function<double(const glm::dvec3 &mm)>;
+
+    Painter(const volume::Lattice &lattice, double backgroundHu, task::Progress progress);
+
+    void paint(const Shape &shape, double hu);
+    void paint(const Shape &shape, const Texture &hu);
+    /// Adds normal noise (the same for the same seed, whatever the number of threads) and rounds.
+    volume::Volume finish(double noiseHu, std::uint32_t seed, const std::string &title);
+
+private:
+    volume::Lattice m_lattice;
+    std::vector<float> m_hu;
+    double m_softnessMm;
+    task::Progress m_progress;
+};
+
+} // namespace pellucid::phantom

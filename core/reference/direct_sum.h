@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/reference/slice_image.h"
+#include "core/volume/volume.h"
+
+namespace pellucid::reference {
+
+/// The truth: D(s) by direct summation over all samples, double precision, no transform, no kernel.
+/// Costs samples times frequencies; meant for at most 96 samples a side.
+/// *Shape*: the field is float32. The result is camera.height x camera.width, field times mm.
+std::vector<double> directSumImage(const volume::Volume &field, const render::Camera &camera,
+                                   const render::ImageDefinition &image);
+
+/// The same D(s) at given frequencies.
+void directSum(const volume::Volume &field, const std::vector<glm::dvec3> &frequencies,
+               std::vector<std::complex<double>> &values);
+
+} // namespace pellucid::reference

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/reference/slice_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <tbb/parallel_for.h>
+
+#include "core/fourier/padded_size.h"
+#include "core/fourier/transform.h"
+
+namespace pellucid::reference {
+
+std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
+                               const render::Camera &camera, const render::ImageDefinition &image) {
+    const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
+    // Eight times the ringing of the band's edge, or of the lattice's own where that is tapered too.
+    double ringing = 8.0 / std::max(1.0 / 32.0, image.rollOff);
+    if (image.reconstruction == render::Reconstruction::bandLimited)
+        ringing *= std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) / camera.pixelMm;
+    const auto cells = [&](int size, double panMm) {
+        const double needed = std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);
+        return fourier::smoothEvenSize(int(std::ceil(needed + ringing)));
+    };
+    const int columns = cells(camera.width, camera.panMm.x), rows = cells(camera.height, camera.panMm.y);
+    const double du = 1.0 / (columns * camera.pixelMm), dv = 1.0 / (rows * camera.pixelMm);
+    const double limit = 0.5 / camera.pixelMm;
+    const glm::dmat3 axes = camera.axes();
+    const double firstU = camera.panMm.x - 0.5 * (camera.width - 1) * camera.pixelMm;
+    const double firstV = camera.panMm.y + 0.5 * (camera.height - 1) * camera.pixelMm;
+
+    const int stride = columns / 2 + 1;
+    std::vector<std::complex<double>> slice(std::size_t(rows) * stride);
+    tbb::parallel_for(0, rows, [&](int r) {
+        const int ky = r <= rows / 2 ? r : r - rows;
+        if (ky == rows / 2)
+            return;
+        const double sv = -ky * dv;
+        std::vector<glm::dvec3> frequencies;
+        std::vector<int> at;
+        std::vector<double> weight;
+        for (int kx = 0; kx < columns / 2; ++kx) {
+            const double su = kx * du;
+            const double radius = std::sqrt(su * su + sv * sv) / limit;
+            if (radius >= 1.0)
+                break;
+            const glm::dvec3 s = su * axes[0] + sv * axes[1];
+            double w = render::rollOffFactor(image.rollOff, radius) * du * dv;
+            for (int d = 0; d < 3; ++d)
+                w *= render::reconstructionFactor(image, glm::dot(lattice.step(d), s));
+            frequencies.push_back(s);
+            at.push_back(kx);
+            weight.push_back(w);
+        }
+        std::vector<std::complex<double>> values(frequencies.size());
+        spectrum(frequencies, values);
+        for (std::size_t n = 0; n < values.size(); ++n) {
+            const double su = at[n] * du;
+            const double angle = 2.0 * std::numbers::pi * (su * firstU + sv * firstV);
+            slice[std::size_t(r) * stride + at[n]] = weight[n] * values[n] * std::polar(1.0, angle);
+        }
+    });
+    const fourier::InverseTransform2d<double> inverse(rows, columns);
+    std::vector<double> plane(std::size_t(rows) * columns);
+    inverse.run(slice.data(), plane.data());
+    std::vector<double> result(std::size_t(camera.height) * camera.width);
+    for (int r = 0; r < camera.height; ++r)
+        for (int c = 0; c < camera.width; ++c)
+            result[std::size_t(r) * camera.width + c] =
+                plane[std::size_t(r % rows) * columns + c % columns];
+    return result;
+}
+
+} // namespace pellucid::reference

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/fourier/spectrum.h"
+#include "core/fourier/transform.h"
+#include "core/render/projection_image.h"
+#include "core/render/render_plan.h"
+
+namespace pellucid::render {
+
+/// Makes projections of one prepared field. Engines are interchangeable: under the same plan they
+/// give the same image within a stated rounding bound.
+class ProjectionEngine {
+public:
+    virtual ~ProjectionEngine() = default;
+    /// The engine and what it runs on, one line.
+    virtual std::string description() const = 0;
+    /// Not safe to call from two threads at once. *Throws* Error{outOfMemory}.
+    virtual ProjectionImage render(const Camera &camera, const ImageDefinition &image,
+                                   FrameTimes *times = nullptr) = 0;
+};
+
+/// The projection-slice theorem on the processor: interpolates the central slice of the half
+/// spectrum, multiplies by the reconstruction and the roll-off, transforms back.
+class CpuEngine final : public ProjectionEngine {
+public:
+    explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum);
+    ~CpuEngine() override;
+
+    std::string description() const override;
+    ProjectionImage render(const Camera &camera, const ImageDefinition &image,
+                           FrameTimes *times = nullptr) override;
+
+private:
+    struct Frame;
+    Frame &frameFor(const SliceGrid &grid);
+
+    std::shared_ptr<const fourier::Spectrum> m_spectrum;
+    std::unique_ptr<Frame> m_frame;
+};
+
+} // namespace pellucid::render

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/classify/density_field.h"
+#include "core/render/camera.h"
+#include "core/render/image_definition.h"
+
+namespace pellucid::render {
+
+/// How the float image becomes grey: [low, high] in image units, or automatic; bright on dark, or
+/// inverted like a film.
+struct Tone {
+    std::optional<double> low, high;
+    bool inverted = false;
+    bool operator==(const Tone &) const = default;
+};
+
+/// What the user asked to see. A plain value: the window, the command line and the tests share it.
+struct Scene {
+    Camera camera;
+    /// The field's window; the volume's default if absent.
+    std::optional<classify::FieldWindow> fieldWindow;
+    ImageDefinition image;
+    /// Largest relative L2 error of the float image.
+    double tolerance = 1.1e-3;
+    Tone tone;
+
+    bool operator==(const Scene &) const = default;
+};
+
+/// Throws Error{usage} if a value of the scene is out of its range; the message names it.
+void validate(const Scene &scene);
+
+/// The scene as JSON, `"schema": "pellucid-scene/1"`.
+std::string toJson(const Scene &scene);
+/// *Throws* Error{usage} with the key and the reason.
+Scene sceneFromJson(const std::string &text);
+
+} // namespace pellucid::render

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "core/render/scene.h"
+#include "core/task/error.h"
+
+namespace pellucid::render {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char *schema = "pellucid-scene/1";
+
+const std::map<std::string, Reconstruction> &reconstructionNames() {
+    static const std::map<std::string, Reconstruction> names = {
+        {"cubic", Reconstruction::cubic}, {"linear", Reconstruction::linear},
+        {"band-limited", Reconstruction::bandLimited}};
+    return names;
+}
+
+std::string nameOf(Reconstruction value) {
+    for (const auto &[name, candidate] : reconstructionNames())
+        if (candidate == value)
+            return name;
+    return {};
+}
+
+} // namespace
+
+std::string toJson(const Scene &scene) {
+    const glm::dquat &q = scene.camera.orientation;
+    json out = {
+        {"schema", schema},
+        {"camera",
+         {{"orientation", {q.w, q.x, q.y, q.z}},
+          {"pixel_mm", scene.camera.pixelMm},
+          {"size", {scene.camera.width, scene.camera.height}},
+          {"pan_mm", {scene.camera.panMm.x, scene.camera.panMm.y}}}},
+        {"reconstruction", nameOf(scene.image.reconstruction)},
+        {"roll_off", scene.image.rollOff},
+        {"tolerance", scene.tolerance},
+        {"tone", {{"inverted", scene.tone.inverted}}}};
+    if (scene.fieldWindow)
+        out["window"] = {scene.fieldWindow->low, scene.fieldWindow->high};
+    if (scene.tone.low)
+        out["tone"]["low"] = *scene.tone.low;
+    if (scene.tone.high)
+        out["tone"]["high"] = *scene.tone.high;
+    return out.dump(2);
+}
+
+Scene sceneFromJson(const std::string &text) {
+    Scene scene;
+    try {
+        const json in = json::parse(text);
+        if (in.at("schema") != schema)
+            throw task::Error(task::ErrorCode::usage, "the scene's schema is not " + std::string(schema));
+        const json &camera = in.at("camera");
+        const auto q = camera.at("orientation").get<std::array<double, 4>>();
+        scene.camera.orientation = glm::dquat(q[0], q[1], q[2], q[3]);
+        scene.camera.pixelMm = camera.at("pixel_mm");
+        const auto size = camera.at("size").get<std::array<int, 2>>();
+        scene.camera.width = size[0];
+        scene.camera.height = size[1];
+        const auto pan = camera.value("pan_mm", std::array<double, 2>{0.0, 0.0});
+        scene.camera.panMm = {pan[0], pan[1]};
+        if (in.contains("window")) {
+            const auto window = in.at("window").get<std::array<double, 2>>();
+            scene.fieldWindow = classify::FieldWindow{window[0], window[1]};
+        }
+        const std::string reconstruction = in.value("reconstruction", "cubic");
+        const auto it = reconstructionNames().find(reconstruction);
+        if (it == reconstructionNames().end())
+            throw task::Error(task::ErrorCode::usage, "unknown reconstruction '" + reconstruction + "' in the scene");
+        scene.image.reconstruction = it->second;
+        scene.image.rollOff = in.value("roll_off", scene.image.rollOff);
+        scene.tolerance = in.value("tolerance", scene.tolerance);
+        if (in.contains("tone")) {
+            const json &tone = in.at("tone");
+            scene.tone.inverted = tone.value("inverted", false);
+            if (tone.contains("low"))
+                scene.tone.low = tone.at("low").get<double>();
+            if (tone.contains("high"))
+                scene.tone.high = tone.at("high").get<double>();
+        }
+    } catch (const json::exception &error) {
+        throw task::Error(task::ErrorCode::usage, std::string("the scene is not valid: ") + error.what());
+    }
+    validate(scene);
+    scene.camera.orientation = glm::normalize(scene.camera.orientation);
+    return scene;
+}
+
+} // namespace pellucid::render

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <stop_token>
+
+namespace pellucid::task {
+
+/// Thrown out of a long function when its Progress was asked to stop.
+struct Cancelled {};
+
+/// What a long function reports to and asks whether it should go on.
+///
+/// A default-constructed Progress reports to nobody and never stops. Copies share the stop token;
+/// `part` gives a sub-task its own stretch of the caller's scale.
+class Progress {
+public:
+    using Report = std::function<void(double fraction)>;
+
+    Progress() = default;
+    explicit Progress(std::stop_token stop, Report report = {});
+
+    /// Reports a fraction in 0..1 of this (part of the) task. Throws Cancelled if asked to stop.
+    void report(double fraction) const;
+    /// Throws Cancelled if asked to stop.
+    void check() const;
+    bool stopRequested() const { return m_stop.stop_requested(); }
+    /// The same task, with fractions mapped to [from, to] of this one.
+    Progress part(double from, double to) const;
+
+private:
+    std::stop_token m_stop;
+    Report m_report;
+    double m_from = 0.0;
+    double m_to = 1.0;
+};
+
+} // namespace pellucid::task

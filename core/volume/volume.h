@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/volume/lattice.h"
+
+namespace pellucid::volume {
+
+enum class ValueUnit { none, hounsfield };
+
+/// A display window in value units.
+struct ValueWindow {
+    double center = 0.0;
+    double width = 1.0;
+    std::string name;
+    bool operator==(const ValueWindow &) const = default;
+};
+
+/// What the source said about a volume, as far as a viewer shows it.
+struct VolumeNotes {
+    std::string title;                 ///< series description or file name
+    std::string modality;              ///< DICOM modality, empty if unknown
+    std::vector<ValueWindow> windows;  ///< the file's own windows
+    std::vector<std::string> warnings; ///< what the reader had to do to the geometry or the values
+    bool darkIsHigh = false;           ///< MONOCHROME1: shown inverted
+    bool lossy = false;                ///< compressed with loss at some point
+    bool placed = true;                ///< false: images without positions, no volume
+};
+
+/// Samples on a lattice. A value: immutable, shared, cheap to copy.
+class Volume {
+public:
+    template <class T> using Samples = std::shared_ptr<const std::vector<T>>;
+
+    Volume() : Volume(Lattice(), std::vector<float>(1, 0.0F), ValueUnit::none) {}
+    /// *Shape*: samples ordered columns fastest, then rows, then slices; as many as the lattice has.
+    /// Floats may be NaN or infinite.
+    Volume(Lattice lattice, std::vector<std::int16_t> samples, ValueUnit unit, VolumeNotes notes = {});
+    Volume(Lattice lattice, std::vector<float> samples, ValueUnit unit, VolumeNotes notes = {});
+
+    const Lattice &lattice() const { return m_lattice; }
+    ValueUnit unit() const { return m_unit; }
+    const VolumeNotes &notes() const { return *m_notes; }
+    bool isFloat() const { return std::holds_alternative<Samples<float>>(m_samples); }
+    std::size_t bytes() const;
+
+    /// Calls f with a span of the stored samples, of int16 or float.
+    template <class F> decltype(auto) visit(F &&f) const {
+        return std::visit(
+            [&](const auto &samples) -> decltype(auto) { return f(std::span(*samples)); }, m_samples);
+    }
+    /// The value of a sample of the lattice.
+    double value(VoxelIndex n) const;
+    /// A copy of the part in a box that lies inside the lattice.
+    Volume cropped(const VoxelBox &box) const;
+    /// The same samples with other notes.
+    Volume withNotes(VolumeNotes notes) const;
+
+private:
+    Lattice m_lattice;
+    std::variant<Samples<std::int16_t>, Samples<float>> m_samples;
+    ValueUnit m_unit;
+    std::shared_ptr<const VolumeNotes> m_notes;
+};
+
+} // namespace pellucid::volume

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <sys/resource.h>
+
+#include "core/files/atomic_file.h"
+#include "core/files/image_files.h"
+#include "core/task/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid {
+
+namespace {
+
+std::string contents(const std::filesystem::path &path) {
+    std::ostringstream out;
+    out << std::ifstream(path, std::ios::binary).rdbuf();
+    return out.str();
+}
+
+std::size_t entries(const std::filesystem::path &folder) {
+    return std::size_t(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(AtomicFile, AppearsOnCommitAndReplacesTheOldOne) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a") << "old";
+    files::AtomicFile file(folder / "a");
+    file.write(std::as_bytes(std::span("new", 3)));
+    EXPECT_EQ(contents(folder / "a"), "old");
+    file.commit();
+    EXPECT_EQ(contents(folder / "a"), "new");
+    EXPECT_EQ(entries(folder.path()), 1U);
+}
+
+TEST(AtomicFile, LeavesNothingWithoutCommit) {
+    const test::TemporaryFolder folder;
+    { files::AtomicFile file(folder / "a"); }
+    EXPECT_EQ(entries(folder.path()), 0U);
+}
+
+TEST(AtomicFile, ReportsAFolderThatDoesNotExist) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(files::AtomicFile(folder / "no/such/file"), task::Error);
+}
+
+TEST(AtomicFile, AFullDiskKeepsTheOldFile) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a") << "old";
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{1024, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    bool failed = false;
+    try {
+        files::AtomicFile file(folder / "a");
+        const std::vector<std::byte> much(1 << 20);
+        file.write(much);
+        file.commit();
+    } catch (const task::Error &error) {
+        failed = error.code() == task::ErrorCode::output;
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_TRUE(failed);
+    EXPECT_EQ(contents(folder / "a"), "old");
+    EXPECT_EQ(entries(folder.path()), 1U);
+}
+
+TEST(Npy, HasAnAlignedHeaderAndTheSamples) {
+    const test::TemporaryFolder folder;
+    const std::vector<float> samples{1, 2, 3, 4, 5, 6};
+    files::writeNpy(folder / "a.npy", samples, 2, 3);
+    const std::string bytes = contents(folder / "a.npy");
+    EXPECT_EQ(bytes.substr(0, 6), "\x93NUMPY");
+    EXPECT_EQ((bytes.size() - 24) % 64, 0U);
+    EXPECT_NE(bytes.find("'shape': (2, 3)"), std::string::npos);
+    EXPECT_EQ(bytes.substr(bytes.size() - 24), std::string(reinterpret_cast<const char *>(samples.data()), 24));
+}
+
+} // namespace
+} // namespace pellucid

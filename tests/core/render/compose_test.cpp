@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/render/compose.h"
+
+namespace pellucid {
+
+namespace {
+
+TEST(Compose, MapsTheRangeAndInverts) {
+    const render::ProjectionImage image{4, 1, 1.0, {-1.0F, 0.0F, 5.0F, 20.0F}};
+    const auto bright = render::compose(image, {0.0, 10.0, false});
+    const auto film = render::compose(image, {0.0, 10.0, true});
+    EXPECT_EQ(bright[0], 0);
+    EXPECT_EQ(bright[12], 255);
+    EXPECT_EQ(bright[8], std::lround(255 * std::pow(0.5, render::toneExponent)));
+    for (int n = 0; n < 4; ++n)
+        EXPECT_NEAR(int(bright[4 * n]) + film[4 * n], 255, 1);
+    EXPECT_EQ(bright[3], 255);
+}
+
+TEST(Compose, TheAutomaticRangeIgnoresTheBackground) {
+    render::ProjectionImage image{1000, 1, 1.0, std::vector<float>(1000, 0.0F)};
+    for (int n = 0; n < 100; ++n)
+        image.samples[n] = float(n + 1);
+    const auto range = render::toneRange(image, {});
+    EXPECT_EQ(range.low, 0.0);
+    EXPECT_EQ(range.high, 99.0); // rank 0.998 * 99 of the hundred pixels inside
+    EXPECT_EQ(render::toneRange({2, 1, 1.0, {0.0F, 0.0F}}, {}).high, 1.0);
+}
+
+} // namespace
+} // namespace pellucid

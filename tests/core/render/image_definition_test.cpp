@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/render/image_definition.h"
+
+namespace pellucid {
+
+namespace {
+
+using render::ImageDefinition;
+using render::Reconstruction;
+
+TEST(ImageDefinition, RollOffIsOneThenFallsToZero) {
+    EXPECT_EQ(render::rollOffFactor(0.05, 0.9), 1.0);
+    EXPECT_NEAR(render::rollOffFactor(0.05, 0.975), 0.5, 1e-12);
+    EXPECT_EQ(render::rollOffFactor(0.05, 1.0), 0.0);
+    EXPECT_EQ(render::rollOffFactor(0.0, 0.9999), 1.0); // F = 0: a sharp edge
+}
+
+// A reconstruction passes constants: K(0) = 1 and K(q) = 0 at every other whole q.
+TEST(ImageDefinition, ReconstructionsKeepConstants) {
+    for (const auto r : {Reconstruction::cubic, Reconstruction::linear, Reconstruction::bandLimited}) {
+        EXPECT_NEAR(render::reconstructionFactor({r, 0.05}, 0.0), 1.0, 1e-12);
+        for (const double q : {1.0, -2.0, 3.0})
+            EXPECT_NEAR(render::reconstructionFactor({r, 0.05}, q), 0.0, 1e-12);
+    }
+}
+
+TEST(ImageDefinition, LinearIsTheTransformOfTheTent) {
+    for (const double q : {0.1, 0.37, 0.8, 1.6}) {
+        double tent = 0.0;
+        const int steps = 20000;
+        for (int n = 0; n < steps; ++n) {
+            const double x = 2.0 * (n + 0.5) / steps - 1.0;
+            tent += (1.0 - std::abs(x)) * std::cos(2.0 * std::numbers::pi * q * x) * 2.0 / steps;
+        }
+        EXPECT_NEAR(render::reconstructionFactor({Reconstruction::linear, 0.05}, q), tent, 1e-7);
+    }
+}
+
+// Interpolating: the sum of K over all periods is 1, so that samples keep their values.
+TEST(ImageDefinition, CubicAndLinearInterpolate) {
+    for (const auto r : {Reconstruction::cubic, Reconstruction::linear})
+        for (const double q : {0.05, 0.3, 0.5}) {
+            double sum = 0.0;
+            for (int period = -4000; period <= 4000; ++period)
+                sum += render::reconstructionFactor({r, 0.05}, q + period);
+            // The tail of sinc^2 beyond 4000 periods is 1/(pi^2 4000).
+            EXPECT_NEAR(sum, 1.0, 6e-5);
+        }
+}
+
+} // namespace
+} // namespace pellucid

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "core/reference/wide_kernel.h"
+#include "core/render/cpu_engine.h"
+#include "core/render/render_plan.h"
+#include "core/task/error.h"
+#include "tests/support/fields.h"
+
+namespace pellucid {
+
+namespace {
+
+render::Scene sceneFor(const volume::Lattice &lattice) {
+    render::Scene scene;
+    scene.camera = render::defaultCamera(lattice);
+    return scene;
+}
+
+TEST(RenderPlan, PadsTheSupportOnly) {
+    const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
+    std::vector<float> samples(lattice.size().count(), 0.0F);
+    samples[0] = samples[20] = 1.0F; // 21 x 1 x 1 samples
+    const volume::Volume values(lattice, samples, volume::ValueUnit::none);
+    const auto field = classify::densityField(values, {0, 1});
+    const auto plan = render::planRender(sceneFor(lattice), render::summarise(field));
+    EXPECT_EQ(plan.spectrum.padded, (volume::GridSize{32, 16, 16}));
+}
+
+TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
+    const auto lattice = volume::Lattice::centred({100, 100, 100}, {1, 1, 1});
+    const auto field = test::noiseField(lattice);
+    auto scene = sceneFor(lattice);
+    const auto plan = render::planRender(scene, render::summarise(field));
+    // The projection of a cube is up to sqrt(3) N wide; half of it beside half of the image.
+    const auto grid = render::sliceGrid(scene.camera, plan.spectrum, lattice, scene.image);
+    EXPECT_GE(grid.columns, 173);
+    scene.camera.width = 40;
+    const auto narrow = render::sliceGrid(scene.camera, plan.spectrum, lattice, scene.image);
+    EXPECT_LT(narrow.columns, grid.columns);
+    EXPECT_EQ(narrow.rows, grid.rows);
+    EXPECT_GE(narrow.columns, 20 + 86);
+}
+
+TEST(RenderPlan, RefusesWhatExceedsTheBudget) {
+    const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
+    const auto summary = render::summarise(test::noiseField(lattice));
+    const auto plan = render::planRender(sceneFor(lattice), summary);
+    EXPECT_NO_THROW(render::planRender(sceneFor(lattice), summary, {plan.bytes}));
+    try {
+        render::planRender(sceneFor(lattice), summary, {plan.bytes - 1});
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::outOfMemory);
+    }
+}
+
+// The prediction counts ghosts outside the image too, so it may be up to three times too high; too
+// low by more than a third would be a wrong promise.
+TEST(RenderPlan, PredictsTheMeasuredError) {
+    for (const auto size : {volume::GridSize{32, 32, 32}, {40, 24, 12}}) {
+        const auto lattice = test::tiltedLattice(size, {1, 1, 2}, 10);
+        const auto field = test::noiseField(lattice);
+        auto scene = sceneFor(lattice);
+        const auto plan = render::planRender(scene, render::summarise(field));
+        render::CpuEngine engine(
+            std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field.values, plan.spectrum)));
+        const reference::WideKernel wide(field.values, field.support);
+        double measured = 0.0;
+        for (const double azimuth : {0.0, 30.0, 60.0, 90.0}) {
+            scene.camera.orientation = render::viewOrientation(render::StandardView::front, {azimuth, 0.5 * azimuth, 0});
+            const double e = test::relativeL2(engine.render(scene.camera, scene.image).samples,
+                                              wide.image(scene.camera, scene.image));
+            measured = std::max(measured, e);
+        }
+        EXPECT_LT(plan.predictedError / measured, 3.0);
+        EXPECT_GT(plan.predictedError / measured, 0.67);
+    }
+}
+
+} // namespace
+} // namespace pellucid

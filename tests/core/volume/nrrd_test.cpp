@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+
+#include <zlib.h>
+
+#include "core/task/error.h"
+#include "core/volume/nrrd.h"
+#include "tests/support/fields.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid {
+
+namespace {
+
+using volume::readNrrd;
+using volume::Volume;
+
+void write(const std::filesystem::path &path, const std::string &text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+template <class T> std::string bytesOf(std::initializer_list<T> values, bool swap = false) {
+    std::string bytes;
+    for (T value : values) {
+        std::string one(reinterpret_cast<const char *>(&value), sizeof(T));
+        if (swap)
+            std::reverse(one.begin(), one.end());
+        bytes += one;
+    }
+    return bytes;
+}
+
+class Nrrd : public testing::Test {
+protected:
+    test::TemporaryFolder folder;
+};
+
+TEST_F(Nrrd, RoundTripsBothTypesAndEncodingsOnATiltedLattice) {
+    const auto lattice = test::tiltedLattice({5, 4, 3}, {0.7, 0.9, 2.5}, 20.0);
+    const auto floats = test::noiseField(lattice).values;
+    std::vector<std::int16_t> shorts(60);
+    for (int n = 0; n < 60; ++n)
+        shorts[n] = std::int16_t(n * 1000 - 30000);
+    for (const auto encoding : {volume::NrrdEncoding::raw, volume::NrrdEncoding::gzip})
+        for (const Volume &volume : {floats, Volume(lattice, shorts, volume::ValueUnit::none)}) {
+            volume::writeNrrd(folder / "v.nrrd", volume, encoding);
+            const Volume back = readNrrd(folder / "v.nrrd");
+            EXPECT_EQ(back.isFloat(), volume.isFloat());
+            for (int k = 0; k < 3; ++k)
+                for (int i = 0; i < 5; ++i)
+                    EXPECT_EQ(back.value({i, 2, k}), volume.value({i, 2, k}));
+            for (int d = 0; d < 3; ++d)
+                EXPECT_LT(glm::distance(back.lattice().step(d), lattice.step(d)), 1e-12);
+            EXPECT_LT(glm::distance(back.lattice().origin().mm, lattice.origin().mm), 1e-12);
+        }
+}
+
+TEST_F(Nrrd, ReadsEveryScalarTypeInBothByteOrders) {
+    const auto check = [&]<class T>(T, const char *name) {
+        for (const bool big : {false, true}) {
+            write(folder / "t.nrrd", std::string("NRRD0004\ntype: ") + name +
+                                         "\ndimension: 3\nsizes: 3 1 1\nencoding: raw\nendian: " +
+                                         (big ? "big" : "little") + "\n\n" + bytesOf<T>({T(1), T(2), T(100)}, big));
+            EXPECT_EQ(readNrrd(folder / "t.nrrd").value({2, 0, 0}), 100.0) << name << big;
+        }
+    };
+    check(std::int8_t(), "int8");
+    check(std::uint8_t(), "unsigned char");
+    check(std::int16_t(), "short");
+    check(std::uint16_t(), "ushort");
+    check(std::int32_t(), "int");
+    check(std::uint32_t(), "uint32_t");
+    check(std::int64_t(), "long long");
+    check(std::uint64_t(), "uint64");
+    check(float(), "float");
+    check(double(), "double");
+}
+
+TEST_F(Nrrd, LargeUnsignedShortsBecomeFloat) {
+    write(folder / "u.nrrd", "NRRD0001\ntype: ushort\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: little\n\n" +
+                                 bytesOf<std::uint16_t>({1, 65535}));
+    const Volume volume = readNrrd(folder / "u.nrrd");
+    EXPECT_TRUE(volume.isFloat());
+    EXPECT_EQ(volume.value({1, 0, 0}), 65535.0);
+}
+
+TEST_F(Nrrd, ConvertsRasAndLasToLps) {
+    const std::string rest = "type: uint8\ndimension: 3\nsizes: 1 1 1\nencoding: raw\nspace directions: (2,0,0) (0,3,0) (0,0,4)\n"
+                             "space origin: (10,20,30)\nspace: ";
+    write(folder / "ras.nrrd", "NRRD0004\n" + rest + "right-anterior-superior\n\nx");
+    write(folder / "las.nrrd", "NRRD0004\n" + rest + "LAS\n\nx");
+    const auto ras = readNrrd(folder / "ras.nrrd").lattice(), las = readNrrd(folder / "las.nrrd").lattice();
+    EXPECT_EQ(ras.origin().mm, glm::dvec3(-10, -20, 30));
+    EXPECT_EQ(ras.step(0), glm::dvec3(-2, 0, 0));
+    EXPECT_EQ(las.origin().mm, glm::dvec3(10, -20, 30));
+    EXPECT_EQ(las.step(1), glm::dvec3(0, -3, 0));
+}
+
+TEST_F(Nrrd, ReadsDetachedGzipWithSpacings) {
+    gzFile gz = gzopen((folder / "d.raw.gz").c_str(), "wb");
+    gzwrite(gz, "abcdef", 6);
+    gzclose(gz);
+    write(folder / "d.nhdr", "NRRD0001\n# comment\ntype: unsigned char\ndimension: 3\nsizes: 3 2 1\nspacings: 1 2 3\n"
+                             "encoding: gzip\ndata file: ./d.raw.gz\n");
+    const Volume volume = readNrrd(folder / "d.nhdr");
+    EXPECT_EQ(volume.value({2, 1, 0}), double('f'));
+    EXPECT_EQ(volume.lattice().spacingMm(2), 3.0);
+}
+
+TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
+    const std::string good = "type: short\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nendian: little\n";
+    const std::pair<const char *, std::string> cases[] = {
+        {"magic", "NOTNRRD\n"},
+        {"truncated", "NRRD0004\n" + good + "\nshort"},
+        {"dimension", "NRRD0004\ntype: short\ndimension: 4\nsizes: 4 4 4 4\nencoding: raw\nendian: little\n\n"},
+        {"type", "NRRD0004\ntype: block\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n"},
+        {"encoding", "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: bzip2\nendian: little\n\n"},
+        {"huge", "NRRD0004\ntype: short\ndimension: 3\nsizes: 400000 400000 400000\nencoding: raw\nendian: little\n\n"},
+        {"negative", "NRRD0004\ntype: short\ndimension: 3\nsizes: -4 4 4\nencoding: raw\nendian: little\n\n"},
+        {"flat", "NRRD0004\n" + good + "space directions: (1,0,0) (2,0,0) (0,0,1)\n\n" + std::string(128, 'x')},
+        {"gzip", "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: gzip\nendian: little\n\n\x1f\x8b garbage"},
+    };
+    for (const auto &[name, text] : cases) {
+        write(folder / name, text);
+        try {
+            readNrrd(folder / name);
+            ADD_FAILURE() << name << " was read";
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), task::ErrorCode::unusable) << name;
+            EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_THROW(readNrrd(folder / "absent.nrrd"), task::Error);
+}
+
+} // namespace
+} // namespace pellucid

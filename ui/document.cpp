@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/document.h"
+
+#include "ui/window_presets.h"
+
+namespace pellucid::ui {
+
+Document::Document(QObject *parent) : QObject(parent) {}
+
+void Document::addSources(std::vector<StudySource> sources) {
+    for (StudySource &source : sources)
+        m_sources.push_back(std::move(source));
+    emit sourcesChanged();
+}
+
+void Document::setCurrentSource(int index) {
+    if (index == m_currentSource)
+        return;
+    m_currentSource = index;
+    emit currentSourceChanged();
+}
+
+void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
+    if (problems.empty())
+        return;
+    m_problems.insert(m_problems.end(), problems.begin(), problems.end());
+    emit problemsChanged();
+}
+
+void Document::clearProblems() {
+    m_problems.clear();
+    emit problemsChanged();
+}
+
+void Document::setVolume(const volume::Volume &volume, bool preview) {
+    const bool same = m_volume && m_preview && m_volume->lattice() == volume.lattice();
+    m_volume = volume;
+    m_preview = preview;
+    if (!same) {
+        // Edits belong to the study they were made on.
+        m_undo.clear();
+        m_crosshair = volume.lattice().center();
+        m_scene = render::Scene();
+        m_scene.camera.orientation = render::viewOrientation(render::StandardView::front);
+    }
+    // A preview's quantiles are those of the slices that happened to come first.
+    if (!same || !preview)
+        m_window = initialWindow(volume);
+    emit volumeChanged();
+}
+
+void Document::closeVolume() {
+    m_volume.reset();
+    m_preview = false;
+    m_undo.clear();
+    emit volumeChanged();
+}
+
+void Document::setCamera(const render::Camera &camera) {
+    if (m_scene.camera == camera)
+        return;
+    m_scene.camera = camera;
+    emit cameraChanged();
+}
+
+void Document::setScene(const render::Scene &scene) {
+    m_scene = scene;
+    emit sceneChanged();
+}
+
+void Document::setDisplayWindow(const volume::ValueWindow &window) {
+    m_window = window;
+    emit displayWindowChanged();
+}
+
+void Document::setCrosshair(volume::PatientPoint point) {
+    if (m_crosshair.mm == point.mm)
+        return;
+    m_crosshair = point;
+    emit crosshairChanged();
+}
+
+} // namespace pellucid::ui

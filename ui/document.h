@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <QObject>
+#include <QUndoStack>
+
+#include "core/dicom/catalogue.h"
+#include "core/render/scene.h"
+#include "core/volume/volume.h"
+#include "ui/study_source.h"
+
+namespace pellucid::ui {
+
+/// What is open and what is asked to be seen: the studies, the volume, the Scene, the display window,
+/// the crosshair, and the undo stack. Views and panels read it, listen to it, and change it by
+/// commands; looking (camera, crosshair) changes it directly and is not undoable.
+class Document : public QObject {
+    Q_OBJECT
+public:
+    explicit Document(QObject *parent = nullptr);
+
+    const std::vector<StudySource> &sources() const { return m_sources; }
+    void addSources(std::vector<StudySource> sources);
+    int currentSource() const { return m_currentSource; }
+    void setCurrentSource(int index);
+
+    const std::vector<dicom::Skipped> &problems() const { return m_problems; }
+    void addProblems(const std::vector<dicom::Skipped> &problems);
+    void clearProblems();
+
+    /// The open volume. A preview is the part that has arrived; it keeps crosshair and window.
+    const std::optional<volume::Volume> &volume() const { return m_volume; }
+    bool isPreview() const { return m_preview; }
+    void setVolume(const volume::Volume &volume, bool preview);
+    void closeVolume();
+
+    const render::Scene &scene() const { return m_scene; }
+    /// Looking: not undoable.
+    void setCamera(const render::Camera &camera);
+    /// The state behind the undo commands; call through `EditScene`.
+    void setScene(const render::Scene &scene);
+
+    const volume::ValueWindow &displayWindow() const { return m_window; }
+    /// The state behind the undo commands; call through `EditDisplayWindow`.
+    void setDisplayWindow(const volume::ValueWindow &window);
+
+    volume::PatientPoint crosshair() const { return m_crosshair; }
+    void setCrosshair(volume::PatientPoint point);
+
+    QUndoStack *undoStack() { return &m_undo; }
+
+signals:
+    void sourcesChanged();
+    void currentSourceChanged();
+    void problemsChanged();
+    void volumeChanged();
+    void cameraChanged();
+    void sceneChanged();
+    void displayWindowChanged();
+    void crosshairChanged();
+
+private:
+    std::vector<StudySource> m_sources;
+    int m_currentSource = -1;
+    std::vector<dicom::Skipped> m_problems;
+    std::optional<volume::Volume> m_volume;
+    bool m_preview = false;
+    render::Scene m_scene;
+    volume::ValueWindow m_window{40.0, 400.0, {}};
+    volume::PatientPoint m_crosshair;
+    QUndoStack m_undo;
+};
+
+} // namespace pellucid::ui

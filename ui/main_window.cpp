@@ -1,0 +1,498 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/main_window.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QCloseEvent>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QFile>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSaveFile>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QToolBar>
+
+#include "core/task/error.h"
+#include "ui/commands.h"
+#include "ui/panels/series_panel.h"
+#include "ui/panels/start_page.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/pane_area.h"
+#include "ui/views/projection_view.h"
+#include "ui/window_presets.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr int recentCount = 8;
+constexpr const char *recentKey = "recentPaths";
+
+} // namespace
+
+MainWindow::MainWindow(const Theme &theme, QWidget *parent)
+    : QMainWindow(parent), m_theme(theme), m_opener(m_document, m_jobs) {
+    setObjectName("mainWindow");
+    setWindowTitle("Pellucid");
+    setAcceptDrops(true);
+    resize(1600, 1000);
+    createPanes();
+    createStudyDock();
+    createFileMenu();
+    createEditMenu();
+    createViewMenu();
+    createLookMenu();
+    createToolsMenu();
+    createHelpMenu();
+    createToolBar();
+    createStatusBar();
+    connect(&m_document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
+    connect(&m_opener, &StudyOpener::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
+    const QSettings settings;
+    restoreGeometry(settings.value("geometry").toByteArray());
+    restoreState(settings.value("windowState").toByteArray());
+    showVolumeState();
+}
+
+void MainWindow::createPanes() {
+    std::array<QWidget *, 4> panes{};
+    std::size_t n = 0;
+    for (const auto orientation : {mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal}) {
+        m_mpr[n] = new MprView(m_document, orientation, m_theme);
+        panes[n] = m_mpr[n];
+        ++n;
+    }
+    m_projection = new ProjectionView(m_document, m_theme);
+    panes[3] = m_projection;
+    m_panes = new PaneArea(panes);
+    for (MprView *view : m_mpr)
+        connect(view, &MprView::maximizeRequested, m_panes, &PaneArea::toggleMaximized);
+    connect(m_projection, &ProjectionView::maximizeRequested, m_panes, &PaneArea::toggleMaximized);
+
+    m_start = new StartPage;
+    connect(m_start, &StartPage::openFilesRequested, this, &MainWindow::chooseFiles);
+    connect(m_start, &StartPage::openFolderRequested, this, &MainWindow::chooseFolder);
+    connect(m_start, &StartPage::phantomRequested, this, &MainWindow::openPhantom);
+    connect(m_start, &StartPage::pathRequested, this, [this](const QString &path) { openPaths({path}); });
+    m_start->setRecentPaths(QSettings().value(recentKey).toStringList());
+    m_stack = new QStackedWidget;
+    m_stack->addWidget(m_start);
+    m_stack->addWidget(m_panes);
+    setCentralWidget(m_stack);
+}
+
+void MainWindow::createStudyDock() {
+    auto *panel = new SeriesPanel(m_document, m_theme);
+    panel->setAttribute(Qt::WA_StyledBackground);
+    connect(panel, &SeriesPanel::sourceActivated, &m_opener, &StudyOpener::openSource);
+    auto *dock = new QDockWidget(tr("STUDIES"), this);
+    dock->setObjectName("studyDock");
+    dock->setWidget(panel);
+    panel->setMinimumWidth(250);
+    addDockWidget(Qt::LeftDockWidgetArea, dock);
+}
+
+QAction *MainWindow::addCommand(QMenu *menu, const QString &text, const char *name, const QKeySequence &key,
+                                const std::function<void()> &run) {
+    QAction *action = menu->addAction(text);
+    action->setObjectName(name);
+    action->setShortcut(key);
+    connect(action, &QAction::triggered, this, [run] { run(); });
+    return action;
+}
+
+void MainWindow::createFileMenu() {
+    QMenu *menu = menuBar()->addMenu(tr("&File"));
+    addCommand(menu, tr("&Open files..."), "openFilesAction", QKeySequence::Open, [this] { chooseFiles(); })->setIconText(tr("Open"));
+    addCommand(menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"), [this] { chooseFolder(); });
+    QMenu *phantoms = menu->addMenu(tr("Open &phantom"));
+    addCommand(phantoms, tr("&Head"), "headPhantomAction", {}, [this] { openPhantom("head"); });
+    addCommand(phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { openPhantom("chest"); });
+    menu->addSeparator();
+    addCommand(menu, tr("Open &scene..."), "openSceneAction", {}, [this] { openScene(); });
+    addCommand(menu, tr("Save s&cene as..."), "saveSceneAction", {}, [this] { saveScene(); });
+    addCommand(menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] { savePicture(); })->setIconText(tr("Picture"));
+    menu->addSeparator();
+    addCommand(menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { close(); });
+}
+
+void MainWindow::createEditMenu() {
+    QMenu *menu = menuBar()->addMenu(tr("&Edit"));
+    QAction *undo = m_document.undoStack()->createUndoAction(this, tr("Undo"));
+    undo->setObjectName("undoAction");
+    undo->setShortcut(QKeySequence::Undo);
+    QAction *redo = m_document.undoStack()->createRedoAction(this, tr("Redo"));
+    redo->setObjectName("redoAction");
+    redo->setShortcut(QKeySequence("Ctrl+Shift+Z"));
+    menu->addActions({undo, redo});
+}
+
+void MainWindow::createViewMenu() {
+    QMenu *menu = menuBar()->addMenu(tr("&View"));
+    using render::StandardView;
+    const struct {
+        QString text;
+        const char *name;
+        StandardView view;
+        const char *hint;
+    } views[] = {{tr("&Anterior"), "frontViewAction", StandardView::front, QT_TR_NOOP("Keypad 1")},
+                 {tr("&Posterior"), "backViewAction", StandardView::back, QT_TR_NOOP("Shift+Keypad 1")},
+                 {tr("&Left"), "leftViewAction", StandardView::left, QT_TR_NOOP("Keypad 3")},
+                 {tr("&Right"), "rightViewAction", StandardView::right, QT_TR_NOOP("Shift+Keypad 3")},
+                 {tr("&Superior"), "topViewAction", StandardView::top, QT_TR_NOOP("Keypad 7")},
+                 {tr("&Inferior"), "bottomViewAction", StandardView::bottom, QT_TR_NOOP("Shift+Keypad 7")}};
+    for (const auto &v : views)
+        addCommand(menu, v.text + "\t" + tr(v.hint), v.name, {}, [this, view = v.view] { m_projection->showStandardView(view); });
+    addCommand(menu, tr("R&eset views") + "\t" + tr("Keypad 0"), "resetViewsAction", {}, [this] {
+        m_projection->resetView();
+        for (MprView *view : m_mpr)
+            view->resetView();
+        if (m_document.volume())
+            m_document.setCrosshair(m_document.volume()->lattice().center());
+    });
+    menu->addSeparator();
+    m_layouts = new QActionGroup(this);
+    const auto layout = [&](const QString &text, const char *name, PaneLayout which) {
+        QAction *action = addCommand(menu, text, name, {}, [this, which] { m_panes->setPaneLayout(which); });
+        action->setCheckable(true);
+        action->setActionGroup(m_layouts);
+        return action;
+    };
+    layout(tr("1 + 3"), "onePlusThreeAction", PaneLayout::onePlusThree)->setChecked(true);
+    layout(tr("2 x 2"), "twoByTwoAction", PaneLayout::twoByTwo);
+    menu->addSeparator();
+    QAction *full = addCommand(menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"), [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
+    full->setCheckable(true);
+}
+
+void MainWindow::createLookMenu() {
+    QMenu *menu = menuBar()->addMenu(tr("&Look"));
+    QMenu *between = menu->addMenu(tr("&Reconstruction"));
+    m_reconstructions = new QActionGroup(this);
+    using render::Reconstruction;
+    const auto add = [&](const QString &text, const char *name, Reconstruction which) {
+        QAction *action = addCommand(between, text, name, {}, [this, which, text] {
+            render::Scene scene = m_document.scene();
+            if (scene.image.reconstruction == which)
+                return;
+            scene.image.reconstruction = which;
+            m_document.undoStack()->push(new EditScene(m_document, scene, tr("Reconstruction")));
+        });
+        action->setCheckable(true);
+        action->setActionGroup(m_reconstructions);
+        action->setData(int(which));
+    };
+    add(tr("&Cubic"), "cubicAction", Reconstruction::cubic);
+    add(tr("&Linear"), "linearAction", Reconstruction::linear);
+    add(tr("&Sharp (band-limited)"), "bandLimitedAction", Reconstruction::bandLimited);
+    m_film = addCommand(menu, tr("&Film (inverted)"), "filmAction", QKeySequence("I"), [this] {
+        render::Scene scene = m_document.scene();
+        scene.tone.inverted = !scene.tone.inverted;
+        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Film")));
+    });
+    m_film->setCheckable(true);
+    addCommand(menu, tr("&Automatic tone"), "automaticToneAction", {}, [this] {
+        render::Scene scene = m_document.scene();
+        scene.tone.low.reset();
+        scene.tone.high.reset();
+        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Automatic tone")));
+    });
+    m_windowMenu = menu->addMenu(tr("&Window of the planes"));
+    m_windowMenu->setObjectName("windowMenu");
+    const auto show = [this] {
+        for (QAction *action : m_reconstructions->actions())
+            action->setChecked(action->data().toInt() == int(m_document.scene().image.reconstruction));
+        m_film->setChecked(m_document.scene().tone.inverted);
+    };
+    connect(&m_document, &Document::sceneChanged, this, show);
+    connect(&m_document, &Document::volumeChanged, this, show);
+    show();
+}
+
+void MainWindow::createToolsMenu() {
+    QMenu *menu = menuBar()->addMenu(tr("&Tools"));
+    m_tools = new QActionGroup(this);
+    const struct {
+        QString text;
+        const char *name;
+        Tool tool;
+        const char *key;
+    } tools[] = {{tr("Window"), "windowToolAction", Tool::window, "W"},
+                 {tr("Pan"), "panToolAction", Tool::pan, "P"},
+                 {tr("Zoom"), "zoomToolAction", Tool::zoom, "Z"},
+                 {tr("Crosshair"), "crosshairToolAction", Tool::crosshair, "C"}};
+    for (const auto &t : tools) {
+        QAction *action = addCommand(menu, t.text, t.name, QKeySequence(t.key), [this, tool = t.tool] {
+            for (MprView *view : m_mpr)
+                view->setTool(tool);
+        });
+        action->setToolTip(tr("%1: what the left button does in the planes (%2)").arg(t.text, t.key));
+        action->setCheckable(true);
+        action->setActionGroup(m_tools);
+    }
+    m_tools->actions().first()->setChecked(true);
+}
+
+void MainWindow::createHelpMenu() {
+    QMenu *window = menuBar()->addMenu(tr("W&indow"));
+    window->addAction(findChild<QDockWidget *>("studyDock")->toggleViewAction());
+    QMenu *menu = menuBar()->addMenu(tr("&Help"));
+    addCommand(menu, tr("&Mouse and keys"), "keysAction", QKeySequence("F1"), [this] {
+        QMessageBox::information(this, tr("Mouse and keys"),
+                                 tr("<b>Planes</b><br>Left drag: the chosen tool (window, pan, zoom, crosshair)<br>Middle drag: pan<br>"
+                                    "Wheel: slices; Ctrl+wheel: zoom<br>Shift+move: crosshair in all planes<br>"
+                                    "Arrows: slices, with Shift ten; Home, End: first, last<br>Double-click: fill the window; R: reset<br>"
+                                    "0 to 5: window presets<br><br><b>Projection</b><br>Left drag or arrows: turn; middle drag: pan; wheel: zoom<br>"
+                                    "Right drag: window<br>Keypad 1, 3, 7: anterior, left, superior; with Shift the opposite; 0 or R: reset<br><br>"
+                                    "Esc: cancel what runs; F11: full screen; F12: save the picture"));
+    });
+    addCommand(menu, tr("&About Pellucid"), "aboutAction", {}, [this] { showAbout(); });
+}
+
+void MainWindow::createToolBar() {
+    QToolBar *bar = addToolBar(tr("Tools"));
+    bar->setObjectName("toolBar");
+    bar->setMovable(false);
+    bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    bar->addAction(findChild<QAction *>("openFilesAction"));
+    bar->addSeparator();
+    bar->addActions(m_tools->actions());
+    bar->addSeparator();
+    bar->addActions(m_layouts->actions());
+    bar->addSeparator();
+    bar->addAction(findChild<QAction *>("savePictureAction"));
+    auto *space = new QWidget;
+    space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    bar->addWidget(space);
+    m_windowBox = new QComboBox;
+    m_windowBox->setObjectName("windowBox");
+    m_windowBox->setAccessibleName(tr("Window of the planes"));
+    m_windowBox->setToolTip(tr("Window of the planes: width / center (keys 0 to 5)"));
+    m_windowBox->setMinimumWidth(230);
+    bar->addWidget(m_windowBox);
+    connect(m_windowBox, &QComboBox::activated, this, [this](int index) {
+        const auto actions = m_windowMenu->actions();
+        if (index >= 0 && index < actions.size())
+            actions[index]->trigger();
+    });
+    connect(&m_document, &Document::displayWindowChanged, this, &MainWindow::showWindowPresets);
+}
+
+void MainWindow::createStatusBar() {
+    m_readout = new QLabel;
+    m_readout->setObjectName("cursorReadout");
+    m_readout->setMinimumWidth(280);
+    m_progress = new QProgressBar;
+    m_progress->setObjectName("jobProgress");
+    m_progress->setTextVisible(false);
+    m_progress->setRange(0, 1000);
+    m_progress->setFixedWidth(220);
+    m_jobTitle = new QLabel;
+    m_jobTitle->setObjectName("jobTitle");
+    m_cancel = new QPushButton(tr("Cancel"));
+    m_cancel->setObjectName("cancelButton");
+    m_cancel->setProperty("role", "link");
+    m_cancel->setToolTip(tr("Stop what runs (Esc)"));
+    m_engine = new QLabel;
+    m_engine->setObjectName("engineLabel");
+    statusBar()->setSizeGripEnabled(false);
+    statusBar()->addWidget(m_readout);
+    statusBar()->addWidget(m_progress);
+    statusBar()->addWidget(m_jobTitle);
+    statusBar()->addWidget(m_cancel);
+    statusBar()->addPermanentWidget(m_engine);
+    const auto idle = [this] {
+        m_progress->hide();
+        m_cancel->hide();
+        m_jobTitle->clear();
+        m_start->setEnabled(true);
+    };
+    idle();
+    connect(m_cancel, &QPushButton::clicked, &m_jobs, &JobRunner::cancel);
+    connect(&m_jobs, &JobRunner::started, this, [this](const QString &title) {
+        if (!m_progress->isVisible())
+            m_progress->setValue(0);
+        m_progress->show();
+        m_cancel->show();
+        m_jobTitle->setText(title);
+    });
+    connect(&m_jobs, &JobRunner::progressed, this, [this](double fraction) { m_progress->setValue(int(1000 * fraction)); });
+    connect(&m_jobs, &JobRunner::finished, this, idle);
+    connect(&m_jobs, &JobRunner::failed, this, &MainWindow::report);
+    connect(m_projection, &ProjectionView::engineDescribed, m_engine, &QLabel::setText);
+    for (MprView *view : m_mpr)
+        connect(view, &MprView::readoutChanged, m_readout, &QLabel::setText);
+    m_engine->setText(m_projection->canvasDescription());
+}
+
+void MainWindow::showVolumeState() {
+    m_stack->setCurrentWidget(m_document.volume() || m_document.currentSource() >= 0 ? static_cast<QWidget *>(m_panes) : m_start);
+    showWindowPresets();
+}
+
+void MainWindow::showWindowPresets() {
+    m_windowMenu->clear();
+    const auto &volume = m_document.volume();
+    m_windowBox->setEnabled(volume.has_value());
+    const auto label = [](const volume::ValueWindow &w) {
+        return QString("%1  %2 / %3").arg(QString::fromStdString(w.name.empty() ? "Custom" : w.name)).arg(w.width, 0, 'g', 5).arg(w.center, 0, 'g', 5);
+    };
+    const QSignalBlocker quiet(m_windowBox);
+    m_windowBox->clear();
+    if (!volume)
+        return;
+    const auto add = [&](const volume::ValueWindow &window, const QKeySequence &key) {
+        QAction *action = m_windowMenu->addAction(label(window));
+        action->setShortcut(key);
+        connect(action, &QAction::triggered, this, [this, window] { applyWindow(window); });
+        m_windowBox->addItem(label(window));
+    };
+    add(initialWindow(*volume), QKeySequence("0"));
+    for (const WindowPreset &preset : windowPresets(*volume))
+        add(preset.window, QKeySequence(QString::number(preset.key)));
+    for (std::size_t n = 1; n < volume->notes().windows.size(); ++n)
+        add(volume->notes().windows[n], {});
+    const int shown = m_windowBox->findText(label(m_document.displayWindow()));
+    if (shown < 0)
+        m_windowBox->addItem(label(m_document.displayWindow()));
+    m_windowBox->setCurrentIndex(shown < 0 ? m_windowBox->count() - 1 : shown);
+}
+
+void MainWindow::applyWindow(const volume::ValueWindow &window) {
+    if (m_document.volume() && !(m_document.displayWindow() == window))
+        m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
+}
+
+void MainWindow::openPaths(const QStringList &paths) {
+    remember(paths);
+    m_opener.openPaths(paths);
+}
+
+void MainWindow::openPhantom(const QString &kind) { m_opener.openPhantom(kind); }
+
+void MainWindow::remember(const QStringList &paths) {
+    QSettings settings;
+    QStringList recent = settings.value(recentKey).toStringList();
+    for (const QString &path : paths) {
+        recent.removeAll(path);
+        recent.prepend(path);
+    }
+    recent = recent.mid(0, recentCount);
+    settings.setValue(recentKey, recent);
+    m_start->setRecentPaths(recent);
+}
+
+void MainWindow::report(const QString &what, const QString &path) {
+    m_document.addProblems({{path.toStdString(), what.toStdString()}});
+    // The window stays usable: what was open stays, or the start page is there again.
+    if (!m_document.volume()) {
+        m_document.setCurrentSource(-1);
+        m_projection->setMessage(what);
+    }
+    statusBar()->showMessage(what, 8000);
+}
+
+void MainWindow::chooseFiles() {
+    openPaths(QFileDialog::getOpenFileNames(this, tr("Open files")));
+}
+
+void MainWindow::chooseFolder() {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Open folder"));
+    if (!folder.isEmpty())
+        openPaths({folder});
+}
+
+void MainWindow::savePicture() {
+    const QImage picture = m_projection->picture();
+    if (picture.isNull()) {
+        statusBar()->showMessage(tr("There is no projection to save yet"), 4000);
+        return;
+    }
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save picture"), "projection.png", tr("PNG image (*.png)"));
+    if (path.isEmpty())
+        return;
+    QSaveFile file(path);
+    if (!file.open(QIODevice::WriteOnly) || !picture.save(&file, "PNG") || !file.commit())
+        report(tr("cannot be written: %1").arg(file.errorString()), path);
+}
+
+void MainWindow::saveScene() {
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
+    if (path.isEmpty())
+        return;
+    QSaveFile file(path);
+    const QByteArray text = QByteArray::fromStdString(render::toJson(m_document.scene()));
+    if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
+        report(tr("cannot be written: %1").arg(file.errorString()), path);
+}
+
+void MainWindow::openScene() {
+    const QString path = QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scene (*.json)"));
+    if (path.isEmpty())
+        return;
+    QFile file(path);
+    if (!file.open(QIODevice::ReadOnly)) {
+        report(file.errorString(), path);
+        return;
+    }
+    try {
+        const render::Scene scene = render::sceneFromJson(file.readAll().toStdString());
+        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Open scene")));
+        render::Camera camera = m_document.scene().camera;
+        camera.orientation = scene.camera.orientation;
+        camera.panMm = scene.camera.panMm;
+        m_document.setCamera(camera);
+        m_document.setScene(m_document.scene());
+    } catch (const task::Error &error) {
+        report(QString::fromStdString(error.reason()), path);
+    }
+}
+
+void MainWindow::showAbout() {
+    QMessageBox::about(this, tr("About Pellucid"),
+                       tr("<b>Pellucid %1</b><br>Projections of DICOM studies in the frequency domain.<br><br>"
+                          "<b>Not for diagnostic use.</b><br><br>GPL-3.0-or-later. Built on Qt %2, DCMTK, OpenJPEG, FFTW, GLM, oneTBB, libepoxy.")
+                           .arg(QCoreApplication::applicationVersion(), qVersion()));
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent *event) {
+    if (event->mimeData()->hasUrls())
+        event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent *event) {
+    QStringList paths;
+    for (const QUrl &url : event->mimeData()->urls())
+        if (url.isLocalFile())
+            paths << url.toLocalFile();
+    event->acceptProposedAction();
+    if (!paths.isEmpty())
+        openPaths(paths);
+}
+
+void MainWindow::keyPressEvent(QKeyEvent *event) {
+    if (event->key() == Qt::Key_Escape && m_jobs.isRunning())
+        m_jobs.cancel();
+    else
+        QMainWindow::keyPressEvent(event);
+}
+
+void MainWindow::closeEvent(QCloseEvent *event) {
+    QSettings settings;
+    settings.setValue("geometry", saveGeometry());
+    settings.setValue("windowState", saveState());
+    m_jobs.cancel();
+    QMainWindow::closeEvent(event);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include <QMainWindow>
+
+#include "ui/document.h"
+#include "ui/job_runner.h"
+#include "ui/study_opener.h"
+#include "ui/theme.h"
+#include "ui/tools.h"
+
+class QActionGroup;
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QStackedWidget;
+
+namespace pellucid::ui {
+
+class MprView;
+class PaneArea;
+class ProjectionView;
+class SeriesPanel;
+class StartPage;
+
+/// The workstation's window: creates the panes and docks, names the menus, connects intents.
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+public:
+    explicit MainWindow(const Theme &theme, QWidget *parent = nullptr);
+
+    void openPaths(const QStringList &paths);
+    void openPhantom(const QString &kind);
+
+    Document &document() { return m_document; }
+    JobRunner &jobs() { return m_jobs; }
+
+protected:
+    void dragEnterEvent(QDragEnterEvent *event) override;
+    void dropEvent(QDropEvent *event) override;
+    void closeEvent(QCloseEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+
+private:
+    void createPanes();
+    void createStudyDock();
+    void createFileMenu();
+    void createEditMenu();
+    void createViewMenu();
+    void createLookMenu();
+    void createToolsMenu();
+    void createHelpMenu();
+    void createToolBar();
+    void createStatusBar();
+    void showVolumeState();
+    void showWindowPresets();
+    void applyWindow(const volume::ValueWindow &window);
+    void chooseFiles();
+    void chooseFolder();
+    void savePicture();
+    void saveScene();
+    void openScene();
+    void showAbout();
+    void remember(const QStringList &paths);
+    void report(const QString &what, const QString &path);
+    QAction *addCommand(QMenu *menu, const QString &text, const char *name, const QKeySequence &key, const std::function<void()> &run);
+
+    Theme m_theme;
+    Document m_document;
+    JobRunner m_jobs;
+    StudyOpener m_opener;
+    std::array<MprView *, 3> m_mpr{};
+    ProjectionView *m_projection = nullptr;
+    PaneArea *m_panes = nullptr;
+    StartPage *m_start = nullptr;
+    QStackedWidget *m_stack = nullptr;
+    QActionGroup *m_tools = nullptr, *m_reconstructions = nullptr, *m_layouts = nullptr;
+    QAction *m_film = nullptr;
+    QMenu *m_windowMenu = nullptr;
+    QComboBox *m_windowBox = nullptr;
+    QLabel *m_readout = nullptr, *m_jobTitle = nullptr, *m_engine = nullptr;
+    QProgressBar *m_progress = nullptr;
+    QPushButton *m_cancel = nullptr;
+};
+
+} // namespace pellucid::ui

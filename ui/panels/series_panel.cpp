@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/series_panel.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QListWidget>
+#include <QTreeWidget>
+#include <QTreeWidgetItemIterator>
+#include <QVBoxLayout>
+
+#include "ui/document.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr int sourceRole = Qt::UserRole;
+
+QTreeWidgetItem *childNamed(QTreeWidget *tree, QTreeWidgetItem *parent, const QString &name) {
+    const int count = parent != nullptr ? parent->childCount() : tree->topLevelItemCount();
+    for (int n = 0; n < count; ++n) {
+        QTreeWidgetItem *item = parent != nullptr ? parent->child(n) : tree->topLevelItem(n);
+        if (item->text(0) == name && !item->data(0, sourceRole).isValid())
+            return item;
+    }
+    auto *item = parent != nullptr ? new QTreeWidgetItem(parent, {name}) : new QTreeWidgetItem(tree, {name});
+    item->setExpanded(true);
+    return item;
+}
+
+} // namespace
+
+SeriesPanel::SeriesPanel(Document &document, const Theme &theme, QWidget *parent)
+    : QWidget(parent), m_document(document), m_theme(theme), m_tree(new QTreeWidget), m_problemHeading(new QLabel), m_problems(new QListWidget) {
+    setObjectName("seriesPanel");
+    m_tree->setObjectName("seriesTree");
+    m_tree->setAccessibleName(tr("Studies"));
+    m_tree->setToolTip(tr("Click a series to open it"));
+    m_tree->setHeaderHidden(true);
+    m_tree->setIndentation(12);
+    m_tree->setWordWrap(true);
+    m_tree->setUniformRowHeights(false);
+    m_tree->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_tree->header()->setSectionResizeMode(QHeaderView::Stretch);
+    m_problems->setObjectName("problemList");
+    m_problems->setAccessibleName(tr("Problems"));
+    m_problems->setToolTip(tr("Files that are not used, and why"));
+    m_problems->setWordWrap(true);
+    m_problems->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_problems->setMaximumHeight(170);
+    m_problemHeading->setProperty("role", "heading");
+    m_problemHeading->setObjectName("problemHeading");
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(14, 4, 10, 12);
+    layout->setSpacing(4);
+    layout->addWidget(m_tree, 1);
+    layout->addWidget(m_problemHeading);
+    layout->addWidget(m_problems);
+    connect(&document, &Document::sourcesChanged, this, &SeriesPanel::showSources);
+    connect(&document, &Document::currentSourceChanged, this, &SeriesPanel::showCurrent);
+    connect(&document, &Document::problemsChanged, this, &SeriesPanel::showProblems);
+    const auto activate = [this](QTreeWidgetItem *item) {
+        if (item->data(0, sourceRole).isValid())
+            emit sourceActivated(item->data(0, sourceRole).toInt());
+    };
+    connect(m_tree, &QTreeWidget::itemClicked, this, activate);
+    connect(m_tree, &QTreeWidget::itemActivated, this, activate);
+    showProblems();
+}
+
+void SeriesPanel::showSources() {
+    m_tree->clear();
+    const auto &sources = m_document.sources();
+    for (std::size_t n = 0; n < sources.size(); ++n) {
+        const StudySource &source = sources[n];
+        QTreeWidgetItem *patient = childNamed(m_tree, nullptr, source.patient);
+        QFont bold = font();
+        bold.setBold(true);
+        patient->setFont(0, bold);
+        QTreeWidgetItem *study = childNamed(m_tree, patient, source.study.isEmpty() ? tr("Study") : source.study);
+        study->setForeground(0, m_theme.color("muted"));
+        QString text = source.series + "\n" + source.detail;
+        auto *item = new QTreeWidgetItem(study, {text});
+        item->setData(0, sourceRole, int(n));
+        item->setToolTip(0, (QStringList{source.series} + source.warnings).join("\n"));
+        if (!source.warnings.isEmpty()) {
+            auto *warning = new QTreeWidgetItem(item, {source.warnings.join("\n")});
+            warning->setForeground(0, m_theme.color("warning"));
+            warning->setToolTip(0, source.warnings.join("\n"));
+            warning->setFlags(Qt::ItemIsEnabled);
+            item->setExpanded(true);
+        }
+    }
+    m_tree->expandAll();
+    showCurrent();
+}
+
+void SeriesPanel::showCurrent() {
+    for (QTreeWidgetItemIterator it(m_tree); *it != nullptr; ++it) {
+        const QVariant source = (*it)->data(0, sourceRole);
+        if (source.isValid() && source.toInt() == m_document.currentSource()) {
+            m_tree->setCurrentItem(*it);
+            return;
+        }
+    }
+    m_tree->setCurrentItem(nullptr);
+}
+
+void SeriesPanel::showProblems() {
+    m_problems->clear();
+    const auto &problems = m_document.problems();
+    for (const dicom::Skipped &problem : problems) {
+        const QString name = QString::fromStdString(problem.path.filename().string());
+        const QString reason = QString::fromStdString(problem.reason);
+        auto *item = new QListWidgetItem(name.isEmpty() ? reason : name + ": " + reason, m_problems);
+        item->setToolTip(QString::fromStdString(problem.path.string()));
+    }
+    m_problemHeading->setText(tr("PROBLEMS (%1)").arg(problems.size()));
+    m_problemHeading->setVisible(!problems.empty());
+    m_problems->setVisible(!problems.empty());
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/start_page.h"
+
+#include <QDir>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace pellucid::ui {
+
+namespace {
+
+QPushButton *button(const QString &text, const char *name, const QString &tip) {
+    auto *b = new QPushButton(text);
+    b->setObjectName(name);
+    b->setToolTip(tip);
+    b->setMinimumWidth(260);
+    return b;
+}
+
+} // namespace
+
+StartPage::StartPage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxLayout) {
+    setObjectName("startPage");
+    setAttribute(Qt::WA_StyledBackground);
+    auto *title = new QLabel(tr("Open a study"));
+    title->setProperty("role", "title");
+    auto *hint = new QLabel(tr("Drop DICOM files, folders, a DICOMDIR or an NRRD volume anywhere in this window."));
+    hint->setProperty("role", "muted");
+    auto *files = button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or NRRD files (Ctrl+O)"));
+    auto *folder = button(tr("Open folder..."), "openFolderButton", tr("Choose a folder; everything below it is looked at (Ctrl+Shift+O)"));
+    auto *phantomTitle = new QLabel(tr("TRY A PHANTOM"));
+    phantomTitle->setProperty("role", "heading");
+    auto *head = button(tr("Head phantom"), "headPhantomButton", tr("A built-in head: skull, brain, sinuses, teeth"));
+    auto *chest = button(tr("Chest phantom"), "chestPhantomButton", tr("A built-in chest: ribs, lungs, heart, spine"));
+    auto *layout = new QVBoxLayout(this);
+    layout->addStretch(2);
+    for (QWidget *w : {static_cast<QWidget *>(title), static_cast<QWidget *>(hint), static_cast<QWidget *>(files), static_cast<QWidget *>(folder),
+                       static_cast<QWidget *>(phantomTitle), static_cast<QWidget *>(head), static_cast<QWidget *>(chest)})
+        layout->addWidget(w, 0, Qt::AlignHCenter);
+    layout->addSpacing(12);
+    layout->addLayout(m_recent);
+    layout->addStretch(3);
+    connect(files, &QPushButton::clicked, this, &StartPage::openFilesRequested);
+    connect(folder, &QPushButton::clicked, this, &StartPage::openFolderRequested);
+    connect(head, &QPushButton::clicked, this, [this] { emit phantomRequested("head"); });
+    connect(chest, &QPushButton::clicked, this, [this] { emit phantomRequested("chest"); });
+}
+
+void StartPage::setRecentPaths(const QStringList &paths) {
+    while (QLayoutItem *item = m_recent->takeAt(0)) {
+        delete item->widget();
+        delete item;
+    }
+    if (paths.isEmpty())
+        return;
+    auto *heading = new QLabel(tr("RECENT"));
+    heading->setProperty("role", "heading");
+    m_recent->addWidget(heading, 0, Qt::AlignHCenter);
+    for (const QString &path : paths) {
+        auto *link = new QPushButton(QDir::toNativeSeparators(path));
+        link->setProperty("role", "link");
+        link->setToolTip(tr("Open %1").arg(path));
+        m_recent->addWidget(link, 0, Qt::AlignHCenter);
+        connect(link, &QPushButton::clicked, this, [this, path] { emit pathRequested(path); });
+    }
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include <QObject>
+#include <QStringList>
+
+#include "core/render/cpu_engine.h"
+
+namespace pellucid::ui {
+
+class Document;
+class JobRunner;
+
+/// The way from a path to a turning picture, as jobs: scan, choose, load with previews, prepare a
+/// coarse projection, then the fine one.
+class StudyOpener : public QObject {
+    Q_OBJECT
+public:
+    StudyOpener(Document &document, JobRunner &jobs, QObject *parent = nullptr);
+
+    void openPaths(const QStringList &paths);
+    void openPhantom(const QString &kind);
+    void openSource(int index);
+
+signals:
+    /// An engine for the document's volume is ready; a finer one may follow.
+    void engineReady(std::shared_ptr<pellucid::render::ProjectionEngine> engine, double predictedError, bool coarse);
+    /// The open volume cannot be projected.
+    void notProjectable(const QString &reason);
+
+private:
+    Document &m_document;
+    JobRunner &m_jobs;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QColor>
+#include <QHash>
+#include <QString>
+
+class QApplication;
+
+namespace pellucid::ui {
+
+/// The colors of a theme by role, as resources/styles/colors.json names them.
+class Theme {
+public:
+    /// Reads a theme of the file: "dark" or "light".
+    static Theme named(const QString &name);
+
+    /// *Throws* Error{internal} for a role that the file does not have.
+    QColor color(const QString &role) const;
+    /// Sets palette, font and style sheet of the whole program.
+    void apply(QApplication &application) const;
+
+private:
+    QHash<QString, QColor> m_colors;
+};
+
+/// Black behind every medical picture, whatever the theme.
+inline constexpr QRgb pictureBackground = qRgb(0, 0, 0);
+
+} // namespace pellucid::ui

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gpu/capabilities.h"
+#include "gpu/tone_pass.h"
+
+#include "ui/views/projection_canvas.h"
+
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <QOpenGLWidget>
+#include <QPainter>
+
+#include "ui/theme.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+class GlCanvas final : public QOpenGLWidget, public ProjectionCanvas {
+public:
+    GlCanvas(QWidget *parent, QString description) : QOpenGLWidget(parent), m_description(std::move(description)) {
+        setObjectName("projectionCanvas");
+    }
+    ~GlCanvas() override { release(); }
+
+    QWidget *widget() override { return this; }
+    void setImage(const render::ProjectionImage &image) override {
+        m_image = image;
+        m_fresh = true;
+        update();
+    }
+    void setTone(const render::ToneRange &range, bool inverted) override {
+        m_range = range;
+        m_inverted = inverted;
+        update();
+    }
+    QString description() const override { return m_description; }
+
+protected:
+    void initializeGL() override {
+        // The context goes away when the widget moves to another window; what is on it goes with it.
+        connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { release(); });
+        m_pass = std::make_unique<gpu::TonePass>();
+        m_fresh = true;
+    }
+    void paintGL() override {
+        QOpenGLFunctions *gl = context()->functions();
+        gl->glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+        gl->glClear(GL_COLOR_BUFFER_BIT);
+        if (!m_pass || m_image.samples.empty())
+            return;
+        if (m_fresh)
+            m_pass->upload(m_image);
+        m_fresh = false;
+        m_pass->draw(m_range, m_inverted);
+    }
+
+private:
+    void release() {
+        if (!m_pass)
+            return;
+        makeCurrent();
+        m_pass.reset();
+        doneCurrent();
+    }
+
+    QString m_description;
+    std::unique_ptr<gpu::TonePass> m_pass;
+    render::ProjectionImage m_image;
+    render::ToneRange m_range;
+    bool m_inverted = false, m_fresh = false;
+};
+
+class RasterCanvas final : public QWidget, public ProjectionCanvas {
+public:
+    RasterCanvas(QWidget *parent, QString description) : QWidget(parent), m_description(std::move(description)) {
+        setObjectName("projectionCanvas");
+    }
+
+    QWidget *widget() override { return this; }
+    void setImage(const render::ProjectionImage &image) override {
+        m_image = image;
+        compose();
+    }
+    void setTone(const render::ToneRange &range, bool inverted) override {
+        m_tone = {range.low, range.high, inverted};
+        compose();
+    }
+    QString description() const override { return m_description; }
+
+protected:
+    void paintEvent(QPaintEvent *) override {
+        QPainter painter(this);
+        painter.fillRect(rect(), QColor(pictureBackground));
+        if (m_picture.isNull())
+            return;
+        painter.setRenderHint(QPainter::SmoothPixmapTransform);
+        painter.drawImage(rect(), m_picture);
+    }
+
+private:
+    void compose() {
+        if (!m_image.samples.empty()) {
+            const auto rgba = render::compose(m_image, m_tone);
+            m_picture = QImage(rgba.data(), m_image.width, m_image.height, QImage::Format_RGBA8888).copy();
+        } else {
+            m_picture = {};
+        }
+        update();
+    }
+
+    QString m_description;
+    render::ProjectionImage m_image;
+    render::Tone m_tone;
+    QImage m_picture;
+};
+
+} // namespace
+
+std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent) {
+    const auto tr = [](const char *text) { return QObject::tr(text); };
+    QOffscreenSurface surface;
+    surface.create();
+    QOpenGLContext context;
+    if (!surface.isValid() || !context.create() || !context.makeCurrent(&surface))
+        return std::make_unique<RasterCanvas>(parent, tr("no OpenGL here"));
+    const gpu::Capabilities capabilities = gpu::currentCapabilities();
+    context.doneCurrent();
+    // Qt may silently give a lower version than asked for.
+    if (!capabilities.canShowImages())
+        return std::make_unique<RasterCanvas>(
+            parent, tr("OpenGL here is %1.%2; 3.3 is needed").arg(capabilities.version / 10).arg(capabilities.version % 10));
+    return std::make_unique<GlCanvas>(parent, capabilities.software ? tr("OpenGL here is a software renderer")
+                                                                    : QString::fromStdString(capabilities.renderer));
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include <QWidget>
+
+#include "core/render/compose.h"
+
+namespace pellucid::ui {
+
+/// The surface that shows a projection stretched over its area.
+class ProjectionCanvas {
+public:
+    virtual ~ProjectionCanvas() = default;
+    virtual QWidget *widget() = 0;
+    /// An empty image shows black.
+    virtual void setImage(const render::ProjectionImage &image) = 0;
+    virtual void setTone(const render::ToneRange &range, bool inverted) = 0;
+    /// How the picture gets to the screen, for the status bar.
+    virtual QString description() const = 0;
+};
+
+/// A canvas on OpenGL 3.3 or newer with the GLSL tone pass, or, where there is none, on the processor.
+std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent);
+
+} // namespace pellucid::ui

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <QTimer>
+#include <QWidget>
+
+#include "ui/commands.h"
+#include "ui/render_worker.h"
+#include "ui/theme.h"
+#include "ui/views/projection_canvas.h"
+
+namespace pellucid::ui {
+
+class Document;
+
+/// The Fourier projection of the open volume: orbit, pan, zoom, window and level. Draws a draft while
+/// the mouse moves if a full frame would lag, and the full frame when it rests.
+class ProjectionView : public QWidget {
+    Q_OBJECT
+public:
+    ProjectionView(Document &document, const Theme &theme, QWidget *parent = nullptr);
+    ~ProjectionView() override;
+
+    void setEngine(const std::shared_ptr<render::ProjectionEngine> &engine, double predictedError, bool coarse);
+    void setMessage(const QString &message);
+    void showStandardView(render::StandardView view);
+    void resetView();
+    /// The picture as it is seen, without annotations.
+    QImage picture() const;
+    bool showsFinalImage() const { return m_frame && !m_frame->draft && !m_coarse && !m_pending; }
+    QString canvasDescription() const { return m_canvas->description(); }
+
+signals:
+    void maximizeRequested(QWidget *pane);
+    /// Engine and reason for the status bar.
+    void engineDescribed(const QString &text);
+    void finalImageShown();
+
+protected:
+    void resizeEvent(QResizeEvent *event) override;
+    void mousePressEvent(QMouseEvent *event) override;
+    void mouseMoveEvent(QMouseEvent *event) override;
+    void mouseReleaseEvent(QMouseEvent *event) override;
+    void mouseDoubleClickEvent(QMouseEvent *event) override;
+    void wheelEvent(QWheelEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+    bool event(QEvent *event) override;
+
+private:
+    class Overlay;
+    void fitCamera();
+    void requestFrame(bool moving);
+    void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
+    void updateTone();
+    void orbit(const QPoint &delta);
+    void pan(const QPoint &delta);
+    void windowBy(const QPoint &delta);
+    void zoomBy(double factor);
+    double fittingPixelMm() const;
+    void paintOverlay(QPainter &painter);
+
+    Document &m_document;
+    Theme m_theme;
+    std::unique_ptr<ProjectionCanvas> m_canvas;
+    Overlay *m_overlay;
+    RenderWorker m_worker;
+    QTimer m_rest;
+    std::shared_ptr<render::ProjectionEngine> m_engine;
+    std::shared_ptr<const RenderedFrame> m_frame;
+    std::optional<render::ToneRange> m_automaticTone;
+    QString m_message;
+    double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
+    bool m_coarse = false, m_pending = false;
+    Qt::MouseButton m_button = Qt::NoButton;
+    DragId m_drag = 0;
+    QPoint m_last;
+};
+
+} // namespace pellucid::ui
