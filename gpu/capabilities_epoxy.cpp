@@ -10,7 +10,8 @@ Capabilities currentCapabilities() {
     c.version = epoxy_gl_version();
     if (const auto *name = reinterpret_cast<const char *>(glGetString(GL_RENDERER)))
         c.renderer = name;
-    for (const char *software : {"llvmpipe", "softpipe", "SwiftShader", "WARP", "GDI Generic", "Microsoft Basic Render"})
+    for (const char *software :
+         {"llvmpipe", "softpipe", "SwiftShader", "WARP", "GDI Generic", "Microsoft Basic Render"})
         c.software = c.software || c.renderer.find(software) != std::string::npos;
     return c;
 }

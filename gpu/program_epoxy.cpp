@@ -89,7 +89,8 @@ Program::Program(const std::string &vertexFile, const std::string &fragmentFile)
         glGetProgramInfoLog(m_id, int(log.size()), &length, log.data());
         log.resize(std::size_t(length));
         glDeleteProgram(m_id);
-        throw task::Error(task::ErrorCode::internal, vertexFile + " with " + fragmentFile + ": " + log);
+        throw task::Error(task::ErrorCode::internal,
+                          vertexFile + " with " + fragmentFile + ": " + log);
     }
 }
 
@@ -105,6 +106,8 @@ Program &Program::operator=(Program &&other) noexcept {
     return *this;
 }
 
-int Program::uniform(const char *name) const { return glGetUniformLocation(m_id, name); }
+int Program::uniform(const char *name) const {
+    return glGetUniformLocation(m_id, name);
+}
 
 } // namespace pellucid::gpu

@@ -3,8 +3,8 @@
 
 namespace pellucid::gpu {
 
-/// A 2D texture of one float channel (R32F), filtered linearly, clamped at its edges. Belongs to the
-/// context that is current when it is made; move-only.
+/// A 2D texture of one float channel (R32F), filtered linearly, clamped at its edges. Belongs to
+/// the context that is current when it is made; move-only.
 class FloatTexture {
 public:
     FloatTexture();

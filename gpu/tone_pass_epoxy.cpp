@@ -6,12 +6,15 @@
 namespace pellucid::gpu {
 
 TonePass::TonePass()
-    : m_program("tone.vert", "tone.frag"), m_range(m_program.uniform("range")), m_inverted(m_program.uniform("inverted")) {
+    : m_program("tone.vert", "tone.frag"), m_range(m_program.uniform("range")),
+      m_inverted(m_program.uniform("inverted")) {
     // Core profiles draw nothing without a vertex array, even where no attribute is read.
     glGenVertexArrays(1, &m_vertexArray);
 }
 
-TonePass::~TonePass() { glDeleteVertexArrays(1, &m_vertexArray); }
+TonePass::~TonePass() {
+    glDeleteVertexArrays(1, &m_vertexArray);
+}
 
 void TonePass::upload(const render::ProjectionImage &image) {
     m_texture.upload(image.width, image.height, image.samples.data());

@@ -7,16 +7,22 @@
 
 namespace pellucid::ui {
 
-EditScene::EditScene(Document &document, const render::Scene &after, const QString &text, DragId drag)
-    : QUndoCommand(text), m_document(document), m_before(document.scene()), m_after(after), m_drag(drag) {}
+EditScene::EditScene(Document &document, const render::Scene &after, const QString &text,
+                     DragId drag)
+    : QUndoCommand(text), m_document(document), m_before(document.scene()), m_after(after),
+      m_drag(drag) {}
 
 void EditScene::apply(render::Scene scene) {
     scene.camera = m_document.scene().camera;
     m_document.setScene(scene);
 }
 
-void EditScene::undo() { apply(m_before); }
-void EditScene::redo() { apply(m_after); }
+void EditScene::undo() {
+    apply(m_before);
+}
+void EditScene::redo() {
+    apply(m_after);
+}
 
 bool EditScene::mergeWith(const QUndoCommand *other) {
     const auto *next = static_cast<const EditScene *>(other);
@@ -26,12 +32,17 @@ bool EditScene::mergeWith(const QUndoCommand *other) {
     return true;
 }
 
-EditDisplayWindow::EditDisplayWindow(Document &document, const volume::ValueWindow &after, DragId drag)
+EditDisplayWindow::EditDisplayWindow(Document &document, const volume::ValueWindow &after,
+                                     DragId drag)
     : QUndoCommand(QCoreApplication::translate("Commands", "Window")), m_document(document),
       m_before(document.displayWindow()), m_after(after), m_drag(drag) {}
 
-void EditDisplayWindow::undo() { m_document.setDisplayWindow(m_before); }
-void EditDisplayWindow::redo() { m_document.setDisplayWindow(m_after); }
+void EditDisplayWindow::undo() {
+    m_document.setDisplayWindow(m_before);
+}
+void EditDisplayWindow::redo() {
+    m_document.setDisplayWindow(m_after);
+}
 
 bool EditDisplayWindow::mergeWith(const QUndoCommand *other) {
     const auto *next = static_cast<const EditDisplayWindow *>(other);

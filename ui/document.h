@@ -14,9 +14,9 @@
 
 namespace pellucid::ui {
 
-/// What is open and what is asked to be seen: the studies, the volume, the Scene, the display window,
-/// the crosshair, and the undo stack. Views and panels read it, listen to it, and change it by
-/// commands; looking (camera, crosshair) changes it directly and is not undoable.
+/// What is open and what is asked to be seen: the studies, the volume, the Scene, the display
+/// window, the crosshair, and the undo stack. Views and panels read it, listen to it, and change it
+/// by commands; looking (camera, crosshair) changes it directly and is not undoable.
 class Document : public QObject {
     Q_OBJECT
 public:

@@ -6,7 +6,9 @@
 
 namespace pellucid::ui {
 
-void Job::deliver(std::function<void()> onUiThread) const { m_runner->post(m_generation, std::move(onUiThread)); }
+void Job::deliver(std::function<void()> onUiThread) const {
+    m_runner->post(m_generation, std::move(onUiThread));
+}
 
 void Job::stage(const QString &title) const {
     deliver([runner = m_runner, title] { emit runner->started(title); });
@@ -43,40 +45,42 @@ void JobRunner::start(const QString &title, Work work) {
     m_running = true;
     emit started(title);
     auto over = std::make_shared<std::atomic<bool>>(false);
-    m_threads.push_back({over, std::jthread([this, generation, over, work = std::move(work)](std::stop_token stop) {
-        Job job;
-        job.m_runner = this;
-        job.m_generation = generation;
-        // A report per file would flood the queue; thirty a second look smooth.
-        auto last = std::make_shared<std::atomic<std::chrono::steady_clock::rep>>(0);
-        job.m_progress = task::Progress(stop, [this, generation, last](double fraction) {
-            const auto now = std::chrono::steady_clock::now().time_since_epoch();
-            auto before = last->load();
-            if (now - std::chrono::steady_clock::duration(before) < std::chrono::milliseconds(33) ||
-                !last->compare_exchange_strong(before, now.count()))
-                return;
-            post(generation, [this, fraction] { emit progressed(fraction); });
-        });
-        QString what, path;
-        try {
-            work(job);
-        } catch (const task::Cancelled &) {
-        } catch (const task::Error &error) {
-            what = QString::fromStdString(error.reason());
-            path = QString::fromStdString(error.path().string());
-        } catch (const std::bad_alloc &) {
-            what = tr("not enough memory");
-        } catch (const std::exception &error) {
-            what = QString::fromUtf8(error.what());
-        }
-        post(generation, [this, what, path] {
-            m_running = false;
-            if (!what.isEmpty())
-                emit failed(what, path);
-            emit finished();
-        });
-        over->store(true);
-    })});
+    m_threads.push_back(
+        {over, std::jthread([this, generation, over, work = std::move(work)](std::stop_token stop) {
+             Job job;
+             job.m_runner = this;
+             job.m_generation = generation;
+             // A report per file would flood the queue; thirty a second look smooth.
+             auto last = std::make_shared<std::atomic<std::chrono::steady_clock::rep>>(0);
+             job.m_progress = task::Progress(stop, [this, generation, last](double fraction) {
+                 const auto now = std::chrono::steady_clock::now().time_since_epoch();
+                 auto before = last->load();
+                 if (now - std::chrono::steady_clock::duration(before) <
+                         std::chrono::milliseconds(33) ||
+                     !last->compare_exchange_strong(before, now.count()))
+                     return;
+                 post(generation, [this, fraction] { emit progressed(fraction); });
+             });
+             QString what, path;
+             try {
+                 work(job);
+             } catch (const task::Cancelled &) {
+             } catch (const task::Error &error) {
+                 what = QString::fromStdString(error.reason());
+                 path = QString::fromStdString(error.path().string());
+             } catch (const std::bad_alloc &) {
+                 what = tr("not enough memory");
+             } catch (const std::exception &error) {
+                 what = QString::fromUtf8(error.what());
+             }
+             post(generation, [this, what, path] {
+                 m_running = false;
+                 if (!what.isEmpty())
+                     emit failed(what, path);
+                 emit finished();
+             });
+             over->store(true);
+         })});
 }
 
 void JobRunner::cancel() {

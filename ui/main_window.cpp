@@ -5,6 +5,7 @@
 #include <QActionGroup>
 #include <QCloseEvent>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDockWidget>
 #include <QFile>
 #include <QFileDialog>
@@ -67,7 +68,8 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
 void MainWindow::createPanes() {
     std::array<QWidget *, 4> panes{};
     std::size_t n = 0;
-    for (const auto orientation : {mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal}) {
+    for (const auto orientation :
+         {mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal}) {
         m_mpr[n] = new MprView(m_document, orientation, m_theme);
         panes[n] = m_mpr[n];
         ++n;
@@ -83,7 +85,8 @@ void MainWindow::createPanes() {
     connect(m_start, &StartPage::openFilesRequested, this, &MainWindow::chooseFiles);
     connect(m_start, &StartPage::openFolderRequested, this, &MainWindow::chooseFolder);
     connect(m_start, &StartPage::phantomRequested, this, &MainWindow::openPhantom);
-    connect(m_start, &StartPage::pathRequested, this, [this](const QString &path) { openPaths({path}); });
+    connect(m_start, &StartPage::pathRequested, this,
+            [this](const QString &path) { openPaths({path}); });
     m_start->setRecentPaths(QSettings().value(recentKey).toStringList());
     m_stack = new QStackedWidget;
     m_stack->addWidget(m_start);
@@ -102,8 +105,8 @@ void MainWindow::createStudyDock() {
     addDockWidget(Qt::LeftDockWidgetArea, dock);
 }
 
-QAction *MainWindow::addCommand(QMenu *menu, const QString &text, const char *name, const QKeySequence &key,
-                                const std::function<void()> &run) {
+QAction *MainWindow::addCommand(QMenu *menu, const QString &text, const char *name,
+                                const QKeySequence &key, const std::function<void()> &run) {
     QAction *action = menu->addAction(text);
     action->setObjectName(name);
     action->setShortcut(key);
@@ -113,15 +116,20 @@ QAction *MainWindow::addCommand(QMenu *menu, const QString &text, const char *na
 
 void MainWindow::createFileMenu() {
     QMenu *menu = menuBar()->addMenu(tr("&File"));
-    addCommand(menu, tr("&Open files..."), "openFilesAction", QKeySequence::Open, [this] { chooseFiles(); })->setIconText(tr("Open"));
-    addCommand(menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"), [this] { chooseFolder(); });
+    addCommand(menu, tr("&Open files..."), "openFilesAction", QKeySequence::Open, [this] {
+        chooseFiles();
+    })->setIconText(tr("Open"));
+    addCommand(menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"),
+               [this] { chooseFolder(); });
     QMenu *phantoms = menu->addMenu(tr("Open &phantom"));
     addCommand(phantoms, tr("&Head"), "headPhantomAction", {}, [this] { openPhantom("head"); });
     addCommand(phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { openPhantom("chest"); });
     menu->addSeparator();
     addCommand(menu, tr("Open &scene..."), "openSceneAction", {}, [this] { openScene(); });
     addCommand(menu, tr("Save s&cene as..."), "saveSceneAction", {}, [this] { saveScene(); });
-    addCommand(menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] { savePicture(); })->setIconText(tr("Picture"));
+    addCommand(menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] {
+        savePicture();
+    })->setIconText(tr("Picture"));
     menu->addSeparator();
     addCommand(menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { close(); });
 }
@@ -145,14 +153,16 @@ void MainWindow::createViewMenu() {
         const char *name;
         StandardView view;
         const char *hint;
-    } views[] = {{tr("&Anterior"), "frontViewAction", StandardView::front, QT_TR_NOOP("Keypad 1")},
-                 {tr("&Posterior"), "backViewAction", StandardView::back, QT_TR_NOOP("Shift+Keypad 1")},
-                 {tr("&Left"), "leftViewAction", StandardView::left, QT_TR_NOOP("Keypad 3")},
-                 {tr("&Right"), "rightViewAction", StandardView::right, QT_TR_NOOP("Shift+Keypad 3")},
-                 {tr("&Superior"), "topViewAction", StandardView::top, QT_TR_NOOP("Keypad 7")},
-                 {tr("&Inferior"), "bottomViewAction", StandardView::bottom, QT_TR_NOOP("Shift+Keypad 7")}};
+    } views[] = {
+        {tr("&Anterior"), "frontViewAction", StandardView::front, QT_TR_NOOP("Keypad 1")},
+        {tr("&Posterior"), "backViewAction", StandardView::back, QT_TR_NOOP("Shift+Keypad 1")},
+        {tr("&Left"), "leftViewAction", StandardView::left, QT_TR_NOOP("Keypad 3")},
+        {tr("&Right"), "rightViewAction", StandardView::right, QT_TR_NOOP("Shift+Keypad 3")},
+        {tr("&Superior"), "topViewAction", StandardView::top, QT_TR_NOOP("Keypad 7")},
+        {tr("&Inferior"), "bottomViewAction", StandardView::bottom, QT_TR_NOOP("Shift+Keypad 7")}};
     for (const auto &v : views)
-        addCommand(menu, v.text + "\t" + tr(v.hint), v.name, {}, [this, view = v.view] { m_projection->showStandardView(view); });
+        addCommand(menu, v.text + "\t" + tr(v.hint), v.name, {},
+                   [this, view = v.view] { m_projection->showStandardView(view); });
     addCommand(menu, tr("R&eset views") + "\t" + tr("Keypad 0"), "resetViewsAction", {}, [this] {
         m_projection->resetView();
         for (MprView *view : m_mpr)
@@ -163,7 +173,8 @@ void MainWindow::createViewMenu() {
     menu->addSeparator();
     m_layouts = new QActionGroup(this);
     const auto layout = [&](const QString &text, const char *name, PaneLayout which) {
-        QAction *action = addCommand(menu, text, name, {}, [this, which] { m_panes->setPaneLayout(which); });
+        QAction *action =
+            addCommand(menu, text, name, {}, [this, which] { m_panes->setPaneLayout(which); });
         action->setCheckable(true);
         action->setActionGroup(m_layouts);
         return action;
@@ -171,7 +182,8 @@ void MainWindow::createViewMenu() {
     layout(tr("1 + 3"), "onePlusThreeAction", PaneLayout::onePlusThree)->setChecked(true);
     layout(tr("2 x 2"), "twoByTwoAction", PaneLayout::twoByTwo);
     menu->addSeparator();
-    QAction *full = addCommand(menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"), [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
+    QAction *full = addCommand(menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"),
+                               [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
     full->setCheckable(true);
 }
 
@@ -211,7 +223,8 @@ void MainWindow::createLookMenu() {
     m_windowMenu->setObjectName("windowMenu");
     const auto show = [this] {
         for (QAction *action : m_reconstructions->actions())
-            action->setChecked(action->data().toInt() == int(m_document.scene().image.reconstruction));
+            action->setChecked(action->data().toInt() ==
+                               int(m_document.scene().image.reconstruction));
         m_film->setChecked(m_document.scene().tone.inverted);
     };
     connect(&m_document, &Document::sceneChanged, this, show);
@@ -232,11 +245,13 @@ void MainWindow::createToolsMenu() {
                  {tr("Zoom"), "zoomToolAction", Tool::zoom, "Z"},
                  {tr("Crosshair"), "crosshairToolAction", Tool::crosshair, "C"}};
     for (const auto &t : tools) {
-        QAction *action = addCommand(menu, t.text, t.name, QKeySequence(t.key), [this, tool = t.tool] {
-            for (MprView *view : m_mpr)
-                view->setTool(tool);
-        });
-        action->setToolTip(tr("%1: what the left button does in the planes (%2)").arg(t.text, t.key));
+        QAction *action =
+            addCommand(menu, t.text, t.name, QKeySequence(t.key), [this, tool = t.tool] {
+                for (MprView *view : m_mpr)
+                    view->setTool(tool);
+            });
+        action->setToolTip(
+            tr("%1: what the left button does in the planes (%2)").arg(t.text, t.key));
         action->setCheckable(true);
         action->setActionGroup(m_tools);
     }
@@ -248,13 +263,18 @@ void MainWindow::createHelpMenu() {
     window->addAction(findChild<QDockWidget *>("studyDock")->toggleViewAction());
     QMenu *menu = menuBar()->addMenu(tr("&Help"));
     addCommand(menu, tr("&Mouse and keys"), "keysAction", QKeySequence("F1"), [this] {
-        QMessageBox::information(this, tr("Mouse and keys"),
-                                 tr("<b>Planes</b><br>Left drag: the chosen tool (window, pan, zoom, crosshair)<br>Middle drag: pan<br>"
-                                    "Wheel: slices; Ctrl+wheel: zoom<br>Shift+move: crosshair in all planes<br>"
-                                    "Arrows: slices, with Shift ten; Home, End: first, last<br>Double-click: fill the window; R: reset<br>"
-                                    "0 to 5: window presets<br><br><b>Projection</b><br>Left drag or arrows: turn; middle drag: pan; wheel: zoom<br>"
-                                    "Right drag: window<br>Keypad 1, 3, 7: anterior, left, superior; with Shift the opposite; 0 or R: reset<br><br>"
-                                    "Esc: cancel what runs; F11: full screen; F12: save the picture"));
+        QMessageBox::information(
+            this, tr("Mouse and keys"),
+            tr("<b>Planes</b><br>Left drag: the chosen tool (window, pan, zoom, "
+               "crosshair)<br>Middle drag: pan<br>"
+               "Wheel: slices; Ctrl+wheel: zoom<br>Shift+move: crosshair in all planes<br>"
+               "Arrows: slices, with Shift ten; Home, End: first, last<br>Double-click: fill the "
+               "window; R: reset<br>"
+               "0 to 5: window presets<br><br><b>Projection</b><br>Left drag or arrows: turn; "
+               "middle drag: pan; wheel: zoom<br>"
+               "Right drag: window<br>Keypad 1, 3, 7: anterior, left, superior; with Shift the "
+               "opposite; 0 or R: reset<br><br>"
+               "Esc: cancel what runs; F11: full screen; F12: save the picture"));
     });
     addCommand(menu, tr("&About Pellucid"), "aboutAction", {}, [this] { showAbout(); });
 }
@@ -326,7 +346,8 @@ void MainWindow::createStatusBar() {
         m_cancel->show();
         m_jobTitle->setText(title);
     });
-    connect(&m_jobs, &JobRunner::progressed, this, [this](double fraction) { m_progress->setValue(int(1000 * fraction)); });
+    connect(&m_jobs, &JobRunner::progressed, this,
+            [this](double fraction) { m_progress->setValue(int(1000 * fraction)); });
     connect(&m_jobs, &JobRunner::finished, this, idle);
     connect(&m_jobs, &JobRunner::failed, this, &MainWindow::report);
     connect(m_projection, &ProjectionView::engineDescribed, m_engine, &QLabel::setText);
@@ -336,7 +357,9 @@ void MainWindow::createStatusBar() {
 }
 
 void MainWindow::showVolumeState() {
-    m_stack->setCurrentWidget(m_document.volume() || m_document.currentSource() >= 0 ? static_cast<QWidget *>(m_panes) : m_start);
+    m_stack->setCurrentWidget(m_document.volume() || m_document.currentSource() >= 0
+                                  ? static_cast<QWidget *>(m_panes)
+                                  : m_start);
     showWindowPresets();
 }
 
@@ -345,7 +368,10 @@ void MainWindow::showWindowPresets() {
     const auto &volume = m_document.volume();
     m_windowBox->setEnabled(volume.has_value());
     const auto label = [](const volume::ValueWindow &w) {
-        return QString("%1  %2 / %3").arg(QString::fromStdString(w.name.empty() ? "Custom" : w.name)).arg(w.width, 0, 'g', 5).arg(w.center, 0, 'g', 5);
+        return QString("%1  %2 / %3")
+            .arg(QString::fromStdString(w.name.empty() ? "Custom" : w.name))
+            .arg(w.width, 0, 'g', 5)
+            .arg(w.center, 0, 'g', 5);
     };
     const QSignalBlocker quiet(m_windowBox);
     m_windowBox->clear();
@@ -378,7 +404,9 @@ void MainWindow::openPaths(const QStringList &paths) {
     m_opener.openPaths(paths);
 }
 
-void MainWindow::openPhantom(const QString &kind) { m_opener.openPhantom(kind); }
+void MainWindow::openPhantom(const QString &kind) {
+    m_opener.openPhantom(kind);
+}
 
 void MainWindow::remember(const QStringList &paths) {
     QSettings settings;
@@ -418,7 +446,8 @@ void MainWindow::savePicture() {
         statusBar()->showMessage(tr("There is no projection to save yet"), 4000);
         return;
     }
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save picture"), "projection.png", tr("PNG image (*.png)"));
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save picture"), "projection.png",
+                                                      tr("PNG image (*.png)"));
     if (path.isEmpty())
         return;
     QSaveFile file(path);
@@ -427,7 +456,8 @@ void MainWindow::savePicture() {
 }
 
 void MainWindow::saveScene() {
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
+    const QString path =
+        QFileDialog::getSaveFileName(this, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
     QSaveFile file(path);
@@ -437,7 +467,8 @@ void MainWindow::saveScene() {
 }
 
 void MainWindow::openScene() {
-    const QString path = QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scene (*.json)"));
+    const QString path =
+        QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
     QFile file(path);
@@ -459,10 +490,12 @@ void MainWindow::openScene() {
 }
 
 void MainWindow::showAbout() {
-    QMessageBox::about(this, tr("About Pellucid"),
-                       tr("<b>Pellucid %1</b><br>Projections of DICOM studies in the frequency domain.<br><br>"
-                          "<b>Not for diagnostic use.</b><br><br>GPL-3.0-or-later. Built on Qt %2, DCMTK, OpenJPEG, FFTW, GLM, oneTBB, libepoxy.")
-                           .arg(QCoreApplication::applicationVersion(), qVersion()));
+    QMessageBox::about(
+        this, tr("About Pellucid"),
+        tr("<b>Pellucid %1</b><br>Projections of DICOM studies in the frequency domain.<br><br>"
+           "<b>Not for diagnostic use.</b><br><br>GPL-3.0-or-later. Built on Qt %2, DCMTK, "
+           "OpenJPEG, FFTW, GLM, oneTBB, libepoxy.")
+            .arg(QCoreApplication::applicationVersion(), qVersion()));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent *event) {

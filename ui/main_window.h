@@ -67,7 +67,8 @@ private:
     void showAbout();
     void remember(const QStringList &paths);
     void report(const QString &what, const QString &path);
-    QAction *addCommand(QMenu *menu, const QString &text, const char *name, const QKeySequence &key, const std::function<void()> &run);
+    QAction *addCommand(QMenu *menu, const QString &text, const char *name, const QKeySequence &key,
+                        const std::function<void()> &run);
 
     Theme m_theme;
     Document m_document;

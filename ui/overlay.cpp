@@ -13,7 +13,8 @@
 
 namespace pellucid::ui {
 
-void drawText(QPainter &painter, const QRect &area, int flags, const QString &text, const QColor &color) {
+void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
+              const QColor &color) {
     painter.setPen(QColor(0, 0, 0, 190));
     for (const QPoint &offset : {QPoint(-1, 0), QPoint(1, 0), QPoint(0, -1), QPoint(0, 1)})
         painter.drawText(area.translated(offset), flags, text);
@@ -21,39 +22,50 @@ void drawText(QPainter &painter, const QRect &area, int flags, const QString &te
     painter.drawText(area, flags, text);
 }
 
-void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right, const glm::dvec3 &up, const OverlayColors &colors) {
+void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,
+                            const glm::dvec3 &up, const OverlayColors &colors) {
     painter.save();
     QFont font = painter.font();
     font.setBold(true);
     font.setPointSizeF(font.pointSizeF() + 1.0);
     painter.setFont(font);
     const QRect inner = area.adjusted(8, 18, -8, -8);
-    const auto letters = [](const glm::dvec3 &d) { return QString::fromStdString(render::patientLetters(d)); };
-    drawText(painter, area.adjusted(8, 8, -8, -8), Qt::AlignLeft | Qt::AlignVCenter, letters(-right), colors.letters);
-    drawText(painter, area.adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignVCenter, letters(right), colors.letters);
+    const auto letters = [](const glm::dvec3 &d) {
+        return QString::fromStdString(render::patientLetters(d));
+    };
+    drawText(painter, area.adjusted(8, 8, -8, -8), Qt::AlignLeft | Qt::AlignVCenter,
+             letters(-right), colors.letters);
+    drawText(painter, area.adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignVCenter,
+             letters(right), colors.letters);
     drawText(painter, inner, Qt::AlignHCenter | Qt::AlignTop, letters(up), colors.letters);
     drawText(painter, inner, Qt::AlignHCenter | Qt::AlignBottom, letters(-up), colors.letters);
     painter.restore();
 }
 
-void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int longestPixels, const OverlayColors &colors) {
+void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int longestPixels,
+                  const OverlayColors &colors) {
     if (!(pixelsPerMm > 0.0) || longestPixels < 10)
         return;
     // The longest of 1, 2, 5 times a power of ten that fits.
     const double longest = longestPixels / pixelsPerMm;
     const double power = std::pow(10.0, std::floor(std::log10(longest)));
-    const double mm = longest >= 5.0 * power ? 5.0 * power : longest >= 2.0 * power ? 2.0 * power : power;
+    const double mm = longest >= 5.0 * power   ? 5.0 * power
+                      : longest >= 2.0 * power ? 2.0 * power
+                                               : power;
     const int length = int(std::lround(mm * pixelsPerMm));
     const QString text = mm >= 10.0 ? QString("%1 cm").arg(mm / 10.0) : QString("%1 mm").arg(mm);
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing, false);
-    painter.fillRect(QRect(bottomLeft.x() - 1, bottomLeft.y() - 3, length + 2, 4), QColor(0, 0, 0, 190));
+    painter.fillRect(QRect(bottomLeft.x() - 1, bottomLeft.y() - 3, length + 2, 4),
+                     QColor(0, 0, 0, 190));
     painter.fillRect(QRect(bottomLeft.x(), bottomLeft.y() - 2, length, 2), colors.text);
-    drawText(painter, QRect(bottomLeft.x() + length + 6, bottomLeft.y() - 10, 80, 18), Qt::AlignLeft | Qt::AlignVCenter, text, colors.text);
+    drawText(painter, QRect(bottomLeft.x() + length + 6, bottomLeft.y() - 10, 80, 18),
+             Qt::AlignLeft | Qt::AlignVCenter, text, colors.text);
     painter.restore();
 }
 
-void drawOrientationCube(QPainter &painter, QPointF center, double radius, const glm::dmat3 &axes, const OverlayColors &colors) {
+void drawOrientationCube(QPainter &painter, QPointF center, double radius, const glm::dmat3 &axes,
+                         const OverlayColors &colors) {
     struct Face {
         glm::dvec3 normal, a, b;
         char letter;
@@ -66,7 +78,8 @@ void drawOrientationCube(QPainter &painter, QPointF center, double radius, const
                                             {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 'I'}}};
     const double half = radius / 1.75;
     const auto project = [&](const glm::dvec3 &p) {
-        return QPointF(center.x() + half * glm::dot(p, axes[0]), center.y() - half * glm::dot(p, axes[1]));
+        return QPointF(center.x() + half * glm::dot(p, axes[0]),
+                       center.y() - half * glm::dot(p, axes[1]));
     };
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
@@ -77,8 +90,9 @@ void drawOrientationCube(QPainter &painter, QPointF center, double radius, const
         const double facing = glm::dot(face.normal, axes[2]);
         if (facing <= 0.02)
             continue;
-        const QPolygonF outline{project(face.normal + face.a + face.b), project(face.normal - face.a + face.b),
-                                project(face.normal - face.a - face.b), project(face.normal + face.a - face.b)};
+        const QPolygonF outline{
+            project(face.normal + face.a + face.b), project(face.normal - face.a + face.b),
+            project(face.normal - face.a - face.b), project(face.normal + face.a - face.b)};
         // Faces that look at the viewer are lighter.
         const QColor base = colors.panel;
         painter.setBrush(base.lighter(int(100 + 90 * facing)));
@@ -88,7 +102,8 @@ void drawOrientationCube(QPainter &painter, QPointF center, double radius, const
             continue;
         const QPointF at = project(face.normal);
         painter.setPen(colors.letters);
-        painter.drawText(QRectF(at.x() - 10, at.y() - 10, 20, 20), Qt::AlignCenter, QString(QChar(face.letter)));
+        painter.drawText(QRectF(at.x() - 10, at.y() - 10, 20, 20), Qt::AlignCenter,
+                         QString(QChar(face.letter)));
     }
     painter.restore();
 }

@@ -17,15 +17,19 @@ struct OverlayColors {
 };
 
 /// Letters at the middle of the four sides for an image with these axes (LPS).
-void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right, const glm::dvec3 &up, const OverlayColors &colors);
+void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,
+                            const glm::dvec3 &up, const OverlayColors &colors);
 
 /// A bar of a round length, its left end at the given corner. *Units*: logical pixels per mm.
-void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int longestPixels, const OverlayColors &colors);
+void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int longestPixels,
+                  const OverlayColors &colors);
 
 /// A cube with the patient's letters as the viewer sees it; `axes` are [U V W].
-void drawOrientationCube(QPainter &painter, QPointF center, double radius, const glm::dmat3 &axes, const OverlayColors &colors);
+void drawOrientationCube(QPainter &painter, QPointF center, double radius, const glm::dmat3 &axes,
+                         const OverlayColors &colors);
 
 /// Text with a dark outline, legible on any picture.
-void drawText(QPainter &painter, const QRect &area, int flags, const QString &text, const QColor &color);
+void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
+              const QColor &color);
 
 } // namespace pellucid::ui

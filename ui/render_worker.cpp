@@ -5,7 +5,8 @@
 
 namespace pellucid::ui {
 
-RenderWorker::RenderWorker(QObject *parent) : QObject(parent), m_thread([this](std::stop_token stop) { run(stop); }) {
+RenderWorker::RenderWorker(QObject *parent)
+    : QObject(parent), m_thread([this](std::stop_token stop) { run(stop); }) {
     qRegisterMetaType<std::shared_ptr<const RenderedFrame>>();
 }
 
@@ -20,7 +21,8 @@ void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine) {
     m_next.reset();
 }
 
-void RenderWorker::request(const render::Camera &camera, const render::ImageDefinition &image, bool draft) {
+void RenderWorker::request(const render::Camera &camera, const render::ImageDefinition &image,
+                           bool draft) {
     const std::lock_guard lock(m_mutex);
     if (!m_engine)
         return;

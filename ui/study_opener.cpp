@@ -18,12 +18,13 @@ namespace {
 // The coarse projection: small enough to be there within a blink of the volume.
 constexpr int coarseSide = 96;
 
-std::shared_ptr<render::ProjectionEngine> makeEngine(const classify::DensityField &field, double &predictedError,
+std::shared_ptr<render::ProjectionEngine> makeEngine(const classify::DensityField &field,
+                                                     double &predictedError,
                                                      const task::Progress &progress) {
     const render::RenderPlan plan = render::planRender({}, render::summarise(field));
     predictedError = plan.predictedError;
-    return std::make_shared<render::CpuEngine>(
-        std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field.values, plan.spectrum, progress)));
+    return std::make_shared<render::CpuEngine>(std::make_shared<const fourier::Spectrum>(
+        fourier::Spectrum::prepare(field.values, plan.spectrum, progress)));
 }
 
 } // namespace
@@ -41,7 +42,8 @@ void StudyOpener::openPaths(const QStringList &paths) {
     for (const QString &path : paths)
         files.emplace_back(path.toStdString());
     m_jobs.start(tr("Reading headers"), [this, files](const Job &job) {
-        auto catalogue = std::make_shared<const dicom::Catalogue>(dicom::scan(files, job.progress()));
+        auto catalogue =
+            std::make_shared<const dicom::Catalogue>(dicom::scan(files, job.progress()));
         job.deliver([this, catalogue, files] {
             m_document.addProblems(catalogue->skipped);
             if (catalogue->empty()) {
@@ -86,20 +88,24 @@ void StudyOpener::openSource(int index) {
         if (!volume.notes().placed) {
             job.deliver([this, volume] {
                 const auto &warnings = volume.notes().warnings;
-                emit notProjectable(warnings.empty() ? tr("images only") : QString::fromStdString(warnings.back()));
+                emit notProjectable(warnings.empty() ? tr("images only")
+                                                     : QString::fromStdString(warnings.back()));
             });
             return;
         }
         job.stage(tr("Preparing the projection"));
-        const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume), job.progress().part(0.6, 0.65));
-        const auto announce = [&](const classify::DensityField &f, bool coarse, const task::Progress &progress) {
+        const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume),
+                                                  job.progress().part(0.6, 0.65));
+        const auto announce = [&](const classify::DensityField &f, bool coarse,
+                                  const task::Progress &progress) {
             double error = 0.0;
             auto engine = makeEngine(f, error, progress);
             job.deliver([this, engine, error, coarse] { emit engineReady(engine, error, coarse); });
         };
         const volume::GridSize n = volume.lattice().size();
         if (n.i > coarseSide || n.j > coarseSide || n.k > coarseSide)
-            announce(classify::coarseField(field, coarseSide), true, job.progress().part(0.65, 0.7));
+            announce(classify::coarseField(field, coarseSide), true,
+                     job.progress().part(0.65, 0.7));
         announce(field, false, job.progress().part(0.7, 1.0));
     });
 }

@@ -26,7 +26,8 @@ public:
 
 signals:
     /// An engine for the document's volume is ready; a finer one may follow.
-    void engineReady(std::shared_ptr<pellucid::render::ProjectionEngine> engine, double predictedError, bool coarse);
+    void engineReady(std::shared_ptr<pellucid::render::ProjectionEngine> engine,
+                     double predictedError, bool coarse);
     /// The open volume cannot be projected.
     void notProjectable(const QString &reason);
 

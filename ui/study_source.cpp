@@ -9,7 +9,9 @@ namespace pellucid::ui {
 
 namespace {
 
-QString tr(const char *text) { return QCoreApplication::translate("StudySource", text); }
+QString tr(const char *text) {
+    return QCoreApplication::translate("StudySource", text);
+}
 
 QString sizeText(const volume::Lattice &l) {
     return QString::fromUtf8("%1 × %2 × %3\n%4 × %5 × %6 mm")
@@ -34,11 +36,17 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
         StudySource source;
         source.patient = QString::fromStdString(s.patient->name).replace('^', ' ').simplified();
         if (source.patient.isEmpty())
-            source.patient = QString::fromStdString(s.patient->id).isEmpty() ? tr("Without name") : QString::fromStdString(s.patient->id);
-        source.study = (dated(s.study->date) + " " + QString::fromStdString(s.series->modality) + " " +
-                        QString::fromStdString(s.study->description)).simplified();
+            source.patient = QString::fromStdString(s.patient->id).isEmpty()
+                                 ? tr("Without name")
+                                 : QString::fromStdString(s.patient->id);
+        source.study = (dated(s.study->date) + " " + QString::fromStdString(s.series->modality) +
+                        " " + QString::fromStdString(s.study->description))
+                           .simplified();
         const QString description = QString::fromStdString(s.series->description);
-        source.series = QString("%1 %2").arg(s.series->number).arg(description.isEmpty() ? QString::fromStdString(s.series->modality) : description);
+        source.series = QString("%1 %2")
+                            .arg(s.series->number)
+                            .arg(description.isEmpty() ? QString::fromStdString(s.series->modality)
+                                                       : description);
         if (!s.volume->label.empty())
             source.series += ", " + QString::fromStdString(s.volume->label);
         source.detail = sizeText(s.volume->geometry.lattice);
@@ -46,7 +54,8 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
             source.warnings << QString::fromStdString(warning);
         source.placed = s.volume->placed;
         // The catalogue is kept alive by whoever may load from it.
-        source.load = [catalogue, entry = s.volume](const task::Progress &progress, const dicom::LoadObserver &observer) {
+        source.load = [catalogue, entry = s.volume](const task::Progress &progress,
+                                                    const dicom::LoadObserver &observer) {
             return dicom::loadVolume(*entry, progress, observer);
         };
         sources.push_back(std::move(source));
@@ -69,7 +78,9 @@ StudySource phantomSource(const QString &name) {
     StudySource source;
     source.patient = tr("Phantoms");
     source.study = tr("Made by Pellucid");
-    source.series = name == "head" ? tr("Head phantom") : name == "chest" ? tr("Chest phantom") : name;
+    source.series = name == "head"    ? tr("Head phantom")
+                    : name == "chest" ? tr("Chest phantom")
+                                      : name;
     source.detail = sizeText(lattice);
     source.load = [kind, lattice](const task::Progress &progress, const dicom::LoadObserver &) {
         return dicom::LoadedVolume{phantom::makePhantom(kind, lattice, progress), {}};

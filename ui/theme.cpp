@@ -12,6 +12,11 @@
 
 #include "core/task/error.h"
 
+// Resources of a static library are registered by hand; the macro wants the global namespace.
+static void registerResources() {
+    Q_INIT_RESOURCE(resources);
+}
+
 namespace pellucid::ui {
 
 namespace {
@@ -26,8 +31,11 @@ QByteArray resource(const QString &path) {
 } // namespace
 
 Theme Theme::named(const QString &name) {
+    registerResources();
     Theme theme;
-    const QJsonObject roles = QJsonDocument::fromJson(resource(":/pellucid/styles/colors.json")).object()[name].toObject();
+    const QJsonObject roles = QJsonDocument::fromJson(resource(":/pellucid/styles/colors.json"))
+                                  .object()[name]
+                                  .toObject();
     for (auto it = roles.begin(); it != roles.end(); ++it)
         theme.m_colors.insert(it.key(), QColor(it.value().toString()));
     return theme;
@@ -47,7 +55,8 @@ void Theme::apply(QApplication &application) const {
     palette.setColor(QPalette::Base, color("panel"));
     palette.setColor(QPalette::AlternateBase, color("raised"));
     palette.setColor(QPalette::Button, color("raised"));
-    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText})
+    for (const auto role :
+         {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText})
         palette.setColor(role, color("text"));
     palette.setColor(QPalette::PlaceholderText, color("muted"));
     palette.setColor(QPalette::ToolTipBase, color("raised"));
@@ -62,7 +71,8 @@ void Theme::apply(QApplication &application) const {
 
     QString sheet = QString::fromUtf8(resource(":/pellucid/styles/workstation.qss"));
     static const QRegularExpression role("@([a-z]+)");
-    for (auto match = role.match(sheet); match.hasMatch(); match = role.match(sheet, match.capturedStart())) {
+    for (auto match = role.match(sheet); match.hasMatch();
+         match = role.match(sheet, match.capturedStart())) {
         // The comment that explains the notation names no role.
         const auto it = m_colors.find(match.captured(1));
         const QString value = it == m_colors.end() ? match.captured(1) : it->name();

@@ -10,8 +10,11 @@ namespace pellucid::ui {
 std::vector<WindowPreset> windowPresets(const volume::Volume &volume) {
     if (volume.unit() != volume::ValueUnit::hounsfield)
         return {};
-    return {{{50, 100, "Brain"}, 1}, {{40, 350, "Abdomen"}, 2}, {{25, 350, "Mediastinum"}, 3},
-            {{300, 1500, "Bone"}, 4}, {{-500, 1400, "Lung"}, 5}};
+    return {{{50, 100, "Brain"}, 1},
+            {{40, 350, "Abdomen"}, 2},
+            {{25, 350, "Mediastinum"}, 3},
+            {{300, 1500, "Bone"}, 4},
+            {{-500, 1400, "Lung"}, 5}};
 }
 
 volume::ValueWindow automaticWindow(const volume::Volume &volume) {

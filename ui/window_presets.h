@@ -19,7 +19,8 @@ std::vector<WindowPreset> windowPresets(const volume::Volume &volume);
 /// The 0.5 to 99.5 % quantiles.
 volume::ValueWindow automaticWindow(const volume::Volume &volume);
 
-/// What a volume is first shown with: the file's first window, else a standard or the automatic one.
+/// What a volume is first shown with: the file's first window, else a standard or the automatic
+/// one.
 volume::ValueWindow initialWindow(const volume::Volume &volume);
 
 } // namespace pellucid::ui

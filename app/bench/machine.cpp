@@ -11,7 +11,8 @@ namespace pellucid::bench {
 Machine thisMachine() {
     Machine machine;
     machine.threads = int(std::thread::hardware_concurrency());
-    machine.memoryGiB = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)) / double(1 << 30);
+    machine.memoryGiB =
+        double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)) / double(1 << 30);
     utsname name{};
     if (uname(&name) == 0)
         machine.system = std::string(name.sysname) + " " + name.machine;

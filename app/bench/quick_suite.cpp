@@ -17,16 +17,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double sinceMs(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double sinceMs(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
+                     values.end());
     return values[values.size() / 2];
 }
 
 glm::dquat randomOrientation(std::mt19937 &random) {
     std::normal_distribution<double> normal;
-    return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+    return glm::normalize(
+        glm::dquat(normal(random), normal(random), normal(random), normal(random)));
 }
 
 // White noise in the inscribed sphere: a flat spectrum, the field of the published tables.
@@ -42,7 +46,8 @@ classify::DensityField noiseSphere(int n) {
             for (int i = 0; i < n; ++i, ++at)
                 if (std::hypot(i - middle, j - middle, k - middle) < radius)
                     samples[at] = uniform(random);
-    return classify::densityField(volume::Volume(lattice, std::move(samples), volume::ValueUnit::none), {0.0, 1.0});
+    return classify::densityField(
+        volume::Volume(lattice, std::move(samples), volume::ValueUnit::none), {0.0, 1.0});
 }
 
 classify::DensityField phantomField(phantom::Kind kind, const phantom::Sampling &sampling) {
@@ -64,10 +69,18 @@ Row measure(const std::string &name, const classify::DensityField &field) {
     scene.camera = render::defaultCamera(field.values.lattice());
     const auto plan = render::planRender(scene, render::summarise(field));
     const int width = plan.spectrum.kernel.width();
-    Row row{"quick", "default " + name, field.values.lattice().size(), "cpu", plan.spectrum.kernel.name(), width * width * width,
-            double(plan.spectrum.padded.i) / plan.spectrum.box.size().i, "f32", thisMachine().threads};
+    Row row{"quick",
+            "default " + name,
+            field.values.lattice().size(),
+            "cpu",
+            plan.spectrum.kernel.name(),
+            width * width * width,
+            double(plan.spectrum.padded.i) / plan.spectrum.box.size().i,
+            "f32",
+            thisMachine().threads};
     auto start = Clock::now();
-    const auto spectrum = std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field.values, plan.spectrum));
+    const auto spectrum = std::make_shared<const fourier::Spectrum>(
+        fourier::Spectrum::prepare(field.values, plan.spectrum));
     row.prepareMs = sinceMs(start);
     row.fft3dMs = transformMs(plan.spectrum);
     row.bytes = double(plan.bytes);
@@ -94,7 +107,7 @@ Row measure(const std::string &name, const classify::DensityField &field) {
     const reference::WideKernel exact(field.values, field.support);
     double worst = 0.0, largest = 0.0, psnr = 1e9;
     for (int view = 0; view < 5; ++view) {
-        scene.camera.orientation = view == 0   ? render::viewOrientation(render::StandardView::front)
+        scene.camera.orientation = view == 0 ? render::viewOrientation(render::StandardView::front)
                                    : view == 1 ? render::viewOrientation(render::StandardView::top)
                                                : randomOrientation(random);
         const auto image = engine.render(scene.camera, scene.image);
@@ -125,8 +138,10 @@ std::vector<Row> runQuickSuite() {
     return {measure("noise sphere 64", noiseSphere(64)),
             measure("head 64", phantomField(Kind::head, cubed(64))),
             measure("chest cut by the scan 64", phantomField(Kind::chest, cubed(64))),
-            measure("tilted head, thick slices", phantomField(Kind::head, {.size = volume::GridSize{128, 128, 28},
-                                                                            .spacingMm = glm::dvec3(1.9, 1.9, 8.0), .tiltRad = 0.32})),
+            measure("tilted head, thick slices",
+                    phantomField(Kind::head, {.size = volume::GridSize{128, 128, 28},
+                                              .spacingMm = glm::dvec3(1.9, 1.9, 8.0),
+                                              .tiltRad = 0.32})),
             measure("noise sphere 128", noiseSphere(128)),
             measure("head 256", phantomField(Kind::head, cubed(256)))};
 }

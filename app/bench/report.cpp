@@ -14,17 +14,37 @@ std::optional<double> framesPerSecond(const Row &r) {
     return r.frameMs && *r.frameMs > 0.0 ? std::optional(1000.0 / *r.frameMs) : std::nullopt;
 }
 
-json figure(const std::optional<double> &value) { return value ? json(*value) : json(nullptr); }
+json figure(const std::optional<double> &value) {
+    return value ? json(*value) : json(nullptr);
+}
 
 json rowJson(const Row &r) {
-    return {{"suite", r.suite}, {"case", r.name}, {"n", {r.size.i, r.size.j, r.size.k}}, {"engine", r.engine},
-            {"kernel", r.kernel}, {"taps", r.taps}, {"padding", r.padding}, {"storage", r.storage}, {"threads", r.threads},
-            {"prepare_ms", figure(r.prepareMs)}, {"fft3d_ms", figure(r.fft3dMs)}, {"slice_ms", figure(r.sliceMs)},
-            {"transform_ms", figure(r.transformMs)}, {"frame_ms", figure(r.frameMs)}, {"fps", figure(framesPerSecond(r))},
-            {"bytes", figure(r.bytes)}, {"predicted_error", figure(r.predictedError)}, {"rel_l2", figure(r.relativeL2)},
-            {"predicted_max", figure(r.predictedMax)}, {"max_error", figure(r.maxError)}, {"psnr_db", figure(r.psnrDb)},
-            {"ray_sum_ms", figure(r.raySumMs)}, {"ray_sum_msamples_per_s", figure(r.raySumMsamplesPerSecond)},
-            {"ray_sum_rel_l2", figure(r.raySumRelativeL2)}, {"shear_warp_ms", figure(r.shearWarpMs)}, {"note", r.note}};
+    return {{"suite", r.suite},
+            {"case", r.name},
+            {"n", {r.size.i, r.size.j, r.size.k}},
+            {"engine", r.engine},
+            {"kernel", r.kernel},
+            {"taps", r.taps},
+            {"padding", r.padding},
+            {"storage", r.storage},
+            {"threads", r.threads},
+            {"prepare_ms", figure(r.prepareMs)},
+            {"fft3d_ms", figure(r.fft3dMs)},
+            {"slice_ms", figure(r.sliceMs)},
+            {"transform_ms", figure(r.transformMs)},
+            {"frame_ms", figure(r.frameMs)},
+            {"fps", figure(framesPerSecond(r))},
+            {"bytes", figure(r.bytes)},
+            {"predicted_error", figure(r.predictedError)},
+            {"rel_l2", figure(r.relativeL2)},
+            {"predicted_max", figure(r.predictedMax)},
+            {"max_error", figure(r.maxError)},
+            {"psnr_db", figure(r.psnrDb)},
+            {"ray_sum_ms", figure(r.raySumMs)},
+            {"ray_sum_msamples_per_s", figure(r.raySumMsamplesPerSecond)},
+            {"ray_sum_rel_l2", figure(r.raySumRelativeL2)},
+            {"shear_warp_ms", figure(r.shearWarpMs)},
+            {"note", r.note}};
 }
 
 std::string cell(const std::optional<double> &value, const char *format) {
@@ -34,17 +54,24 @@ std::string cell(const std::optional<double> &value, const char *format) {
 } // namespace
 
 std::string tableText(const Machine &machine, const std::vector<Row> &rows) {
-    std::string text = fmt::format("{}, {} threads, {:.0f} GiB, {}\n\n", machine.processor, machine.threads, machine.memoryGiB, machine.system);
-    text += fmt::format("{:<28} {:>13} {:>6} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "case", "size", "kernel",
-                        "padding", "prepare", "slice", "transform", "frame", "MB", "predicted", "measured", "max", "PSNR");
-    text += fmt::format("{:<28} {:>13} {:>6} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "", "", "", "", "ms", "ms",
-                        "ms", "ms", "", "rel. L2", "rel. L2", "of peak", "dB");
+    std::string text = fmt::format("{}, {} threads, {:.0f} GiB, {}\n\n", machine.processor,
+                                   machine.threads, machine.memoryGiB, machine.system);
+    text += fmt::format(
+        "{:<28} {:>13} {:>6} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} {:>8}\n",
+        "case", "size", "kernel", "padding", "prepare", "slice", "transform", "frame", "MB",
+        "predicted", "measured", "max", "PSNR");
+    text += fmt::format(
+        "{:<28} {:>13} {:>6} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "",
+        "", "", "", "ms", "ms", "ms", "ms", "", "rel. L2", "rel. L2", "of peak", "dB");
     for (const Row &r : rows) {
         const auto megabytes = r.bytes ? std::optional(*r.bytes / 1048576.0) : std::nullopt;
-        text += fmt::format("{:<28} {:>13} {:>6} {:>8.2f} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} {:>8}\n", r.name,
-                            fmt::format("{}x{}x{}", r.size.i, r.size.j, r.size.k), r.kernel, r.padding, cell(r.prepareMs, "{:.1f}"),
-                            cell(r.sliceMs, "{:.2f}"), cell(r.transformMs, "{:.2f}"), cell(r.frameMs, "{:.2f}"), cell(megabytes, "{:.0f}"),
-                            cell(r.predictedError, "{:.2e}"), cell(r.relativeL2, "{:.2e}"), cell(r.maxError, "{:.1e}"), cell(r.psnrDb, "{:.1f}"));
+        text += fmt::format(
+            "{:<28} {:>13} {:>6} {:>8.2f} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} "
+            "{:>8}\n",
+            r.name, fmt::format("{}x{}x{}", r.size.i, r.size.j, r.size.k), r.kernel, r.padding,
+            cell(r.prepareMs, "{:.1f}"), cell(r.sliceMs, "{:.2f}"), cell(r.transformMs, "{:.2f}"),
+            cell(r.frameMs, "{:.2f}"), cell(megabytes, "{:.0f}"), cell(r.predictedError, "{:.2e}"),
+            cell(r.relativeL2, "{:.2e}"), cell(r.maxError, "{:.1e}"), cell(r.psnrDb, "{:.1f}"));
     }
     return text;
 }
@@ -53,8 +80,11 @@ std::string jsonText(const Machine &machine, const std::vector<Row> &rows) {
     json list = json::array();
     for (const Row &r : rows)
         list.push_back(rowJson(r));
-    return json{{"machine", {{"processor", machine.processor}, {"system", machine.system}, {"threads", machine.threads},
-                             {"memory_gib", machine.memoryGiB}}},
+    return json{{"machine",
+                 {{"processor", machine.processor},
+                  {"system", machine.system},
+                  {"threads", machine.threads},
+                  {"memory_gib", machine.memoryGiB}}},
                 {"rows", list}}
         .dump(2);
 }

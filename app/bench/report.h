@@ -27,9 +27,12 @@ struct Row {
     double padding = 0.0;
     std::string storage;
     int threads = 1;
-    std::optional<double> prepareMs = {}, fft3dMs = {}, sliceMs = {}, transformMs = {}, frameMs = {};
-    std::optional<double> bytes = {}, predictedError = {}, relativeL2 = {}, predictedMax = {}, maxError = {}, psnrDb = {};
-    std::optional<double> raySumMs = {}, raySumMsamplesPerSecond = {}, raySumRelativeL2 = {}, shearWarpMs = {};
+    std::optional<double> prepareMs = {}, fft3dMs = {}, sliceMs = {}, transformMs = {},
+                          frameMs = {};
+    std::optional<double> bytes = {}, predictedError = {}, relativeL2 = {}, predictedMax = {},
+                          maxError = {}, psnrDb = {};
+    std::optional<double> raySumMs = {}, raySumMsamplesPerSecond = {}, raySumRelativeL2 = {},
+                          shearWarpMs = {};
     std::string note = {};
 };
 

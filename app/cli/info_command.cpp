@@ -55,12 +55,23 @@ json catalogueJson(const dicom::Catalogue &catalogue) {
                 json volumes = json::array();
                 for (const auto &v : e.volumes)
                     volumes.push_back(volumeJson(v));
-                series.push_back({{"uid", e.uid}, {"number", e.number}, {"description", e.description},
-                                  {"modality", e.modality}, {"body_part", e.bodyPart}, {"volumes", volumes}});
+                series.push_back({{"uid", e.uid},
+                                  {"number", e.number},
+                                  {"description", e.description},
+                                  {"modality", e.modality},
+                                  {"body_part", e.bodyPart},
+                                  {"volumes", volumes}});
             }
-            studies.push_back({{"uid", s.uid}, {"date", s.date}, {"description", s.description}, {"series", series}});
+            studies.push_back({{"uid", s.uid},
+                               {"date", s.date},
+                               {"description", s.description},
+                               {"series", series}});
         }
-        patients.push_back({{"id", p.id}, {"name", p.name}, {"birth_date", p.birthDate}, {"sex", p.sex}, {"studies", studies}});
+        patients.push_back({{"id", p.id},
+                            {"name", p.name},
+                            {"birth_date", p.birthDate},
+                            {"sex", p.sex},
+                            {"studies", studies}});
     }
     json skipped = json::array();
     for (const auto &s : catalogue.skipped)
@@ -78,9 +89,10 @@ void printCatalogue(const dicom::Catalogue &catalogue) {
                 for (const auto &v : e.volumes) {
                     const volume::Lattice &l = v.geometry.lattice;
                     fmt::print("      {}{} x {} x {}, {:.3f} x {:.3f} x {:.3f} mm{}{}\n",
-                               v.label.empty() ? "" : v.label + ": ", l.size().i, l.size().j, l.size().k, l.spacingMm(0),
-                               l.spacingMm(1), l.sliceDistanceMm(),
-                               v.unit == volume::ValueUnit::hounsfield ? ", HU" : "", v.notes.lossy ? ", lossy" : "");
+                               v.label.empty() ? "" : v.label + ": ", l.size().i, l.size().j,
+                               l.size().k, l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm(),
+                               v.unit == volume::ValueUnit::hounsfield ? ", HU" : "",
+                               v.notes.lossy ? ", lossy" : "");
                     for (const auto &w : v.notes.warnings)
                         fmt::print("        {}\n", w);
                 }
@@ -101,11 +113,14 @@ void addInfoCommand(CLI::App &app, const Context &context) {
         bool json = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("info", "List patients, studies, series, geometry, warnings and skipped files");
-    command->add_option("PATH", options->paths, "Files, folders, DICOMDIRs or NRRD files")->required();
+    CLI::App *command = app.add_subcommand(
+        "info", "List patients, studies, series, geometry, warnings and skipped files");
+    command->add_option("PATH", options->paths, "Files, folders, DICOMDIRs or NRRD files")
+        ->required();
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options, context] {
-        const std::vector<std::filesystem::path> paths(options->paths.begin(), options->paths.end());
+        const std::vector<std::filesystem::path> paths(options->paths.begin(),
+                                                       options->paths.end());
         const dicom::Catalogue catalogue = dicom::scan(paths, task::Progress(context.stop));
         if (options->json)
             std::puts(jsonText(catalogueJson(catalogue)).c_str());
@@ -113,7 +128,8 @@ void addInfoCommand(CLI::App &app, const Context &context) {
             printCatalogue(catalogue);
         if (catalogue.empty()) {
             if (catalogue.skipped.size() == 1)
-                throw task::Error(task::ErrorCode::unusable, catalogue.skipped[0].reason, catalogue.skipped[0].path);
+                throw task::Error(task::ErrorCode::unusable, catalogue.skipped[0].reason,
+                                  catalogue.skipped[0].path);
             throw task::Error(task::ErrorCode::unusable, "holds no usable images", paths.front());
         }
     });

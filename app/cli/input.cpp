@@ -12,7 +12,9 @@ namespace pellucid::cli {
 namespace {
 
 double nowMs() {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double, std::milli>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 } // namespace
@@ -28,7 +30,8 @@ double Stopwatch::lapMs() {
     return lap;
 }
 
-Input openInput(const std::filesystem::path &path, const std::string &series, const Context &context) {
+Input openInput(const std::filesystem::path &path, const std::string &series,
+                const Context &context) {
     Stopwatch watch;
     const task::Progress progress(context.stop);
     const dicom::Catalogue catalogue = dicom::scan({path}, progress);
@@ -38,28 +41,35 @@ Input openInput(const std::filesystem::path &path, const std::string &series, co
     if (catalogue.empty()) {
         // One file, one reason; a folder only says that nothing in it helps.
         if (catalogue.skipped.size() == 1)
-            throw Error(ErrorCode::unusable, catalogue.skipped[0].reason, catalogue.skipped[0].path);
+            throw Error(ErrorCode::unusable, catalogue.skipped[0].reason,
+                        catalogue.skipped[0].path);
         throw Error(ErrorCode::unusable, "holds no usable images", path);
     }
     dicom::Selection selection;
     try {
-        selection = series.empty() ? dicom::defaultSelection(catalogue) : dicom::selectSeries(catalogue, series);
+        selection = series.empty() ? dicom::defaultSelection(catalogue)
+                                   : dicom::selectSeries(catalogue, series);
     } catch (const Error &error) {
         throw Error(error.code(), error.reason(), path);
     }
     if (!selection.volume->placed)
-        throw Error(ErrorCode::unusable, "holds images but no volume: " + selection.volume->notPlacedReason, path);
+        throw Error(ErrorCode::unusable,
+                    "holds images but no volume: " + selection.volume->notPlacedReason, path);
     input.loaded = dicom::loadVolume(*selection.volume, progress);
     if (!input.loaded.volume.notes().placed)
-        throw Error(ErrorCode::unusable, "holds images but no volume: " + input.loaded.volume.notes().warnings.back(), path);
+        throw Error(ErrorCode::unusable,
+                    "holds images but no volume: " + input.loaded.volume.notes().warnings.back(),
+                    path);
     input.seriesUid = selection.series->uid;
     input.seriesDescription = selection.series->description;
-    input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(), input.loaded.skipped.end());
+    input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
+                         input.loaded.skipped.end());
     input.loadMs = watch.lapMs();
     return input;
 }
 
-std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator, std::size_t count) {
+std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator,
+                                 std::size_t count) {
     std::vector<double> values;
     const char *at = text.c_str();
     while (values.size() < count) {
@@ -67,7 +77,9 @@ std::vector<double> parseNumbers(const std::string &option, const std::string &t
         const double value = std::strtod(at, &end);
         const bool last = values.size() + 1 == count;
         if (end == at || !std::isfinite(value) || *end != (last ? '\0' : separator))
-            throw Error(ErrorCode::usage, option + ": '" + text + "' is not " + std::to_string(count) + " numbers separated by '" + separator + "'");
+            throw Error(ErrorCode::usage, option + ": '" + text + "' is not " +
+                                              std::to_string(count) + " numbers separated by '" +
+                                              separator + "'");
         values.push_back(value);
         at = end + 1;
     }

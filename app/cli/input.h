@@ -22,13 +22,15 @@ struct Input {
 
 /// Scans a path and loads one volume of it: of the series named, else the one with most voxels.
 /// *Throws* Error{unusable} naming the path.
-Input openInput(const std::filesystem::path &path, const std::string &series, const Context &context);
+Input openInput(const std::filesystem::path &path, const std::string &series,
+                const Context &context);
 
 /// "LO,HI". *Throws* Error{usage}.
 classify::FieldWindow parseWindow(const std::string &text);
 
 /// Numbers separated by a character, exactly `count`. *Throws* Error{usage} naming the option.
-std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator, std::size_t count);
+std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator,
+                                 std::size_t count);
 
 /// Milliseconds since the last call on the same object.
 class Stopwatch {

@@ -30,7 +30,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         const auto n = parseNumbers("--size", o.size, 'x', 3);
         for (const double v : n)
             if (v != std::round(v) || v < 1 || v > 4096)
-                throw Error(ErrorCode::usage, "--size: '" + o.size + "' is not COLUMNSxROWSxSLICES of 1 to 4096");
+                throw Error(ErrorCode::usage,
+                            "--size: '" + o.size + "' is not COLUMNSxROWSxSLICES of 1 to 4096");
         sampling.size = volume::GridSize{int(n[0]), int(n[1]), int(n[2])};
     }
     if (command.count("--spacing") > 0) {
@@ -39,15 +40,20 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     }
     sampling.tiltRad = o.tiltDeg * 3.14159265358979323846 / 180.0;
     const task::Progress progress(context.stop);
-    const auto volume = phantom::makePhantom(kind, phantom::phantomLattice(kind, sampling), progress.part(0.0, 0.6));
+    const auto volume = phantom::makePhantom(kind, phantom::phantomLattice(kind, sampling),
+                                             progress.part(0.0, 0.6));
     dicom::SeriesLabels labels;
-    labels.patientName = "Phantom^" + std::string(1, char(std::toupper(o.kind[0]))) + o.kind.substr(1);
+    labels.patientName =
+        "Phantom^" + std::string(1, char(std::toupper(o.kind[0]))) + o.kind.substr(1);
     labels.patientId = "PHANTOM-" + o.kind;
     labels.studyDescription = "Pellucid phantom";
     labels.seriesDescription = volume.notes().title;
-    labels.bodyPart = kind == phantom::Kind::head ? "HEAD" : kind == phantom::Kind::chest ? "CHEST" : "PHANTOM";
-    labels.windows = kind == phantom::Kind::head ? std::vector<volume::ValueWindow>{{40, 100, ""}, {300, 1500, ""}}
-                                                 : std::vector<volume::ValueWindow>{{40, 400, ""}};
+    labels.bodyPart = kind == phantom::Kind::head    ? "HEAD"
+                      : kind == phantom::Kind::chest ? "CHEST"
+                                                     : "PHANTOM";
+    labels.windows = kind == phantom::Kind::head
+                         ? std::vector<volume::ValueWindow>{{40, 100, ""}, {300, 1500, ""}}
+                         : std::vector<volume::ValueWindow>{{40, 400, ""}};
     dicom::writeCtSeries(o.folder, volume, labels, syntax, progress.part(0.6, 1.0));
 }
 
@@ -57,11 +63,13 @@ void addPhantomCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("phantom", "Write a phantom as a DICOM series");
     c->add_option("DIR", o->folder, "The folder to write to")->required();
-    c->add_option("--kind", o->kind, fmt::format("{}", fmt::join(phantom::kindNames(), ", ")))->check(CLI::IsMember(phantom::kindNames()));
+    c->add_option("--kind", o->kind, fmt::format("{}", fmt::join(phantom::kindNames(), ", ")))
+        ->check(CLI::IsMember(phantom::kindNames()));
     c->add_option("--size", o->size, "COLUMNSxROWSxSLICES");
     c->add_option("--spacing", o->spacing, "Column, row and slice distance in mm: a,b,c");
     c->add_option("--tilt", o->tiltDeg, "Gantry tilt in degrees")->check(CLI::Range(-57.0, 57.0));
-    c->add_option("--transfer-syntax", o->syntax, fmt::format("{}, or a UID", fmt::join(dicom::transferSyntaxNames(), ", ")));
+    c->add_option("--transfer-syntax", o->syntax,
+                  fmt::format("{}, or a UID", fmt::join(dicom::transferSyntaxNames(), ", ")));
     c->callback([o, c, context] { run(*o, *c, context); });
 }
 

@@ -33,24 +33,31 @@ using task::Error;
 using task::ErrorCode;
 
 struct Options {
-    std::string path, out, series, view, orientation, size, window, reconstruction, quality, engine = "auto", scene;
-    double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0, tolerance = 0.0;
+    std::string path, out, series, view, orientation, size, window, reconstruction, quality,
+        engine = "auto", scene;
+    double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,
+           tolerance = 0.0;
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
     bool turntable = false, json = false;
 };
 
 const std::map<std::string, render::StandardView> views{
-    {"front", render::StandardView::front}, {"back", render::StandardView::back}, {"left", render::StandardView::left},
-    {"right", render::StandardView::right}, {"top", render::StandardView::top}, {"bottom", render::StandardView::bottom}};
+    {"front", render::StandardView::front}, {"back", render::StandardView::back},
+    {"left", render::StandardView::left},   {"right", render::StandardView::right},
+    {"top", render::StandardView::top},     {"bottom", render::StandardView::bottom}};
 
 const std::map<std::string, render::Reconstruction> reconstructions{
-    {"cubic", render::Reconstruction::cubic}, {"linear", render::Reconstruction::linear},
+    {"cubic", render::Reconstruction::cubic},
+    {"linear", render::Reconstruction::linear},
     {"band-limited", render::Reconstruction::bandLimited}};
 
 // Tolerances of the named qualities; the reference is as exact as double precision allows.
-const std::map<std::string, double> qualities{
-    {"draft", 3e-2}, {"interactive", 1e-2}, {"standard", 1.1e-3}, {"fine", 1e-4}, {"reference", 1e-10}};
+const std::map<std::string, double> qualities{{"draft", 3e-2},
+                                              {"interactive", 1e-2},
+                                              {"standard", 1.1e-3},
+                                              {"fine", 1e-4},
+                                              {"reference", 1e-10}};
 
 enum class OutputKind { png, npy, nrrd };
 
@@ -63,7 +70,8 @@ OutputKind outputKind(const fs::path &out) {
     if (suffix == ".nrrd")
         return OutputKind::nrrd;
     if (suffix == ".dcm")
-        throw Error(ErrorCode::usage, "-o: writing Secondary Captures (.dcm) is not available in this version");
+        throw Error(ErrorCode::usage,
+                    "-o: writing Secondary Captures (.dcm) is not available in this version");
     throw Error(ErrorCode::usage, "-o: '" + out.string() + "' must end in .png, .npy or .nrrd");
 }
 
@@ -94,22 +102,29 @@ render::Scene sceneFor(const Options &o, const CLI::App &command, const volume::
     }
     if (given("--orientation")) {
         if (given("--view") || given("--azimuth") || given("--elevation") || given("--roll"))
-            throw Error(ErrorCode::usage, "--orientation excludes --view, --azimuth, --elevation and --roll");
+            throw Error(ErrorCode::usage,
+                        "--orientation excludes --view, --azimuth, --elevation and --roll");
         const auto q = parseNumbers("--orientation", o.orientation, ',', 4);
         const glm::dquat rotation(q[0], q[1], q[2], q[3]);
         if (!(glm::length(rotation) > 1e-6))
             throw Error(ErrorCode::usage, "--orientation: the quaternion must not be zero");
         scene.camera.orientation = glm::normalize(rotation);
-    } else if (o.scene.empty() || given("--view") || given("--azimuth") || given("--elevation") || given("--roll")) {
-        scene.camera.orientation = render::viewOrientation(
-            o.view.empty() ? render::StandardView::front : views.at(o.view), {o.azimuthDeg, o.elevationDeg, o.rollDeg});
+    } else if (o.scene.empty() || given("--view") || given("--azimuth") || given("--elevation") ||
+               given("--roll")) {
+        scene.camera.orientation =
+            render::viewOrientation(o.view.empty() ? render::StandardView::front : views.at(o.view),
+                                    {o.azimuthDeg, o.elevationDeg, o.rollDeg});
     }
     if (given("--pixel-mm")) {
         scene.camera.pixelMm = o.pixelMm;
         if (o.scene.empty() && !given("--size")) { // the whole volume at that pixel
             const double side = 2.0 * lattice.radiusMm() / o.pixelMm;
             if (!(o.pixelMm > 0.0) || side > render::largestImageSize)
-                throw Error(ErrorCode::usage, fmt::format("--pixel-mm: an image of the whole volume would have {:.0f} pixels a side", side));
+                throw Error(
+                    ErrorCode::usage,
+                    fmt::format(
+                        "--pixel-mm: an image of the whole volume would have {:.0f} pixels a side",
+                        side));
             const int n = int(std::ceil(side - 1e-6));
             scene.camera.width = scene.camera.height = std::max(2, n + n % 2);
         }
@@ -118,7 +133,9 @@ render::Scene sceneFor(const Options &o, const CLI::App &command, const volume::
         const auto n = parseNumbers("--size", o.size, 'x', 2);
         if (n[0] != std::round(n[0]) || n[1] != std::round(n[1]) || std::min(n[0], n[1]) < 1 ||
             std::max(n[0], n[1]) > render::largestImageSize)
-            throw Error(ErrorCode::usage, fmt::format("--size: '{}' is not WIDTHxHEIGHT of 1 to {} pixels", o.size, render::largestImageSize));
+            throw Error(ErrorCode::usage,
+                        fmt::format("--size: '{}' is not WIDTHxHEIGHT of 1 to {} pixels", o.size,
+                                    render::largestImageSize));
         scene.camera.width = int(n[0]);
         scene.camera.height = int(n[1]);
     }
@@ -137,47 +154,64 @@ render::Scene sceneFor(const Options &o, const CLI::App &command, const volume::
 }
 
 // The projection as a flat volume that lies in the patient where the picture plane does.
-void writeImageNrrd(const fs::path &path, const render::ProjectionImage &image, const render::Camera &camera,
-                    const volume::Lattice &patient) {
+void writeImageNrrd(const fs::path &path, const render::ProjectionImage &image,
+                    const render::Camera &camera, const volume::Lattice &patient) {
     const glm::dmat3 axes = camera.axes();
     const glm::dvec3 right = camera.pixelMm * axes[0], down = -camera.pixelMm * axes[1];
-    const glm::dvec3 center = patient.center().mm + camera.panMm.x * axes[0] + camera.panMm.y * axes[1];
-    const glm::dvec3 origin = center - 0.5 * (camera.width - 1) * right - 0.5 * (camera.height - 1) * down;
-    const auto lattice = volume::Lattice::make({image.width, image.height, 1}, {origin}, {right, down, -camera.pixelMm * axes[2]});
+    const glm::dvec3 center =
+        patient.center().mm + camera.panMm.x * axes[0] + camera.panMm.y * axes[1];
+    const glm::dvec3 origin =
+        center - 0.5 * (camera.width - 1) * right - 0.5 * (camera.height - 1) * down;
+    const auto lattice = volume::Lattice::make({image.width, image.height, 1}, {origin},
+                                               {right, down, -camera.pixelMm * axes[2]});
     volume::writeNrrd(path, volume::Volume(lattice, image.samples, volume::ValueUnit::none));
 }
 
-void writeImage(const fs::path &path, const render::ProjectionImage &image, const render::Scene &scene, const volume::Lattice &patient) {
+void writeImage(const fs::path &path, const render::ProjectionImage &image,
+                const render::Scene &scene, const volume::Lattice &patient) {
     switch (outputKind(path)) {
     case OutputKind::png:
         files::writePng(path, render::compose(image, scene.tone), image.height, image.width);
         break;
-    case OutputKind::npy: files::writeNpy(path, image.samples, image.height, image.width); break;
-    case OutputKind::nrrd: writeImageNrrd(path, image, scene.camera, patient); break;
+    case OutputKind::npy:
+        files::writeNpy(path, image.samples, image.height, image.width);
+        break;
+    case OutputKind::nrrd:
+        writeImageNrrd(path, image, scene.camera, patient);
+        break;
     }
 }
 
 fs::path framePath(const fs::path &out, int frame) {
-    return out.parent_path() / fmt::format("{}_{:04d}{}", out.stem().string(), frame, out.extension().string());
+    return out.parent_path() /
+           fmt::format("{}_{:04d}{}", out.stem().string(), frame, out.extension().string());
 }
 
-json doubles(const volume::GridSize &size) { return {size.i, size.j, size.k}; }
+json doubles(const volume::GridSize &size) {
+    return {size.i, size.j, size.k};
+}
 
 class Renderer {
 public:
-    Renderer(const render::Scene &scene, const classify::DensityField &field, const render::Budget &budget, const Context &context)
-        : m_scene(scene), m_field(field), m_plan(render::planRender(scene, render::summarise(field), budget)) {
+    Renderer(const render::Scene &scene, const classify::DensityField &field,
+             const render::Budget &budget, const Context &context)
+        : m_scene(scene), m_field(field),
+          m_plan(render::planRender(scene, render::summarise(field), budget)) {
         const task::Progress progress(context.stop);
         // The engine's error is known in advance; what it cannot meet the exact reference does.
         if (m_plan.predictedError <= scene.tolerance) {
-            m_engine = std::make_unique<render::CpuEngine>(std::make_shared<const fourier::Spectrum>(
-                fourier::Spectrum::prepare(field.values, m_plan.spectrum, progress)));
+            m_engine =
+                std::make_unique<render::CpuEngine>(std::make_shared<const fourier::Spectrum>(
+                    fourier::Spectrum::prepare(field.values, m_plan.spectrum, progress)));
         } else {
             m_plan.bytes = reference::WideKernel::bytes(field.support);
             if (m_plan.bytes > budget.bytes)
-                throw Error(ErrorCode::outOfMemory, fmt::format("a tolerance of {} needs {} MB, {} MB are allowed", scene.tolerance,
-                                                                (m_plan.bytes >> 20) + 1, budget.bytes >> 20));
-            m_reference = std::make_unique<reference::WideKernel>(field.values, field.support, progress);
+                throw Error(ErrorCode::outOfMemory,
+                            fmt::format("a tolerance of {} needs {} MB, {} MB are allowed",
+                                        scene.tolerance, (m_plan.bytes >> 20) + 1,
+                                        budget.bytes >> 20));
+            m_reference =
+                std::make_unique<reference::WideKernel>(field.values, field.support, progress);
         }
     }
 
@@ -187,19 +221,29 @@ public:
         Stopwatch watch;
         const auto exact = m_reference->image(camera, m_scene.image);
         times = {watch.lapMs(), 0.0};
-        return {camera.width, camera.height, camera.pixelMm, std::vector<float>(exact.begin(), exact.end())};
+        return {camera.width, camera.height, camera.pixelMm,
+                std::vector<float>(exact.begin(), exact.end())};
     }
 
-    std::string description() const { return m_engine ? m_engine->description() : "exact reference, double precision"; }
+    std::string description() const {
+        return m_engine ? m_engine->description() : "exact reference, double precision";
+    }
 
     json planJson() const {
         const auto &s = m_plan.spectrum;
         if (!m_engine)
-            return {{"kernel", "KB12"}, {"taps", 12 * 12 * 12}, {"padding", 2.0}, {"storage", "f64"}};
-        const render::SliceGrid grid = render::sliceGrid(m_scene.camera, s, m_field.values.lattice(), m_scene.image);
+            return {
+                {"kernel", "KB12"}, {"taps", 12 * 12 * 12}, {"padding", 2.0}, {"storage", "f64"}};
+        const render::SliceGrid grid =
+            render::sliceGrid(m_scene.camera, s, m_field.values.lattice(), m_scene.image);
         const int w = s.kernel.width();
-        return {{"kernel", s.kernel.name()}, {"taps", w * w * w}, {"padded", doubles(s.padded)}, {"box", doubles(s.box.size())},
-                {"padding", double(s.padded.i) / s.box.size().i}, {"slice_grid", {grid.columns, grid.rows}}, {"storage", "f32"}};
+        return {{"kernel", s.kernel.name()},
+                {"taps", w * w * w},
+                {"padded", doubles(s.padded)},
+                {"box", doubles(s.box.size())},
+                {"padding", double(s.padded.i) / s.box.size().i},
+                {"slice_grid", {grid.columns, grid.rows}},
+                {"storage", "f32"}};
     }
     std::size_t bytes() const { return m_plan.bytes; }
     // Double precision leaves rounding alone: about 1e-10.
@@ -217,7 +261,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const fs::path out(o.out);
     outputKind(out); // refused before any work is done
     if (o.engine == "gpu")
-        throw Error(ErrorCode::noSuchDevice, "--engine gpu: the GPU engine is not available in this version");
+        throw Error(ErrorCode::noSuchDevice,
+                    "--engine gpu: the GPU engine is not available in this version");
     if (o.turntable != (o.frames > 0))
         throw Error(ErrorCode::usage, "--frames and --turntable go together");
     std::optional<tbb::global_control> threads;
@@ -228,12 +273,16 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const volume::Volume &volume = input.loaded.volume;
     render::Scene scene = sceneFor(o, command, volume.lattice());
     Stopwatch watch;
-    const classify::FieldWindow window = scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
+    const classify::FieldWindow window =
+        scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
     const std::size_t held = volume.bytes() + volume.lattice().size().count() * sizeof(float);
     render::Budget budget;
     if (command.count("--memory") > 0) {
         if (o.memory < held)
-            throw Error(ErrorCode::outOfMemory, fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1, o.memory >> 20), o.path);
+            throw Error(ErrorCode::outOfMemory,
+                        fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
+                                    o.memory >> 20),
+                        o.path);
         budget.bytes = o.memory - held;
     }
     const auto field = classify::densityField(volume, window, task::Progress(context.stop));
@@ -247,7 +296,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     for (int frame = 0; frame < frames; ++frame) {
         task::Progress(context.stop).check();
         render::Scene turned = scene;
-        turned.camera.orientation = glm::angleAxis(glm::radians(360.0 * frame / frames), glm::dvec3(0, 0, 1)) * scene.camera.orientation;
+        turned.camera.orientation =
+            glm::angleAxis(glm::radians(360.0 * frame / frames), glm::dvec3(0, 0, 1)) *
+            scene.camera.orientation;
         const auto image = renderer.image(turned.camera, times);
         watch.lapMs();
         writeImage(o.frames > 0 ? framePath(out, frame) : out, image, turned, volume.lattice());
@@ -264,15 +315,26 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                         {"size", {scene.camera.width, scene.camera.height}},
                         {"pixel_mm", scene.camera.pixelMm},
                         {"frames", frames},
-                        {"volume", {{"size", doubles(l.size())}, {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
-                                    {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846}, {"series", input.seriesUid}}},
+                        {"volume",
+                         {{"size", doubles(l.size())},
+                          {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
+                          {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
+                          {"series", input.seriesUid}}},
                         {"window", {window.low, window.high}},
-                        {"milliseconds", {{"scan", input.scanMs}, {"load", input.loadMs}, {"field", fieldMs}, {"prepare", prepareMs},
-                                          {"slice", times.sliceMs}, {"transform", times.transformMs}, {"frame", times.totalMs()}, {"write", writeMs}}},
+                        {"milliseconds",
+                         {{"scan", input.scanMs},
+                          {"load", input.loadMs},
+                          {"field", fieldMs},
+                          {"prepare", prepareMs},
+                          {"slice", times.sliceMs},
+                          {"transform", times.transformMs},
+                          {"frame", times.totalMs()},
+                          {"write", writeMs}}},
                         {"bytes", renderer.bytes()},
                         {"plan", renderer.planJson()},
                         {"tolerance", scene.tolerance},
-                        {"predicted_error", {{"relative_l2", renderer.predictedError()}, {"maximum", nullptr}}},
+                        {"predicted_error",
+                         {{"relative_l2", renderer.predictedError()}, {"maximum", nullptr}}},
                         {"warnings", volume.notes().warnings},
                         {"skipped", skipped}})
                   .c_str());
@@ -291,24 +353,38 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     };
     c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR or an NRRD file")->required();
     c->add_option("-o,--output", o->out, "The image: .png, .npy or .nrrd")->required();
-    c->add_option("--series", o->series, "Series number or UID; default: the volume with most voxels");
-    c->add_option("--view", o->view, "Standard view, default front")->check(CLI::IsMember(names(views)));
-    c->add_option("--azimuth", o->azimuthDeg, "Degrees about the patient's long axis, added to the view");
+    c->add_option("--series", o->series,
+                  "Series number or UID; default: the volume with most voxels");
+    c->add_option("--view", o->view, "Standard view, default front")
+        ->check(CLI::IsMember(names(views)));
+    c->add_option("--azimuth", o->azimuthDeg,
+                  "Degrees about the patient's long axis, added to the view");
     c->add_option("--elevation", o->elevationDeg, "Degrees up from the horizon, added to the view");
     c->add_option("--roll", o->rollDeg, "Degrees about the line of sight, added to the view");
     c->add_option("--orientation", o->orientation, "Rotation [U V W] as a quaternion w,x,y,z");
     c->add_option("--size", o->size, "Image size WxH in pixels; default: holds every view");
-    c->add_option("--pixel-mm", o->pixelMm, "Pixel size in mm; default: the shortest voxel step")->check(CLI::PositiveNumber);
+    c->add_option("--pixel-mm", o->pixelMm, "Pixel size in mm; default: the shortest voxel step")
+        ->check(CLI::PositiveNumber);
     c->add_option("--window", o->window, "The field's window LO,HI in value units");
-    c->add_option("--reconstruction", o->reconstruction, "What lies between the samples")->check(CLI::IsMember(names(reconstructions)));
-    c->add_option("--roll-off", o->rollOff, "Share of the band that is rolled off, default 0.05")->check(CLI::Range(0.0, 1.0));
-    CLI::Option *quality = c->add_option("--quality", o->quality, "Named tolerance, default standard")->check(CLI::IsMember(names(qualities)));
-    c->add_option("--tolerance", o->tolerance, "Largest relative L2 error")->check(CLI::PositiveNumber)->excludes(quality);
-    c->add_option("--engine", o->engine, "auto, cpu or gpu")->check(CLI::IsMember({"auto", "cpu", "gpu"}));
+    c->add_option("--reconstruction", o->reconstruction, "What lies between the samples")
+        ->check(CLI::IsMember(names(reconstructions)));
+    c->add_option("--roll-off", o->rollOff, "Share of the band that is rolled off, default 0.05")
+        ->check(CLI::Range(0.0, 1.0));
+    CLI::Option *quality =
+        c->add_option("--quality", o->quality, "Named tolerance, default standard")
+            ->check(CLI::IsMember(names(qualities)));
+    c->add_option("--tolerance", o->tolerance, "Largest relative L2 error")
+        ->check(CLI::PositiveNumber)
+        ->excludes(quality);
+    c->add_option("--engine", o->engine, "auto, cpu or gpu")
+        ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     c->add_option("--threads", o->threads, "Most threads to use")->check(CLI::Range(1, 1024));
-    c->add_option("--memory", o->memory, "Most bytes to use, with units if you like (2GB)")->transform(CLI::AsSizeValue(false));
-    c->add_option("--frames", o->frames, "Number of frames of a turntable")->check(CLI::Range(1, 100000));
-    c->add_flag("--turntable", o->turntable, "Turn once about the patient's long axis; OUT gets the frame number");
+    c->add_option("--memory", o->memory, "Most bytes to use, with units if you like (2GB)")
+        ->transform(CLI::AsSizeValue(false));
+    c->add_option("--frames", o->frames, "Number of frames of a turntable")
+        ->check(CLI::Range(1, 100000));
+    c->add_flag("--turntable", o->turntable,
+                "Turn once about the patient's long axis; OUT gets the frame number");
     c->add_option("--scene", o->scene, "Start from a scene saved as JSON");
     c->add_flag("--json", o->json, "Print one JSON object about what was done");
     c->callback([o, c, context] { run(*o, *c, context); });

@@ -32,7 +32,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         volume::writeNrrd(o.out, volume, encoding);
         return;
     }
-    const auto field = classify::densityField(volume, window.value_or(classify::defaultFieldWindow(volume)), task::Progress(context.stop));
+    const auto field =
+        classify::densityField(volume, window.value_or(classify::defaultFieldWindow(volume)),
+                               task::Progress(context.stop));
     volume::writeNrrd(o.out, field.values, encoding);
 }
 
@@ -40,10 +42,12 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 
 void addVolumeCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
-    CLI::App *c = app.add_subcommand("volume", "Write a volume, or the field that is projected, as NRRD");
+    CLI::App *c =
+        app.add_subcommand("volume", "Write a volume, or the field that is projected, as NRRD");
     c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR or an NRRD file")->required();
     c->add_option("-o,--output", o->out, "The NRRD file")->required();
-    c->add_option("--series", o->series, "Series number or UID; default: the volume with most voxels");
+    c->add_option("--series", o->series,
+                  "Series number or UID; default: the volume with most voxels");
     c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
     c->add_option("--window", o->window, "The field's window LO,HI in value units");
     c->add_flag("--gzip", o->gzip, "Compress the samples");

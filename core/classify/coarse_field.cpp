@@ -16,15 +16,16 @@ DensityField coarseField(const DensityField &field, int side) {
         block[d] = (fine.size()[d] + side - 1) / side;
         count[d] = (fine.size()[d] + block[d] - 1) / block[d];
     }
-    // Blocks stand symmetrically about the centre of the lattice, so that both fields turn about the
-    // same point; the outer ones may reach past the last sample, where the field is zero.
+    // Blocks stand symmetrically about the centre of the lattice, so that both fields turn about
+    // the same point; the outer ones may reach past the last sample, where the field is zero.
     glm::dvec3 firstBlock;
     std::array<glm::dvec3, 3> steps;
     for (int d = 0; d < 3; ++d) {
         firstBlock[d] = 0.5 * (fine.size()[d] - 1) - 0.5 * (count[d] - 1) * block[d];
         steps[d] = double(block[d]) * fine.step(d);
     }
-    const auto lattice = volume::Lattice::make({count[0], count[1], count[2]}, fine.patient(volume::VoxelPoint{firstBlock}), steps);
+    const auto lattice = volume::Lattice::make({count[0], count[1], count[2]},
+                                               fine.patient(volume::VoxelPoint{firstBlock}), steps);
     // The first sample of the first block; at most half a sample is lost to the rounding of it.
     std::array<int, 3> start{};
     for (int d = 0; d < 3; ++d)
@@ -34,18 +35,25 @@ DensityField coarseField(const DensityField &field, int side) {
         tbb::parallel_for(0, count[2], [&](int ck) {
             const std::size_t plane = static_cast<std::size_t>(count[0]) * count[1];
             std::vector<double> sums(plane, 0.0);
-            for (int k = std::max(0, start[2] + ck * block[2]); k < std::min(fine.size().k, start[2] + (ck + 1) * block[2]); ++k)
+            for (int k = std::max(0, start[2] + ck * block[2]);
+                 k < std::min(fine.size().k, start[2] + (ck + 1) * block[2]); ++k)
                 for (int j = 0; j < fine.size().j; ++j) {
-                    const auto *row = samples.data() + (std::size_t(k) * fine.size().j + j) * fine.size().i;
-                    double *out = sums.data() + std::size_t(std::clamp((j - start[1]) / block[1], 0, count[1] - 1)) * count[0];
+                    const auto *row =
+                        samples.data() + (std::size_t(k) * fine.size().j + j) * fine.size().i;
+                    double *out = sums.data() + std::size_t(std::clamp((j - start[1]) / block[1], 0,
+                                                                       count[1] - 1)) *
+                                                    count[0];
                     for (int i = 0; i < fine.size().i; ++i)
-                        out[std::clamp((i - start[0]) / block[0], 0, count[0] - 1)] += double(row[i]);
+                        out[std::clamp((i - start[0]) / block[0], 0, count[0] - 1)] +=
+                            double(row[i]);
                 }
             for (std::size_t n = 0; n < sums.size(); ++n)
-                means[std::size_t(ck) * sums.size() + n] = float(sums[n] / (double(block[0]) * block[1] * block[2]));
+                means[std::size_t(ck) * sums.size() + n] =
+                    float(sums[n] / (double(block[0]) * block[1] * block[2]));
         });
     });
-    return densityField(volume::Volume(lattice, std::move(means), volume::ValueUnit::none), {0.0, 1.0});
+    return densityField(volume::Volume(lattice, std::move(means), volume::ValueUnit::none),
+                        {0.0, 1.0});
 }
 
 } // namespace pellucid::classify

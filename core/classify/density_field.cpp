@@ -85,13 +85,16 @@ DensityField densityField(const volume::Volume &volume, const FieldWindow &windo
             return mapSlices<T>(samples, values, size, map, progress);
         });
         if (box.hi.i <= box.lo.i)
-            box = {{size.i / 2, size.j / 2, size.k / 2}, {size.i / 2 + 1, size.j / 2 + 1, size.k / 2 + 1}};
+            box = {{size.i / 2, size.j / 2, size.k / 2},
+                   {size.i / 2 + 1, size.j / 2 + 1, size.k / 2 + 1}};
         progress.report(1.0);
-        return {volume::Volume(volume.lattice(), std::move(values), volume::ValueUnit::none, volume.notes()),
+        return {volume::Volume(volume.lattice(), std::move(values), volume::ValueUnit::none,
+                               volume.notes()),
                 box};
     } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("not enough memory for a field of {} x {} x {}", size.i, size.j, size.k));
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            fmt::format("not enough memory for a field of {} x {} x {}", size.i, size.j, size.k));
     }
 }
 

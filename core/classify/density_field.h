@@ -19,13 +19,13 @@ FieldWindow defaultFieldWindow(const volume::Volume &volume);
 
 /// What is projected: f in 0..1 on the volume's own lattice.
 struct DensityField {
-    volume::Volume values;    ///< float32, the whole lattice
-    volume::VoxelBox support; ///< smallest box that holds every non-zero sample; one sample if all are 0
+    volume::Volume values; ///< float32, the whole lattice
+    volume::VoxelBox
+        support; ///< smallest box that holds every non-zero sample; one sample if all are 0
 };
 
-/// f = clamp((value - low) / (high - low), 0, 1). NaN is 0, infinities are clamped; a window without
-/// width gives 0 everywhere.
-/// *Throws* Error{outOfMemory}, Cancelled.
+/// f = clamp((value - low) / (high - low), 0, 1). NaN is 0, infinities are clamped; a window
+/// without width gives 0 everywhere. *Throws* Error{outOfMemory}, Cancelled.
 DensityField densityField(const volume::Volume &volume, const FieldWindow &window,
                           const task::Progress &progress = {});
 

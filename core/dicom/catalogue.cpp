@@ -11,9 +11,11 @@ namespace pellucid::dicom {
 namespace {
 
 const Selection &largest(const std::vector<Selection> &candidates) {
-    return *std::max_element(candidates.begin(), candidates.end(), [](const Selection &a, const Selection &b) {
-        return std::tuple(a.volume->placed, a.volume->voxels()) < std::tuple(b.volume->placed, b.volume->voxels());
-    });
+    return *std::max_element(candidates.begin(), candidates.end(),
+                             [](const Selection &a, const Selection &b) {
+                                 return std::tuple(a.volume->placed, a.volume->voxels()) <
+                                        std::tuple(b.volume->placed, b.volume->voxels());
+                             });
 }
 
 } // namespace
@@ -46,7 +48,8 @@ Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUi
             known += (known.empty() ? "" : ", ") + number;
     }
     if (matching.empty())
-        throw task::Error(task::ErrorCode::unusable, "no series '" + numberOrUid + "'; there are " + known);
+        throw task::Error(task::ErrorCode::unusable,
+                          "no series '" + numberOrUid + "'; there are " + known);
     return largest(matching);
 }
 

@@ -26,21 +26,21 @@ struct FrameReference {
 /// Where the planes of a stack lie and where the volume's slices will be.
 struct StackGeometry {
     volume::Lattice lattice;
-    /// For an uneven stack: distance of every frame from the first, along the slices' normal, mm; the
-    /// lattice's slices are interpolated between them. Empty if every frame is a slice.
+    /// For an uneven stack: distance of every frame from the first, along the slices' normal, mm;
+    /// the lattice's slices are interpolated between them. Empty if every frame is a slice.
     std::vector<double> frameOffsetsMm;
 };
 
 /// Frames that make one volume, or, without positions, a set of images.
 struct VolumeEntry {
-    std::string label;              ///< what tells it from the other volumes of its series, may be empty
+    std::string label; ///< what tells it from the other volumes of its series, may be empty
     std::vector<FrameReference> frames; ///< in the order of the stack
     StackGeometry geometry;
-    bool placed = true;             ///< false: images only, not a volume
+    bool placed = true; ///< false: images only, not a volume
     std::string notPlacedReason;
     volume::ValueUnit unit = volume::ValueUnit::none;
     volume::VolumeNotes notes;
-    std::filesystem::path nrrd;     ///< set instead of frames for a NRRD file
+    std::filesystem::path nrrd; ///< set instead of frames for a NRRD file
 
     std::size_t voxels() const { return geometry.lattice.size().count(); }
 };

@@ -26,7 +26,9 @@ namespace {
 using task::Error;
 using task::ErrorCode;
 
-[[noreturn]] void fail(const std::string &reason) { throw Error(ErrorCode::unusable, reason); }
+[[noreturn]] void fail(const std::string &reason) {
+    throw Error(ErrorCode::unusable, reason);
+}
 
 // Keeps `bits` low bits and spreads the sign over 16.
 std::uint16_t extended(std::uint32_t value, int bits, bool isSigned) {
@@ -46,7 +48,8 @@ std::vector<std::byte> bytesOf(DcmPixelSequence &sequence, unsigned long first, 
     for (unsigned long n = first; n < end; ++n) {
         DcmPixelItem *item = nullptr;
         Uint8 *data = nullptr;
-        if (sequence.getItem(item, n).bad() || item->getUint8Array(data).bad() || (data == nullptr && item->getLength() > 0))
+        if (sequence.getItem(item, n).bad() || item->getUint8Array(data).bad() ||
+            (data == nullptr && item->getLength() > 0))
             fail("a fragment of the compressed pixels is not readable");
         const auto *from = reinterpret_cast<const std::byte *>(data);
         bytes.insert(bytes.end(), from, from + item->getLength());
@@ -57,7 +60,8 @@ std::vector<std::byte> bytesOf(DcmPixelSequence &sequence, unsigned long first, 
 bool startsCodestream(DcmPixelSequence &sequence, unsigned long fragment) {
     DcmPixelItem *item = nullptr;
     Uint8 *data = nullptr;
-    if (sequence.getItem(item, fragment).bad() || item->getLength() < 12 || item->getUint8Array(data).bad() || data == nullptr)
+    if (sequence.getItem(item, fragment).bad() || item->getLength() < 12 ||
+        item->getUint8Array(data).bad() || data == nullptr)
         return false;
     return (data[0] == 0xFF && data[1] == 0x4F) || std::memcmp(data + 4, "jP  ", 4) == 0;
 }
@@ -72,17 +76,20 @@ void decodeJpeg2000Frames(DcmDataset &dataset, DecodedImage &image) {
     const DcmRepresentationParameter *parameter = nullptr;
     if (pixels != nullptr)
         pixels->getOriginalRepresentationKey(syntax, parameter);
-    if (pixels == nullptr || pixels->getEncapsulatedRepresentation(syntax, parameter, sequence).bad() || sequence == nullptr)
+    if (pixels == nullptr ||
+        pixels->getEncapsulatedRepresentation(syntax, parameter, sequence).bad() ||
+        sequence == nullptr)
         fail("the compressed pixels are not readable");
-    // Fragment 0 is the offset table. A frame may be cut into several fragments; each starts where a
-    // codestream starts.
+    // Fragment 0 is the offset table. A frame may be cut into several fragments; each starts where
+    // a codestream starts.
     std::vector<unsigned long> starts;
     const unsigned long fragments = sequence->card();
     for (unsigned long n = 1; n < fragments; ++n)
         if (startsCodestream(*sequence, n))
             starts.push_back(n);
     if (starts.size() != h.frames.size())
-        fail(fmt::format("holds {} compressed frames, {} are announced", starts.size(), h.frames.size()));
+        fail(fmt::format("holds {} compressed frames, {} are announced", starts.size(),
+                         h.frames.size()));
     starts.push_back(fragments);
     const std::size_t plane = std::size_t(h.rows) * h.columns;
     for (std::size_t frame = 0; frame + 1 < starts.size(); ++frame) {
@@ -91,7 +98,8 @@ void decodeJpeg2000Frames(DcmDataset &dataset, DecodedImage &image) {
         // The header decides whether values are signed; where the codestream disagrees its bits are
         // the two's complement of its own precision.
         for (std::size_t n = 0; n < plane; ++n)
-            image.samples[frame * plane + n] = extended(std::uint32_t(decoded.samples[n]), decoded.precision, h.isSigned);
+            image.samples[frame * plane + n] =
+                extended(std::uint32_t(decoded.samples[n]), decoded.precision, h.isSigned);
     }
 }
 
@@ -102,7 +110,8 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
     const int shift = h.highBit + 1 - h.bitsStored;
     const auto take = [&](const auto *data) {
         if (data == nullptr || count < needed)
-            fail(fmt::format("the pixels are truncated: {} of {} samples", data == nullptr ? 0 : count, needed));
+            fail(fmt::format("the pixels are truncated: {} of {} samples",
+                             data == nullptr ? 0 : count, needed));
         for (std::size_t n = 0; n < needed; ++n)
             image.samples[n] = extended(std::uint32_t(data[n]) >> shift, h.bitsStored, h.isSigned);
     };
@@ -120,7 +129,8 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
         if (words == nullptr || count < needed)
             fail("the pixels are truncated");
         for (std::size_t n = 0; n < needed; ++n)
-            image.samples[n] = extended(std::uint32_t(words[n / 2] >> (n % 2 * 8)) >> shift, h.bitsStored, h.isSigned);
+            image.samples[n] = extended(std::uint32_t(words[n / 2] >> (n % 2 * 8)) >> shift,
+                                        h.bitsStored, h.isSigned);
         return;
     }
     const Uint16 *data = nullptr;
@@ -160,7 +170,8 @@ DecodedImage decodeImage(std::span<const std::byte> bytes) {
             return image;
         }
         if (transfer.isEncapsulated()) {
-            const OFCondition decoded = dataset->chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
+            const OFCondition decoded =
+                dataset->chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
             if (decoded.bad())
                 fail(fmt::format("{}: {}", transfer.getXferName(), decoded.text()));
             // The decoder may have widened or narrowed the samples.
@@ -169,7 +180,8 @@ DecodedImage decodeImage(std::span<const std::byte> bytes) {
             image.header.bitsStored = after.bitsStored;
             image.header.highBit = after.highBit;
             image.header.isSigned = after.isSigned;
-            if (after.rows != image.header.rows || after.columns != image.header.columns || after.samplesPerPixel != 1)
+            if (after.rows != image.header.rows || after.columns != image.header.columns ||
+                after.samplesPerPixel != 1)
                 fail("the compressed image is not what the header says");
         }
         decodePlainFrames(*dataset, image);

@@ -19,13 +19,18 @@ using Frames = std::vector<PlacedFrame>;
 
 // Axes written with six digits differ by rounding; 1e-4 is 0.006 degrees, a tenth of a voxel across
 // a large image.
-bool sameAxis(const glm::dvec3 &a, const glm::dvec3 &b) { return glm::distance(a, b) < 1e-4; }
+bool sameAxis(const glm::dvec3 &a, const glm::dvec3 &b) {
+    return glm::distance(a, b) < 1e-4;
+}
 
-bool isLocalizer(const std::string &imageType) { return imageType.find("LOCALIZER") != std::string::npos; }
+bool isLocalizer(const std::string &imageType) {
+    return imageType.find("LOCALIZER") != std::string::npos;
+}
 
 bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
     const FrameHeader &x = a.header, &y = b.header;
-    return a.rows == b.rows && a.columns == b.columns && isLocalizer(x.imageType) == isLocalizer(y.imageType) &&
+    return a.rows == b.rows && a.columns == b.columns &&
+           isLocalizer(x.imageType) == isLocalizer(y.imageType) &&
            glm::distance(*x.spacingMm, *y.spacingMm) < 1e-4 && sameAxis(*x.rowAxis, *y.rowAxis) &&
            sameAxis(*x.columnAxis, *y.columnAxis);
 }
@@ -51,11 +56,13 @@ void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
     std::erase_if(frames, [&](const PlacedFrame &frame) {
         if (frame.sopInstanceUid.empty())
             return false;
-        const auto [it, fresh] = seen.try_emplace({frame.sopInstanceUid, frame.reference.frame}, frame.reference.path);
+        const auto [it, fresh] =
+            seen.try_emplace({frame.sopInstanceUid, frame.reference.frame}, frame.reference.path);
         if (fresh)
             return false;
         if (std::find(reported.begin(), reported.end(), frame.reference.path) == reported.end()) {
-            skipped.push_back({frame.reference.path, "has the instance UID of " + it->second.filename().string()});
+            skipped.push_back({frame.reference.path,
+                               "has the instance UID of " + it->second.filename().string()});
             reported.push_back(frame.reference.path);
         }
         return true;
@@ -72,7 +79,8 @@ std::vector<Part> splitBy(const Frames &sorted, const std::string &name,
     std::vector<Part> parts;
     for (const PlacedFrame &frame : sorted) {
         const std::string label = fmt::format("{} {}", name, key(frame));
-        auto it = std::find_if(parts.begin(), parts.end(), [&](const Part &p) { return p.label == label; });
+        auto it = std::find_if(parts.begin(), parts.end(),
+                               [&](const Part &p) { return p.label == label; });
         if (it == parts.end())
             it = parts.insert(parts.end(), {label, {}});
         it->frames.push_back(frame);
@@ -85,14 +93,14 @@ std::vector<Part> splitBy(const Frames &sorted, const std::string &name,
 bool separates(const std::vector<Part> &parts) {
     const std::size_t slices = parts.front().frames.size();
     return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
-        return part.frames.size() == slices && !placesRepeat(part.frames);
-    });
+               return part.frames.size() == slices && !placesRepeat(part.frames);
+           });
 }
 
 bool separatesUnevenly(const std::vector<Part> &parts, std::size_t places) {
     return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
-        return !placesRepeat(part.frames) && (2 * part.frames.size() >= places);
-    });
+               return !placesRepeat(part.frames) && (2 * part.frames.size() >= places);
+           });
 }
 
 std::vector<Part> splitRepeats(const Frames &sorted) {
@@ -100,14 +108,16 @@ std::vector<Part> splitRepeats(const Frames &sorted) {
     for (std::size_t n = 1; n < sorted.size(); ++n)
         places += samePlace(sorted[n - 1], sorted[n]) ? 0 : 1;
     std::vector<std::vector<Part>> splits;
-    for (const char *name : {"temporal position", "echo", "b-value", "trigger time", "stack", "acquisition",
-                             "acquisition time", "content time"})
+    for (const char *name : {"temporal position", "echo", "b-value", "trigger time", "stack",
+                             "acquisition", "acquisition time", "content time"})
         splits.push_back(splitBy(sorted, name, [name](const PlacedFrame &frame) {
             const auto it = frame.header.dimensions.find(name);
             return it == frame.header.dimensions.end() ? std::string() : it->second;
         }));
-    splits.push_back(splitBy(sorted, "type", [](const PlacedFrame &f) { return f.header.imageType; }));
-    splits.push_back(splitBy(sorted, "file", [](const PlacedFrame &f) { return f.reference.path.filename().string(); }));
+    splits.push_back(
+        splitBy(sorted, "type", [](const PlacedFrame &f) { return f.header.imageType; }));
+    splits.push_back(splitBy(
+        sorted, "file", [](const PlacedFrame &f) { return f.reference.path.filename().string(); }));
     for (const auto &parts : splits)
         if (separates(parts))
             return parts;
@@ -116,9 +126,10 @@ std::vector<Part> splitRepeats(const Frames &sorted) {
             return parts;
     // Nothing in the headers tells them apart: the first image of every place, then the second, ...
     Frames byNumber = sorted;
-    std::stable_sort(byNumber.begin(), byNumber.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
-        return a.instanceNumber < b.instanceNumber;
-    });
+    std::stable_sort(byNumber.begin(), byNumber.end(),
+                     [](const PlacedFrame &a, const PlacedFrame &b) {
+                         return a.instanceNumber < b.instanceNumber;
+                     });
     std::vector<Part> parts;
     for (const PlacedFrame &frame : byNumber) {
         auto it = std::find_if(parts.begin(), parts.end(), [&](const Part &part) {
@@ -147,15 +158,19 @@ void makeImages(VolumeEntry &entry, const Frames &frames, const std::string &rea
     entry.placed = false;
     entry.notPlacedReason = reason;
     const glm::dvec2 spacing = frames.front().header.spacingMm.value_or(glm::dvec2(1.0));
-    entry.geometry = {volume::Lattice::centred({frames.front().columns, frames.front().rows, int(frames.size())},
-                                               {spacing.x, spacing.y, 1.0}),
-                      {}};
+    entry.geometry = {
+        volume::Lattice::centred({frames.front().columns, frames.front().rows, int(frames.size())},
+                                 {spacing.x, spacing.y, 1.0}),
+        {}};
 }
 
-std::vector<Frames> blocksOf(const Frames &frames, const std::function<bool(const PlacedFrame &, const PlacedFrame &)> &same) {
+std::vector<Frames>
+blocksOf(const Frames &frames,
+         const std::function<bool(const PlacedFrame &, const PlacedFrame &)> &same) {
     std::vector<Frames> blocks;
     for (const PlacedFrame &frame : frames) {
-        auto it = std::find_if(blocks.begin(), blocks.end(), [&](const Frames &b) { return same(b.front(), frame); });
+        auto it = std::find_if(blocks.begin(), blocks.end(),
+                               [&](const Frames &b) { return same(b.front(), frame); });
         if (it == blocks.end())
             it = blocks.insert(blocks.end(), Frames());
         it->push_back(frame);
@@ -175,12 +190,14 @@ std::string missingGeometry(const FrameHeader &h) {
 
 } // namespace
 
-std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files, std::vector<Skipped> &skipped) {
+std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
+                                     std::vector<Skipped> &skipped) {
     Frames placed, unplaced;
     for (const SeriesFile &file : files)
         for (int n = 0; n < int(file.header.frames.size()); ++n) {
-            PlacedFrame frame{{file.path, n}, file.header.frames[n], file.header.rows, file.header.columns,
-                              file.header.instanceNumber, file.header.sopInstanceUid};
+            PlacedFrame frame{
+                {file.path, n},      file.header.frames[n],      file.header.rows,
+                file.header.columns, file.header.instanceNumber, file.header.sopInstanceUid};
             (missingGeometry(frame.header).empty() ? placed : unplaced).push_back(std::move(frame));
         }
     dropCopies(placed, skipped);
@@ -189,7 +206,8 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files, std::
     std::vector<VolumeEntry> entries;
     for (Frames &block : blocksOf(placed, sameBlock)) {
         sortByDepth(block);
-        const std::vector<Part> parts = placesRepeat(block) ? splitRepeats(block) : std::vector<Part>{{"", block}};
+        const std::vector<Part> parts =
+            placesRepeat(block) ? splitRepeats(block) : std::vector<Part>{{"", block}};
         for (const Part &part : parts) {
             VolumeEntry entry = entryFrom(part);
             StackResult stack = stackGeometry(part.frames);
@@ -202,12 +220,15 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files, std::
         }
     }
     const auto sameSize = [](const PlacedFrame &a, const PlacedFrame &b) {
-        return a.rows == b.rows && a.columns == b.columns && missingGeometry(a.header) == missingGeometry(b.header);
+        return a.rows == b.rows && a.columns == b.columns &&
+               missingGeometry(a.header) == missingGeometry(b.header);
     };
     for (Frames &block : blocksOf(unplaced, sameSize)) {
-        std::stable_sort(block.begin(), block.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
-            return std::tuple(a.instanceNumber, a.reference.frame) < std::tuple(b.instanceNumber, b.reference.frame);
-        });
+        std::stable_sort(block.begin(), block.end(),
+                         [](const PlacedFrame &a, const PlacedFrame &b) {
+                             return std::tuple(a.instanceNumber, a.reference.frame) <
+                                    std::tuple(b.instanceNumber, b.reference.frame);
+                         });
         VolumeEntry entry = entryFrom({"", block});
         makeImages(entry, block, missingGeometry(block.front().header));
         entries.push_back(std::move(entry));

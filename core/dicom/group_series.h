@@ -17,7 +17,9 @@ struct SeriesFile {
 /// Splits one series into volumes: by size, orientation, pixel spacing and localizer first; where
 /// positions then still repeat, by the first attribute that tells them apart (temporal position,
 /// acquisition, echo, b-value, ...), at last by the order of the files. Copies of the same instance
-/// are dropped and listed. Frames without position or orientation become sets of images with the reason.
-std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files, std::vector<Skipped> &skipped);
+/// are dropped and listed. Frames without position or orientation become sets of images with the
+/// reason.
+std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
+                                     std::vector<Skipped> &skipped);
 
 } // namespace pellucid::dicom

@@ -23,12 +23,12 @@ struct Rescale {
 
 /// What a header says about one frame.
 struct FrameHeader {
-    std::optional<glm::dvec3> positionMm;           ///< ImagePositionPatient
-    std::optional<glm::dvec3> rowAxis, columnAxis;  ///< ImageOrientationPatient, normalised
-    std::optional<glm::dvec2> spacingMm;            ///< distance of columns, distance of rows
-    double sliceThicknessMm = 0.0;                  ///< 0 if unknown
+    std::optional<glm::dvec3> positionMm;          ///< ImagePositionPatient
+    std::optional<glm::dvec3> rowAxis, columnAxis; ///< ImageOrientationPatient, normalised
+    std::optional<glm::dvec2> spacingMm;           ///< distance of columns, distance of rows
+    double sliceThicknessMm = 0.0;                 ///< 0 if unknown
     Rescale rescale;
-    std::string imageType;                          ///< values joined with backslashes
+    std::string imageType; ///< values joined with backslashes
     /// Attributes that can tell apart volumes at the same positions, by name: temporal position,
     /// acquisition, echo, ... Absent ones are missing.
     std::map<std::string, std::string> dimensions;
@@ -48,9 +48,9 @@ struct InstanceHeader {
     std::string photometric, rescaleType;
     std::optional<int> paddingValue, paddingLimit;
     std::vector<volume::ValueWindow> windows;
-    std::vector<std::uint16_t> modalityTable;  ///< values, empty if there is none
+    std::vector<std::uint16_t> modalityTable; ///< values, empty if there is none
     int modalityTableFirst = 0;
-    std::vector<FrameHeader> frames;           ///< at least one
+    std::vector<FrameHeader> frames; ///< at least one
 };
 
 /// A decoded file: stored values, high bits masked, sign extended to 16 bits.

@@ -18,7 +18,8 @@ struct Jpeg2000Image {
 
 /// Decodes a codestream or JP2 file of one component of at most 16 bits.
 /// *Throws* Error{unusable}.
-Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows, int expectedColumns);
+Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows,
+                             int expectedColumns);
 
 /// Encodes one component without loss as a codestream. *Throws* Error{internal}.
 std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &image);

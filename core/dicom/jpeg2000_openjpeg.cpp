@@ -19,9 +19,12 @@ using task::ErrorCode;
 template <class T, void (*Free)(T *)> struct Freer {
     void operator()(T *p) const { Free(p); }
 };
-using Stream = std::unique_ptr<opj_stream_t, Freer<opj_stream_t, [](opj_stream_t *p) { opj_stream_destroy(p); }>>;
-using Codec = std::unique_ptr<opj_codec_t, Freer<opj_codec_t, [](opj_codec_t *p) { opj_destroy_codec(p); }>>;
-using Image = std::unique_ptr<opj_image_t, Freer<opj_image_t, [](opj_image_t *p) { opj_image_destroy(p); }>>;
+using Stream = std::unique_ptr<opj_stream_t,
+                               Freer<opj_stream_t, [](opj_stream_t *p) { opj_stream_destroy(p); }>>;
+using Codec =
+    std::unique_ptr<opj_codec_t, Freer<opj_codec_t, [](opj_codec_t *p) { opj_destroy_codec(p); }>>;
+using Image =
+    std::unique_ptr<opj_image_t, Freer<opj_image_t, [](opj_image_t *p) { opj_image_destroy(p); }>>;
 
 struct Source {
     std::span<const std::byte> data;
@@ -76,8 +79,11 @@ OPJ_BOOL seekWrite(OPJ_OFF_T to, void *user) {
 
 } // namespace
 
-Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows, int expectedColumns) {
-    const auto fail = [](const char *why) { throw Error(ErrorCode::unusable, std::string("JPEG 2000: ") + why); };
+Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows,
+                             int expectedColumns) {
+    const auto fail = [](const char *why) {
+        throw Error(ErrorCode::unusable, std::string("JPEG 2000: ") + why);
+    };
     if (data.size() < 12)
         fail("truncated");
     const bool codestream = data[0] == std::byte(0xFF) && data[1] == std::byte(0x4F);
@@ -102,12 +108,14 @@ Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows, 
     if (image->numcomps != 1 || image->x1 - image->x0 != OPJ_UINT32(expectedColumns) ||
         image->y1 - image->y0 != OPJ_UINT32(expectedRows) || image->comps[0].prec > 16)
         fail("the image is not what the header says");
-    if (opj_decode(codec.get(), stream.get(), image.get()) == OPJ_FALSE || image->comps[0].data == nullptr ||
-        image->comps[0].w != OPJ_UINT32(expectedColumns) || image->comps[0].h != OPJ_UINT32(expectedRows))
+    if (opj_decode(codec.get(), stream.get(), image.get()) == OPJ_FALSE ||
+        image->comps[0].data == nullptr || image->comps[0].w != OPJ_UINT32(expectedColumns) ||
+        image->comps[0].h != OPJ_UINT32(expectedRows))
         fail("damaged or truncated");
     const opj_image_comp_t &component = image->comps[0];
     return {expectedRows, expectedColumns, int(component.prec), component.sgnd != 0,
-            std::vector<std::int32_t>(component.data, component.data + std::size_t(expectedRows) * expectedColumns)};
+            std::vector<std::int32_t>(component.data, component.data + std::size_t(expectedRows) *
+                                                                           expectedColumns)};
 }
 
 std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {
@@ -120,7 +128,8 @@ std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {
     parameters.cp_disto_alloc = 1;
     // Each resolution halves the image; small images have room for fewer.
     parameters.numresolution = 1;
-    while (parameters.numresolution < 6 && (std::min(in.rows, in.columns) >> parameters.numresolution) > 0)
+    while (parameters.numresolution < 6 &&
+           (std::min(in.rows, in.columns) >> parameters.numresolution) > 0)
         ++parameters.numresolution;
     opj_image_cmptparm_t component{};
     component.dx = component.dy = 1;
@@ -143,7 +152,8 @@ std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {
     const Codec codec(opj_create_compress(OPJ_CODEC_J2K));
     if (opj_setup_encoder(codec.get(), &parameters, image.get()) == OPJ_FALSE ||
         opj_start_compress(codec.get(), image.get(), stream.get()) == OPJ_FALSE ||
-        opj_encode(codec.get(), stream.get()) == OPJ_FALSE || opj_end_compress(codec.get(), stream.get()) == OPJ_FALSE)
+        opj_encode(codec.get(), stream.get()) == OPJ_FALSE ||
+        opj_end_compress(codec.get(), stream.get()) == OPJ_FALSE)
         fail();
     stream.reset(); // flushes
     return std::move(sink.data);

@@ -48,14 +48,16 @@ template <> struct Missing<float> {
 
 double rescaled(const InstanceHeader &h, int frame, int stored) {
     if (!h.modalityTable.empty()) {
-        const int at = std::clamp(stored - h.modalityTableFirst, 0, int(h.modalityTable.size()) - 1);
+        const int at =
+            std::clamp(stored - h.modalityTableFirst, 0, int(h.modalityTable.size()) - 1);
         return h.modalityTable[std::size_t(at)];
     }
     const Rescale &r = h.frames[std::size_t(frame)].rescale;
     return r.slope * stored + r.intercept;
 }
 
-// Whether every value of a file fits int16 without loss. HU beyond int16 do not occur: they saturate.
+// Whether every value of a file fits int16 without loss. HU beyond int16 do not occur: they
+// saturate.
 bool fitsShort(const InstanceHeader &h, volume::ValueUnit unit) {
     if (!h.modalityTable.empty())
         return *std::max_element(h.modalityTable.begin(), h.modalityTable.end()) <= 32767;
@@ -66,7 +68,9 @@ bool fitsShort(const InstanceHeader &h, volume::ValueUnit unit) {
         if (r.slope != std::round(r.slope) || r.intercept != std::round(r.intercept))
             return false;
         const double a = r.slope * bottom + r.intercept, b = r.slope * top + r.intercept;
-        return unit == volume::ValueUnit::hounsfield ? std::abs(r.slope) == 1.0 : std::max(a, b) <= 32767 && std::min(a, b) >= -32767;
+        return unit == volume::ValueUnit::hounsfield
+                   ? std::abs(r.slope) == 1.0
+                   : std::max(a, b) <= 32767 && std::min(a, b) >= -32767;
     });
 }
 
@@ -91,7 +95,8 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
     return Padding{std::min(value, limit), std::max(value, limit)};
 }
 
-template <class T> void place(const DecodedImage &image, int frame, volume::ValueUnit unit, T *out) {
+template <class T>
+void place(const DecodedImage &image, int frame, volume::ValueUnit unit, T *out) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
     const std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
@@ -112,7 +117,8 @@ template <class T> void place(const DecodedImage &image, int frame, volume::Valu
 
 // Linear interpolation along the stack, from where the frames are to where the slices shall be.
 template <class T>
-std::vector<T> resampled(const std::vector<T> &frames, const StackGeometry &geometry, const task::Progress &progress) {
+std::vector<T> resampled(const std::vector<T> &frames, const StackGeometry &geometry,
+                         const task::Progress &progress) {
     const volume::Lattice &lattice = geometry.lattice;
     const std::size_t plane = std::size_t(lattice.size().i) * lattice.size().j;
     const std::vector<double> &at = geometry.frameOffsetsMm;
@@ -216,7 +222,8 @@ private:
                 }
                 for (const std::size_t slice : frames)
                     if (m_entry.frames[slice].frame < int(image.header.frames.size()))
-                        place(image, m_entry.frames[slice].frame, m_entry.unit, samples.data() + slice * plane);
+                        place(image, m_entry.frames[slice].frame, m_entry.unit,
+                              samples.data() + slice * plane);
             } catch (const Error &error) {
                 if (error.code() != ErrorCode::unusable)
                     throw;
@@ -226,9 +233,10 @@ private:
             }
             const std::lock_guard lock(guard);
             m_progress.report(0.9 * double(++done) / double(m_paths.size()));
-            if (m_observer.preview && m_entry.geometry.frameOffsetsMm.empty() && done < m_paths.size() &&
-                Clock::now() - lastPreview > previewInterval) {
-                m_observer.preview(volumeOf(std::vector<T>(samples), m_entry.geometry.lattice, m_entry.notes));
+            if (m_observer.preview && m_entry.geometry.frameOffsetsMm.empty() &&
+                done < m_paths.size() && Clock::now() - lastPreview > previewInterval) {
+                m_observer.preview(
+                    volumeOf(std::vector<T>(samples), m_entry.geometry.lattice, m_entry.notes));
                 lastPreview = Clock::now();
             }
         });
@@ -239,13 +247,15 @@ private:
         fillMissing(samples);
         if (!m_entry.geometry.frameOffsetsMm.empty())
             samples = resampled(samples, m_entry.geometry, m_progress);
-        LoadedVolume loaded{volumeOf(std::move(samples), m_entry.geometry.lattice, m_entry.notes), {}};
+        LoadedVolume loaded{volumeOf(std::move(samples), m_entry.geometry.lattice, m_entry.notes),
+                            {}};
         m_progress.report(1.0);
         return loaded;
     }
 
     template <class T>
-    volume::Volume volumeOf(std::vector<T> samples, const volume::Lattice &lattice, const volume::VolumeNotes &notes) const {
+    volume::Volume volumeOf(std::vector<T> samples, const volume::Lattice &lattice,
+                            const volume::VolumeNotes &notes) const {
         return volume::Volume(lattice, std::move(samples), m_entry.unit, notes);
     }
 
@@ -258,7 +268,8 @@ private:
         std::vector<SeriesFile> files;
         for (const auto &path : m_paths) {
             const auto &frames = m_files.at(path);
-            const auto it = std::find_if(failed.begin(), failed.end(), [&](const auto &f) { return f.first == frames.front(); });
+            const auto it = std::find_if(failed.begin(), failed.end(),
+                                         [&](const auto &f) { return f.first == frames.front(); });
             if (it != failed.end()) {
                 skipped.push_back(it->second);
                 continue;
@@ -278,13 +289,17 @@ private:
         std::vector<Skipped> ignored;
         const auto entries = groupSeries(files, ignored);
         if (entries.size() != 1)
-            throw Error(ErrorCode::unusable, skipped.front().reason + "; the other slices make no volume", skipped.front().path);
+            throw Error(ErrorCode::unusable,
+                        skipped.front().reason + "; the other slices make no volume",
+                        skipped.front().path);
         rest.geometry = entries[0].geometry;
         rest.placed = entries[0].placed;
         rest.notes.placed = rest.placed;
         for (const Skipped &s : skipped)
-            rest.notes.warnings.push_back("without " + s.path.filename().string() + ": " + s.reason);
-        rest.notes.warnings.insert(rest.notes.warnings.end(), entries[0].notes.warnings.begin(), entries[0].notes.warnings.end());
+            rest.notes.warnings.push_back("without " + s.path.filename().string() + ": " +
+                                          s.reason);
+        rest.notes.warnings.insert(rest.notes.warnings.end(), entries[0].notes.warnings.begin(),
+                                   entries[0].notes.warnings.end());
         if (!rest.placed)
             rest.notes.warnings.push_back("images only: " + entries[0].notPlacedReason);
         LoadedVolume loaded = loadVolume(rest, m_progress, m_observer);
@@ -306,7 +321,8 @@ std::vector<std::byte> readFile(const std::filesystem::path &path) {
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     const auto size = in ? std::streamoff(in.tellg()) : std::streamoff(-1);
     if (size < 0)
-        throw Error(ErrorCode::unusable, errno != 0 ? std::strerror(errno) : "cannot be read", path);
+        throw Error(ErrorCode::unusable, errno != 0 ? std::strerror(errno) : "cannot be read",
+                    path);
     std::vector<std::byte> bytes(std::size_t(size), std::byte(0));
     in.seekg(0);
     if (!in.read(reinterpret_cast<char *>(bytes.data()), size))
@@ -314,14 +330,16 @@ std::vector<std::byte> readFile(const std::filesystem::path &path) {
     return bytes;
 }
 
-LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress, const LoadObserver &observer) {
+LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress,
+                        const LoadObserver &observer) {
     try {
         if (!entry.nrrd.empty())
             return {volume::readNrrd(entry.nrrd, progress), {}};
         return Assembly(entry, progress, observer).load();
     } catch (const std::bad_alloc &) {
         const volume::GridSize n = entry.geometry.lattice.size();
-        throw Error(ErrorCode::outOfMemory, fmt::format("not enough memory for a volume of {} x {} x {}", n.i, n.j, n.k));
+        throw Error(ErrorCode::outOfMemory,
+                    fmt::format("not enough memory for a volume of {} x {} x {}", n.i, n.j, n.k));
     }
 }
 

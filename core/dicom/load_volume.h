@@ -11,7 +11,8 @@ namespace pellucid::dicom {
 
 /// What loading may tell while it runs. Called from worker threads, never two at a time.
 struct LoadObserver {
-    /// The volume so far: slices that have not arrived are at the lowest value. Called now and then.
+    /// The volume so far: slices that have not arrived are at the lowest value. Called now and
+    /// then.
     std::function<void(const volume::Volume &)> preview;
 };
 
@@ -25,7 +26,8 @@ struct LoadedVolume {
 /// uneven stacks resampled along the stack. Samples are int16 where every value fits, else float32.
 /// *Throws* Error{unusable} if nothing can be decoded or what is left makes no volume,
 /// Error{outOfMemory}, Cancelled.
-LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress = {}, const LoadObserver &observer = {});
+LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress = {},
+                        const LoadObserver &observer = {});
 
 /// The whole file. *Throws* Error{unusable}.
 std::vector<std::byte> readFile(const std::filesystem::path &path);

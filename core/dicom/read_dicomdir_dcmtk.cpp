@@ -21,7 +21,8 @@ fs::path child(const fs::path &folder, const std::string &name) {
     if (fs::exists(folder / name, ignored))
         return folder / name;
     const auto lower = [](std::string text) {
-        std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+        std::transform(text.begin(), text.end(), text.begin(),
+                       [](unsigned char c) { return char(std::tolower(c)); });
         return text;
     };
     for (const auto &entry : fs::directory_iterator(folder, ignored))
@@ -36,7 +37,8 @@ bool isDicomdir(const fs::path &path) {
     prepareDcmtk();
     DcmFileFormat file;
     OFString sopClass;
-    return file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 64, ERM_metaOnly).good() && file.getMetaInfo() != nullptr &&
+    return file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 64, ERM_metaOnly).good() &&
+           file.getMetaInfo() != nullptr &&
            file.getMetaInfo()->findAndGetOFString(DCM_MediaStorageSOPClassUID, sopClass).good() &&
            sopClass == UID_MediaStorageDirectoryStorage;
 }
@@ -46,22 +48,28 @@ std::vector<fs::path> readDicomdir(const fs::path &path) {
     DcmFileFormat file;
     const OFCondition loaded = file.loadFile(path.c_str());
     if (loaded.bad() || file.getDataset() == nullptr)
-        throw task::Error(task::ErrorCode::unusable, std::string("is not readable: ") + loaded.text(), path);
-    // Every record of the flat sequence is looked at; the offsets that make it a tree are often wrong
-    // and not needed to find the files.
+        throw task::Error(task::ErrorCode::unusable,
+                          std::string("is not readable: ") + loaded.text(), path);
+    // Every record of the flat sequence is looked at; the offsets that make it a tree are often
+    // wrong and not needed to find the files.
     std::vector<fs::path> files;
     DcmSequenceOfItems *records = nullptr;
-    if (file.getDataset()->findAndGetSequence(DCM_DirectoryRecordSequence, records).bad() || records == nullptr)
+    if (file.getDataset()->findAndGetSequence(DCM_DirectoryRecordSequence, records).bad() ||
+        records == nullptr)
         return files;
     for (unsigned long n = 0; n < records->card(); ++n) {
         fs::path target = path.parent_path();
         OFString part;
         unsigned long depth = 0;
-        for (; depth < 16 && records->getItem(n)->findAndGetOFString(DCM_ReferencedFileID, part, depth).good() && !part.empty(); ++depth) {
+        for (; depth < 16 &&
+               records->getItem(n)->findAndGetOFString(DCM_ReferencedFileID, part, depth).good() &&
+               !part.empty();
+             ++depth) {
             // A component must be a plain name: an index may not lead out of its own folder.
             const std::string name(part.c_str());
             if (name == ".." || name.find('/') != std::string::npos)
-                throw task::Error(task::ErrorCode::unusable, "lists a file outside its folder", path);
+                throw task::Error(task::ErrorCode::unusable, "lists a file outside its folder",
+                                  path);
             target = child(target, name);
         }
         if (depth > 0)

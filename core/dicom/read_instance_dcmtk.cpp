@@ -44,7 +44,8 @@ std::vector<double> numbers(DcmItem *item, const DcmTagKey &tag, std::size_t mos
     if (item == nullptr || item->findAndGetElement(tag, element).bad())
         return values;
     OFString value;
-    while (values.size() < most && element->getOFString(value, static_cast<unsigned long>(values.size())).good()) {
+    while (values.size() < most &&
+           element->getOFString(value, static_cast<unsigned long>(values.size())).good()) {
         OFBool valid = OFFalse;
         const double parsed = OFStandard::atof(value.c_str(), &valid);
         if (!valid)
@@ -77,13 +78,14 @@ std::optional<glm::dvec3> vector3(const std::vector<double> &v, std::size_t at) 
     return glm::dvec3(v[at], v[at + 1], v[at + 2]);
 }
 
-// Everything that can stand at the top of a file, in the shared groups, or in the groups of a frame.
+// Everything that can stand at the top of a file, in the shared groups, or in the groups of a
+// frame.
 void readOrientation(DcmItem *item, FrameHeader &frame) {
     const auto cosines = numbers(item, DCM_ImageOrientationPatient, 6);
     const auto row = vector3(cosines, 0), column = vector3(cosines, 3);
     // Both axes must be about unit length and about orthogonal, or the attribute is rubbish.
-    if (row && column && std::abs(glm::length(*row) - 1.0) < 0.05 && std::abs(glm::length(*column) - 1.0) < 0.05 &&
-        std::abs(glm::dot(*row, *column)) < 0.05) {
+    if (row && column && std::abs(glm::length(*row) - 1.0) < 0.05 &&
+        std::abs(glm::length(*column) - 1.0) < 0.05 && std::abs(glm::dot(*row, *column)) < 0.05) {
         frame.rowAxis = glm::normalize(*row);
         frame.columnAxis = glm::normalize(*column - glm::dot(*row, *column) * *row);
     }
@@ -158,7 +160,8 @@ std::vector<volume::ValueWindow> readWindows(DcmItem *item) {
         const bool known = std::any_of(windows.begin(), windows.end(), [&](const auto &w) {
             return w.center == window.center && w.width == window.width;
         });
-        if (std::isfinite(window.center) && window.width >= 1e-6 && std::isfinite(window.width) && !known)
+        if (std::isfinite(window.center) && window.width >= 1e-6 && std::isfinite(window.width) &&
+            !known)
             windows.push_back(window);
     }
     return windows;
@@ -171,7 +174,8 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
     const auto descriptor = numbers(item, DCM_LUTDescriptor, 3);
     const Uint16 *data = nullptr;
     unsigned long count = 0;
-    if (descriptor.size() != 3 || item->findAndGetUint16Array(DCM_LUTData, data, &count).bad() || data == nullptr)
+    if (descriptor.size() != 3 || item->findAndGetUint16Array(DCM_LUTData, data, &count).bad() ||
+        data == nullptr)
         return;
     // The descriptor's first value 0 means 65536 entries; the second is signed as the pixels are.
     const std::size_t entries = descriptor[0] == 0.0 ? 65536 : std::size_t(descriptor[0]);
@@ -219,7 +223,8 @@ InstanceHeader headerOf(DcmDataset &dataset) {
     h.seriesNumber = integer(&dataset, DCM_SeriesNumber);
     h.instanceNumber = integer(&dataset, DCM_InstanceNumber);
     h.hasPixels = dataset.tagExists(DCM_PixelData) == OFTrue;
-    h.floatPixels = dataset.tagExists(DCM_FloatPixelData) || dataset.tagExists(DCM_DoubleFloatPixelData);
+    h.floatPixels =
+        dataset.tagExists(DCM_FloatPixelData) || dataset.tagExists(DCM_DoubleFloatPixelData);
     h.rows = integer(&dataset, DCM_Rows);
     h.columns = integer(&dataset, DCM_Columns);
     h.samplesPerPixel = integer(&dataset, DCM_SamplesPerPixel, 1);
@@ -279,7 +284,8 @@ InstanceHeader readHeader(const std::filesystem::path &path) {
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in)
-        throw Error(ErrorCode::unusable, errno != 0 ? std::strerror(errno) : "cannot be read", path);
+        throw Error(ErrorCode::unusable, errno != 0 ? std::strerror(errno) : "cannot be read",
+                    path);
     in.read(start.data(), start.size());
     const auto got = std::size_t(in.gcount());
     if (got == 0)
@@ -289,10 +295,14 @@ InstanceHeader readHeader(const std::filesystem::path &path) {
     in.close();
     DcmFileFormat file;
     // Values above 4 KiB, pixels above all, stay on the disk.
-    const OFCondition loaded = file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096, ERM_autoDetect);
+    const OFCondition loaded =
+        file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096, ERM_autoDetect);
     DcmDataset *dataset = file.getDataset();
     if (dataset == nullptr || dataset->card() == 0)
-        throw Error(ErrorCode::unusable, loaded.bad() ? std::string("is not readable: ") + loaded.text() : "holds no data", path);
+        throw Error(ErrorCode::unusable,
+                    loaded.bad() ? std::string("is not readable: ") + loaded.text()
+                                 : "holds no data",
+                    path);
     InstanceHeader header = headerOf(*dataset);
     if (header.sopClassUid.empty())
         header.sopClassUid = text(file.getMetaInfo(), DCM_MediaStorageSOPClassUID);
@@ -310,16 +320,19 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
     if (h.floatPixels)
         return "floating-point pixels are not supported";
     if (!h.hasPixels)
-        return h.sopClassName.empty() ? std::string("has no pixels") : "has no pixels (" + h.sopClassName + ")";
+        return h.sopClassName.empty() ? std::string("has no pixels")
+                                      : "has no pixels (" + h.sopClassName + ")";
     if (h.rows < 1 || h.columns < 1)
         return "has an image without size";
-    if (h.samplesPerPixel != 1 || (h.photometric != "MONOCHROME1" && h.photometric != "MONOCHROME2" && !h.photometric.empty()))
+    if (h.samplesPerPixel != 1 || (h.photometric != "MONOCHROME1" &&
+                                   h.photometric != "MONOCHROME2" && !h.photometric.empty()))
         return "is a colour image (" + h.photometric + ")";
     if (h.bitsAllocated != 8 && h.bitsAllocated != 16)
         return fmt::format("has {} bits per sample; 8 and 16 are supported", h.bitsAllocated);
     if (h.bitsStored < 1 || h.bitsStored > h.bitsAllocated || h.highBit >= h.bitsAllocated ||
         h.highBit + 1 < h.bitsStored)
-        return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored, h.bitsAllocated, h.highBit);
+        return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored,
+                           h.bitsAllocated, h.highBit);
     return std::nullopt;
 }
 

@@ -33,7 +33,10 @@ public:
         std::error_code error;
         const fs::file_status status = fs::status(path, error);
         if (!fs::exists(status))
-            throw Error(ErrorCode::unusable, error && status.type() != fs::file_type::not_found ? error.message() : "does not exist", path);
+            throw Error(ErrorCode::unusable,
+                        error && status.type() != fs::file_type::not_found ? error.message()
+                                                                           : "does not exist",
+                        path);
         if (fs::is_directory(status))
             addFolder(path);
         else if (!fs::is_regular_file(status))
@@ -89,7 +92,8 @@ private:
                 } else if (entry.is_regular_file(ignored)) {
                     found.push_back(entry.path());
                 } else {
-                    skipped.push_back({entry.path(), link ? "is a broken link" : "is not a regular file"});
+                    skipped.push_back(
+                        {entry.path(), link ? "is a broken link" : "is not a regular file"});
                 }
             }
         }
@@ -104,8 +108,9 @@ private:
 
 // What the volume's values and notes are, from the first file of a series' entry.
 void describe(VolumeEntry &entry, const std::vector<SeriesFile> &files) {
-    const auto it = std::find_if(files.begin(), files.end(),
-                                 [&](const SeriesFile &f) { return f.path == entry.frames.front().path; });
+    const auto it = std::find_if(files.begin(), files.end(), [&](const SeriesFile &f) {
+        return f.path == entry.frames.front().path;
+    });
     const InstanceHeader &h = it->header;
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
     entry.notes.modality = h.modality;
@@ -118,12 +123,16 @@ void describe(VolumeEntry &entry, const std::vector<SeriesFile> &files) {
         for (const SeriesFile &f : files)
             if (f.path == frame.path && f.header.lossy)
                 entry.notes.lossy = true;
-    const bool hounsfield = h.rescaleType == "HU" || (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
-    entry.unit = hounsfield && entry.placed && h.modality == "CT" ? volume::ValueUnit::hounsfield : volume::ValueUnit::none;
+    const bool hounsfield =
+        h.rescaleType == "HU" ||
+        (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
+    entry.unit = hounsfield && entry.placed && h.modality == "CT" ? volume::ValueUnit::hounsfield
+                                                                  : volume::ValueUnit::none;
     // Tilt as the table needs it, so that nobody wonders about the leaning stack.
     const double tilt = entry.geometry.lattice.shearRad() * 180.0 / 3.14159265358979323846;
     if (entry.placed && tilt > 0.1 && entry.geometry.lattice.size().k > 1)
-        entry.notes.warnings.push_back(fmt::format("tilted by {:.1f} degrees; shown from its own lattice", tilt));
+        entry.notes.warnings.push_back(
+            fmt::format("tilted by {:.1f} degrees; shown from its own lattice", tilt));
 }
 
 Patient &patientFor(Catalogue &catalogue, const InstanceHeader &h) {
@@ -185,7 +194,9 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     Catalogue catalogue;
     catalogue.skipped = std::move(list.skipped);
     // Never two series in one volume: the key is the series with its study and patient.
-    std::map<std::tuple<std::string, std::string, std::string, std::string>, std::vector<SeriesFile>> series;
+    std::map<std::tuple<std::string, std::string, std::string, std::string>,
+             std::vector<SeriesFile>>
+        series;
     std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
     for (std::size_t n = 0; n < list.files.size(); ++n) {
         if (volume::isNrrdPath(list.files[n])) {
@@ -210,7 +221,8 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     for (const auto &key : order) {
         const std::vector<SeriesFile> &files = series[key];
         const InstanceHeader &h = files.front().header;
-        Series entry{h.seriesUid, h.seriesDescription, h.modality, h.bodyPart, h.seriesNumber, groupSeries(files, catalogue.skipped)};
+        Series entry{h.seriesUid, h.seriesDescription, h.modality,
+                     h.bodyPart,  h.seriesNumber,      groupSeries(files, catalogue.skipped)};
         for (VolumeEntry &volume : entry.volumes)
             describe(volume, files);
         studyFor(patientFor(catalogue, h), h).series.push_back(std::move(entry));

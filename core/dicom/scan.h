@@ -9,10 +9,11 @@
 
 namespace pellucid::dicom {
 
-/// Looks through files, folders (all the way down; links to folders are not followed), DICOMDIRs and NRRD files, and groups what
-/// it finds. Every file that is not used is listed in `skipped`.
-/// *Throws* Error{unusable} if a path does not exist or a folder named by the caller cannot be read;
-/// Cancelled.
-Catalogue scan(const std::vector<std::filesystem::path> &paths, const task::Progress &progress = {});
+/// Looks through files, folders (all the way down; links to folders are not followed), DICOMDIRs
+/// and NRRD files, and groups what it finds. Every file that is not used is listed in `skipped`.
+/// *Throws* Error{unusable} if a path does not exist or a folder named by the caller cannot be
+/// read; Cancelled.
+Catalogue scan(const std::vector<std::filesystem::path> &paths,
+               const task::Progress &progress = {});
 
 } // namespace pellucid::dicom

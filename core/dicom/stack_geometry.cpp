@@ -16,7 +16,9 @@ namespace {
 // A gap wider than this many medians is a hole in the patient, not a change of spacing.
 constexpr double largestGapRatio = 2.5;
 
-glm::dvec3 normalOf(const FrameHeader &h) { return glm::cross(*h.rowAxis, *h.columnAxis); }
+glm::dvec3 normalOf(const FrameHeader &h) {
+    return glm::cross(*h.rowAxis, *h.columnAxis);
+}
 
 std::vector<double> gapsOf(const std::vector<double> &depths) {
     std::vector<double> gaps;
@@ -26,7 +28,8 @@ std::vector<double> gapsOf(const std::vector<double> &depths) {
 }
 
 double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
+                     values.end());
     return values[values.size() / 2];
 }
 
@@ -48,76 +51,89 @@ double smallestRepeatedGap(const std::vector<double> &gaps) {
     return sorted.front();
 }
 
-std::string unevenWarning(const std::vector<PlacedFrame> &frames, const std::vector<double> &gaps, double step) {
+std::string unevenWarning(const std::vector<PlacedFrame> &frames, const std::vector<double> &gaps,
+                          double step) {
     std::string changes;
     int listed = 0;
     for (std::size_t n = 1; n < gaps.size(); ++n)
         if (std::abs(gaps[n] - gaps[n - 1]) > spacingToleranceMm(gaps[n]) && ++listed <= 6)
-            changes += fmt::format("{}{} ({:.3g} then {:.3g} mm)", changes.empty() ? "" : ", ",
-                                   frames[n].reference.path.filename().string(), gaps[n - 1], gaps[n]);
+            changes +=
+                fmt::format("{}{} ({:.3g} then {:.3g} mm)", changes.empty() ? "" : ", ",
+                            frames[n].reference.path.filename().string(), gaps[n - 1], gaps[n]);
     if (listed > 6)
         changes += fmt::format(" and {} more", listed - 6);
-    return fmt::format("uneven slice distances, resampled onto {:.3f} mm; they change at {}", step, changes);
+    return fmt::format("uneven slice distances, resampled onto {:.3f} mm; they change at {}", step,
+                       changes);
 }
 
 } // namespace
 
-double PlacedFrame::depthMm() const { return glm::dot(normalOf(header), *header.positionMm); }
+double PlacedFrame::depthMm() const {
+    return glm::dot(normalOf(header), *header.positionMm);
+}
 
 // Positions are written with a few digits; half a percent also absorbs a tenth rounded off 20 mm.
-double spacingToleranceMm(double spacingMm) { return std::max(0.01, 0.005 * std::abs(spacingMm)); }
+double spacingToleranceMm(double spacingMm) {
+    return std::max(0.01, 0.005 * std::abs(spacingMm));
+}
 
 StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {
     const FrameHeader &first = frames.front().header, &last = frames.back().header;
     const glm::dvec3 normal = normalOf(first);
-    const glm::dvec3 across = first.spacingMm->x * *first.rowAxis, down = first.spacingMm->y * *first.columnAxis;
-    const int rows = frames.front().rows, columns = frames.front().columns, count = int(frames.size());
+    const glm::dvec3 across = first.spacingMm->x * *first.rowAxis,
+                     down = first.spacingMm->y * *first.columnAxis;
+    const int rows = frames.front().rows, columns = frames.front().columns,
+              count = int(frames.size());
     StackResult result;
     try {
         if (count == 1) {
             const double thickness = first.sliceThicknessMm > 0.0 ? first.sliceThicknessMm : 1.0;
-            result.geometry.lattice =
-                volume::Lattice::make({columns, rows, 1}, {*first.positionMm}, {across, down, thickness * normal});
+            result.geometry.lattice = volume::Lattice::make({columns, rows, 1}, {*first.positionMm},
+                                                            {across, down, thickness * normal});
             return result;
         }
         std::vector<double> depths;
         for (const PlacedFrame &frame : frames)
             depths.push_back(frame.depthMm() - frames.front().depthMm());
         const double total = depths.back();
-        // One millimetre along the normal moves the stack by this much: along the normal for a plain
-        // scan, askew for a tilted gantry.
+        // One millimetre along the normal moves the stack by this much: along the normal for a
+        // plain scan, askew for a tilted gantry.
         const glm::dvec3 along = (*last.positionMm - *first.positionMm) / total;
         const double stray = std::max(0.05, 0.1 * std::min(first.spacingMm->x, first.spacingMm->y));
         for (int n = 0; n < count; ++n) {
-            const glm::dvec3 off = *frames[n].header.positionMm - (*first.positionMm + depths[n] * along);
+            const glm::dvec3 off =
+                *frames[n].header.positionMm - (*first.positionMm + depths[n] * along);
             if (glm::length(off) > stray) {
-                result.refusal = fmt::format("{} lies {:.2f} mm beside the line of the other slices",
-                                             frames[n].reference.path.filename().string(), glm::length(off));
+                result.refusal =
+                    fmt::format("{} lies {:.2f} mm beside the line of the other slices",
+                                frames[n].reference.path.filename().string(), glm::length(off));
                 return result;
             }
         }
         const std::vector<double> gaps = gapsOf(depths);
         const double mean = total / (count - 1);
-        const bool even = std::all_of(gaps.begin(), gaps.end(),
-                                      [&](double gap) { return std::abs(gap - mean) <= spacingToleranceMm(mean); });
+        const bool even = std::all_of(gaps.begin(), gaps.end(), [&](double gap) {
+            return std::abs(gap - mean) <= spacingToleranceMm(mean);
+        });
         if (even) {
-            result.geometry.lattice =
-                volume::Lattice::make({columns, rows, count}, {*first.positionMm}, {across, down, mean * along});
+            result.geometry.lattice = volume::Lattice::make(
+                {columns, rows, count}, {*first.positionMm}, {across, down, mean * along});
             return result;
         }
         const double typical = median(gaps);
         const auto widest = std::max_element(gaps.begin(), gaps.end());
         if (*widest > largestGapRatio * typical) {
             const auto at = std::size_t(widest - gaps.begin());
-            result.refusal = fmt::format("a gap of {:.1f} mm between {} and {}; slices are {:.1f} mm apart elsewhere", *widest,
-                                         frames[at].reference.path.filename().string(),
-                                         frames[at + 1].reference.path.filename().string(), typical);
+            result.refusal = fmt::format(
+                "a gap of {:.1f} mm between {} and {}; slices are {:.1f} mm apart elsewhere",
+                *widest, frames[at].reference.path.filename().string(),
+                frames[at + 1].reference.path.filename().string(), typical);
             return result;
         }
         const double step = smallestRepeatedGap(gaps);
         const int slices = int(std::floor(total / step + 0.01)) + 1;
-        result.geometry.lattice =
-            volume::Lattice::make({columns, rows, slices}, {*first.positionMm}, {across, down, step * along});
+        result.geometry.lattice = volume::Lattice::make(
+            {columns, rows, slices}, {*first.positionMm}, {across, down, step * along});
         result.geometry.frameOffsetsMm = depths;
         result.warnings.push_back(unevenWarning(frames, gaps, step));
     } catch (const task::Error &error) {

@@ -33,8 +33,8 @@ double spacingToleranceMm(double spacingMm);
 
 /// The lattice of frames that are sorted by depth and share size, orientation and pixel spacing.
 /// Spacing and tilt come from the positions alone. Uneven distances are resampled onto the smallest
-/// gap that occurs more than once, with a warning that names the files where the distance changes; a gap of more
-/// than 2.5 times the median is refused.
+/// gap that occurs more than once, with a warning that names the files where the distance changes;
+/// a gap of more than 2.5 times the median is refused.
 StackResult stackGeometry(const std::vector<PlacedFrame> &frames);
 
 } // namespace pellucid::dicom

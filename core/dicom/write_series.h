@@ -10,7 +10,16 @@
 
 namespace pellucid::dicom {
 
-enum class TransferSyntax { implicitLittle, explicitLittle, explicitBig, deflated, rle, jpegLossless, jpegLs, jpeg2000 };
+enum class TransferSyntax {
+    implicitLittle,
+    explicitLittle,
+    explicitBig,
+    deflated,
+    rle,
+    jpegLossless,
+    jpegLs,
+    jpeg2000
+};
 
 /// *Throws* Error{usage} for an unknown name; the message lists the known ones.
 TransferSyntax transferSyntaxFromName(const std::string &name);
@@ -27,7 +36,8 @@ struct SeriesLabels {
 /// loss. The folder is made if needed; files of those names are replaced. Either all files are
 /// written or none is left.
 /// *Throws* Error{output}, Error{usage} if the volume is not int16, Cancelled.
-void writeCtSeries(const std::filesystem::path &folder, const volume::Volume &volume, const SeriesLabels &labels,
-                   TransferSyntax syntax, const task::Progress &progress = {});
+void writeCtSeries(const std::filesystem::path &folder, const volume::Volume &volume,
+                   const SeriesLabels &labels, TransferSyntax syntax,
+                   const task::Progress &progress = {});
 
 } // namespace pellucid::dicom

@@ -68,7 +68,8 @@ std::string newUid(const char *root) {
 
 void put(DcmDataset &dataset, const DcmTagKey &tag, const std::string &value) {
     if (dataset.putAndInsertOFStringArray(tag, value.c_str()).bad())
-        throw Error(ErrorCode::internal, fmt::format("attribute ({:04x},{:04x}) cannot be set", tag.getGroup(), tag.getElement()));
+        throw Error(ErrorCode::internal, fmt::format("attribute ({:04x},{:04x}) cannot be set",
+                                                     tag.getGroup(), tag.getElement()));
 }
 
 std::string joined(std::initializer_list<double> values) {
@@ -80,13 +81,16 @@ std::string joined(std::initializer_list<double> values) {
 
 // Moves pixels that were set uncompressed into a JPEG 2000 codestream, which DCMTK does not write.
 void compressJpeg2000(DcmDataset &dataset, const std::int16_t *slice, volume::GridSize size) {
-    const Jpeg2000Image image{size.j, size.i, 16, true, std::vector<std::int32_t>(slice, slice + std::size_t(size.i) * size.j)};
+    const Jpeg2000Image image{
+        size.j, size.i, 16, true,
+        std::vector<std::int32_t>(slice, slice + std::size_t(size.i) * size.j)};
     std::vector<std::byte> stream = encodeJpeg2000(image);
     auto *sequence = new DcmPixelSequence(DCM_PixelSequenceTag);
     auto *offsets = new DcmPixelItem(DCM_PixelItemTag);
     sequence->insert(offsets);
     DcmOffsetList fragments;
-    sequence->storeCompressedFrame(fragments, reinterpret_cast<Uint8 *>(stream.data()), Uint32(stream.size()), 0);
+    sequence->storeCompressedFrame(fragments, reinterpret_cast<Uint8 *>(stream.data()),
+                                   Uint32(stream.size()), 0);
     offsets->createOffsetTable(fragments);
     auto *pixels = new DcmPixelData(DCM_PixelData);
     pixels->putOriginalRepresentation(EXS_JPEG2000LosslessOnly, nullptr, sequence);
@@ -132,9 +136,11 @@ public:
         put(d, DCM_AcquisitionNumber, "1");
         put(d, DCM_InstanceNumber, std::to_string(slice + 1));
         const glm::dvec3 position = lattice.patient(volume::VoxelIndex{0, 0, slice}).mm;
-        const glm::dvec3 row = lattice.step(0) / lattice.spacingMm(0), column = lattice.step(1) / lattice.spacingMm(1);
+        const glm::dvec3 row = lattice.step(0) / lattice.spacingMm(0),
+                         column = lattice.step(1) / lattice.spacingMm(1);
         put(d, DCM_ImagePositionPatient, joined({position.x, position.y, position.z}));
-        put(d, DCM_ImageOrientationPatient, joined({row.x, row.y, row.z, column.x, column.y, column.z}));
+        put(d, DCM_ImageOrientationPatient,
+            joined({row.x, row.y, row.z, column.x, column.y, column.z}));
         put(d, DCM_FrameOfReferenceUID, m_frame);
         put(d, DCM_PositionReferenceIndicator, "");
         d.putAndInsertUint16(DCM_SamplesPerPixel, 1);

@@ -14,7 +14,8 @@ namespace pellucid::files {
 
 AtomicFile::AtomicFile(std::filesystem::path path) : m_path(std::move(path)) {
     // A dot in front keeps the unfinished file out of listings and of folder scans.
-    std::string name = (m_path.parent_path() / ("." + m_path.filename().string() + ".XXXXXX")).string();
+    std::string name =
+        (m_path.parent_path() / ("." + m_path.filename().string() + ".XXXXXX")).string();
     const int descriptor = mkstemp(name.data());
     if (descriptor < 0)
         fail(errno);
@@ -57,8 +58,8 @@ void AtomicFile::commit() {
 }
 
 void AtomicFile::fail(int error) const {
-    throw task::Error(task::ErrorCode::output, std::string("cannot be written: ") + std::strerror(error),
-                      m_path);
+    throw task::Error(task::ErrorCode::output,
+                      std::string("cannot be written: ") + std::strerror(error), m_path);
 }
 
 } // namespace pellucid::files

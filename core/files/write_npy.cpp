@@ -9,13 +9,13 @@
 
 namespace pellucid::files {
 
-void writeNpy(const std::filesystem::path &path, std::span<const float> samples, int height, int width,
-              int channels) {
+void writeNpy(const std::filesystem::path &path, std::span<const float> samples, int height,
+              int width, int channels) {
     assert(samples.size() == std::size_t(height) * width * channels);
-    std::string header = fmt::format(
-        "{{'descr': '<f4', 'fortran_order': False, 'shape': {}, }}",
-        channels == 1 ? fmt::format("({}, {})", height, width)
-                      : fmt::format("({}, {}, {})", height, width, channels));
+    std::string header =
+        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': {}, }}",
+                    channels == 1 ? fmt::format("({}, {})", height, width)
+                                  : fmt::format("({}, {}, {})", height, width, channels));
     // Magic, version and length take 10 bytes; the format wants the data at a multiple of 64.
     header.append(63 - (10 + header.size()) % 64, ' ');
     header.push_back('\n');

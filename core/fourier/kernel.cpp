@@ -16,8 +16,8 @@ double exponentialSemicircleValue(double t, double width, double b) {
     return std::exp(b * (std::sqrt(std::max(0.0, 1.0 - x * x)) - 1.0));
 }
 
-// Monomial coefficients of the polynomial through the Chebyshev nodes of [-1/2, 1/2]: within a small
-// factor of the best uniform fit, and stable at the degrees used here.
+// Monomial coefficients of the polynomial through the Chebyshev nodes of [-1/2, 1/2]: within a
+// small factor of the best uniform fit, and stable at the degrees used here.
 std::vector<double> fitPolynomial(int degree, const auto &function) {
     const int count = degree + 1;
     std::vector<double> nodes(count), table(count);

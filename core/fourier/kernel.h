@@ -38,7 +38,8 @@ public:
     double apodisation(double x, int padded) const;
 
 private:
-    Kernel(std::string name, int width, int degree, double (*shape)(double t, double width, double b), double b);
+    Kernel(std::string name, int width, int degree,
+           double (*shape)(double t, double width, double b), double b);
 
     std::string m_name;
     int m_width;

@@ -36,7 +36,9 @@ std::vector<float> premultiplier(const Kernel &kernel, int samples, int padded) 
     return factors;
 }
 
-int wrapped(int index, int period) { return index < 0 ? index + period : index; }
+int wrapped(int index, int period) {
+    return index < 0 ? index + period : index;
+}
 
 } // namespace
 
@@ -54,10 +56,12 @@ Spectrum::Spectrum(const volume::Volume &field, const SpectrumLayout &layout)
     const Extent extent(layout.padded);
     // One cache line more, because the widest loads reach past the last tap.
     const std::size_t cells = extent.x * extent.y * extent.z + 8;
-    void *const memory = std::aligned_alloc(64, (cells * sizeof(std::complex<float>) + 63) / 64 * 64);
+    void *const memory =
+        std::aligned_alloc(64, (cells * sizeof(std::complex<float>) + 63) / 64 * 64);
     if (memory == nullptr)
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("not enough memory for a spectrum of {} MB", layout.bytes() >> 20));
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            fmt::format("not enough memory for a spectrum of {} MB", layout.bytes() >> 20));
     m_cells.reset(static_cast<std::complex<float> *>(memory), [](auto *p) { std::free(p); });
     m_rowStride = std::ptrdiff_t(extent.x);
     m_planeStride = std::ptrdiff_t(extent.x * extent.y);
@@ -90,12 +94,13 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
             for (int j = 0; j < size.j; ++j) {
                 const int y = wrapped(j - size.j / 2, padded.j);
                 const float factor = cell * hz[k] * hy[j];
-                const auto *in = samples.data() +
-                                 (std::size_t(k + layout.box.lo.k) * lattice.j + j + layout.box.lo.j) *
-                                     lattice.i +
-                                 layout.box.lo.i;
-                auto *row = reinterpret_cast<float *>(spectrum.m_origin + z * spectrum.m_planeStride +
-                                                      y * spectrum.m_rowStride);
+                const auto *in =
+                    samples.data() +
+                    (std::size_t(k + layout.box.lo.k) * lattice.j + j + layout.box.lo.j) *
+                        lattice.i +
+                    layout.box.lo.i;
+                auto *row = reinterpret_cast<float *>(
+                    spectrum.m_origin + z * spectrum.m_planeStride + y * spectrum.m_rowStride);
                 const int middle = size.i / 2;
                 float *negative = row + padded.i - middle;
                 for (int i = 0; i < middle; ++i)
@@ -129,7 +134,8 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
     tbb::parallel_for(0, padded.k, [&](int z) {
         auto *plane = spectrum.m_origin + z * planeStride - apron;
         for (int m = 1; m <= apron; ++m) {
-            std::memcpy(static_cast<void *>(plane - m * rowStride), plane + (padded.j - m) * rowStride, rowBytes);
+            std::memcpy(static_cast<void *>(plane - m * rowStride),
+                        plane + (padded.j - m) * rowStride, rowBytes);
             std::memcpy(static_cast<void *>(plane + (padded.j + m - 1) * rowStride),
                         plane + (m - 1) * rowStride, rowBytes);
         }
@@ -137,7 +143,8 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
     auto *first = spectrum.m_cells.get();
     const auto planeBytes = std::size_t(planeStride) * sizeof(std::complex<float>);
     for (int m = 0; m < apron; ++m) {
-        std::memcpy(static_cast<void *>(first + m * planeStride), first + (padded.k + m) * planeStride, planeBytes);
+        std::memcpy(static_cast<void *>(first + m * planeStride),
+                    first + (padded.k + m) * planeStride, planeBytes);
         std::memcpy(static_cast<void *>(first + (padded.k + apron + m) * planeStride),
                     first + (apron + m) * planeStride, planeBytes);
     }

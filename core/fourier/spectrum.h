@@ -19,13 +19,13 @@ struct SpectrumLayout {
     std::size_t bytes() const;
 };
 
-/// The half spectrum of a field, divided by the kernel's apodisation, on a periodic padded grid with
-/// an apron, so that interpolation needs neither wrap nor branch.
+/// The half spectrum of a field, divided by the kernel's apodisation, on a periodic padded grid
+/// with an apron, so that interpolation needs neither wrap nor branch.
 ///
 /// With the wrap voxel x_w as the origin of phase, the value at grid index (p, q, r) is
 ///   dV * sum_n f[n] / (h_0 h_1 h_2) * exp(-i 2 pi (p, q, r)/padded . (n - n_w)).
-/// A frequency s (cycles per mm) has the grid index padded_d * (a_d . s) modulo padded_d. The grid is
-/// that of the lattice's own steps: tilted and anisotropic volumes are not resampled.
+/// A frequency s (cycles per mm) has the grid index padded_d * (a_d . s) modulo padded_d. The grid
+/// is that of the lattice's own steps: tilted and anisotropic volumes are not resampled.
 class Spectrum {
 public:
     /// Cells around the stored half, enough for kernels up to width 7.

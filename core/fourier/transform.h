@@ -9,11 +9,13 @@
 namespace pellucid::fourier {
 
 /// Real-to-complex 3D transform in place, exp(-i 2 pi ...), unnormalised.
-/// *Shape*: `data` points at sample (0,0,0) of a row-major array whose rows hold `rowStride` complex
-/// numbers and whose planes hold `planeRows` rows; the real samples of a row lie in its first
-/// size.i reals, the result in its first size.i/2 + 1 complex numbers.
-void forwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride, int planeRows);
-void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride, int planeRows);
+/// *Shape*: `data` points at sample (0,0,0) of a row-major array whose rows hold `rowStride`
+/// complex numbers and whose planes hold `planeRows` rows; the real samples of a row lie in its
+/// first size.i reals, the result in its first size.i/2 + 1 complex numbers.
+void forwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride,
+                        int planeRows);
+void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride,
+                        int planeRows);
 
 /// Complex-to-real inverse 2D transform, exp(+i 2 pi ...), unnormalised, of one size: planned once,
 /// run often, from any thread. The input is overwritten.

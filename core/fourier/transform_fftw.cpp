@@ -19,7 +19,9 @@ std::mutex &plannerMutex() {
     return mutex;
 }
 
-int threadCount() { return int(std::max(1U, std::thread::hardware_concurrency())); }
+int threadCount() {
+    return int(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 template <class Real> struct Fftw;
 
@@ -65,8 +67,8 @@ void forward(std::complex<Real> *data, volume::GridSize size, int rowStride, int
     {
         const std::lock_guard lock(plannerMutex());
         F::useThreads(threadCount());
-        plan = F::planForward(3, n.data(), 1, real, realRows.data(), 1, 0, complex, complexRows.data(), 1,
-                              0, FFTW_ESTIMATE);
+        plan = F::planForward(3, n.data(), 1, real, realRows.data(), 1, 0, complex,
+                              complexRows.data(), 1, 0, FFTW_ESTIMATE);
     }
     F::run(plan);
     const std::lock_guard lock(plannerMutex());
@@ -75,11 +77,13 @@ void forward(std::complex<Real> *data, volume::GridSize size, int rowStride, int
 
 } // namespace
 
-void forwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride, int planeRows) {
+void forwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride,
+                        int planeRows) {
     forward(data, size, rowStride, planeRows);
 }
 
-void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride, int planeRows) {
+void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride,
+                        int planeRows) {
     forward(data, size, rowStride, planeRows);
 }
 
@@ -89,12 +93,13 @@ template <class Real> struct InverseTransform2d<Real>::Plan {
 };
 
 template <class Real>
-InverseTransform2d<Real>::InverseTransform2d(int rows, int columns) : m_plan(new Plan{rows, columns, {}}) {
+InverseTransform2d<Real>::InverseTransform2d(int rows, int columns)
+    : m_plan(new Plan{rows, columns, {}}) {
     using F = Fftw<Real>;
     // Below 512^2 starting threads costs more than they save.
     const int threads = std::size_t(rows) * columns >= 512 * 512 ? threadCount() : 1;
-    // ESTIMATE does not touch the arrays, which only tell that in and out differ; UNALIGNED lets the
-    // plan run on any arrays later.
+    // ESTIMATE does not touch the arrays, which only tell that in and out differ; UNALIGNED lets
+    // the plan run on any arrays later.
     std::vector<Real> out(2);
     std::vector<std::complex<Real>> in(2);
     const std::lock_guard lock(plannerMutex());
@@ -108,8 +113,12 @@ template <class Real> InverseTransform2d<Real>::~InverseTransform2d() {
     Fftw<Real>::destroy(m_plan->plan);
 }
 
-template <class Real> int InverseTransform2d<Real>::rows() const { return m_plan->rows; }
-template <class Real> int InverseTransform2d<Real>::columns() const { return m_plan->columns; }
+template <class Real> int InverseTransform2d<Real>::rows() const {
+    return m_plan->rows;
+}
+template <class Real> int InverseTransform2d<Real>::columns() const {
+    return m_plan->columns;
+}
 
 template <class Real> void InverseTransform2d<Real>::run(std::complex<Real> *in, Real *out) const {
     using F = Fftw<Real>;

@@ -11,9 +11,10 @@ namespace pellucid::mpr {
 
 namespace {
 
-template <class T> float interpolate(const T *samples, const volume::GridSize &n, const glm::dvec3 &p) {
-    if (p.x < -0.5 || p.y < -0.5 || p.z < -0.5 || p.x > n.i - 0.5 || p.y > n.j - 0.5 || p.z > n.k - 0.5 ||
-        std::isnan(p.x + p.y + p.z))
+template <class T>
+float interpolate(const T *samples, const volume::GridSize &n, const glm::dvec3 &p) {
+    if (p.x < -0.5 || p.y < -0.5 || p.z < -0.5 || p.x > n.i - 0.5 || p.y > n.j - 0.5 ||
+        p.z > n.k - 0.5 || std::isnan(p.x + p.y + p.z))
         return std::numeric_limits<float>::quiet_NaN();
     const auto split = [](double at, int count, int &low, int &high) {
         const double clamped = std::clamp(at, 0.0, double(count - 1));
@@ -22,7 +23,8 @@ template <class T> float interpolate(const T *samples, const volume::GridSize &n
         return float(clamped - low);
     };
     int x0, x1, y0, y1, z0, z1;
-    const float fx = split(p.x, n.i, x0, x1), fy = split(p.y, n.j, y0, y1), fz = split(p.z, n.k, z0, z1);
+    const float fx = split(p.x, n.i, x0, x1), fy = split(p.y, n.j, y0, y1),
+                fz = split(p.z, n.k, z0, z1);
     const auto row = [&](int y, int z) {
         const T *r = samples + (std::size_t(z) * n.j + y) * n.i;
         return float(r[x0]) + fx * (float(r[x1]) - float(r[x0]));
@@ -36,7 +38,8 @@ template <class T> float interpolate(const T *samples, const volume::GridSize &n
 
 SliceImage reslice(const volume::Volume &volume, const Plane &plane) {
     const volume::Lattice &lattice = volume.lattice();
-    SliceImage image{plane.width, plane.height, std::vector<float>(std::size_t(plane.width) * plane.height)};
+    SliceImage image{plane.width, plane.height,
+                     std::vector<float>(std::size_t(plane.width) * plane.height)};
     const glm::dvec3 first = lattice.voxel(plane.at(0, 0)).v;
     const glm::dvec3 alongRow = lattice.voxel(plane.at(1, 0)).v - first;
     const glm::dvec3 downColumn = lattice.voxel(plane.at(0, 1)).v - first;
@@ -53,7 +56,8 @@ SliceImage reslice(const volume::Volume &volume, const Plane &plane) {
 
 float valueAt(const volume::Volume &volume, volume::PatientPoint point) {
     return volume.visit([&](auto samples) {
-        return interpolate(samples.data(), volume.lattice().size(), volume.lattice().voxel(point).v);
+        return interpolate(samples.data(), volume.lattice().size(),
+                           volume.lattice().voxel(point).v);
     });
 }
 

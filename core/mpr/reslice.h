@@ -15,8 +15,8 @@ struct SliceImage {
     std::vector<float> values;
 };
 
-/// Trilinear interpolation on the volume's own lattice, tilted or not. A point belongs to the volume
-/// up to half a sample beyond the outer sample centres, where the outer samples go on.
+/// Trilinear interpolation on the volume's own lattice, tilted or not. A point belongs to the
+/// volume up to half a sample beyond the outer sample centres, where the outer samples go on.
 SliceImage reslice(const volume::Volume &volume, const Plane &plane);
 
 /// The value at a point, as reslice gives it.

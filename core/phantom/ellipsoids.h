@@ -19,7 +19,8 @@ struct SmoothEllipsoid {
     int exponent = 4;
 };
 
-/// The ellipsoids of the phantom, scaled to fit a lattice with the given radius of its inscribed sphere.
+/// The ellipsoids of the phantom, scaled to fit a lattice with the given radius of its inscribed
+/// sphere.
 std::vector<SmoothEllipsoid> smoothEllipsoids(double inscribedRadiusMm);
 
 /// Their sum at a point. *Units*: HU above the background.

@@ -24,7 +24,8 @@ Shape ellipsoid(dvec3 center, dvec3 radii, dquat rotation) {
                 const double r = glm::length(unit);
                 if (r < 1e-9)
                     return -std::min({radii.x, radii.y, radii.z});
-                // First-order distance: exact to first order at the surface, which is where it counts.
+                // First-order distance: exact to first order at the surface, which is where it
+                // counts.
                 return r * (r - 1.0) / glm::length(unit / radii);
             },
             center - box, center + box};
@@ -35,8 +36,10 @@ Shape rod(dvec3 from, dvec3 to, double fromRadius, double toRadius) {
     const double square = glm::dot(along, along);
     const dvec3 reach(std::max(fromRadius, toRadius));
     return {[=](const dvec3 &p) {
-                const double t = square > 0.0 ? std::clamp(glm::dot(p - from, along) / square, 0.0, 1.0) : 0.0;
-                return glm::distance(p, from + t * along) - (fromRadius + t * (toRadius - fromRadius));
+                const double t =
+                    square > 0.0 ? std::clamp(glm::dot(p - from, along) / square, 0.0, 1.0) : 0.0;
+                return glm::distance(p, from + t * along) -
+                       (fromRadius + t * (toRadius - fromRadius));
             },
             glm::min(from, to) - reach, glm::max(from, to) + reach};
 }
@@ -51,8 +54,8 @@ Shape tube(const std::vector<dvec3> &points, double radius) {
                 double nearest = std::numeric_limits<double>::infinity();
                 for (std::size_t n = 1; n < points.size(); ++n) {
                     const dvec3 along = points[n] - points[n - 1];
-                    const double t =
-                        std::clamp(glm::dot(p - points[n - 1], along) / glm::dot(along, along), 0.0, 1.0);
+                    const double t = std::clamp(
+                        glm::dot(p - points[n - 1], along) / glm::dot(along, along), 0.0, 1.0);
                     const dvec3 d = p - (points[n - 1] + t * along);
                     nearest = std::min(nearest, glm::dot(d, d));
                 }
@@ -67,7 +70,8 @@ Shape roundedBox(dvec3 center, dvec3 halfSize, double rounding, dquat rotation) 
     const dvec3 box = rotation == dquat(1, 0, 0, 0) ? halfSize : dvec3(reach);
     return {[=](const dvec3 &p) {
                 const dvec3 q = glm::abs(back * (p - center)) - halfSize + rounding;
-                return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0) - rounding;
+                return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0) -
+                       rounding;
             },
             center - box, center + box};
 }
@@ -111,8 +115,10 @@ void Painter::paint(const Shape &shape, double hu) {
 
 void Painter::paint(const Shape &shape, const Texture &hu) {
     m_progress.check();
-    // The shape's box in voxels: the box's corners bound it on any lattice, since the map is linear.
-    dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
+    // The shape's box in voxels: the box's corners bound it on any lattice, since the map is
+    // linear.
+    dvec3 low(std::numeric_limits<double>::infinity()),
+        high(-std::numeric_limits<double>::infinity());
     for (int corner = 0; corner < 8; ++corner) {
         const dvec3 p((corner & 1) != 0 ? shape.high.x + m_softnessMm : shape.low.x - m_softnessMm,
                       (corner & 2) != 0 ? shape.high.y + m_softnessMm : shape.low.y - m_softnessMm,
@@ -123,8 +129,11 @@ void Painter::paint(const Shape &shape, const Texture &hu) {
     }
     const volume::GridSize size = m_lattice.size();
     const auto first = [](double at) { return int(std::clamp(std::floor(at), 0.0, 1e9)); };
-    const auto end = [](double at, int n) { return int(std::clamp(std::ceil(at) + 1.0, 0.0, double(n))); };
-    const int i0 = first(low.x), i1 = end(high.x, size.i), j0 = first(low.y), j1 = end(high.y, size.j);
+    const auto end = [](double at, int n) {
+        return int(std::clamp(std::ceil(at) + 1.0, 0.0, double(n)));
+    };
+    const int i0 = first(low.x), i1 = end(high.x, size.i), j0 = first(low.y),
+              j1 = end(high.y, size.j);
     const int k0 = first(low.z), k1 = end(high.z, size.k);
     if (k0 >= k1)
         return;

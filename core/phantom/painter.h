@@ -39,8 +39,8 @@ Shape grown(const Shape &shape, double mm);
 Shape mirrored(const Shape &shape);
 
 /// Fills a volume with shapes, later ones over earlier ones, edges softened over about one voxel as
-/// a scanner does. The shapes live in the patient, so any lattice, tilted ones too, samples the same
-/// anatomy.
+/// a scanner does. The shapes live in the patient, so any lattice, tilted ones too, samples the
+/// same anatomy.
 class Painter {
 public:
     using Texture = std::function<double(const glm::dvec3 &mm)>;

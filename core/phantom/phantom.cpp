@@ -34,7 +34,9 @@ const std::array<Entry, 6> &entries() {
     return all;
 }
 
-const Entry &entryOf(Kind kind) { return entries()[std::size_t(kind)]; }
+const Entry &entryOf(Kind kind) {
+    return entries()[std::size_t(kind)];
+}
 
 } // namespace
 
@@ -55,14 +57,17 @@ Kind kindFromName(const std::string &name) {
     throw task::Error(task::ErrorCode::usage, "unknown phantom '" + name + "'; known are " + known);
 }
 
-std::string nameOf(Kind kind) { return entryOf(kind).name; }
+std::string nameOf(Kind kind) {
+    return entryOf(kind).name;
+}
 
 volume::Lattice phantomLattice(Kind kind, const Sampling &sampling) {
     const Entry &entry = entryOf(kind);
     const volume::GridSize size = sampling.size.value_or(entry.size);
     glm::dvec3 s = sampling.spacingMm.value_or(entry.spacingMm);
     if (sampling.size && !sampling.spacingMm) // the same field of view on another grid
-        s *= glm::dvec3(entry.size.i, entry.size.j, entry.size.k) / glm::dvec3(size.i, size.j, size.k);
+        s *= glm::dvec3(entry.size.i, entry.size.j, entry.size.k) /
+             glm::dvec3(size.i, size.j, size.k);
     const double tilt = sampling.tiltRad;
     if (!(std::abs(tilt) <= 1.0))
         throw task::Error(task::ErrorCode::usage, "the tilt must lie within -57 to 57 degrees");
@@ -75,15 +80,18 @@ volume::Lattice phantomLattice(Kind kind, const Sampling &sampling) {
                                           s.y * glm::dvec3(0, std::cos(tilt), -std::sin(tilt)),
                                           s.z / std::cos(tilt) * glm::dvec3(0, 0, 1)};
     const glm::dvec3 origin =
-        -0.5 * (double(size.i - 1) * steps[0] + double(size.j - 1) * steps[1] + double(size.k - 1) * steps[2]);
+        -0.5 * (double(size.i - 1) * steps[0] + double(size.j - 1) * steps[1] +
+                double(size.k - 1) * steps[2]);
     return volume::Lattice::make(size, {origin}, steps);
 }
 
-volume::Volume makePhantom(Kind kind, const volume::Lattice &lattice, const task::Progress &progress) {
+volume::Volume makePhantom(Kind kind, const volume::Lattice &lattice,
+                           const task::Progress &progress) {
     try {
         return entryOf(kind).make(lattice, progress);
     } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for a phantom of this size");
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          "not enough memory for a phantom of this size");
     }
 }
 

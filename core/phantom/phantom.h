@@ -30,6 +30,7 @@ std::vector<std::string> kindNames();
 volume::Lattice phantomLattice(Kind kind, const Sampling &sampling);
 
 /// The phantom as a CT volume in HU. *Throws* Cancelled, Error{outOfMemory}.
-volume::Volume makePhantom(Kind kind, const volume::Lattice &lattice, const task::Progress &progress = {});
+volume::Volume makePhantom(Kind kind, const volume::Lattice &lattice,
+                           const task::Progress &progress = {});
 
 } // namespace pellucid::phantom

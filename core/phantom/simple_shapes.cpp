@@ -27,16 +27,19 @@ volume::Volume makeMetal(const volume::Lattice &lattice, const task::Progress &p
     Painter painter(lattice, -1024.0, progress);
     const double r = inscribedRadiusMm(lattice);
     painter.paint(ellipsoid({0, 0, 0}, {0.85 * r, 0.7 * r, 0.85 * r}), 40.0);
-    painter.paint(rod({-0.4 * r, 0, -0.5 * r}, {-0.4 * r, 0, 0.5 * r}, 0.06 * r, 0.06 * r), 30000.0);
-    painter.paint(rod({0.3 * r, -0.3 * r, 0.1 * r}, {0.45 * r, 0.3 * r, -0.2 * r}, 0.05 * r, 0.02 * r), 30000.0);
+    painter.paint(rod({-0.4 * r, 0, -0.5 * r}, {-0.4 * r, 0, 0.5 * r}, 0.06 * r, 0.06 * r),
+                  30000.0);
+    painter.paint(
+        rod({0.3 * r, -0.3 * r, 0.1 * r}, {0.45 * r, 0.3 * r, -0.2 * r}, 0.05 * r, 0.02 * r),
+        30000.0);
     painter.paint(ellipsoid({0.1 * r, 0.2 * r, 0.45 * r}, dvec3(0.09 * r)), 30000.0);
     return painter.finish(10.0, 7, "Metal phantom");
 }
 
 volume::Volume makeCube(const volume::Lattice &lattice, const task::Progress &progress) {
     progress.check();
-    return {lattice, std::vector<std::int16_t>(lattice.size().count(), 1000), volume::ValueUnit::hounsfield,
-            notesFor("Cube phantom")};
+    return {lattice, std::vector<std::int16_t>(lattice.size().count(), 1000),
+            volume::ValueUnit::hounsfield, notesFor("Cube phantom")};
 }
 
 volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &progress) {
@@ -52,8 +55,10 @@ volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &pr
             for (int i = 0; i < size.i; ++i) {
                 if (!inside(i, size.i) || !inside(j, size.j) || !inside(k, size.k))
                     continue;
-                // Six slabs along z, each with bars of 1..6 voxels, turned from x to y half way along y.
-                const int bar = 1 + 6 * (k - margin(size.k)) / std::max(1, size.k - 2 * margin(size.k));
+                // Six slabs along z, each with bars of 1..6 voxels, turned from x to y half way
+                // along y.
+                const int bar =
+                    1 + 6 * (k - margin(size.k)) / std::max(1, size.k - 2 * margin(size.k));
                 const int along = j < size.j / 2 ? i : j;
                 const bool on = (along / bar) % 2 == 0;
                 samples[(std::size_t(k) * size.j + j) * size.i + i] = on ? 1000 : 0;
@@ -70,12 +75,14 @@ volume::Volume makeEllipsoids(const volume::Lattice &lattice, const task::Progre
         progress.check();
         for (int j = 0; j < size.j; ++j)
             for (int i = 0; i < size.i; ++i) {
-                const dvec3 p = lattice.patient(volume::VoxelIndex{i, j, k}).mm - lattice.center().mm;
+                const dvec3 p =
+                    lattice.patient(volume::VoxelIndex{i, j, k}).mm - lattice.center().mm;
                 samples[(std::size_t(k) * size.j + j) * size.i + i] =
                     std::int16_t(std::lround(ellipsoidBackgroundHu + densityAt(bodies, p)));
             }
     });
-    return {lattice, std::move(samples), volume::ValueUnit::hounsfield, notesFor("Ellipsoid phantom")};
+    return {lattice, std::move(samples), volume::ValueUnit::hounsfield,
+            notesFor("Ellipsoid phantom")};
 }
 
 } // namespace pellucid::phantom

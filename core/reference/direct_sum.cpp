@@ -53,7 +53,8 @@ void directSum(const volume::Volume &field, const std::vector<glm::dvec3> &frequ
             for (std::size_t b = 0; b < count; ++b)
                 for (int d = 0; d < 3; ++d)
                     q[d][b] = glm::dot(lattice.step(d), frequencies[start + b]);
-            const auto ex = rotors(size.i, q[0]), ey = rotors(size.j, q[1]), ez = rotors(size.k, q[2]);
+            const auto ex = rotors(size.i, q[0]), ey = rotors(size.j, q[1]),
+                       ez = rotors(size.k, q[2]);
             Rotor total{};
             const auto *f = samples.data();
             for (int k = 0; k < size.k; ++k) {
@@ -77,8 +78,8 @@ void directSum(const volume::Volume &field, const std::vector<glm::dvec3> &frequ
 
 std::vector<double> directSumImage(const volume::Volume &field, const render::Camera &camera,
                                    const render::ImageDefinition &image) {
-    return sliceImage([&](const auto &s, auto &values) { directSum(field, s, values); }, field.lattice(),
-                      camera, image);
+    return sliceImage([&](const auto &s, auto &values) { directSum(field, s, values); },
+                      field.lattice(), camera, image);
 }
 
 } // namespace pellucid::reference

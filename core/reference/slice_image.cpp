@@ -15,15 +15,19 @@ namespace pellucid::reference {
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
                                const render::Camera &camera, const render::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
-    // Eight times the ringing of the band's edge, or of the lattice's own where that is tapered too.
+    // Eight times the ringing of the band's edge, or of the lattice's own where that is tapered
+    // too.
     double ringing = 8.0 / std::max(1.0 / 32.0, image.rollOff);
     if (image.reconstruction == render::Reconstruction::bandLimited)
-        ringing *= std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) / camera.pixelMm;
+        ringing *= std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) /
+                   camera.pixelMm;
     const auto cells = [&](int size, double panMm) {
-        const double needed = std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);
+        const double needed =
+            std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);
         return fourier::smoothEvenSize(int(std::ceil(needed + ringing)));
     };
-    const int columns = cells(camera.width, camera.panMm.x), rows = cells(camera.height, camera.panMm.y);
+    const int columns = cells(camera.width, camera.panMm.x),
+              rows = cells(camera.height, camera.panMm.y);
     const double du = 1.0 / (columns * camera.pixelMm), dv = 1.0 / (rows * camera.pixelMm);
     const double limit = 0.5 / camera.pixelMm;
     const glm::dmat3 axes = camera.axes();

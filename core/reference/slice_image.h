@@ -13,13 +13,13 @@ namespace pellucid::reference {
 
 /// D(s) of a sampled field about the centre of its lattice, *Units*: s in cycles per mm.
 /// `values` receives one value per frequency.
-using SpectrumSampler =
-    std::function<void(const std::vector<glm::dvec3> &frequencies, std::vector<std::complex<double>> &values)>;
+using SpectrumSampler = std::function<void(const std::vector<glm::dvec3> &frequencies,
+                                           std::vector<std::complex<double>> &values)>;
 
 /// The image p(u,v) of a spectrum, in double, straight from its definition: every frequency of the
-/// disc, multiplied by K and t, and an inverse transform on a period so much wider than the projection
-/// that the tails of the roll-off do not fold back into the picture.
-/// *Shape*: camera.height x camera.width.
+/// disc, multiplied by K and t, and an inverse transform on a period so much wider than the
+/// projection that the tails of the roll-off do not fold back into the picture. *Shape*:
+/// camera.height x camera.width.
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
                                const render::Camera &camera, const render::ImageDefinition &image);
 

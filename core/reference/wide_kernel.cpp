@@ -61,8 +61,10 @@ std::size_t WideKernel::bytes(const volume::VoxelBox &box) {
     return std::size_t(padded.i / 2 + 1) * padded.j * padded.k * sizeof(std::complex<double>);
 }
 
-WideKernel::WideKernel(const volume::Volume &field, const volume::VoxelBox &box, const task::Progress &progress)
-    : m_lattice(field.lattice()), m_padded(paddedSizes(box.size())), m_rowStride(m_padded.i / 2 + 1) {
+WideKernel::WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
+                       const task::Progress &progress)
+    : m_lattice(field.lattice()), m_padded(paddedSizes(box.size())),
+      m_rowStride(m_padded.i / 2 + 1) {
     const volume::GridSize size = box.size(), all = m_lattice.size();
     const volume::VoxelIndex middle{size.i / 2, size.j / 2, size.k / 2};
     m_wrapPoint = m_lattice.patient(
@@ -70,7 +72,8 @@ WideKernel::WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
     try {
         m_cells.resize(std::size_t(m_rowStride) * m_padded.j * m_padded.k);
     } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for the exact reference");
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          "not enough memory for the exact reference");
     }
     const double cell = m_lattice.cellVolumeMm3();
     field.visit([&](auto samples) {
@@ -81,7 +84,8 @@ WideKernel::WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
                                               apodisation(j - middle.j, m_padded.j));
                 auto *row = reinterpret_cast<double *>(
                     m_cells.data() + (std::size_t(modulo(k - middle.k, m_padded.k)) * m_padded.j +
-                                      modulo(j - middle.j, m_padded.j)) * m_rowStride);
+                                      modulo(j - middle.j, m_padded.j)) *
+                                         m_rowStride);
                 const std::size_t from =
                     (std::size_t(k + box.lo.k) * all.j + j + box.lo.j) * all.i + box.lo.i;
                 for (int i = 0; i < size.i; ++i)
@@ -138,8 +142,10 @@ void WideKernel::sample(const std::vector<glm::dvec3> &frequencies,
     }
 }
 
-std::vector<double> WideKernel::image(const render::Camera &camera, const render::ImageDefinition &image) const {
-    return sliceImage([this](const auto &s, auto &values) { sample(s, values); }, m_lattice, camera, image);
+std::vector<double> WideKernel::image(const render::Camera &camera,
+                                      const render::ImageDefinition &image) const {
+    return sliceImage([this](const auto &s, auto &values) { sample(s, values); }, m_lattice, camera,
+                      image);
 }
 
 } // namespace pellucid::reference

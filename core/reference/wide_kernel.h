@@ -13,10 +13,13 @@ namespace pellucid::reference {
 class WideKernel {
 public:
     /// *Shape*: the field is float32; only its box is read, the rest must be zero.
-    WideKernel(const volume::Volume &field, const volume::VoxelBox &box, const task::Progress &progress = {});
+    WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
+               const task::Progress &progress = {});
 
-    std::vector<double> image(const render::Camera &camera, const render::ImageDefinition &image) const;
-    void sample(const std::vector<glm::dvec3> &frequencies, std::vector<std::complex<double>> &values) const;
+    std::vector<double> image(const render::Camera &camera,
+                              const render::ImageDefinition &image) const;
+    void sample(const std::vector<glm::dvec3> &frequencies,
+                std::vector<std::complex<double>> &values) const;
 
     /// Bytes that the spectrum of a box takes.
     static std::size_t bytes(const volume::VoxelBox &box);

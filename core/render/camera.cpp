@@ -15,12 +15,23 @@ namespace pellucid::render {
 glm::dquat viewOrientation(StandardView view, const ViewAngles &angles) {
     ViewAngles total = angles;
     switch (view) {
-    case StandardView::front: break;
-    case StandardView::back: total.azimuthDeg += 180.0; break;
-    case StandardView::left: total.azimuthDeg += 90.0; break;
-    case StandardView::right: total.azimuthDeg -= 90.0; break;
-    case StandardView::top: total.elevationDeg += 90.0; break;
-    case StandardView::bottom: total.elevationDeg -= 90.0; break;
+    case StandardView::front:
+        break;
+    case StandardView::back:
+        total.azimuthDeg += 180.0;
+        break;
+    case StandardView::left:
+        total.azimuthDeg += 90.0;
+        break;
+    case StandardView::right:
+        total.azimuthDeg -= 90.0;
+        break;
+    case StandardView::top:
+        total.elevationDeg += 90.0;
+        break;
+    case StandardView::bottom:
+        total.elevationDeg -= 90.0;
+        break;
     }
     const glm::dvec3 x(1, 0, 0), z(0, 0, 1);
     return glm::angleAxis(glm::radians(total.azimuthDeg), z) *
@@ -51,9 +62,10 @@ Camera defaultCamera(const volume::Lattice &lattice) {
     camera.pixelMm = lattice.shortestStepMm();
     const double pixels = 2.0 * lattice.radiusMm() / camera.pixelMm;
     if (pixels > largestImageSize)
-        throw task::Error(task::ErrorCode::usage,
-                          "the whole volume at its finest step needs an image of more than 16384 pixels a "
-                          "side; name a size or a larger pixel");
+        throw task::Error(
+            task::ErrorCode::usage,
+            "the whole volume at its finest step needs an image of more than 16384 pixels a "
+            "side; name a size or a larger pixel");
     // The slack keeps an exact whole number from being pushed to the next even size by rounding.
     const int size = int(std::ceil(pixels - 1e-6));
     camera.width = camera.height = std::max(2, size + size % 2);

@@ -11,8 +11,8 @@
 
 namespace pellucid::render {
 
-/// The six standard views; front: the viewer stands before the patient, patient right at image left,
-/// superior up.
+/// The six standard views; front: the viewer stands before the patient, patient right at image
+/// left, superior up.
 enum class StandardView { front, back, left, right, top, bottom };
 
 /// Angles added to a standard view, degrees.
@@ -34,7 +34,8 @@ struct Camera {
     bool operator==(const Camera &) const = default;
 };
 
-/// [U V W] = Rz(azimuth) Rx(90) Rx(-elevation) Rz(roll), the angles of the standard view plus these.
+/// [U V W] = Rz(azimuth) Rx(90) Rx(-elevation) Rz(roll), the angles of the standard view plus
+/// these.
 glm::dquat viewOrientation(StandardView view, const ViewAngles &angles = {});
 
 /// The side of the patient that a unit direction (LPS) points to: up to two letters of R L A P S I,

@@ -26,8 +26,8 @@ double milliseconds(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-// K(q) for one axis, by linear interpolation. With 2048 entries per cycle the interpolation error is
-// below (1/2048)^2 / 8 * max|K''| = 3e-8 * 7.
+// K(q) for one axis, by linear interpolation. With 2048 entries per cycle the interpolation error
+// is below (1/2048)^2 / 8 * max|K''| = 3e-8 * 7.
 class FactorTable {
 public:
     FactorTable(const ImageDefinition &image, double largest) {
@@ -50,13 +50,14 @@ private:
 // The weighted sum over a kernel's support. Rows are read in whole groups of four floats, which the
 // apron allows; the surplus is dropped.
 template <int W>
-Complex gather(const Complex *cells, std::ptrdiff_t rowStride, std::ptrdiff_t planeStride, const float *wx,
-               const float *wy, const float *wz) {
+Complex gather(const Complex *cells, std::ptrdiff_t rowStride, std::ptrdiff_t planeStride,
+               const float *wx, const float *wy, const float *wz) {
     constexpr int lanes = (2 * W + 3) / 4 * 4;
     std::array<float, lanes> sum{};
     for (int k = 0; k < W; ++k)
         for (int j = 0; j < W; ++j) {
-            const auto *row = reinterpret_cast<const float *>(cells + k * planeStride + j * rowStride);
+            const auto *row =
+                reinterpret_cast<const float *>(cells + k * planeStride + j * rowStride);
             const float w = wz[k] * wy[j];
             for (int n = 0; n < lanes; ++n)
                 sum[n] += w * row[n];
@@ -80,8 +81,7 @@ Taps taps(double g, int width) {
     return {int(first), float(first - g + 0.5 * width - 0.5)};
 }
 
-template <int W>
-Complex sample(const fourier::Spectrum &spectrum, const glm::dvec3 &q) {
+template <int W> Complex sample(const fourier::Spectrum &spectrum, const glm::dvec3 &q) {
     const fourier::Kernel &kernel = spectrum.layout().kernel;
     const volume::GridSize padded = spectrum.layout().padded;
     // q modulo 1 in [0, 1); the half with x beyond 1/2 is the conjugate of its mirror image.
@@ -93,15 +93,16 @@ Complex sample(const fourier::Spectrum &spectrum, const glm::dvec3 &q) {
         f.y = f.y >= 1.0 ? 0.0 : f.y;
         f.z = f.z >= 1.0 ? 0.0 : f.z;
     }
-    const Taps x = taps(f.x * padded.i, W), y = taps(f.y * padded.j, W), z = taps(f.z * padded.k, W);
+    const Taps x = taps(f.x * padded.i, W), y = taps(f.y * padded.j, W),
+               z = taps(f.z * padded.k, W);
     std::array<float, W> wx, wy, wz;
     kernel.weights(x.c, wx.data());
     kernel.weights(y.c, wy.data());
     kernel.weights(z.c, wz.data());
-    const Complex *cells =
-        spectrum.origin() + z.first * spectrum.planeStride() + y.first * spectrum.rowStride() + x.first;
-    const Complex value =
-        gather<W>(cells, spectrum.rowStride(), spectrum.planeStride(), wx.data(), wy.data(), wz.data());
+    const Complex *cells = spectrum.origin() + z.first * spectrum.planeStride() +
+                           y.first * spectrum.rowStride() + x.first;
+    const Complex value = gather<W>(cells, spectrum.rowStride(), spectrum.planeStride(), wx.data(),
+                                    wy.data(), wz.data());
     return mirrored ? std::conj(value) : value;
 }
 
@@ -116,17 +117,19 @@ std::vector<Complex> phases(int count, double cyclesPerStep) {
 }
 
 template <int W>
-void sliceRows(const fourier::Spectrum &spectrum, const Camera &camera, const ImageDefinition &image,
-               const SliceGrid &grid, Complex *slice) {
+void sliceRows(const fourier::Spectrum &spectrum, const Camera &camera,
+               const ImageDefinition &image, const SliceGrid &grid, Complex *slice) {
     const glm::dmat3 axes = camera.axes();
     const volume::Lattice &lattice = spectrum.lattice();
-    const double du = 1.0 / (grid.columns * camera.pixelMm), dv = 1.0 / (grid.rows * camera.pixelMm);
+    const double du = 1.0 / (grid.columns * camera.pixelMm),
+                 dv = 1.0 / (grid.rows * camera.pixelMm);
     const double limit = 0.5 / camera.pixelMm;
     // q_d = a_d.s for one step along u and along image rows (downward, hence the sign).
     const glm::dmat3 steps(lattice.step(0), lattice.step(1), lattice.step(2));
     const glm::dvec3 qu = glm::transpose(steps) * axes[0] * du;
     const glm::dvec3 qv = glm::transpose(steps) * axes[1] * -dv;
-    const double longest = std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
+    const double longest =
+        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
     const FactorTable factor(image, longest * limit + 1e-6);
 
     // exp(+i 2 pi s.(c - x_wrap)) and the position of the first pixel, split into u and v.
@@ -138,41 +141,44 @@ void sliceRows(const fourier::Spectrum &spectrum, const Camera &camera, const Im
     const auto area = float(du * dv);
 
     const int stride = grid.columns / 2 + 1;
-    tbb::parallel_for(tbb::blocked_range<int>(0, grid.rows, 4), [&](const tbb::blocked_range<int> &range) {
-        for (int r = range.begin(); r != range.end(); ++r) {
-            Complex *row = slice + std::size_t(r) * stride;
-            const int ky = r <= grid.rows / 2 ? r : r - grid.rows;
-            const double sv = ky * dv;
-            int end = 0;
-            if (std::abs(ky) < grid.rows / 2) {
-                // The disc |s| < limit; its edge has roll-off 0, as have the Nyquist row and column.
-                end = int(std::ceil(std::sqrt(std::max(0.0, limit * limit - sv * sv)) / du));
-                end = std::min(end, grid.columns / 2);
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, grid.rows, 4), [&](const tbb::blocked_range<int> &range) {
+            for (int r = range.begin(); r != range.end(); ++r) {
+                Complex *row = slice + std::size_t(r) * stride;
+                const int ky = r <= grid.rows / 2 ? r : r - grid.rows;
+                const double sv = ky * dv;
+                int end = 0;
+                if (std::abs(ky) < grid.rows / 2) {
+                    // The disc |s| < limit; its edge has roll-off 0, as have the Nyquist row and
+                    // column.
+                    end = int(std::ceil(std::sqrt(std::max(0.0, limit * limit - sv * sv)) / du));
+                    end = std::min(end, grid.columns / 2);
+                }
+                const Complex rowPhase = ky >= 0 ? phaseV[ky] : std::conj(phaseV[-ky]);
+                for (int kx = 0; kx < end; ++kx) {
+                    const double su = kx * du;
+                    const glm::dvec3 q = double(kx) * qu + double(ky) * qv;
+                    const double radius = std::sqrt(su * su + sv * sv) / limit;
+                    float weight = area * factor(q.x) * factor(q.y) * factor(q.z);
+                    if (radius > 1.0 - image.rollOff)
+                        weight *= float(rollOffFactor(image.rollOff, radius));
+                    row[kx] = weight * (sample<W>(spectrum, q) * (phaseU[kx] * rowPhase));
+                }
+                std::fill(row + end, row + stride, Complex(0.0F));
             }
-            const Complex rowPhase = ky >= 0 ? phaseV[ky] : std::conj(phaseV[-ky]);
-            for (int kx = 0; kx < end; ++kx) {
-                const double su = kx * du;
-                const glm::dvec3 q = double(kx) * qu + double(ky) * qv;
-                const double radius = std::sqrt(su * su + sv * sv) / limit;
-                float weight = area * factor(q.x) * factor(q.y) * factor(q.z);
-                if (radius > 1.0 - image.rollOff)
-                    weight *= float(rollOffFactor(image.rollOff, radius));
-                row[kx] = weight * (sample<W>(spectrum, q) * (phaseU[kx] * rowPhase));
-            }
-            std::fill(row + end, row + stride, Complex(0.0F));
-        }
-    });
+        });
 }
 
 // True if no part of the lattice can project outside the image, from any direction.
 bool coversLattice(const Camera &camera, const volume::Lattice &lattice) {
-    const glm::dvec2 half = 0.5 * camera.pixelMm * glm::dvec2(camera.width, camera.height) - glm::abs(camera.panMm);
+    const glm::dvec2 half =
+        0.5 * camera.pixelMm * glm::dvec2(camera.width, camera.height) - glm::abs(camera.panMm);
     return std::min(half.x, half.y) >= lattice.radiusMm() * (1.0 - 1e-9);
 }
 
 // An image that holds the whole projection sums to P(0), which the spectrum gives exactly at a grid
-// point, for every view. The kernel's ghosts sum to zero over a period, but not over the image: they
-// shift its sum by 1e-5 to 2e-4 from view to view. Scaling takes that part of the error away.
+// point, for every view. The kernel's ghosts sum to zero over a period, but not over the image:
+// they shift its sum by 1e-5 to 2e-4 from view to view. Scaling takes that part of the error away.
 void conserveMass(ProjectionImage &image, double mass) {
     double sum = 0.0;
     for (const float p : image.samples)
@@ -189,7 +195,8 @@ void conserveMass(ProjectionImage &image, double mass) {
 
 struct CpuEngine::Frame {
     explicit Frame(const SliceGrid &size)
-        : grid(size), inverse(size.rows, size.columns), slice(std::size_t(size.rows) * (size.columns / 2 + 1)),
+        : grid(size), inverse(size.rows, size.columns),
+          slice(std::size_t(size.rows) * (size.columns / 2 + 1)),
           plane(std::size_t(size.rows) * size.columns) {}
     SliceGrid grid;
     fourier::InverseTransform2d<float> inverse;
@@ -197,7 +204,8 @@ struct CpuEngine::Frame {
     std::vector<float> plane;
 };
 
-CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum) : m_spectrum(std::move(spectrum)) {}
+CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum)
+    : m_spectrum(std::move(spectrum)) {}
 CpuEngine::~CpuEngine() = default;
 
 std::string CpuEngine::description() const {
@@ -210,19 +218,25 @@ CpuEngine::Frame &CpuEngine::frameFor(const SliceGrid &grid) {
         try {
             m_frame = std::make_unique<Frame>(grid);
         } catch (const std::bad_alloc &) {
-            throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for an image of this size");
+            throw task::Error(task::ErrorCode::outOfMemory,
+                              "not enough memory for an image of this size");
         }
     }
     return *m_frame;
 }
 
-ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &image, FrameTimes *times) {
+ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &image,
+                                  FrameTimes *times) {
     const SliceGrid grid = sliceGrid(camera, m_spectrum->layout(), m_spectrum->lattice(), image);
     Frame &frame = frameFor(grid);
     const auto start = Clock::now();
     switch (m_spectrum->layout().kernel.width()) {
-    case 4: sliceRows<4>(*m_spectrum, camera, image, grid, frame.slice.data()); break;
-    case 6: sliceRows<6>(*m_spectrum, camera, image, grid, frame.slice.data()); break;
+    case 4:
+        sliceRows<4>(*m_spectrum, camera, image, grid, frame.slice.data());
+        break;
+    case 6:
+        sliceRows<6>(*m_spectrum, camera, image, grid, frame.slice.data());
+        break;
     default:
         assert(m_spectrum->layout().kernel.width() == 5);
         sliceRows<5>(*m_spectrum, camera, image, grid, frame.slice.data());

@@ -22,7 +22,8 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
                 for (int k = range.begin(); k != range.end(); ++k)
                     for (int j = 0; j < size.j; ++j) {
                         const std::size_t row =
-                            (std::size_t(k + box.lo.k) * lattice.j + j + box.lo.j) * lattice.i + box.lo.i;
+                            (std::size_t(k + box.lo.k) * lattice.j + j + box.lo.j) * lattice.i +
+                            box.lo.i;
                         double inRow = 0.0;
                         for (int i = 0; i < size.i; ++i) {
                             const double f = double(samples[row + i]);
@@ -36,8 +37,8 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
             },
             [](EnergyMarginals a, const EnergyMarginals &b) {
                 for (int d = 0; d < 3; ++d)
-                    std::transform(a.axis[d].begin(), a.axis[d].end(), b.axis[d].begin(), a.axis[d].begin(),
-                                   std::plus<>());
+                    std::transform(a.axis[d].begin(), a.axis[d].end(), b.axis[d].begin(),
+                                   a.axis[d].begin(), std::plus<>());
                 return a;
             });
     });

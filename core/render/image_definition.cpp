@@ -27,9 +27,12 @@ double rollOffFactor(double rollOff, double q) {
 double reconstructionFactor(const ImageDefinition &definition, double q) {
     const double s = sinc(q);
     switch (definition.reconstruction) {
-    case Reconstruction::linear: return s * s;
-    case Reconstruction::bandLimited: return rollOffFactor(definition.rollOff, 2.0 * std::abs(q));
-    case Reconstruction::cubic: break;
+    case Reconstruction::linear:
+        return s * s;
+    case Reconstruction::bandLimited:
+        return rollOffFactor(definition.rollOff, 2.0 * std::abs(q));
+    case Reconstruction::cubic:
+        break;
     }
     return 3.0 * s * s * s * s / (2.0 + std::cos(2.0 * std::numbers::pi * q));
 }

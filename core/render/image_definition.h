@@ -21,8 +21,8 @@ struct ImageDefinition {
 /// t(q): 1 below 1 - F, a raised cosine down to 0 at q = 1, 0 beyond.
 double rollOffFactor(double rollOff, double q);
 
-/// K(q) of one axis, q = a_d.s in cycles per sample. linear: sinc^2; cubic: 3 sinc^4/(2 + cos 2 pi q);
-/// band-limited: t(2|q|).
+/// K(q) of one axis, q = a_d.s in cycles per sample. linear: sinc^2; cubic: 3 sinc^4/(2 + cos 2 pi
+/// q); band-limited: t(2|q|).
 double reconstructionFactor(const ImageDefinition &definition, double q);
 
 } // namespace pellucid::render

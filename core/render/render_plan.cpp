@@ -18,17 +18,23 @@ namespace {
 constexpr int kernelWidth = 5;
 constexpr double padding = 1.5;
 
-// Ringing of a raised-cosine edge over a share F of the band, in samples of that band: beyond 2/F the
-// response falls with the third power. Sharper edges than 1/32 ring for longer than is worth paying.
-double ringing(double rollOff) { return 2.0 / std::max(1.0 / 32.0, rollOff); }
+// Ringing of a raised-cosine edge over a share F of the band, in samples of that band: beyond 2/F
+// the response falls with the third power. Sharper edges than 1/32 ring for longer than is worth
+// paying.
+double ringing(double rollOff) {
+    return 2.0 / std::max(1.0 / 32.0, rollOff);
+}
 
 // How far a sample's footprint reaches, in samples: the tent ends after one; the cardinal B-spline
 // has fallen to 4e-4 after six; the tapered sinc rings.
 double footprint(const ImageDefinition &image) {
     switch (image.reconstruction) {
-    case Reconstruction::linear: return 1.0;
-    case Reconstruction::bandLimited: return ringing(image.rollOff);
-    case Reconstruction::cubic: break;
+    case Reconstruction::linear:
+        return 1.0;
+    case Reconstruction::bandLimited:
+        return ringing(image.rollOff);
+    case Reconstruction::cubic:
+        break;
     }
     return 6.0;
 }
@@ -45,18 +51,20 @@ SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectru
     const auto &[lo, hi] = spectrum.box;
     double radius = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
-        const volume::VoxelPoint p{{(corner & 1) != 0 ? hi.i - 1 : lo.i, (corner & 2) != 0 ? hi.j - 1 : lo.j,
+        const volume::VoxelPoint p{{(corner & 1) != 0 ? hi.i - 1 : lo.i,
+                                    (corner & 2) != 0 ? hi.j - 1 : lo.j,
                                     (corner & 4) != 0 ? hi.k - 1 : lo.k}};
         radius = std::max(radius, glm::distance(center, lattice.patient(p).mm));
     }
-    const double longest = std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
+    const double longest =
+        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
     radius += footprint(image) * longest;
     // A copy of the projection, a period away, must stay outside the image: its near edge lies at
     // period - radius, the image's far edge at half its size plus the pan.
     const auto cells = [&](int size, double pan) {
         const double reach = radius / camera.pixelMm + 0.5 * size + std::abs(pan) / camera.pixelMm;
-        // The tails of the roll-off fold in along the border only, so their share of the image's energy
-        // falls with its size, and so does the room they are given.
+        // The tails of the roll-off fold in along the border only, so their share of the image's
+        // energy falls with its size, and so does the room they are given.
         const double tails = ringing(image.rollOff) * std::min(1.0, 64.0 / reach);
         return fourier::smoothEvenSize(int(std::ceil(std::min(reach + tails, 1e6))));
     };
@@ -66,19 +74,22 @@ SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectru
 RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budget &budget) {
     validate(scene);
     const volume::GridSize size = field.support.size();
-    const volume::GridSize padded{fourier::paddedSize(size.i, padding), fourier::paddedSize(size.j, padding),
+    const volume::GridSize padded{fourier::paddedSize(size.i, padding),
+                                  fourier::paddedSize(size.j, padding),
                                   fourier::paddedSize(size.k, padding)};
-    RenderPlan plan{{fourier::Kernel::exponentialSemicircle(kernelWidth, padding), field.support, padded},
-                    scene.image};
+    RenderPlan plan{
+        {fourier::Kernel::exponentialSemicircle(kernelWidth, padding), field.support, padded},
+        scene.image};
     plan.predictedError = predictRelativeError(plan.spectrum, field.energy);
     const SliceGrid grid = sliceGrid(scene.camera, plan.spectrum, field.lattice, scene.image);
-    // A frame holds the slice, its transform and the cropped image, all of the slice's size or less.
+    // A frame holds the slice, its transform and the cropped image, all of the slice's size or
+    // less.
     const std::size_t frame = std::size_t(grid.columns) * grid.rows * 3 * sizeof(float);
     plan.bytes = plan.spectrum.bytes() + frame;
     if (plan.bytes > budget.bytes)
         throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("the projection needs {} MB, {} MB are allowed", (plan.bytes >> 20) + 1,
-                                      budget.bytes >> 20));
+                          fmt::format("the projection needs {} MB, {} MB are allowed",
+                                      (plan.bytes >> 20) + 1, budget.bytes >> 20));
     return plan;
 }
 

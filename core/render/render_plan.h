@@ -24,8 +24,8 @@ struct Budget {
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
 };
 
-/// The frequency grid of one image: columns x rows frequencies, 1/(columns pixel) apart, so that the
-/// periodic image they make holds the whole projection beside the asked-for part.
+/// The frequency grid of one image: columns x rows frequencies, 1/(columns pixel) apart, so that
+/// the periodic image they make holds the whole projection beside the asked-for part.
 struct SliceGrid {
     int columns = 2, rows = 2;
     bool operator==(const SliceGrid &) const = default;
@@ -42,11 +42,12 @@ struct RenderPlan {
     std::size_t bytes = 0;
 };
 
-/// *Throws* Error{outOfMemory} if the plan does not fit the budget, Error{usage} if the scene is invalid.
+/// *Throws* Error{outOfMemory} if the plan does not fit the budget, Error{usage} if the scene is
+/// invalid.
 RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budget &budget = {});
 
-/// The slice grid for a camera: wide enough that no part of the projection, seen from any direction,
-/// wraps into the image.
+/// The slice grid for a camera: wide enough that no part of the projection, seen from any
+/// direction, wraps into the image.
 SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectrum,
                     const volume::Lattice &lattice, const ImageDefinition &image);
 

@@ -23,12 +23,16 @@ void validate(const Scene &scene) {
     require(camera.width >= 1 && camera.height >= 1 && camera.width <= largestImageSize &&
                 camera.height <= largestImageSize,
             fmt::format("the image size must be 1 to {} pixels a side", largestImageSize));
-    require(std::isfinite(camera.pixelMm) && camera.pixelMm > 0.0, "the pixel must be a positive length");
-    require(std::isfinite(camera.panMm.x) && std::isfinite(camera.panMm.y), "the pan must be finite");
+    require(std::isfinite(camera.pixelMm) && camera.pixelMm > 0.0,
+            "the pixel must be a positive length");
+    require(std::isfinite(camera.panMm.x) && std::isfinite(camera.panMm.y),
+            "the pan must be finite");
     const double norm = glm::dot(camera.orientation, camera.orientation);
     require(std::isfinite(norm) && norm > 1e-12, "the orientation must not be zero");
-    require(scene.image.rollOff >= 0.0 && scene.image.rollOff <= 1.0, "the roll-off must be within 0 to 1");
-    require(std::isfinite(scene.tolerance) && scene.tolerance > 0.0, "the tolerance must be positive");
+    require(scene.image.rollOff >= 0.0 && scene.image.rollOff <= 1.0,
+            "the roll-off must be within 0 to 1");
+    require(std::isfinite(scene.tolerance) && scene.tolerance > 0.0,
+            "the tolerance must be positive");
     if (scene.fieldWindow)
         require(std::isfinite(scene.fieldWindow->low) && std::isfinite(scene.fieldWindow->high) &&
                     scene.fieldWindow->low < scene.fieldWindow->high,

@@ -17,7 +17,8 @@ constexpr const char *schema = "pellucid-scene/1";
 
 const std::map<std::string, Reconstruction> &reconstructionNames() {
     static const std::map<std::string, Reconstruction> names = {
-        {"cubic", Reconstruction::cubic}, {"linear", Reconstruction::linear},
+        {"cubic", Reconstruction::cubic},
+        {"linear", Reconstruction::linear},
         {"band-limited", Reconstruction::bandLimited}};
     return names;
 }
@@ -33,17 +34,16 @@ std::string nameOf(Reconstruction value) {
 
 std::string toJson(const Scene &scene) {
     const glm::dquat &q = scene.camera.orientation;
-    json out = {
-        {"schema", schema},
-        {"camera",
-         {{"orientation", {q.w, q.x, q.y, q.z}},
-          {"pixel_mm", scene.camera.pixelMm},
-          {"size", {scene.camera.width, scene.camera.height}},
-          {"pan_mm", {scene.camera.panMm.x, scene.camera.panMm.y}}}},
-        {"reconstruction", nameOf(scene.image.reconstruction)},
-        {"roll_off", scene.image.rollOff},
-        {"tolerance", scene.tolerance},
-        {"tone", {{"inverted", scene.tone.inverted}}}};
+    json out = {{"schema", schema},
+                {"camera",
+                 {{"orientation", {q.w, q.x, q.y, q.z}},
+                  {"pixel_mm", scene.camera.pixelMm},
+                  {"size", {scene.camera.width, scene.camera.height}},
+                  {"pan_mm", {scene.camera.panMm.x, scene.camera.panMm.y}}}},
+                {"reconstruction", nameOf(scene.image.reconstruction)},
+                {"roll_off", scene.image.rollOff},
+                {"tolerance", scene.tolerance},
+                {"tone", {{"inverted", scene.tone.inverted}}}};
     if (scene.fieldWindow)
         out["window"] = {scene.fieldWindow->low, scene.fieldWindow->high};
     if (scene.tone.low)
@@ -58,7 +58,8 @@ Scene sceneFromJson(const std::string &text) {
     try {
         const json in = json::parse(text);
         if (in.at("schema") != schema)
-            throw task::Error(task::ErrorCode::usage, "the scene's schema is not " + std::string(schema));
+            throw task::Error(task::ErrorCode::usage,
+                              "the scene's schema is not " + std::string(schema));
         const json &camera = in.at("camera");
         const auto q = camera.at("orientation").get<std::array<double, 4>>();
         scene.camera.orientation = glm::dquat(q[0], q[1], q[2], q[3]);
@@ -75,7 +76,8 @@ Scene sceneFromJson(const std::string &text) {
         const std::string reconstruction = in.value("reconstruction", "cubic");
         const auto it = reconstructionNames().find(reconstruction);
         if (it == reconstructionNames().end())
-            throw task::Error(task::ErrorCode::usage, "unknown reconstruction '" + reconstruction + "' in the scene");
+            throw task::Error(task::ErrorCode::usage,
+                              "unknown reconstruction '" + reconstruction + "' in the scene");
         scene.image.reconstruction = it->second;
         scene.image.rollOff = in.value("roll_off", scene.image.rollOff);
         scene.tolerance = in.value("tolerance", scene.tolerance);
@@ -88,7 +90,8 @@ Scene sceneFromJson(const std::string &text) {
                 scene.tone.high = tone.at("high").get<double>();
         }
     } catch (const json::exception &error) {
-        throw task::Error(task::ErrorCode::usage, std::string("the scene is not valid: ") + error.what());
+        throw task::Error(task::ErrorCode::usage,
+                          std::string("the scene is not valid: ") + error.what());
     }
     validate(scene);
     scene.camera.orientation = glm::normalize(scene.camera.orientation);

@@ -10,12 +10,12 @@ namespace pellucid::task {
 /// What went wrong, in the classes that a caller can act on. The values are the exit codes of the
 /// command line.
 enum class ErrorCode {
-    internal = 1,       ///< a fault of the program
-    output = 1,         ///< the result cannot be written
-    usage = 2,          ///< the request makes no sense
-    unusable = 3,       ///< a path is missing, empty, or holds nothing usable
-    outOfMemory = 4,    ///< the request needs more memory than there is or than was allowed
-    noSuchDevice = 5,   ///< the requested engine does not exist here
+    internal = 1,     ///< a fault of the program
+    output = 1,       ///< the result cannot be written
+    usage = 2,        ///< the request makes no sense
+    unusable = 3,     ///< a path is missing, empty, or holds nothing usable
+    outOfMemory = 4,  ///< the request needs more memory than there is or than was allowed
+    noSuchDevice = 5, ///< the requested engine does not exist here
 };
 
 /// A failure of the outside world: a file, a device, a limit. `what()` is one line that names the

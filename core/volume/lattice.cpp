@@ -27,8 +27,7 @@ Lattice Lattice::make(GridSize size, PatientPoint origin, const std::array<glm::
         throw Error(ErrorCode::unusable, "the volume has an axis without samples");
     if (!finite(origin.mm) || !finite(steps[0]) || !finite(steps[1]) || !finite(steps[2]))
         throw Error(ErrorCode::unusable, "the geometry is not made of finite numbers");
-    const double lengths =
-        glm::length(steps[0]) * glm::length(steps[1]) * glm::length(steps[2]);
+    const double lengths = glm::length(steps[0]) * glm::length(steps[1]) * glm::length(steps[2]);
     Lattice lattice;
     lattice.m_size = size;
     lattice.m_origin = origin.mm;
@@ -46,19 +45,25 @@ Lattice Lattice::centred(GridSize size, glm::dvec3 s) {
                 {glm::dvec3(s.x, 0, 0), glm::dvec3(0, s.y, 0), glm::dvec3(0, 0, s.z)});
 }
 
-double Lattice::spacingMm(int axis) const { return glm::length(m_steps[axis]); }
+double Lattice::spacingMm(int axis) const {
+    return glm::length(m_steps[axis]);
+}
 
 double Lattice::shortestStepMm() const {
     return std::min({spacingMm(0), spacingMm(1), spacingMm(2)});
 }
 
-double Lattice::cellVolumeMm3() const { return std::abs(glm::determinant(m_steps)); }
+double Lattice::cellVolumeMm3() const {
+    return std::abs(glm::determinant(m_steps));
+}
 
 glm::dvec3 Lattice::sliceNormal() const {
     return glm::normalize(glm::cross(m_steps[0], m_steps[1]));
 }
 
-double Lattice::sliceDistanceMm() const { return std::abs(glm::dot(sliceNormal(), m_steps[2])); }
+double Lattice::sliceDistanceMm() const {
+    return std::abs(glm::dot(sliceNormal(), m_steps[2]));
+}
 
 double Lattice::shearRad() const {
     return std::acos(std::clamp(sliceDistanceMm() / spacingMm(2), 0.0, 1.0));

@@ -48,10 +48,11 @@ class Lattice {
 public:
     /// One sample of one cubic millimetre at the origin.
     Lattice() = default;
-    /// *Units*: mm, LPS. *Throws* Error{unusable} if a size is not positive, a number is not finite,
-    /// or the steps span no volume.
+    /// *Units*: mm, LPS. *Throws* Error{unusable} if a size is not positive, a number is not
+    /// finite, or the steps span no volume.
     static Lattice make(GridSize size, PatientPoint origin, const std::array<glm::dvec3, 3> &steps);
-    /// Orthogonal axes along LPS, the centre of the lattice at the patient's origin. *Throws* as make.
+    /// Orthogonal axes along LPS, the centre of the lattice at the patient's origin. *Throws* as
+    /// make.
     static Lattice centred(GridSize size, glm::dvec3 spacingMm);
 
     const GridSize &size() const { return m_size; }

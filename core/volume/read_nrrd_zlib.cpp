@@ -43,7 +43,8 @@ std::string trimmed(const std::string &text) {
 }
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
     return text;
 }
 
@@ -67,7 +68,8 @@ Header readHeader(const fs::path &path) {
             continue;
         const auto colon = line.find(':');
         if (colon == std::string::npos)
-            throw Error(ErrorCode::unusable, "NRRD header line without a colon: " + line.substr(0, 60), path);
+            throw Error(ErrorCode::unusable,
+                        "NRRD header line without a colon: " + line.substr(0, 60), path);
         header.fields[lower(trimmed(line.substr(0, colon)))] = trimmed(line.substr(colon + 1));
     }
     header.dataOffset = in ? std::uint64_t(in.tellg()) : 0;
@@ -108,21 +110,46 @@ private:
 enum class Scalar { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 
 std::optional<Scalar> scalarOf(const std::string &name) {
-    static const std::map<std::string, Scalar> names = {
-        {"signed char", Scalar::i8}, {"int8", Scalar::i8}, {"int8_t", Scalar::i8},
-        {"uchar", Scalar::u8}, {"unsigned char", Scalar::u8}, {"uint8", Scalar::u8}, {"uint8_t", Scalar::u8},
-        {"short", Scalar::i16}, {"short int", Scalar::i16}, {"signed short", Scalar::i16},
-        {"signed short int", Scalar::i16}, {"int16", Scalar::i16}, {"int16_t", Scalar::i16},
-        {"ushort", Scalar::u16}, {"unsigned short", Scalar::u16}, {"unsigned short int", Scalar::u16},
-        {"uint16", Scalar::u16}, {"uint16_t", Scalar::u16},
-        {"int", Scalar::i32}, {"signed int", Scalar::i32}, {"int32", Scalar::i32}, {"int32_t", Scalar::i32},
-        {"uint", Scalar::u32}, {"unsigned int", Scalar::u32}, {"uint32", Scalar::u32}, {"uint32_t", Scalar::u32},
-        {"longlong", Scalar::i64}, {"long long", Scalar::i64}, {"long long int", Scalar::i64},
-        {"signed long long", Scalar::i64}, {"signed long long int", Scalar::i64}, {"int64", Scalar::i64},
-        {"int64_t", Scalar::i64},
-        {"ulonglong", Scalar::u64}, {"unsigned long long", Scalar::u64}, {"unsigned long long int", Scalar::u64},
-        {"uint64", Scalar::u64}, {"uint64_t", Scalar::u64},
-        {"float", Scalar::f32}, {"double", Scalar::f64}};
+    static const std::map<std::string, Scalar> names = {{"signed char", Scalar::i8},
+                                                        {"int8", Scalar::i8},
+                                                        {"int8_t", Scalar::i8},
+                                                        {"uchar", Scalar::u8},
+                                                        {"unsigned char", Scalar::u8},
+                                                        {"uint8", Scalar::u8},
+                                                        {"uint8_t", Scalar::u8},
+                                                        {"short", Scalar::i16},
+                                                        {"short int", Scalar::i16},
+                                                        {"signed short", Scalar::i16},
+                                                        {"signed short int", Scalar::i16},
+                                                        {"int16", Scalar::i16},
+                                                        {"int16_t", Scalar::i16},
+                                                        {"ushort", Scalar::u16},
+                                                        {"unsigned short", Scalar::u16},
+                                                        {"unsigned short int", Scalar::u16},
+                                                        {"uint16", Scalar::u16},
+                                                        {"uint16_t", Scalar::u16},
+                                                        {"int", Scalar::i32},
+                                                        {"signed int", Scalar::i32},
+                                                        {"int32", Scalar::i32},
+                                                        {"int32_t", Scalar::i32},
+                                                        {"uint", Scalar::u32},
+                                                        {"unsigned int", Scalar::u32},
+                                                        {"uint32", Scalar::u32},
+                                                        {"uint32_t", Scalar::u32},
+                                                        {"longlong", Scalar::i64},
+                                                        {"long long", Scalar::i64},
+                                                        {"long long int", Scalar::i64},
+                                                        {"signed long long", Scalar::i64},
+                                                        {"signed long long int", Scalar::i64},
+                                                        {"int64", Scalar::i64},
+                                                        {"int64_t", Scalar::i64},
+                                                        {"ulonglong", Scalar::u64},
+                                                        {"unsigned long long", Scalar::u64},
+                                                        {"unsigned long long int", Scalar::u64},
+                                                        {"uint64", Scalar::u64},
+                                                        {"uint64_t", Scalar::u64},
+                                                        {"float", Scalar::f32},
+                                                        {"double", Scalar::f64}};
     const auto it = names.find(lower(name));
     return it == names.end() ? std::nullopt : std::optional(it->second);
 }
@@ -130,21 +157,27 @@ std::optional<Scalar> scalarOf(const std::string &name) {
 std::size_t scalarBytes(Scalar scalar) {
     switch (scalar) {
     case Scalar::i8:
-    case Scalar::u8: return 1;
+    case Scalar::u8:
+        return 1;
     case Scalar::i16:
-    case Scalar::u16: return 2;
+    case Scalar::u16:
+        return 2;
     case Scalar::i32:
     case Scalar::u32:
-    case Scalar::f32: return 4;
-    default: return 8;
+    case Scalar::f32:
+        return 4;
+    default:
+        return 8;
     }
 }
 
 std::vector<std::byte> readBytes(const fs::path &path, std::uint64_t offset, std::uint64_t count,
                                  bool gzip, const task::Progress &progress) {
     // gzread passes bytes through when a file is not compressed, so one loop serves both encodings;
-    // an attached gzip payload starts at an offset, which gzdopen on a positioned descriptor honours.
-    std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+    // an attached gzip payload starts at an offset, which gzdopen on a positioned descriptor
+    // honours.
+    std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"),
+                                                          &std::fclose);
     if (!file || fseeko(file.get(), off_t(offset), SEEK_SET) != 0)
         throw Error(ErrorCode::unusable, "cannot be read", path);
     constexpr std::uint64_t chunk = 1 << 24;
@@ -196,29 +229,42 @@ template <class Stored>
 Volume volumeFrom(const std::vector<std::byte> &bytes, bool swap, const Lattice &lattice,
                   VolumeNotes notes) {
     if constexpr (sizeof(Stored) == 1 || std::is_same_v<Stored, std::int16_t>)
-        return Volume(lattice, converted<Stored, std::int16_t>(bytes, swap), ValueUnit::none, std::move(notes));
+        return Volume(lattice, converted<Stored, std::int16_t>(bytes, swap), ValueUnit::none,
+                      std::move(notes));
     if constexpr (std::is_same_v<Stored, std::uint16_t>) {
         auto values = converted<Stored, std::uint16_t>(bytes, swap);
-        if (*std::max_element(values.begin(), values.end()) <= std::numeric_limits<std::int16_t>::max())
+        if (*std::max_element(values.begin(), values.end()) <=
+            std::numeric_limits<std::int16_t>::max())
             return Volume(lattice, std::vector<std::int16_t>(values.begin(), values.end()),
                           ValueUnit::none, std::move(notes));
     }
-    return Volume(lattice, converted<Stored, float>(bytes, swap), ValueUnit::none, std::move(notes));
+    return Volume(lattice, converted<Stored, float>(bytes, swap), ValueUnit::none,
+                  std::move(notes));
 }
 
-Volume toVolume(Scalar scalar, const std::vector<std::byte> &bytes, bool swap, const Lattice &lattice,
-                VolumeNotes notes) {
+Volume toVolume(Scalar scalar, const std::vector<std::byte> &bytes, bool swap,
+                const Lattice &lattice, VolumeNotes notes) {
     switch (scalar) {
-    case Scalar::i8: return volumeFrom<std::int8_t>(bytes, swap, lattice, std::move(notes));
-    case Scalar::u8: return volumeFrom<std::uint8_t>(bytes, swap, lattice, std::move(notes));
-    case Scalar::i16: return volumeFrom<std::int16_t>(bytes, swap, lattice, std::move(notes));
-    case Scalar::u16: return volumeFrom<std::uint16_t>(bytes, swap, lattice, std::move(notes));
-    case Scalar::i32: return volumeFrom<std::int32_t>(bytes, swap, lattice, std::move(notes));
-    case Scalar::u32: return volumeFrom<std::uint32_t>(bytes, swap, lattice, std::move(notes));
-    case Scalar::i64: return volumeFrom<std::int64_t>(bytes, swap, lattice, std::move(notes));
-    case Scalar::u64: return volumeFrom<std::uint64_t>(bytes, swap, lattice, std::move(notes));
-    case Scalar::f32: return volumeFrom<float>(bytes, swap, lattice, std::move(notes));
-    case Scalar::f64: break;
+    case Scalar::i8:
+        return volumeFrom<std::int8_t>(bytes, swap, lattice, std::move(notes));
+    case Scalar::u8:
+        return volumeFrom<std::uint8_t>(bytes, swap, lattice, std::move(notes));
+    case Scalar::i16:
+        return volumeFrom<std::int16_t>(bytes, swap, lattice, std::move(notes));
+    case Scalar::u16:
+        return volumeFrom<std::uint16_t>(bytes, swap, lattice, std::move(notes));
+    case Scalar::i32:
+        return volumeFrom<std::int32_t>(bytes, swap, lattice, std::move(notes));
+    case Scalar::u32:
+        return volumeFrom<std::uint32_t>(bytes, swap, lattice, std::move(notes));
+    case Scalar::i64:
+        return volumeFrom<std::int64_t>(bytes, swap, lattice, std::move(notes));
+    case Scalar::u64:
+        return volumeFrom<std::uint64_t>(bytes, swap, lattice, std::move(notes));
+    case Scalar::f32:
+        return volumeFrom<float>(bytes, swap, lattice, std::move(notes));
+    case Scalar::f64:
+        break;
     }
     return volumeFrom<double>(bytes, swap, lattice, std::move(notes));
 }
@@ -242,7 +288,8 @@ glm::dvec3 toLps(const Fields &fields) {
 
 std::vector<glm::dvec3> parseVectors(const Fields &fields, std::string text) {
     std::vector<glm::dvec3> vectors;
-    for (std::size_t open = text.find('('); open != std::string::npos; open = text.find('(', open + 1)) {
+    for (std::size_t open = text.find('('); open != std::string::npos;
+         open = text.find('(', open + 1)) {
         const std::size_t close = text.find(')', open);
         if (close == std::string::npos)
             fields.fail("NRRD vector without an end: " + text.substr(0, 60));
@@ -353,13 +400,16 @@ VolumeNotes notesFor(const fs::path &path) {
 
 } // namespace
 
-NrrdHeader readNrrdHeader(const fs::path &path) { return {parseLayout(path).lattice, notesFor(path)}; }
+NrrdHeader readNrrdHeader(const fs::path &path) {
+    return {parseLayout(path).lattice, notesFor(path)};
+}
 
 Volume readNrrd(const fs::path &path, const task::Progress &progress) {
     const Layout layout = parseLayout(path);
     try {
         const std::uint64_t count = layout.lattice.size().count() * scalarBytes(layout.scalar);
-        const auto bytes = readBytes(layout.dataPath, layout.offset, count, layout.gzip, progress.part(0, 0.8));
+        const auto bytes =
+            readBytes(layout.dataPath, layout.offset, count, layout.gzip, progress.part(0, 0.8));
         Volume volume = toVolume(layout.scalar, bytes, layout.swap, layout.lattice, notesFor(path));
         progress.report(1.0);
         return volume;

@@ -25,12 +25,22 @@ std::uint32_t orderKey(float value) {
 float fromOrderKey(std::uint32_t key) {
     return std::bit_cast<float>((key & 0x80000000U) != 0 ? key & 0x7FFFFFFFU : ~key);
 }
-std::uint32_t orderKey(std::int16_t value) { return std::uint32_t(int(value) + 32768) << 16; }
-double keyValue(std::uint32_t key, std::int16_t) { return int(key >> 16) - 32768; }
-double keyValue(std::uint32_t key, float) { return fromOrderKey(key); }
+std::uint32_t orderKey(std::int16_t value) {
+    return std::uint32_t(int(value) + 32768) << 16;
+}
+double keyValue(std::uint32_t key, std::int16_t) {
+    return int(key >> 16) - 32768;
+}
+double keyValue(std::uint32_t key, float) {
+    return fromOrderKey(key);
+}
 
-bool isFinite(std::int16_t) { return true; }
-bool isFinite(float value) { return std::isfinite(value); }
+bool isFinite(std::int16_t) {
+    return true;
+}
+bool isFinite(float value) {
+    return std::isfinite(value);
+}
 
 template <class T, class BinOf>
 Counts countInto(std::span<const T> samples, std::size_t bins, const BinOf &binOf) {
@@ -55,9 +65,9 @@ Counts countInto(std::span<const T> samples, std::size_t bins, const BinOf &binO
 template <class T> class RankSelector {
 public:
     explicit RankSelector(std::span<const T> samples)
-        : m_samples(samples), m_high(countInto(samples, 65536, [](T v) -> std::ptrdiff_t {
-              return orderKey(v) >> 16;
-          })) {
+        : m_samples(samples),
+          m_high(
+              countInto(samples, 65536, [](T v) -> std::ptrdiff_t { return orderKey(v) >> 16; })) {
         for (const std::uint64_t count : m_high)
             m_total += count;
     }
@@ -118,8 +128,8 @@ Statistics statistics(const Volume &volume) {
                 return m;
             },
             [](const Moments &a, const Moments &b) {
-                return Moments{a.sum + b.sum, a.sumOfSquares + b.sumOfSquares, std::min(a.low, b.low),
-                               std::max(a.high, b.high), a.count + b.count};
+                return Moments{a.sum + b.sum, a.sumOfSquares + b.sumOfSquares,
+                               std::min(a.low, b.low), std::max(a.high, b.high), a.count + b.count};
             });
     });
     if (all.count == 0)
@@ -132,7 +142,8 @@ Statistics statistics(const Volume &volume) {
 Histogram histogram(const Volume &volume, int bins) {
     const Statistics range = statistics(volume);
     Histogram result{range.minimum, range.maximum, {}};
-    const double scale = range.maximum > range.minimum ? bins / (range.maximum - range.minimum) : 0.0;
+    const double scale =
+        range.maximum > range.minimum ? bins / (range.maximum - range.minimum) : 0.0;
     result.counts = volume.visit([&](auto samples) {
         return countInto(samples, std::size_t(bins), [&](auto v) -> std::ptrdiff_t {
             return std::clamp(int((double(v) - range.minimum) * scale), 0, bins - 1);

@@ -6,10 +6,11 @@
 
 namespace pellucid::volume {
 
-Volume::Volume(Lattice lattice, std::vector<std::int16_t> samples, ValueUnit unit, VolumeNotes notes)
+Volume::Volume(Lattice lattice, std::vector<std::int16_t> samples, ValueUnit unit,
+               VolumeNotes notes)
     : m_lattice(lattice),
-      m_samples(std::make_shared<const std::vector<std::int16_t>>(std::move(samples))), m_unit(unit),
-      m_notes(std::make_shared<const VolumeNotes>(std::move(notes))) {
+      m_samples(std::make_shared<const std::vector<std::int16_t>>(std::move(samples))),
+      m_unit(unit), m_notes(std::make_shared<const VolumeNotes>(std::move(notes))) {
     assert(visit([](auto s) { return s.size(); }) == m_lattice.size().count());
 }
 
@@ -34,11 +35,13 @@ Volume Volume::cropped(const VoxelBox &box) const {
     const GridSize size = m_lattice.size();
     const GridSize part = box.size();
     return visit([&](auto samples) {
-        std::vector<std::remove_const_t<typename decltype(samples)::element_type>> out(part.count());
+        std::vector<std::remove_const_t<typename decltype(samples)::element_type>> out(
+            part.count());
         auto to = out.begin();
         for (int k = box.lo.k; k < box.hi.k; ++k)
             for (int j = box.lo.j; j < box.hi.j; ++j) {
-                const auto from = samples.begin() + (std::ptrdiff_t(k) * size.j + j) * size.i + box.lo.i;
+                const auto from =
+                    samples.begin() + (std::ptrdiff_t(k) * size.j + j) * size.i + box.lo.i;
                 to = std::copy_n(from, part.i, to);
             }
         return Volume(m_lattice.cropped(box), std::move(out), m_unit, *m_notes);

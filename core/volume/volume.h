@@ -39,9 +39,10 @@ public:
     template <class T> using Samples = std::shared_ptr<const std::vector<T>>;
 
     Volume() : Volume(Lattice(), std::vector<float>(1, 0.0F), ValueUnit::none) {}
-    /// *Shape*: samples ordered columns fastest, then rows, then slices; as many as the lattice has.
-    /// Floats may be NaN or infinite.
-    Volume(Lattice lattice, std::vector<std::int16_t> samples, ValueUnit unit, VolumeNotes notes = {});
+    /// *Shape*: samples ordered columns fastest, then rows, then slices; as many as the lattice
+    /// has. Floats may be NaN or infinite.
+    Volume(Lattice lattice, std::vector<std::int16_t> samples, ValueUnit unit,
+           VolumeNotes notes = {});
     Volume(Lattice lattice, std::vector<float> samples, ValueUnit unit, VolumeNotes notes = {});
 
     const Lattice &lattice() const { return m_lattice; }
@@ -53,7 +54,8 @@ public:
     /// Calls f with a span of the stored samples, of int16 or float.
     template <class F> decltype(auto) visit(F &&f) const {
         return std::visit(
-            [&](const auto &samples) -> decltype(auto) { return f(std::span(*samples)); }, m_samples);
+            [&](const auto &samples) -> decltype(auto) { return f(std::span(*samples)); },
+            m_samples);
     }
     /// The value of a sample of the lattice.
     double value(VoxelIndex n) const;

@@ -12,9 +12,12 @@ namespace pellucid::volume {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "samples are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "samples are written as they lie in memory");
 
-std::string vectorText(const glm::dvec3 &v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
+std::string vectorText(const glm::dvec3 &v) {
+    return fmt::format("({},{},{})", v.x, v.y, v.z);
+}
 
 void writeGzip(files::AtomicFile &file, std::span<const std::byte> bytes) {
     z_stream stream{};
@@ -27,7 +30,8 @@ void writeGzip(files::AtomicFile &file, std::span<const std::byte> bytes) {
     do {
         if (stream.avail_in == 0 && done < bytes.size()) {
             const std::size_t part = std::min<std::size_t>(bytes.size() - done, 1 << 30);
-            stream.next_in = reinterpret_cast<Bytef *>(const_cast<std::byte *>(bytes.data() + done));
+            stream.next_in =
+                reinterpret_cast<Bytef *>(const_cast<std::byte *>(bytes.data() + done));
             stream.avail_in = uInt(part);
             done += part;
         }

@@ -44,7 +44,8 @@ inline classify::DensityField noiseField(const volume::Lattice &lattice, unsigne
 
 inline glm::dquat randomOrientation(std::mt19937 &random) {
     std::normal_distribution<double> normal;
-    return glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random)));
+    return glm::normalize(
+        glm::dquat(normal(random), normal(random), normal(random), normal(random)));
 }
 
 } // namespace pellucid::test

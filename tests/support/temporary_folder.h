@@ -12,7 +12,8 @@ namespace pellucid::test {
 class TemporaryFolder {
 public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "pellucid-test-XXXXXX").string();
+        std::string name =
+            (std::filesystem::temp_directory_path() / "pellucid-test-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr)
             throw std::runtime_error("no temporary folder");
         m_path = name;

@@ -4,6 +4,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QListWidget>
+#include <QSize>
 #include <QTreeWidget>
 #include <QTreeWidgetItemIterator>
 #include <QVBoxLayout>
@@ -23,7 +24,8 @@ QTreeWidgetItem *childNamed(QTreeWidget *tree, QTreeWidgetItem *parent, const QS
         if (item->text(0) == name && !item->data(0, sourceRole).isValid())
             return item;
     }
-    auto *item = parent != nullptr ? new QTreeWidgetItem(parent, {name}) : new QTreeWidgetItem(tree, {name});
+    auto *item =
+        parent != nullptr ? new QTreeWidgetItem(parent, {name}) : new QTreeWidgetItem(tree, {name});
     item->setExpanded(true);
     return item;
 }
@@ -31,7 +33,8 @@ QTreeWidgetItem *childNamed(QTreeWidget *tree, QTreeWidgetItem *parent, const QS
 } // namespace
 
 SeriesPanel::SeriesPanel(Document &document, const Theme &theme, QWidget *parent)
-    : QWidget(parent), m_document(document), m_theme(theme), m_tree(new QTreeWidget), m_problemHeading(new QLabel), m_problems(new QListWidget) {
+    : QWidget(parent), m_document(document), m_theme(theme), m_tree(new QTreeWidget),
+      m_problemHeading(new QLabel), m_problems(new QListWidget) {
     setObjectName("seriesPanel");
     m_tree->setObjectName("seriesTree");
     m_tree->setAccessibleName(tr("Studies"));
@@ -77,11 +80,15 @@ void SeriesPanel::showSources() {
         QFont bold = font();
         bold.setBold(true);
         patient->setFont(0, bold);
-        QTreeWidgetItem *study = childNamed(m_tree, patient, source.study.isEmpty() ? tr("Study") : source.study);
+        QTreeWidgetItem *study =
+            childNamed(m_tree, patient, source.study.isEmpty() ? tr("Study") : source.study);
         study->setForeground(0, m_theme.color("muted"));
         QString text = source.series + "\n" + source.detail;
         auto *item = new QTreeWidgetItem(study, {text});
         item->setData(0, sourceRole, int(n));
+        // The view would elide all but the first lines of a text with line breaks.
+        item->setSizeHint(0,
+                          QSize(0, int(text.count('\n') + 1) * fontMetrics().lineSpacing() + 12));
         item->setToolTip(0, (QStringList{source.series} + source.warnings).join("\n"));
         if (!source.warnings.isEmpty()) {
             auto *warning = new QTreeWidgetItem(item, {source.warnings.join("\n")});
@@ -112,7 +119,8 @@ void SeriesPanel::showProblems() {
     for (const dicom::Skipped &problem : problems) {
         const QString name = QString::fromStdString(problem.path.filename().string());
         const QString reason = QString::fromStdString(problem.reason);
-        auto *item = new QListWidgetItem(name.isEmpty() ? reason : name + ": " + reason, m_problems);
+        auto *item =
+            new QListWidgetItem(name.isEmpty() ? reason : name + ": " + reason, m_problems);
         item->setToolTip(QString::fromStdString(problem.path.string()));
     }
     m_problemHeading->setText(tr("PROBLEMS (%1)").arg(problems.size()));

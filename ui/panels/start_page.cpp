@@ -25,20 +25,33 @@ StartPage::StartPage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxLayou
     setAttribute(Qt::WA_StyledBackground);
     auto *title = new QLabel(tr("Open a study"));
     title->setProperty("role", "title");
-    auto *hint = new QLabel(tr("Drop DICOM files, folders, a DICOMDIR or an NRRD volume anywhere in this window."));
+    auto *hint = new QLabel(
+        tr("Drop DICOM files, folders, a DICOMDIR or an NRRD volume anywhere in this window."));
     hint->setProperty("role", "muted");
-    auto *files = button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or NRRD files (Ctrl+O)"));
-    auto *folder = button(tr("Open folder..."), "openFolderButton", tr("Choose a folder; everything below it is looked at (Ctrl+Shift+O)"));
+    auto *files =
+        button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or NRRD files (Ctrl+O)"));
+    auto *folder = button(tr("Open folder..."), "openFolderButton",
+                          tr("Choose a folder; everything below it is looked at (Ctrl+Shift+O)"));
     auto *phantomTitle = new QLabel(tr("TRY A PHANTOM"));
     phantomTitle->setProperty("role", "heading");
-    auto *head = button(tr("Head phantom"), "headPhantomButton", tr("A built-in head: skull, brain, sinuses, teeth"));
-    auto *chest = button(tr("Chest phantom"), "chestPhantomButton", tr("A built-in chest: ribs, lungs, heart, spine"));
+    auto *head = button(tr("Head phantom"), "headPhantomButton",
+                        tr("A built-in head: skull, brain, sinuses, teeth"));
+    auto *chest = button(tr("Chest phantom"), "chestPhantomButton",
+                         tr("A built-in chest: ribs, lungs, heart, spine"));
     auto *layout = new QVBoxLayout(this);
     layout->addStretch(2);
-    for (QWidget *w : {static_cast<QWidget *>(title), static_cast<QWidget *>(hint), static_cast<QWidget *>(files), static_cast<QWidget *>(folder),
-                       static_cast<QWidget *>(phantomTitle), static_cast<QWidget *>(head), static_cast<QWidget *>(chest)})
-        layout->addWidget(w, 0, Qt::AlignHCenter);
-    layout->addSpacing(12);
+    const auto add = [layout](QWidget *widget, int spaceAbove) {
+        layout->addSpacing(spaceAbove);
+        layout->addWidget(widget, 0, Qt::AlignHCenter);
+    };
+    add(title, 0);
+    add(hint, 0);
+    add(files, 12);
+    add(folder, 0);
+    add(phantomTitle, 16);
+    add(head, 0);
+    add(chest, 0);
+    layout->addSpacing(16);
     layout->addLayout(m_recent);
     layout->addStretch(3);
     connect(files, &QPushButton::clicked, this, &StartPage::openFilesRequested);

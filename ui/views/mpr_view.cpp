@@ -23,18 +23,24 @@ namespace {
 
 QString titleOf(mpr::Orientation o) {
     switch (o) {
-    case mpr::Orientation::axial: return MprView::tr("Axial");
-    case mpr::Orientation::coronal: return MprView::tr("Coronal");
-    case mpr::Orientation::sagittal: break;
+    case mpr::Orientation::axial:
+        return MprView::tr("Axial");
+    case mpr::Orientation::coronal:
+        return MprView::tr("Coronal");
+    case mpr::Orientation::sagittal:
+        break;
     }
     return MprView::tr("Sagittal");
 }
 
 const char *roleOf(mpr::Orientation o) {
     switch (o) {
-    case mpr::Orientation::axial: return "axial";
-    case mpr::Orientation::coronal: return "coronal";
-    case mpr::Orientation::sagittal: break;
+    case mpr::Orientation::axial:
+        return "axial";
+    case mpr::Orientation::coronal:
+        return "coronal";
+    case mpr::Orientation::sagittal:
+        break;
     }
     return "sagittal";
 }
@@ -45,12 +51,13 @@ QString coordinateText(const glm::dvec3 &axis, double mm) {
     return QString("%1 %2").arg(QString::fromStdString(side)).arg(std::abs(mm), 0, 'f', 1);
 }
 
-constexpr std::array<mpr::Orientation, 3> allOrientations{mpr::Orientation::axial, mpr::Orientation::coronal,
-                                                          mpr::Orientation::sagittal};
+constexpr std::array<mpr::Orientation, 3> allOrientations{
+    mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal};
 
 } // namespace
 
-MprView::MprView(Document &document, mpr::Orientation orientation, const Theme &theme, QWidget *parent)
+MprView::MprView(Document &document, mpr::Orientation orientation, const Theme &theme,
+                 QWidget *parent)
     : QWidget(parent), m_document(document), m_orientation(orientation), m_theme(theme) {
     setObjectName(QString("%1View").arg(roleOf(orientation)));
     setAccessibleName(titleOf(orientation));
@@ -71,7 +78,9 @@ MprView::MprView(Document &document, mpr::Orientation orientation, const Theme &
     connect(&document, &Document::crosshairChanged, this, refresh);
 }
 
-QColor MprView::planeColor(mpr::Orientation o) const { return m_theme.color(roleOf(o)); }
+QColor MprView::planeColor(mpr::Orientation o) const {
+    return m_theme.color(roleOf(o));
+}
 
 void MprView::setTool(Tool tool) {
     m_tool = tool;
@@ -98,10 +107,12 @@ mpr::Plane MprView::plane() const {
         halfWidth += 0.5 * n[d] * std::abs(glm::dot(lattice.step(d), plane.right));
         halfHeight += 0.5 * n[d] * std::abs(glm::dot(lattice.step(d), plane.up));
     }
-    plane.pixelMm = std::max(2.0 * halfWidth / plane.width, 2.0 * halfHeight / plane.height) / m_zoom;
+    plane.pixelMm =
+        std::max(2.0 * halfWidth / plane.width, 2.0 * halfHeight / plane.height) / m_zoom;
     const glm::dvec3 axis = mpr::scrollAxis(m_orientation);
     const double depth = glm::dot(m_document.crosshair().mm - lattice.center().mm, axis);
-    plane.center = {lattice.center().mm + depth * axis + m_panMm.x * plane.right + m_panMm.y * plane.up};
+    plane.center = {lattice.center().mm + depth * axis + m_panMm.x * plane.right +
+                    m_panMm.y * plane.up};
     return plane;
 }
 
@@ -146,7 +157,8 @@ void MprView::paintEvent(QPaintEvent *) {
         // Images without positions have one way to be seen.
         if (!m_document.volume()->notes().placed && m_orientation != mpr::Orientation::axial) {
             painter.setPen(QColor(0x87, 0x92, 0x9C));
-            painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap, tr("Images only: no volume to cut"));
+            painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
+                             tr("Images only: no volume to cut"));
         } else {
             if (!m_imageValid)
                 updateImage();
@@ -175,35 +187,49 @@ void MprView::paintCrosshair(QPainter &painter, const mpr::Plane &shown) {
         color.setAlpha(170);
         painter.setPen(QPen(color, 1));
         if (std::abs(glm::dot(axis, shown.right)) > 0.5)
-            painter.drawLine(QPointF(std::floor(at.x()) + 0.5, 3), QPointF(std::floor(at.x()) + 0.5, height()));
+            painter.drawLine(QPointF(std::floor(at.x()) + 0.5, 3),
+                             QPointF(std::floor(at.x()) + 0.5, height()));
         else
-            painter.drawLine(QPointF(0, std::floor(at.y()) + 0.5), QPointF(width(), std::floor(at.y()) + 0.5));
+            painter.drawLine(QPointF(0, std::floor(at.y()) + 0.5),
+                             QPointF(width(), std::floor(at.y()) + 0.5));
     }
 }
 
 void MprView::paintTexts(QPainter &painter, const mpr::Plane &shown) {
-    const OverlayColors colors{planeColor(m_orientation), m_theme.color("letters"), QColor(0xD9, 0xDE, 0xE3), QColor(0x87, 0x92, 0x9C), QColor(0x2E, 0x36, 0x3D), QColor(0x17, 0x1B, 0x1F)};
+    const OverlayColors colors{planeColor(m_orientation), m_theme.color("letters"),
+                               QColor(0xD9, 0xDE, 0xE3),  QColor(0x87, 0x92, 0x9C),
+                               QColor(0x2E, 0x36, 0x3D),  QColor(0x17, 0x1B, 0x1F)};
     QFont bold = painter.font();
     bold.setBold(true);
     painter.save();
     painter.setFont(bold);
-    drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignLeft | Qt::AlignTop, titleOf(m_orientation), colors.plane);
+    drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignLeft | Qt::AlignTop,
+             titleOf(m_orientation), colors.plane);
     painter.restore();
     if (!m_document.volume())
         return;
     const glm::dvec3 axis = mpr::scrollAxis(m_orientation);
     const bool placed = m_document.volume()->notes().placed;
-    const QString position = placed ? coordinateText(axis, glm::dot(m_document.crosshair().mm, axis)) + " mm"
-                                    : tr("image %1").arg(1 + int(std::lround(m_document.volume()->lattice().voxel(m_document.crosshair()).v.z)));
-    drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignTop, position, colors.text);
+    const QString position =
+        placed
+            ? coordinateText(axis, glm::dot(m_document.crosshair().mm, axis)) + " mm"
+            : tr("image %1")
+                  .arg(1 + int(std::lround(
+                               m_document.volume()->lattice().voxel(m_document.crosshair()).v.z)));
+    drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignTop, position,
+             colors.text);
     if (placed)
         drawOrientationLetters(painter, rect(), shown.right, shown.up, colors);
-    drawScaleBar(painter, QPoint(10, height() - 10), 1.0 / (shown.pixelMm * devicePixelRatioF()), std::min(110, width() / 3), colors);
+    drawScaleBar(painter, QPoint(10, height() - 10), 1.0 / (shown.pixelMm * devicePixelRatioF()),
+                 std::min(110, width() / 3), colors);
     if (m_document.volume()->notes().lossy)
-        drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignBottom, tr("lossy"), QColor(0xE0, 0xA3, 0x3A));
+        drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignBottom,
+                 tr("lossy"), QColor(0xE0, 0xA3, 0x3A));
 }
 
-void MprView::resizeEvent(QResizeEvent *) { m_imageValid = false; }
+void MprView::resizeEvent(QResizeEvent *) {
+    m_imageValid = false;
+}
 
 void MprView::mousePressEvent(QMouseEvent *event) {
     setFocus();
@@ -238,14 +264,21 @@ void MprView::mouseMoveEvent(QMouseEvent *event) {
         return;
     }
     const bool hounsfield = m_document.volume()->unit() == volume::ValueUnit::hounsfield;
-    QString text = m_document.volume()->notes().placed
-                       ? QString("%1  %2  %3 mm   ").arg(coordinateText({1, 0, 0}, at.mm.x), coordinateText({0, 1, 0}, at.mm.y), coordinateText({0, 0, 1}, at.mm.z))
-                       : QString();
-    text += QString::number(double(value), 'f', hounsfield || !m_document.volume()->isFloat() ? 0 : 3) + (hounsfield ? " HU" : "");
+    QString text =
+        m_document.volume()->notes().placed
+            ? QString("%1  %2  %3 mm   ")
+                  .arg(coordinateText({1, 0, 0}, at.mm.x), coordinateText({0, 1, 0}, at.mm.y),
+                       coordinateText({0, 0, 1}, at.mm.z))
+            : QString();
+    text +=
+        QString::number(double(value), 'f', hounsfield || !m_document.volume()->isFloat() ? 0 : 3) +
+        (hounsfield ? " HU" : "");
     emit readoutChanged(text);
 }
 
-void MprView::mouseReleaseEvent(QMouseEvent *) { m_dragging = false; }
+void MprView::mouseReleaseEvent(QMouseEvent *) {
+    m_dragging = false;
+}
 
 void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
     if (event->button() == Qt::LeftButton)
@@ -254,9 +287,15 @@ void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
 
 void MprView::drag(const QPoint &delta, const QPoint &to) {
     switch (m_dragTool) {
-    case Tool::window: windowBy(delta); break;
-    case Tool::crosshair: moveCrosshair(to); break;
-    case Tool::zoom: zoomBy(std::exp(-0.008 * delta.y())); break;
+    case Tool::window:
+        windowBy(delta);
+        break;
+    case Tool::crosshair:
+        moveCrosshair(to);
+        break;
+    case Tool::zoom:
+        zoomBy(std::exp(-0.008 * delta.y()));
+        break;
     case Tool::pan: {
         const double mm = plane().pixelMm * devicePixelRatioF();
         m_panMm += glm::dvec2(-delta.x() * mm, delta.y() * mm);
@@ -268,11 +307,12 @@ void MprView::drag(const QPoint &delta, const QPoint &to) {
 }
 
 void MprView::windowBy(const QPoint &delta) {
-    // A pane's width of dragging covers the window itself once over, so that narrow and wide windows
-    // are equally easy to set.
+    // A pane's width of dragging covers the window itself once over, so that narrow and wide
+    // windows are equally easy to set.
     volume::ValueWindow window = m_document.displayWindow();
     const double perPixel = std::max(window.width, 1e-6) / 250.0;
-    window.width = std::max(window.width + delta.x() * perPixel, 1e-3 * std::max(1.0, std::abs(window.width)));
+    window.width =
+        std::max(window.width + delta.x() * perPixel, 1e-3 * std::max(1.0, std::abs(window.width)));
     window.center -= delta.y() * perPixel;
     window.name.clear();
     m_document.undoStack()->push(new EditDisplayWindow(m_document, window, m_drag));
@@ -282,7 +322,8 @@ void MprView::moveCrosshair(const QPoint &to) {
     const volume::Lattice &lattice = m_document.volume()->lattice();
     // Stays within the volume, where every pane has something to show.
     glm::dvec3 v = lattice.voxel(patientAt(to)).v;
-    v = glm::clamp(v, glm::dvec3(0.0), glm::dvec3(lattice.size().i - 1, lattice.size().j - 1, lattice.size().k - 1));
+    v = glm::clamp(v, glm::dvec3(0.0),
+                   glm::dvec3(lattice.size().i - 1, lattice.size().j - 1, lattice.size().k - 1));
     m_document.setCrosshair(lattice.patient(volume::VoxelPoint{v}));
 }
 
@@ -297,7 +338,9 @@ void MprView::scroll(int steps) {
     m_document.setCrosshair({at + (wanted - depth) * axis});
 }
 
-void MprView::scrollToEnd(bool last) { scroll(last ? 1000000 : -1000000); }
+void MprView::scrollToEnd(bool last) {
+    scroll(last ? 1000000 : -1000000);
+}
 
 void MprView::zoomBy(double factor) {
     m_zoom = std::clamp(m_zoom * factor, 0.2, 40.0);
@@ -325,16 +368,29 @@ void MprView::keyPressEvent(QKeyEvent *event) {
     const int steps = (event->modifiers() & Qt::ShiftModifier) != 0 ? 10 : 1;
     switch (event->key()) {
     case Qt::Key_Up:
-    case Qt::Key_Right: scroll(steps); break;
+    case Qt::Key_Right:
+        scroll(steps);
+        break;
     case Qt::Key_Down:
-    case Qt::Key_Left: scroll(-steps); break;
-    case Qt::Key_Home: scrollToEnd(false); break;
-    case Qt::Key_End: scrollToEnd(true); break;
-    case Qt::Key_R: resetView(); break;
-    default: QWidget::keyPressEvent(event);
+    case Qt::Key_Left:
+        scroll(-steps);
+        break;
+    case Qt::Key_Home:
+        scrollToEnd(false);
+        break;
+    case Qt::Key_End:
+        scrollToEnd(true);
+        break;
+    case Qt::Key_R:
+        resetView();
+        break;
+    default:
+        QWidget::keyPressEvent(event);
     }
 }
 
-void MprView::leaveEvent(QEvent *) { emit readoutChanged({}); }
+void MprView::leaveEvent(QEvent *) {
+    emit readoutChanged({});
+}
 
 } // namespace pellucid::ui

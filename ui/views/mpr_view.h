@@ -17,7 +17,8 @@ class Document;
 class MprView : public QWidget {
     Q_OBJECT
 public:
-    MprView(Document &document, mpr::Orientation orientation, const Theme &theme, QWidget *parent = nullptr);
+    MprView(Document &document, mpr::Orientation orientation, const Theme &theme,
+            QWidget *parent = nullptr);
 
     void setTool(Tool tool);
     mpr::Orientation orientation() const { return m_orientation; }

@@ -9,7 +9,8 @@ namespace {
 constexpr int gap = 2;
 }
 
-PaneArea::PaneArea(const std::array<QWidget *, 4> &panes, QWidget *parent) : QWidget(parent), m_panes(panes) {
+PaneArea::PaneArea(const std::array<QWidget *, 4> &panes, QWidget *parent)
+    : QWidget(parent), m_panes(panes) {
     setObjectName("paneArea");
     for (QWidget *pane : m_panes)
         pane->setParent(this);
@@ -27,7 +28,9 @@ void PaneArea::toggleMaximized(QWidget *pane) {
     arrange();
 }
 
-void PaneArea::resizeEvent(QResizeEvent *) { arrange(); }
+void PaneArea::resizeEvent(QResizeEvent *) {
+    arrange();
+}
 
 void PaneArea::arrange() {
     for (QWidget *pane : m_panes)
@@ -49,7 +52,8 @@ void PaneArea::arrange() {
     const int side = (h - 2 * gap) / 3;
     const int column = std::min(side, w * 2 / 5);
     for (int n = 0; n < 3; ++n)
-        m_panes[std::size_t(n)]->setGeometry(0, n * (side + gap), column, n == 2 ? h - 2 * (side + gap) : side);
+        m_panes[std::size_t(n)]->setGeometry(0, n * (side + gap), column,
+                                             n == 2 ? h - 2 * (side + gap) : side);
     m_panes[3]->setGeometry(column + gap, 0, w - column - gap, h);
 }
 

@@ -18,7 +18,8 @@ namespace {
 
 class GlCanvas final : public QOpenGLWidget, public ProjectionCanvas {
 public:
-    GlCanvas(QWidget *parent, QString description) : QOpenGLWidget(parent), m_description(std::move(description)) {
+    GlCanvas(QWidget *parent, QString description)
+        : QOpenGLWidget(parent), m_description(std::move(description)) {
         setObjectName("projectionCanvas");
     }
     ~GlCanvas() override { release(); }
@@ -38,7 +39,8 @@ public:
 
 protected:
     void initializeGL() override {
-        // The context goes away when the widget moves to another window; what is on it goes with it.
+        // The context goes away when the widget moves to another window; what is on it goes with
+        // it.
         connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { release(); });
         m_pass = std::make_unique<gpu::TonePass>();
         m_fresh = true;
@@ -73,7 +75,8 @@ private:
 
 class RasterCanvas final : public QWidget, public ProjectionCanvas {
 public:
-    RasterCanvas(QWidget *parent, QString description) : QWidget(parent), m_description(std::move(description)) {
+    RasterCanvas(QWidget *parent, QString description)
+        : QWidget(parent), m_description(std::move(description)) {
         setObjectName("projectionCanvas");
     }
 
@@ -102,7 +105,8 @@ private:
     void compose() {
         if (!m_image.samples.empty()) {
             const auto rgba = render::compose(m_image, m_tone);
-            m_picture = QImage(rgba.data(), m_image.width, m_image.height, QImage::Format_RGBA8888).copy();
+            m_picture =
+                QImage(rgba.data(), m_image.width, m_image.height, QImage::Format_RGBA8888).copy();
         } else {
             m_picture = {};
         }
@@ -128,10 +132,12 @@ std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent) {
     context.doneCurrent();
     // Qt may silently give a lower version than asked for.
     if (!capabilities.canShowImages())
-        return std::make_unique<RasterCanvas>(
-            parent, tr("OpenGL here is %1.%2; 3.3 is needed").arg(capabilities.version / 10).arg(capabilities.version % 10));
-    return std::make_unique<GlCanvas>(parent, capabilities.software ? tr("OpenGL here is a software renderer")
-                                                                    : QString::fromStdString(capabilities.renderer));
+        return std::make_unique<RasterCanvas>(parent, tr("OpenGL here is %1.%2; 3.3 is needed")
+                                                          .arg(capabilities.version / 10)
+                                                          .arg(capabilities.version % 10));
+    return std::make_unique<GlCanvas>(parent, capabilities.software
+                                                  ? tr("OpenGL here is a software renderer")
+                                                  : QString::fromStdString(capabilities.renderer));
 }
 
 } // namespace pellucid::ui

@@ -21,7 +21,8 @@ public:
     virtual QString description() const = 0;
 };
 
-/// A canvas on OpenGL 3.3 or newer with the GLSL tone pass, or, where there is none, on the processor.
+/// A canvas on OpenGL 3.3 or newer with the GLSL tone pass, or, where there is none, on the
+/// processor.
 std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent);
 
 } // namespace pellucid::ui

@@ -42,7 +42,8 @@ private:
 };
 
 ProjectionView::ProjectionView(Document &document, const Theme &theme, QWidget *parent)
-    : QWidget(parent), m_document(document), m_theme(theme), m_canvas(makeProjectionCanvas(this)), m_overlay(new Overlay(this)) {
+    : QWidget(parent), m_document(document), m_theme(theme), m_canvas(makeProjectionCanvas(this)),
+      m_overlay(new Overlay(this)) {
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));
     setFocusPolicy(Qt::StrongFocus);
@@ -81,14 +82,16 @@ ProjectionView::~ProjectionView() {
     m_canvas.reset();
 }
 
-void ProjectionView::setEngine(const std::shared_ptr<render::ProjectionEngine> &engine, double predictedError, bool coarse) {
+void ProjectionView::setEngine(const std::shared_ptr<render::ProjectionEngine> &engine,
+                               double predictedError, bool coarse) {
     m_engine = engine;
     m_predictedError = predictedError;
     m_coarse = coarse;
     m_message.clear();
     m_fullFrameMs = 0.0;
     m_worker.setEngine(engine);
-    emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(engine->description()), m_canvas->description()));
+    emit engineDescribed(
+        tr("%1: %2").arg(QString::fromStdString(engine->description()), m_canvas->description()));
     requestFrame(false);
 }
 
@@ -100,8 +103,10 @@ void ProjectionView::setMessage(const QString &message) {
 double ProjectionView::fittingPixelMm() const {
     const double ratio = devicePixelRatioF();
     const double side = std::max(1.0, std::min(width(), height()) * ratio);
-    // The outer seventh of the sphere around a scan holds only the corners of its box, which are air.
-    return m_document.volume() ? 2.0 * m_document.volume()->lattice().radiusMm() / side * 0.86 : 1.0;
+    // The outer seventh of the sphere around a scan holds only the corners of its box, which are
+    // air.
+    return m_document.volume() ? 2.0 * m_document.volume()->lattice().radiusMm() / side * 0.86
+                               : 1.0;
 }
 
 void ProjectionView::fitCamera() {
@@ -173,7 +178,8 @@ QImage ProjectionView::picture() const {
     tone.low = tone.low.value_or(range.low);
     tone.high = tone.high.value_or(range.high);
     const auto rgba = render::compose(m_frame->image, tone);
-    return QImage(rgba.data(), m_frame->image.width, m_frame->image.height, QImage::Format_RGBA8888).copy();
+    return QImage(rgba.data(), m_frame->image.width, m_frame->image.height, QImage::Format_RGBA8888)
+        .copy();
 }
 
 void ProjectionView::resizeEvent(QResizeEvent *) {
@@ -188,7 +194,9 @@ void ProjectionView::mousePressEvent(QMouseEvent *event) {
     m_button = event->button();
     m_last = event->position().toPoint();
     m_drag = nextDragId();
-    setCursor(m_button == Qt::LeftButton ? Qt::ClosedHandCursor : m_button == Qt::MiddleButton ? Qt::SizeAllCursor : Qt::ArrowCursor);
+    setCursor(m_button == Qt::LeftButton     ? Qt::ClosedHandCursor
+              : m_button == Qt::MiddleButton ? Qt::SizeAllCursor
+                                             : Qt::ArrowCursor);
 }
 
 void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
@@ -235,7 +243,8 @@ void ProjectionView::pan(const QPoint &delta) {
 void ProjectionView::windowBy(const QPoint &delta) {
     render::Scene scene = m_document.scene();
     const render::ToneRange automatic = m_automaticTone.value_or(render::ToneRange());
-    double low = scene.tone.low.value_or(automatic.low), high = scene.tone.high.value_or(automatic.high);
+    double low = scene.tone.low.value_or(automatic.low),
+           high = scene.tone.high.value_or(automatic.high);
     const double perPixel = (automatic.high - automatic.low) / 300.0;
     const double center = 0.5 * (low + high) - delta.y() * perPixel;
     const double width = std::max(high - low + delta.x() * perPixel, 2.0 * perPixel);
@@ -258,7 +267,8 @@ void ProjectionView::wheelEvent(QWheelEvent *event) {
 
 bool ProjectionView::event(QEvent *event) {
     // The keypad belongs to the views here, not to the window presets of the same digits.
-    if (event->type() == QEvent::ShortcutOverride && (static_cast<QKeyEvent *>(event)->modifiers() & Qt::KeypadModifier) != 0) {
+    if (event->type() == QEvent::ShortcutOverride &&
+        (static_cast<QKeyEvent *>(event)->modifiers() & Qt::KeypadModifier) != 0) {
         event->accept();
         return true;
     }
@@ -276,7 +286,8 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
         showStandardView(shift ? StandardView::right : StandardView::left);
     else if (keypad && (event->key() == Qt::Key_7 || event->key() == Qt::Key_Home))
         showStandardView(shift ? StandardView::bottom : StandardView::top);
-    else if ((keypad && (event->key() == Qt::Key_0 || event->key() == Qt::Key_Insert)) || event->key() == Qt::Key_R)
+    else if ((keypad && (event->key() == Qt::Key_0 || event->key() == Qt::Key_Insert)) ||
+             event->key() == Qt::Key_R)
         resetView();
     else if (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right)
         orbit({event->key() == Qt::Key_Left ? -11 : 11, 0}); // about five degrees
@@ -288,7 +299,12 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
 
 void ProjectionView::paintOverlay(QPainter &painter) {
     const QColor accent = m_theme.color("accent");
-    const OverlayColors colors{accent, m_theme.color("letters"), QColor(0xD9, 0xDE, 0xE3), QColor(0x87, 0x92, 0x9C), QColor(0x2E, 0x36, 0x3D), QColor(0x20, 0x26, 0x2B)};
+    const OverlayColors colors{accent,
+                               m_theme.color("letters"),
+                               QColor(0xD9, 0xDE, 0xE3),
+                               QColor(0x87, 0x92, 0x9C),
+                               QColor(0x2E, 0x36, 0x3D),
+                               QColor(0x20, 0x26, 0x2B)};
     painter.fillRect(QRect(0, 0, width(), 3), accent);
     const QRect inner = rect().adjusted(10, 8, -10, -8);
     const int line = painter.fontMetrics().height() + 3;
@@ -298,26 +314,34 @@ void ProjectionView::paintOverlay(QPainter &painter) {
     painter.setFont(bold);
     drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop, tr("Projection"), accent);
     painter.restore();
-    drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, tr("Parallel projection"), colors.muted);
+    drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, tr("Parallel projection"),
+             colors.muted);
     const QRect second = inner.adjusted(0, line, 0, 0);
-    drawText(painter, second, Qt::AlignRight | Qt::AlignTop, tr("Not for diagnostic use"), colors.muted);
+    drawText(painter, second, Qt::AlignRight | Qt::AlignTop, tr("Not for diagnostic use"),
+             colors.muted);
     if (!m_document.volume())
         return;
     drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, tr("X-ray"), colors.text);
     if (!m_message.isEmpty()) {
         painter.setPen(colors.muted);
-        painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap, m_message);
+        painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
+                         m_message);
     }
     if (!m_frame)
         return;
-    const QString quality = m_coarse ? tr("coarse") : tr("error %1 %").arg(100.0 * m_predictedError, 0, 'f', 3);
+    const QString quality =
+        m_coarse ? tr("coarse") : tr("error %1 %").arg(100.0 * m_predictedError, 0, 'f', 3);
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop,
-             QString("CPU  %1 ms  %2").arg(m_frame->times.totalMs(), 0, 'f', 1).arg(m_frame->draft ? tr("draft") : quality), colors.text);
+             QString("CPU  %1 ms  %2")
+                 .arg(m_frame->times.totalMs(), 0, 'f', 1)
+                 .arg(m_frame->draft ? tr("draft") : quality),
+             colors.text);
     const render::Camera &camera = m_document.scene().camera;
     const glm::dmat3 axes = camera.axes();
     drawOrientationLetters(painter, rect().adjusted(0, line, 0, -line), axes[0], axes[1], colors);
     drawOrientationCube(painter, QPointF(58, height() - 58), 40, axes, colors);
-    drawScaleBar(painter, QPoint(width() - 180, height() - 34), 1.0 / (camera.pixelMm * devicePixelRatioF()), 120, colors);
+    drawScaleBar(painter, QPoint(width() - 180, height() - 34),
+                 1.0 / (camera.pixelMm * devicePixelRatioF()), 120, colors);
 }
 
 } // namespace pellucid::ui

@@ -16,15 +16,16 @@ namespace pellucid::ui {
 
 class Document;
 
-/// The Fourier projection of the open volume: orbit, pan, zoom, window and level. Draws a draft while
-/// the mouse moves if a full frame would lag, and the full frame when it rests.
+/// The Fourier projection of the open volume: orbit, pan, zoom, window and level. Draws a draft
+/// while the mouse moves if a full frame would lag, and the full frame when it rests.
 class ProjectionView : public QWidget {
     Q_OBJECT
 public:
     ProjectionView(Document &document, const Theme &theme, QWidget *parent = nullptr);
     ~ProjectionView() override;
 
-    void setEngine(const std::shared_ptr<render::ProjectionEngine> &engine, double predictedError, bool coarse);
+    void setEngine(const std::shared_ptr<render::ProjectionEngine> &engine, double predictedError,
+                   bool coarse);
     void setMessage(const QString &message);
     void showStandardView(render::StandardView view);
     void resetView();

@@ -32,7 +32,8 @@ TEST(DensityField, NanIsNothingAndInfinityIsClamped) {
     values[1] = std::numeric_limits<float>::quiet_NaN();
     values[2] = inf;
     values[3] = -inf;
-    const auto field = classify::densityField(Volume(lattice, values, volume::ValueUnit::none), {0.0, 1.0});
+    const auto field =
+        classify::densityField(Volume(lattice, values, volume::ValueUnit::none), {0.0, 1.0});
     EXPECT_EQ(field.values.value({1, 0, 0}), 0.0);
     EXPECT_EQ(field.values.value({2, 0, 0}), 1.0);
     EXPECT_EQ(field.values.value({3, 0, 0}), 0.0);
@@ -42,7 +43,8 @@ TEST(DensityField, WithoutUnitTheWindowIsTheQuantiles) {
     std::vector<float> values(24);
     for (int n = 0; n < 24; ++n)
         values[n] = float(n);
-    const auto window = classify::defaultFieldWindow(Volume(lattice, values, volume::ValueUnit::none));
+    const auto window =
+        classify::defaultFieldWindow(Volume(lattice, values, volume::ValueUnit::none));
     EXPECT_NEAR(window.low, 0.005 * 23, 1e-6);
     EXPECT_NEAR(window.high, 0.995 * 23, 1e-6);
 }
@@ -59,7 +61,8 @@ TEST(DensityField, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
     const Volume air(lattice, std::vector<std::int16_t>(24, 0), volume::ValueUnit::hounsfield);
-    EXPECT_THROW(classify::densityField(air, {0, 1}, task::Progress(source.get_token())), task::Cancelled);
+    EXPECT_THROW(classify::densityField(air, {0, 1}, task::Progress(source.get_token())),
+                 task::Cancelled);
 }
 
 } // namespace

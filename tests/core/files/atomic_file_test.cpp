@@ -78,7 +78,8 @@ TEST(Npy, HasAnAlignedHeaderAndTheSamples) {
     EXPECT_EQ(bytes.substr(0, 6), "\x93NUMPY");
     EXPECT_EQ((bytes.size() - 24) % 64, 0U);
     EXPECT_NE(bytes.find("'shape': (2, 3)"), std::string::npos);
-    EXPECT_EQ(bytes.substr(bytes.size() - 24), std::string(reinterpret_cast<const char *>(samples.data()), 24));
+    EXPECT_EQ(bytes.substr(bytes.size() - 24),
+              std::string(reinterpret_cast<const char *>(samples.data()), 24));
 }
 
 } // namespace

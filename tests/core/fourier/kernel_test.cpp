@@ -42,7 +42,8 @@ TEST_P(ExponentialSemicircle, WeightsAreTheKernelAtTheTaps) {
     for (float c = -0.499F; c < 0.5F; c += 0.0831F) {
         kernel.weights(c, weights.data());
         for (int k = 0; k < w; ++k)
-            EXPECT_NEAR(weights[k], kernel.value(c + k - 0.5 * (w - 1)), 3e-7) << k; // a few float roundings
+            EXPECT_NEAR(weights[k], kernel.value(c + k - 0.5 * (w - 1)), 3e-7)
+                << k; // a few float roundings
     }
 }
 

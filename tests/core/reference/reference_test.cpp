@@ -71,7 +71,8 @@ TEST(Reference, EllipsoidsMatchTheirAnalyticIntegrals) {
             const double u = (c - 0.5 * (camera.width - 1)) * camera.pixelMm;
             const double v = (0.5 * (camera.height - 1) - r) * camera.pixelMm;
             truth[std::size_t(r) * camera.width + c] =
-                phantom::lineIntegral(bodies, u * axes[0] + v * axes[1], axes[2]) / (window.high - window.low);
+                phantom::lineIntegral(bodies, u * axes[0] + v * axes[1], axes[2]) /
+                (window.high - window.low);
         }
     EXPECT_LT(test::relativeL2(image, truth), 5e-4);
 }

@@ -12,7 +12,8 @@ using render::StandardView;
 
 void expectAxes(StandardView view, glm::dvec3 u, glm::dvec3 v, glm::dvec3 w) {
     const glm::dmat3 axes = glm::mat3_cast(render::viewOrientation(view));
-    EXPECT_LT(glm::distance(axes[0], u) + glm::distance(axes[1], v) + glm::distance(axes[2], w), 1e-12);
+    EXPECT_LT(glm::distance(axes[0], u) + glm::distance(axes[1], v) + glm::distance(axes[2], w),
+              1e-12);
 }
 
 // LPS: x to the patient's left, y to the back, z to the head.
@@ -26,7 +27,8 @@ TEST(Camera, StandardViewsLookAtThePatientAsNamed) {
 }
 
 TEST(Camera, RollTurnsTheImageAboutTheLineOfSight) {
-    const glm::dmat3 axes = glm::mat3_cast(render::viewOrientation(StandardView::front, {.rollDeg = 90}));
+    const glm::dmat3 axes =
+        glm::mat3_cast(render::viewOrientation(StandardView::front, {.rollDeg = 90}));
     EXPECT_LT(glm::distance(axes[0], glm::dvec3(0, 0, 1)), 1e-12);
     EXPECT_LT(glm::distance(axes[2], glm::dvec3(0, -1, 0)), 1e-12);
 }
@@ -42,7 +44,8 @@ TEST(Camera, TheDefaultImageHoldsEveryView) {
     EXPECT_EQ(camera.pixelMm, 2.0);
     EXPECT_EQ(camera.width, 14); // the diagonal is exactly 13 pixels
     EXPECT_EQ(camera.height, 14);
-    EXPECT_THROW(render::defaultCamera(volume::Lattice::centred({2, 2, 2000}, {0.01, 0.01, 10})), task::Error);
+    EXPECT_THROW(render::defaultCamera(volume::Lattice::centred({2, 2, 2000}, {0.01, 0.01, 10})),
+                 task::Error);
 }
 
 } // namespace

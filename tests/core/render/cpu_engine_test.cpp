@@ -23,7 +23,8 @@ render::CpuEngine engineFor(const classify::DensityField &field, const render::S
         fourier::Spectrum::prepare(field.values, plan.spectrum)));
 }
 
-render::Camera cameraFor(const volume::Lattice &lattice, StandardView view, render::ViewAngles angles = {}) {
+render::Camera cameraFor(const volume::Lattice &lattice, StandardView view,
+                         render::ViewAngles angles = {}) {
     render::Camera camera = render::defaultCamera(lattice);
     camera.orientation = render::viewOrientation(view, angles);
     return camera;
@@ -58,31 +59,36 @@ TEST_P(Accuracy, NoiseThatFillsTheLatticeAgainstTheDirectSum) {
 
 INSTANTIATE_TEST_SUITE_P(
     Lattices, Accuracy,
-    testing::Values(AccuracyCase{"isotropic", {24, 24, 24}, {1, 1, 1}, 0, Reconstruction::cubic},
-                    AccuracyCase{"isotropicLinear", {24, 24, 24}, {1, 1, 1}, 0, Reconstruction::linear},
-                    AccuracyCase{"isotropicBandLimited", {24, 24, 24}, {1, 1, 1}, 0, Reconstruction::bandLimited},
-                    AccuracyCase{"thickSlices", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::cubic},
-                    AccuracyCase{"thickSlicesLinear", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::linear},
-                    AccuracyCase{"thickSlicesBandLimited", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::bandLimited},
-                    AccuracyCase{"tilted", {20, 22, 15}, {0.9, 0.9, 2}, 30, Reconstruction::cubic},
-                    AccuracyCase{"veryThick", {24, 24, 5}, {0.4, 0.4, 8}, 0, Reconstruction::cubic},
-                    AccuracyCase{"oddSizes", {19, 23, 17}, {1, 1.3, 0.7}, 0, Reconstruction::cubic},
-                    AccuracyCase{"oneSlice", {33, 31, 1}, {1, 1, 5}, 0, Reconstruction::cubic},
-                    AccuracyCase{"oneVoxel", {1, 1, 1}, {1, 1, 1}, 0, Reconstruction::cubic},
-                    AccuracyCase{"twoVoxels", {2, 1, 2}, {1, 1, 1}, 0, Reconstruction::cubic}),
+    testing::Values(
+        AccuracyCase{"isotropic", {24, 24, 24}, {1, 1, 1}, 0, Reconstruction::cubic},
+        AccuracyCase{"isotropicLinear", {24, 24, 24}, {1, 1, 1}, 0, Reconstruction::linear},
+        AccuracyCase{
+            "isotropicBandLimited", {24, 24, 24}, {1, 1, 1}, 0, Reconstruction::bandLimited},
+        AccuracyCase{"thickSlices", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::cubic},
+        AccuracyCase{"thickSlicesLinear", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::linear},
+        AccuracyCase{
+            "thickSlicesBandLimited", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::bandLimited},
+        AccuracyCase{"tilted", {20, 22, 15}, {0.9, 0.9, 2}, 30, Reconstruction::cubic},
+        AccuracyCase{"veryThick", {24, 24, 5}, {0.4, 0.4, 8}, 0, Reconstruction::cubic},
+        AccuracyCase{"oddSizes", {19, 23, 17}, {1, 1.3, 0.7}, 0, Reconstruction::cubic},
+        AccuracyCase{"oneSlice", {33, 31, 1}, {1, 1, 5}, 0, Reconstruction::cubic},
+        AccuracyCase{"oneVoxel", {1, 1, 1}, {1, 1, 1}, 0, Reconstruction::cubic},
+        AccuracyCase{"twoVoxels", {2, 1, 2}, {1, 1, 1}, 0, Reconstruction::cubic}),
     [](const auto &parameter) { return std::string(parameter.param.name); });
 
 TEST(CpuEngine, PhantomsAgainstTheExactReference) {
-    for (const auto kind : {phantom::Kind::head, phantom::Kind::chest, phantom::Kind::metal, phantom::Kind::cube,
-                            phantom::Kind::bars}) {
-        const auto lattice = phantom::phantomLattice(kind, {.size = volume::GridSize{64, 60, 52}, .tiltRad = 0.2});
+    for (const auto kind : {phantom::Kind::head, phantom::Kind::chest, phantom::Kind::metal,
+                            phantom::Kind::cube, phantom::Kind::bars}) {
+        const auto lattice =
+            phantom::phantomLattice(kind, {.size = volume::GridSize{64, 60, 52}, .tiltRad = 0.2});
         const auto volume = phantom::makePhantom(kind, lattice);
         const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume));
         const reference::WideKernel wide(field.values, field.support);
         auto engine = engineFor(field);
         for (const auto &angles : {render::ViewAngles{0, 0, 0}, {47, -20, 5}}) {
             const auto camera = cameraFor(lattice, StandardView::front, angles);
-            EXPECT_LT(test::relativeL2(engine.render(camera, {}).samples, wide.image(camera, {})), promisedError)
+            EXPECT_LT(test::relativeL2(engine.render(camera, {}).samples, wide.image(camera, {})),
+                      promisedError)
                 << phantom::nameOf(kind) << " azimuth " << angles.azimuthDeg;
         }
     }
@@ -145,7 +151,8 @@ TEST(CpuEngine, PanMovesTheImage) {
 
 TEST(CpuEngine, AnEmptyFieldGivesAnEmptyImage) {
     const auto lattice = volume::Lattice::centred({16, 16, 16}, {1, 1, 1});
-    const volume::Volume air(lattice, std::vector<std::int16_t>(4096, -1000), volume::ValueUnit::hounsfield);
+    const volume::Volume air(lattice, std::vector<std::int16_t>(4096, -1000),
+                             volume::ValueUnit::hounsfield);
     const auto field = classify::densityField(air, classify::defaultFieldWindow(air));
     auto engine = engineFor(field);
     for (const float p : engine.render(cameraFor(lattice, StandardView::front), {}).samples)
@@ -162,7 +169,8 @@ TEST(CpuEngine, AnImageWiderThanThePeriodStaysEmptyOutside) {
     float inside = 0.0F, outside = 0.0F;
     for (int c = 0; c < camera.width; ++c) {
         const float p = std::abs(image.samples[5 * std::size_t(camera.width) + c]);
-        (std::abs(c - 200) < 8 ? inside : outside) = std::max(std::abs(c - 200) < 8 ? inside : outside, p);
+        (std::abs(c - 200) < 8 ? inside : outside) =
+            std::max(std::abs(c - 200) < 8 ? inside : outside, p);
     }
     // What is left outside is the cubic spline's ringing next to the edge: 0.27 of a noise step.
     EXPECT_LT(outside, 0.2F * inside);

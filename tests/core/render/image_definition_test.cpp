@@ -22,7 +22,8 @@ TEST(ImageDefinition, RollOffIsOneThenFallsToZero) {
 
 // A reconstruction passes constants: K(0) = 1 and K(q) = 0 at every other whole q.
 TEST(ImageDefinition, ReconstructionsKeepConstants) {
-    for (const auto r : {Reconstruction::cubic, Reconstruction::linear, Reconstruction::bandLimited}) {
+    for (const auto r :
+         {Reconstruction::cubic, Reconstruction::linear, Reconstruction::bandLimited}) {
         EXPECT_NEAR(render::reconstructionFactor({r, 0.05}, 0.0), 1.0, 1e-12);
         for (const double q : {1.0, -2.0, 3.0})
             EXPECT_NEAR(render::reconstructionFactor({r, 0.05}, q), 0.0, 1e-12);

@@ -27,14 +27,17 @@ struct Subject {
 };
 
 Subject headSubject() {
-    const auto lattice = phantom::phantomLattice(
-        phantom::Kind::head, {.size = volume::GridSize{72, 70, 40}, .spacingMm = glm::dvec3(3.2, 3.3, 6.0), .tiltRad = 0.3});
+    const auto lattice =
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{72, 70, 40},
+                                                      .spacingMm = glm::dvec3(3.2, 3.3, 6.0),
+                                                      .tiltRad = 0.3});
     const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
     return Subject(classify::densityField(volume, classify::defaultFieldWindow(volume)));
 }
 
 double sum(const render::ProjectionImage &image) {
-    return std::accumulate(image.samples.begin(), image.samples.end(), 0.0) * image.pixelMm * image.pixelMm;
+    return std::accumulate(image.samples.begin(), image.samples.end(), 0.0) * image.pixelMm *
+           image.pixelMm;
 }
 
 TEST(Invariants, TheMeanIsTheSameForEveryView) {
@@ -55,14 +58,16 @@ TEST(Invariants, TheMeanIsTheFieldsSum) {
     Subject head = headSubject();
     head.camera.orientation = render::viewOrientation(render::StandardView::front, {30, 20, 0});
     double mass = 0.0;
-    head.field.values.visit([&](auto samples) { mass = std::accumulate(samples.begin(), samples.end(), 0.0); });
+    head.field.values.visit(
+        [&](auto samples) { mass = std::accumulate(samples.begin(), samples.end(), 0.0); });
     mass *= head.field.values.lattice().cellVolumeMm3();
     EXPECT_NEAR(sum(head.engine.render(head.camera, {})) / mass, 1.0, 1e-5);
 }
 
 TEST(Invariants, OppositeViewsMirror) {
     // p(-W) with the same V is p(W) with columns reversed: the same frequencies, conjugated. They
-    // differ by rounding in float, and by the roll-off's symmetric treatment of even sizes: not at all.
+    // differ by rounding in float, and by the roll-off's symmetric treatment of even sizes: not at
+    // all.
     Subject head = headSubject();
     head.camera.orientation = render::viewOrientation(render::StandardView::left, {12, 25, 5});
     const auto front = head.engine.render(head.camera, {});
@@ -87,7 +92,8 @@ TEST(Invariants, TheSliceOfASumIsTheSumOfTheSlices) {
                 both[n] = float(x[n] + y[n]);
         });
     });
-    Subject one(a), two(b), sumOf({volume::Volume(lattice, both, volume::ValueUnit::none), lattice.bounds()});
+    Subject one(a), two(b),
+        sumOf({volume::Volume(lattice, both, volume::ValueUnit::none), lattice.bounds()});
     std::mt19937 random(9);
     sumOf.camera.width -= 2; // a crop: whole images are scaled to their own mass
     sumOf.camera.orientation = test::randomOrientation(random);
@@ -103,7 +109,8 @@ TEST(Invariants, TheSameBitsForAnyNumberOfThreads) {
     const auto render = [](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         Subject head = headSubject();
-        head.camera.orientation = render::viewOrientation(render::StandardView::front, {10, 20, 30});
+        head.camera.orientation =
+            render::viewOrientation(render::StandardView::front, {10, 20, 30});
         return head.engine.render(head.camera, {}).samples;
     };
     EXPECT_EQ(render(1), render(2));

@@ -65,12 +65,13 @@ TEST(RenderPlan, PredictsTheMeasuredError) {
         const auto field = test::noiseField(lattice);
         auto scene = sceneFor(lattice);
         const auto plan = render::planRender(scene, render::summarise(field));
-        render::CpuEngine engine(
-            std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field.values, plan.spectrum)));
+        render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
+            fourier::Spectrum::prepare(field.values, plan.spectrum)));
         const reference::WideKernel wide(field.values, field.support);
         double measured = 0.0;
         for (const double azimuth : {0.0, 30.0, 60.0, 90.0}) {
-            scene.camera.orientation = render::viewOrientation(render::StandardView::front, {azimuth, 0.5 * azimuth, 0});
+            scene.camera.orientation =
+                render::viewOrientation(render::StandardView::front, {azimuth, 0.5 * azimuth, 0});
             const double e = test::relativeL2(engine.render(scene.camera, scene.image).samples,
                                               wide.image(scene.camera, scene.image));
             measured = std::max(measured, e);

@@ -10,7 +10,11 @@ namespace {
 
 TEST(Scene, JsonKeepsEverything) {
     render::Scene scene;
-    scene.camera = {render::viewOrientation(render::StandardView::left, {3, 4, 5}), 0.731, 640, 480, {1.5, -2.25}};
+    scene.camera = {render::viewOrientation(render::StandardView::left, {3, 4, 5}),
+                    0.731,
+                    640,
+                    480,
+                    {1.5, -2.25}};
     scene.fieldWindow = classify::FieldWindow{-123.5, 1e4};
     scene.image = {render::Reconstruction::bandLimited, 0.125};
     scene.tolerance = 2e-3;
@@ -39,8 +43,10 @@ TEST(Scene, RefusesBadJsonWithTheReason) {
     };
     EXPECT_THROW(render::sceneFromJson(replaced("\"cubic\"", "\"quintic\"")), task::Error);
     EXPECT_THROW(render::sceneFromJson(replaced("pellucid-scene/1", "other")), task::Error);
-    EXPECT_THROW(render::sceneFromJson(replaced("\"pixel_mm\": 1.0", "\"pixel_mm\": -1.0")), task::Error);
-    EXPECT_THROW(render::sceneFromJson(replaced("\"pixel_mm\": 1.0", "\"pixel_mm\": \"x\"")), task::Error);
+    EXPECT_THROW(render::sceneFromJson(replaced("\"pixel_mm\": 1.0", "\"pixel_mm\": -1.0")),
+                 task::Error);
+    EXPECT_THROW(render::sceneFromJson(replaced("\"pixel_mm\": 1.0", "\"pixel_mm\": \"x\"")),
+                 task::Error);
 }
 
 TEST(Scene, ValidationNamesTheValue) {

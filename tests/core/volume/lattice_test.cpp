@@ -16,7 +16,8 @@ using volume::Lattice;
 
 TEST(Lattice, ConvertsBackAndForthOnATiltedGrid) {
     const Lattice lattice = test::tiltedLattice({10, 20, 30}, {0.5, 0.7, 3.0}, 18.5);
-    for (const glm::dvec3 v : {glm::dvec3(0, 0, 0), glm::dvec3(9, 19, 29), glm::dvec3(-3.5, 100, 2.25)})
+    for (const glm::dvec3 v :
+         {glm::dvec3(0, 0, 0), glm::dvec3(9, 19, 29), glm::dvec3(-3.5, 100, 2.25)})
         EXPECT_LT(glm::distance(lattice.voxel(lattice.patient(volume::VoxelPoint{v})).v, v), 1e-12);
 }
 
@@ -30,16 +31,22 @@ TEST(Lattice, TiltIsTheAngleBetweenStackAndNormal) {
 TEST(Lattice, RadiusIsHalfTheLongestDiagonal) {
     EXPECT_NEAR(Lattice::centred({3, 4, 12}, {1, 1, 1}).radiusMm(), 6.5, 1e-12);
     // A sheared box has four different diagonals; the longest counts.
-    const Lattice sheared = Lattice::make({2, 2, 2}, {}, {glm::dvec3(1, 0, 0), {1, 1, 0}, {0, 0, 1}});
+    const Lattice sheared =
+        Lattice::make({2, 2, 2}, {}, {glm::dvec3(1, 0, 0), {1, 1, 0}, {0, 0, 1}});
     EXPECT_NEAR(sheared.radiusMm(), 0.5 * std::sqrt(16.0 + 4.0 + 4.0), 1e-12);
 }
 
 TEST(Lattice, RefusesStepsThatSpanNoVolume) {
-    EXPECT_THROW(Lattice::make({2, 2, 2}, {}, {glm::dvec3(1, 0, 0), {2, 0, 0}, {0, 0, 1}}), task::Error);
-    EXPECT_THROW(Lattice::make({2, 2, 2}, {}, {glm::dvec3(0, 0, 0), {0, 1, 0}, {0, 0, 1}}), task::Error);
-    EXPECT_THROW(Lattice::make({0, 2, 2}, {}, {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}}), task::Error);
+    EXPECT_THROW(Lattice::make({2, 2, 2}, {}, {glm::dvec3(1, 0, 0), {2, 0, 0}, {0, 0, 1}}),
+                 task::Error);
+    EXPECT_THROW(Lattice::make({2, 2, 2}, {}, {glm::dvec3(0, 0, 0), {0, 1, 0}, {0, 0, 1}}),
+                 task::Error);
+    EXPECT_THROW(Lattice::make({0, 2, 2}, {}, {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}}),
+                 task::Error);
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(Lattice::make({2, 2, 2}, {{nan, 0, 0}}, {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}}), task::Error);
+    EXPECT_THROW(
+        Lattice::make({2, 2, 2}, {{nan, 0, 0}}, {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}}),
+        task::Error);
 }
 
 TEST(Lattice, AcceptsHugeAndTinySpacings) {

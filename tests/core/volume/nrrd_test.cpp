@@ -64,7 +64,8 @@ TEST_F(Nrrd, ReadsEveryScalarTypeInBothByteOrders) {
         for (const bool big : {false, true}) {
             write(folder / "t.nrrd", std::string("NRRD0004\ntype: ") + name +
                                          "\ndimension: 3\nsizes: 3 1 1\nencoding: raw\nendian: " +
-                                         (big ? "big" : "little") + "\n\n" + bytesOf<T>({T(1), T(2), T(100)}, big));
+                                         (big ? "big" : "little") + "\n\n" +
+                                         bytesOf<T>({T(1), T(2), T(100)}, big));
             EXPECT_EQ(readNrrd(folder / "t.nrrd").value({2, 0, 0}), 100.0) << name << big;
         }
     };
@@ -81,19 +82,22 @@ TEST_F(Nrrd, ReadsEveryScalarTypeInBothByteOrders) {
 }
 
 TEST_F(Nrrd, LargeUnsignedShortsBecomeFloat) {
-    write(folder / "u.nrrd", "NRRD0001\ntype: ushort\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: little\n\n" +
-                                 bytesOf<std::uint16_t>({1, 65535}));
+    write(folder / "u.nrrd",
+          "NRRD0001\ntype: ushort\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: little\n\n" +
+              bytesOf<std::uint16_t>({1, 65535}));
     const Volume volume = readNrrd(folder / "u.nrrd");
     EXPECT_TRUE(volume.isFloat());
     EXPECT_EQ(volume.value({1, 0, 0}), 65535.0);
 }
 
 TEST_F(Nrrd, ConvertsRasAndLasToLps) {
-    const std::string rest = "type: uint8\ndimension: 3\nsizes: 1 1 1\nencoding: raw\nspace directions: (2,0,0) (0,3,0) (0,0,4)\n"
+    const std::string rest = "type: uint8\ndimension: 3\nsizes: 1 1 1\nencoding: raw\nspace "
+                             "directions: (2,0,0) (0,3,0) (0,0,4)\n"
                              "space origin: (10,20,30)\nspace: ";
     write(folder / "ras.nrrd", "NRRD0004\n" + rest + "right-anterior-superior\n\nx");
     write(folder / "las.nrrd", "NRRD0004\n" + rest + "LAS\n\nx");
-    const auto ras = readNrrd(folder / "ras.nrrd").lattice(), las = readNrrd(folder / "las.nrrd").lattice();
+    const auto ras = readNrrd(folder / "ras.nrrd").lattice(),
+               las = readNrrd(folder / "las.nrrd").lattice();
     EXPECT_EQ(ras.origin().mm, glm::dvec3(-10, -20, 30));
     EXPECT_EQ(ras.step(0), glm::dvec3(-2, 0, 0));
     EXPECT_EQ(las.origin().mm, glm::dvec3(10, -20, 30));
@@ -104,25 +108,33 @@ TEST_F(Nrrd, ReadsDetachedGzipWithSpacings) {
     gzFile gz = gzopen((folder / "d.raw.gz").c_str(), "wb");
     gzwrite(gz, "abcdef", 6);
     gzclose(gz);
-    write(folder / "d.nhdr", "NRRD0001\n# comment\ntype: unsigned char\ndimension: 3\nsizes: 3 2 1\nspacings: 1 2 3\n"
-                             "encoding: gzip\ndata file: ./d.raw.gz\n");
+    write(folder / "d.nhdr",
+          "NRRD0001\n# comment\ntype: unsigned char\ndimension: 3\nsizes: 3 2 1\nspacings: 1 2 3\n"
+          "encoding: gzip\ndata file: ./d.raw.gz\n");
     const Volume volume = readNrrd(folder / "d.nhdr");
     EXPECT_EQ(volume.value({2, 1, 0}), double('f'));
     EXPECT_EQ(volume.lattice().spacingMm(2), 3.0);
 }
 
 TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
-    const std::string good = "type: short\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nendian: little\n";
+    const std::string good =
+        "type: short\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nendian: little\n";
     const std::pair<const char *, std::string> cases[] = {
         {"magic", "NOTNRRD\n"},
         {"truncated", "NRRD0004\n" + good + "\nshort"},
-        {"dimension", "NRRD0004\ntype: short\ndimension: 4\nsizes: 4 4 4 4\nencoding: raw\nendian: little\n\n"},
+        {"dimension",
+         "NRRD0004\ntype: short\ndimension: 4\nsizes: 4 4 4 4\nencoding: raw\nendian: little\n\n"},
         {"type", "NRRD0004\ntype: block\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n"},
-        {"encoding", "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: bzip2\nendian: little\n\n"},
-        {"huge", "NRRD0004\ntype: short\ndimension: 3\nsizes: 400000 400000 400000\nencoding: raw\nendian: little\n\n"},
-        {"negative", "NRRD0004\ntype: short\ndimension: 3\nsizes: -4 4 4\nencoding: raw\nendian: little\n\n"},
-        {"flat", "NRRD0004\n" + good + "space directions: (1,0,0) (2,0,0) (0,0,1)\n\n" + std::string(128, 'x')},
-        {"gzip", "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: gzip\nendian: little\n\n\x1f\x8b garbage"},
+        {"encoding",
+         "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: bzip2\nendian: little\n\n"},
+        {"huge", "NRRD0004\ntype: short\ndimension: 3\nsizes: 400000 400000 400000\nencoding: "
+                 "raw\nendian: little\n\n"},
+        {"negative",
+         "NRRD0004\ntype: short\ndimension: 3\nsizes: -4 4 4\nencoding: raw\nendian: little\n\n"},
+        {"flat", "NRRD0004\n" + good + "space directions: (1,0,0) (2,0,0) (0,0,1)\n\n" +
+                     std::string(128, 'x')},
+        {"gzip", "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: gzip\nendian: "
+                 "little\n\n\x1f\x8b garbage"},
     };
     for (const auto &[name, text] : cases) {
         write(folder / name, text);

@@ -43,7 +43,8 @@ TEST(Statistics, QuantilesEqualThoseOfTheSortedSamples) {
 TEST(Statistics, QuantilesOfIntegersAreExact) {
     std::vector<std::int16_t> samples(1001);
     std::iota(samples.begin(), samples.end(), std::int16_t(-500));
-    const Volume volume(volume::Lattice::centred({1001, 1, 1}, {1, 1, 1}), samples, volume::ValueUnit::hounsfield);
+    const Volume volume(volume::Lattice::centred({1001, 1, 1}, {1, 1, 1}), samples,
+                        volume::ValueUnit::hounsfield);
     const auto q = volume::quantiles(volume, {0.0, 0.25, 1.0});
     EXPECT_EQ(q[0], -500);
     EXPECT_EQ(q[1], -250);
@@ -51,7 +52,8 @@ TEST(Statistics, QuantilesOfIntegersAreExact) {
 }
 
 TEST(Statistics, IgnoresWhatIsNotFinite) {
-    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    const float nan = std::numeric_limits<float>::quiet_NaN(),
+                inf = std::numeric_limits<float>::infinity();
     const auto volume = line({nan, 1.0F, inf, 3.0F, -inf});
     const auto s = volume::statistics(volume);
     EXPECT_EQ(s.finiteCount, 2U);

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Dependencies flow one way; third-party use shows in the file name. Fails with the lines that break it.
+# Usage: forbidden_includes.sh SOURCE_ROOT
+set -uo pipefail
+cd "$1"
+failed=0
+
+# forbid "why" "pattern" files...
+forbid() {
+    local why=$1 pattern=$2
+    shift 2
+    local found
+    found=$(grep -nE "^[[:space:]]*#[[:space:]]*include[[:space:]]*$pattern" "$@" /dev/null)
+    if [[ -n $found ]]; then
+        printf '%s\n%s\n\n' "$why" "$found"
+        failed=1
+    fi
+}
+
+files() { find "$@" -name '*.h' -o -name '*.cpp' | sort; }
+without() { grep -v -E "$1"; }
+
+forbid "core uses neither Qt nor OpenGL" '<(Q|epoxy/|GL/|EGL/)' $(files core)
+forbid "gpu uses no Qt" '<Q' $(files gpu)
+forbid "core knows nothing above it" '"(gpu|ui|app)/' $(files core)
+forbid "gpu knows nothing above it" '"(ui|app)/' $(files gpu)
+forbid "ui knows nothing above it" '"app/' $(files ui)
+forbid "fourier and render know nothing of DICOM or ITK" '["<](core/(dicom|preprocess)/|dcmtk/|itk)' $(files core/fourier core/render)
+forbid "fourier does not know render" '"core/render/' $(files core/fourier)
+forbid "volume knows no other station" '"core/(dicom|classify|fourier|render|mpr|phantom|reference)/' $(files core/volume)
+forbid "DCMTK is used in core/dicom/*_dcmtk.cpp only" '<dcmtk/' $(files core gpu ui app | without '^core/dicom/[a-z_]*_dcmtk\.cpp$')
+forbid "ITK is used in core/preprocess/*_itk.cpp only" '[<"]itk' $(files core gpu ui app | without '^core/preprocess/[a-z_]*_itk\.cpp$')
+forbid "FFTW is used in core/fourier/transform_fftw.cpp only" '<fftw3' $(files core gpu ui app | without '^core/fourier/transform_fftw\.cpp$')
+forbid "OpenJPEG is used in *_openjpeg.cpp only" '<openjpeg' $(files core gpu ui app | without '_openjpeg\.cpp$')
+forbid "zlib is used in *_zlib.cpp only" '<zlib' $(files core gpu ui app | without '_zlib\.cpp$')
+forbid "libpng is used in *_libpng.cpp only" '<png' $(files core gpu ui app | without '_libpng\.cpp$')
+forbid "libepoxy is used in *_epoxy.cpp only" '<epoxy/' $(files core gpu ui app | without '_epoxy\.cpp$')
+forbid "JSON is read and written in *_nlohmann.cpp and by the programs only" '<nlohmann' $(files core gpu ui | without '_nlohmann\.cpp$')
+forbid "public headers name no third party but GLM" '<(tbb|fmt|nlohmann|spdlog|CLI|fftw3|dcmtk|openjpeg|zlib|png|epoxy|hwy)' $(files core gpu ui | grep '\.h$')
+forbid "the bench runs on bare machines" '["<](core/(dicom|preprocess|mpr)/|ui/|Q)' $(files app/bench)
+
+for file in $(files app core gpu ui tests); do
+    if [[ $(head -1 "$file") != "// SPDX-License-Identifier: GPL-3.0-or-later" ]]; then
+        echo "$file has no SPDX line"
+        failed=1
+    fi
+done
+exit $failed

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "core/dicom/group_series.h"
+
+namespace pellucid {
+
+namespace {
+
+using dicom::InstanceHeader;
+using dicom::SeriesFile;
+
+// A file at a depth along z, 4 x 3 pixels of 1 mm.
+SeriesFile file(const std::string &name, double z) {
+    SeriesFile f{name, {}};
+    f.header.rows = 3;
+    f.header.columns = 4;
+    f.header.sopInstanceUid = "1.2." + name;
+    dicom::FrameHeader frame;
+    frame.positionMm = glm::dvec3(0, 0, z);
+    frame.rowAxis = glm::dvec3(1, 0, 0);
+    frame.columnAxis = glm::dvec3(0, 1, 0);
+    frame.spacingMm = glm::dvec2(1, 1);
+    frame.sliceThicknessMm = 2.5;
+    f.header.frames = {frame};
+    return f;
+}
+
+std::vector<SeriesFile> stack(const std::vector<double> &depths) {
+    std::vector<SeriesFile> files;
+    for (const double z : depths)
+        files.push_back(file("f" + std::to_string(files.size()), z));
+    return files;
+}
+
+std::vector<dicom::VolumeEntry> group(const std::vector<SeriesFile> &files) {
+    std::vector<dicom::Skipped> skipped;
+    return dicom::groupSeries(files, skipped);
+}
+
+TEST(GroupSeries, OrderComesFromPositionsNotFromNames) {
+    const auto entries = group(stack({10, 0, 5, 15}));
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_EQ(entries[0].frames[0].path, "f1");
+    EXPECT_EQ(entries[0].frames[3].path, "f3");
+    EXPECT_NEAR(entries[0].geometry.lattice.sliceDistanceMm(), 5.0, 1e-12);
+    EXPECT_TRUE(entries[0].notes.warnings.empty());
+}
+
+TEST(GroupSeries, UnevenStacksGoOntoTheSmallestRepeatedGapAndNameTheChange) {
+    const auto entries = group(stack({0, 4, 8, 9, 16, 23}));
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_TRUE(entries[0].placed);
+    EXPECT_NEAR(entries[0].geometry.lattice.sliceDistanceMm(), 4.0, 1e-12);
+    EXPECT_EQ(entries[0].geometry.lattice.size().k, 6); // 0, 4, ... 20; 24 would lie outside
+    ASSERT_EQ(entries[0].notes.warnings.size(), 1U);
+    EXPECT_NE(entries[0].notes.warnings[0].find("f2"), std::string::npos);
+    EXPECT_NE(entries[0].notes.warnings[0].find("f3"), std::string::npos);
+}
+
+TEST(GroupSeries, AHoleOfMoreThanTwoAndAHalfGapsIsRefusedByName) {
+    const auto entries = group(stack({0, 2, 4, 6, 11.5, 13.5}));
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_FALSE(entries[0].placed);
+    EXPECT_NE(entries[0].notPlacedReason.find("f3"), std::string::npos);
+    EXPECT_NE(entries[0].notPlacedReason.find("f4"), std::string::npos);
+    EXPECT_TRUE(group(stack({0, 2, 4, 6, 10.9, 12.9}))[0].placed); // 2.45 gaps
+}
+
+TEST(GroupSeries, ASliceBesideTheLineIsRefused) {
+    auto files = stack({0, 2, 4, 6});
+    files[2].header.frames[0].positionMm->x = 3.0;
+    const auto entries = group(files);
+    EXPECT_FALSE(entries[0].placed);
+    EXPECT_NE(entries[0].notPlacedReason.find("f2"), std::string::npos);
+}
+
+TEST(GroupSeries, AStrayOrientationIsAVolumeOfItsOwn) {
+    auto files = stack({0, 2, 4, 6});
+    files[1].header.frames[0].rowAxis = glm::dvec3(0, 1, 0);
+    files[1].header.frames[0].columnAxis = glm::dvec3(0, 0, -1);
+    const auto entries = group(files);
+    ASSERT_EQ(entries.size(), 2U);
+    EXPECT_EQ(entries[0].frames.size() + entries[1].frames.size(), 4U);
+}
+
+TEST(GroupSeries, OtherSizesAndLocalizersAreSplitOff) {
+    auto files = stack({0, 2, 4, 6, 8});
+    files[1].header.columns = 5;
+    files[3].header.frames[0].imageType = "ORIGINAL\\PRIMARY\\LOCALIZER";
+    EXPECT_EQ(group(files).size(), 3U);
+}
+
+TEST(GroupSeries, RepeatedPlacesAreSplitByWhatTellsThemApart) {
+    auto files = stack({0, 2, 4, 0, 2, 4});
+    for (int n = 0; n < 6; ++n)
+        files[n].header.frames[0].dimensions["temporal position"] = n < 3 ? "1" : "2";
+    auto entries = group(files);
+    ASSERT_EQ(entries.size(), 2U);
+    EXPECT_EQ(entries[0].label, "temporal position 1");
+    EXPECT_EQ(entries[1].frames[0].path, "f3");
+    // Without any attribute the order of the instances decides.
+    files = stack({0, 2, 4, 0, 2, 4});
+    for (int n = 0; n < 6; ++n)
+        files[n].header.instanceNumber = n + 1;
+    entries = group(files);
+    ASSERT_EQ(entries.size(), 2U);
+    EXPECT_EQ(entries[1].frames.size(), 3U);
+}
+
+TEST(GroupSeries, TheAttributeOfASingleSliceIsNotTakenForAVolume) {
+    // Acquisition numbers that count the slices must not tear a plain stack apart.
+    auto files = stack({0, 2, 4, 6});
+    for (int n = 0; n < 4; ++n)
+        files[n].header.frames[0].dimensions["acquisition"] = std::to_string(n);
+    EXPECT_EQ(group(files).size(), 1U);
+}
+
+TEST(GroupSeries, OneInstanceTwiceIsUsedOnceAndListed) {
+    auto files = stack({0, 2, 4});
+    files.push_back(files[1]);
+    files[3].path = "again";
+    std::vector<dicom::Skipped> skipped;
+    const auto entries = dicom::groupSeries(files, skipped);
+    EXPECT_EQ(entries[0].frames.size(), 3U);
+    ASSERT_EQ(skipped.size(), 1U);
+    EXPECT_EQ(skipped[0].path, "again");
+}
+
+TEST(GroupSeries, WithoutPositionsThereAreImagesButNoVolume) {
+    auto files = stack({0, 2});
+    files[0].header.frames[0].positionMm.reset();
+    files[1].header.frames[0].positionMm.reset();
+    const auto entries = group(files);
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_FALSE(entries[0].placed);
+    EXPECT_EQ(entries[0].frames.size(), 2U);
+    EXPECT_FALSE(entries[0].notPlacedReason.empty());
+}
+
+TEST(GroupSeries, AFlippedColumnAxisKeepsARightHandedLattice) {
+    auto files = stack({0, 2, 4});
+    for (auto &f : files)
+        f.header.frames[0].columnAxis = glm::dvec3(0, -1, 0);
+    const auto entries = group(files);
+    const auto &lattice = entries[0].geometry.lattice;
+    EXPECT_EQ(lattice.step(1), glm::dvec3(0, -1, 0));
+    EXPECT_EQ(lattice.step(2), glm::dvec3(0, 0, -2)); // from the highest slice down
+    EXPECT_EQ(entries[0].frames[0].path, "f2");
+}
+
+} // namespace
+} // namespace pellucid

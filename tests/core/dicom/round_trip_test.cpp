@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/dicom/load_volume.h"
+#include "core/dicom/scan.h"
+#include "core/dicom/write_series.h"
+#include "core/phantom/phantom.h"
+#include "core/task/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+volume::Volume tiltedHead() {
+    return phantom::makePhantom(
+        phantom::Kind::head,
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{33, 30, 7},
+                                                      .spacingMm = glm::dvec3(6.1, 6.7, 30.0),
+                                                      .tiltRad = 0.3}));
+}
+
+dicom::LoadedVolume loadDefault(const fs::path &path) {
+    const auto catalogue = dicom::scan({path});
+    return dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
+}
+
+void expectSameSamples(const volume::Volume &a, const volume::Volume &b) {
+    ASSERT_EQ(a.lattice().size(), b.lattice().size());
+    a.visit([&](auto x) {
+        b.visit([&](auto y) {
+            std::size_t different = 0;
+            for (std::size_t n = 0; n < x.size(); ++n)
+                different += double(x[n]) != double(y[n]) ? 1 : 0;
+            EXPECT_EQ(different, 0U);
+        });
+    });
+}
+
+class RoundTrip : public testing::TestWithParam<std::string> {};
+
+TEST_P(RoundTrip, SamplesAndGeometryComeBack) {
+    const test::TemporaryFolder folder;
+    const volume::Volume head = tiltedHead();
+    dicom::writeCtSeries(folder.path(), head, {.patientName = "Test^Patient", .patientId = "1"},
+                         dicom::transferSyntaxFromName(GetParam()));
+    const auto loaded = loadDefault(folder.path());
+    EXPECT_TRUE(loaded.skipped.empty());
+    EXPECT_EQ(loaded.volume.unit(), volume::ValueUnit::hounsfield);
+    expectSameSamples(loaded.volume, head);
+    // Positions are written with at least ten digits.
+    const auto &a = loaded.volume.lattice(), &b = head.lattice();
+    EXPECT_LT(glm::distance(a.origin().mm, b.origin().mm), 1e-6);
+    for (int d = 0; d < 3; ++d)
+        EXPECT_LT(glm::distance(a.step(d), b.step(d)), 1e-6);
+    EXPECT_NEAR(a.shearRad(), 0.3, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(TransferSyntaxes, RoundTrip,
+                         testing::ValuesIn(dicom::transferSyntaxNames()),
+                         [](const auto &parameter) {
+                             std::string name = parameter.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(Load, ATruncatedSliceIsNamedAndTheRestIsResampledAcrossTheHole) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
+    const fs::path victim = folder / "IM0004.dcm";
+    fs::resize_file(victim, fs::file_size(victim) - 700);
+    const auto catalogue = dicom::scan({folder.path()});
+    const auto loaded = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
+    std::vector<dicom::Skipped> skipped = catalogue.skipped;
+    skipped.insert(skipped.end(), loaded.skipped.begin(), loaded.skipped.end());
+    ASSERT_EQ(skipped.size(), 1U);
+    EXPECT_EQ(skipped[0].path, victim);
+    // Seven slices again: the hole is interpolated, and the volume says so.
+    EXPECT_EQ(loaded.volume.lattice().size().k, 7);
+    bool told = false;
+    for (const std::string &warning : loaded.volume.notes().warnings)
+        told = told || warning.find("uneven") != std::string::npos;
+    EXPECT_TRUE(told);
+}
+
+TEST(Load, StopsWhenCancelled) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
+    const auto catalogue = dicom::scan({folder.path()});
+    std::stop_source source;
+    source.request_stop();
+    EXPECT_THROW(dicom::loadVolume(*dicom::defaultSelection(catalogue).volume,
+                                   task::Progress(source.get_token())),
+                 task::Cancelled);
+    EXPECT_THROW(dicom::scan({folder.path()}, task::Progress(source.get_token())), task::Cancelled);
+}
+
+TEST(Write, CancellingLeavesNoFile) {
+    const test::TemporaryFolder folder;
+    std::stop_source source;
+    const task::Progress progress(source.get_token(), [&](double fraction) {
+        if (fraction > 0.3)
+            source.request_stop();
+    });
+    EXPECT_THROW(dicom::writeCtSeries(folder / "series", tiltedHead(), {},
+                                      dicom::TransferSyntax::rle, progress),
+                 task::Cancelled);
+    EXPECT_FALSE(fs::exists(folder / "series"));
+}
+
+TEST(Scan, ListsEveryFileThatIsNotUsed) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
+    std::ofstream(folder / "notes.txt")
+        << "not an image, but long enough to hold a header of some kind or other";
+    std::ofstream(folder / "empty.dcm");
+    fs::create_directory(folder / "inner");
+    fs::copy_file(folder / "IM0001.dcm", folder / "inner/copy.dcm");
+    fs::create_directory_symlink(folder.path(), folder / "inner/loop");
+    fs::create_symlink(folder / "nowhere", folder / "dangling");
+    const auto catalogue = dicom::scan({folder.path()});
+    std::vector<std::string> names;
+    for (const auto &s : catalogue.skipped) {
+        names.push_back(s.path.filename().string());
+        EXPECT_FALSE(s.reason.empty());
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"copy.dcm", "dangling", "empty.dcm", "loop", "notes.txt"}));
+    EXPECT_EQ(dicom::selections(catalogue).size(), 1U);
+}
+
+TEST(Scan, PathsThatCannotBeUsedAreErrorsWithTheirName) {
+    const test::TemporaryFolder folder;
+    EXPECT_TRUE(dicom::scan({folder.path()}).empty());
+    try {
+        dicom::scan({folder / "absent"});
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::unusable);
+        EXPECT_NE(std::string(error.what()).find("absent"), std::string::npos);
+    }
+}
+
+TEST(Scan, TwoSeriesAreNeverMerged) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder / "a", tiltedHead(), {.seriesNumber = 1},
+                         dicom::TransferSyntax::explicitLittle);
+    dicom::writeCtSeries(folder / "b", tiltedHead(), {.seriesNumber = 2},
+                         dicom::TransferSyntax::explicitLittle);
+    const auto catalogue = dicom::scan({folder.path()});
+    EXPECT_EQ(dicom::selections(catalogue).size(), 2U);
+    EXPECT_EQ(dicom::selectSeries(catalogue, "2").series->number, 2);
+    EXPECT_THROW(dicom::selectSeries(catalogue, "3"), task::Error);
+}
+
+} // namespace
+} // namespace pellucid

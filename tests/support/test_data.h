@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace pellucid::test {
+
+/// The folder of the real series, empty where they are absent.
+inline std::filesystem::path testData() {
+    const char *folder = std::getenv("PELLUCID_TEST_DATA");
+    return folder != nullptr ? std::filesystem::path(folder) : std::filesystem::path();
+}
+
+} // namespace pellucid::test
+
+/// Skips a test with the reason where the real series are absent.
+#define PELLUCID_NEEDS_TEST_DATA()                                                                 \
+    if (pellucid::test::testData().empty())                                                        \
+    GTEST_SKIP() << "PELLUCID_TEST_DATA is not set: the real series are absent"

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The workstation as a person uses it: drops, drags, wheels and keys on the real window.
+#include <QtTest>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <QDropEvent>
+#include <QLabel>
+#include <QListWidget>
+#include <QMimeData>
+#include <QPushButton>
+#include <QStandardPaths>
+#include <QTreeWidget>
+
+#include "core/dicom/write_series.h"
+#include "core/phantom/phantom.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/main_window.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid {
+
+namespace {
+
+constexpr int patienceMs = 60000;
+
+QString testData() {
+    return qEnvironmentVariable("PELLUCID_TEST_DATA");
+}
+
+void drop(QWidget &window, const QList<QUrl> &urls) {
+    QMimeData data;
+    data.setUrls(urls);
+    QDragEnterEvent enter(QPoint(400, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent dropped(QPointF(400, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &dropped);
+}
+
+double meanGrey(const QImage &image) {
+    double sum = 0.0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            sum += qGray(image.pixel(x, y));
+    return sum / (double(image.width()) * image.height());
+}
+
+double meanGrey(const QImage &image, const QRect &area) {
+    return meanGrey(image.copy(area));
+}
+
+// Share of pixels that differ clearly.
+double changed(const QImage &a, const QImage &b) {
+    if (a.size() != b.size())
+        return 1.0;
+    qint64 count = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x)
+            count += std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y))) > 8 ? 1 : 0;
+    return double(count) / (double(a.width()) * a.height());
+}
+
+void dragMouse(QWidget *widget, Qt::MouseButton button, QPoint from, QPoint by) {
+    QTest::mousePress(widget, button, Qt::NoModifier, from);
+    for (int step = 1; step <= 8; ++step) {
+        // QTest's own moves carry no buttons; a person's do.
+        const QPoint at = from + by * step / 8;
+        QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button,
+                         Qt::NoModifier);
+        QCoreApplication::sendEvent(widget, &move);
+        QTest::qWait(5);
+    }
+    QTest::mouseRelease(widget, button, Qt::NoModifier, from + by);
+}
+
+void turnWheel(QWidget *widget, int steps) {
+    const QPointF at = widget->rect().center();
+    QWheelEvent event(at, widget->mapToGlobal(at), {}, QPoint(0, 120 * steps), Qt::NoButton,
+                      Qt::NoModifier, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(widget, &event);
+}
+
+} // namespace
+
+class WorkstationTest : public QObject {
+    Q_OBJECT
+private slots:
+    void initTestCase() {
+        QStandardPaths::setTestModeEnabled(true);
+        QSettings().clear();
+        const auto lattice =
+            phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});
+        dicom::writeCtSeries(
+            m_folder / "head", phantom::makePhantom(phantom::Kind::head, lattice),
+            {.patientName = "Secret^Name", .windows = {{40, 100, ""}, {300, 1500, ""}}},
+            dicom::TransferSyntax::explicitLittle);
+    }
+
+    void init() {
+        m_window = std::make_unique<ui::MainWindow>(ui::Theme::named("dark"));
+        m_window->resize(1600, 1000);
+        m_window->show();
+        m_window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    }
+    void cleanup() { m_window.reset(); }
+
+    void showsTheStartPageAndNoPatientName() {
+        QVERIFY(find<QWidget>("startPage")->isVisible());
+        QVERIFY(!find<QWidget>("paneArea")->isVisible());
+        open(headPath());
+        QVERIFY(!find<QWidget>("startPage")->isVisible());
+        QVERIFY(!m_window->windowTitle().contains("Secret"));
+    }
+
+    void everyPaneShowsTheVolume() {
+        open(headPath());
+        for (const char *name : {"axialView", "coronalView", "sagittalView", "projectionView"}) {
+            const QImage pane = grab(name);
+            QVERIFY2(meanGrey(pane) > 8.0, name);
+            // The corner away from texts is outside the patient.
+            QVERIFY2(meanGrey(pane, QRect(4, pane.height() / 4, 10, 10)) < 3.0, name);
+        }
+        // Radiological convention on the head: the nose is up in the axial pane, at the left in the
+        // sagittal.
+        const QImage sagittal = grab("sagittalView");
+        const int w = sagittal.width(), h = sagittal.height();
+        QVERIFY(meanGrey(sagittal, QRect(w / 8, h * 6 / 10, w / 4, h / 5)) > 5.0);
+    }
+
+    void orbitingTurnsThePictureAndTheLetters() {
+        open(headPath());
+        const QImage before = grab("projectionView");
+        const auto camera = m_window->document().scene().camera;
+        QSignalSpy finalShown(projection(), &ui::ProjectionView::finalImageShown);
+        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(),
+                  {197, 0}); // 90 degrees
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        QVERIFY(changed(before, grab("projectionView")) > 0.02);
+        // Dragging to the right brings the patient's right side, at image left, to the front.
+        const glm::dmat3 axes = m_window->document().scene().camera.axes();
+        QVERIFY2(axes[2].x < -0.9, "the viewer now stands at the patient's right");
+        QVERIFY(!(m_window->document().scene().camera == camera));
+        // Looking is not undoable.
+        QVERIFY(!m_window->document().undoStack()->canUndo());
+        QTest::keyClick(projection(), Qt::Key_1, Qt::KeypadModifier);
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        QVERIFY(glm::dot(m_window->document().scene().camera.axes()[2], glm::dvec3(0, -1, 0)) >
+                0.999);
+    }
+
+    void thePlanesScrollAndTheCrosshairIsLinked() {
+        open(headPath());
+        const QImage before = grab("axialView");
+        const QImage coronal = grab("coronalView");
+        const double z = m_window->document().crosshair().mm.z;
+        turnWheel(find<QWidget>("axialView"), 1);
+        QVERIFY(m_window->document().crosshair().mm.z > z);
+        turnWheel(find<QWidget>("axialView"), 1);
+        turnWheel(find<QWidget>("axialView"), 1);
+        QVERIFY(changed(before, grab("axialView")) > 0.005);
+        QVERIFY(changed(coronal, grab("coronalView")) > 0.0005); // its crosshair line moved
+        QTest::keyClick(find<QWidget>("axialView"), Qt::Key_Home);
+        const auto &lattice = m_window->document().volume()->lattice();
+        QVERIFY(std::abs(m_window->document().crosshair().mm.z - lattice.origin().mm.z) < 1e-6);
+    }
+
+    void windowingIsUndoneInOneStep() {
+        open(headPath());
+        const auto before = m_window->document().displayWindow();
+        const QImage picture = grab("axialView");
+        dragMouse(find<QWidget>("axialView"), Qt::LeftButton, {150, 150}, {80, -60});
+        QVERIFY(m_window->document().displayWindow().width > before.width);
+        QVERIFY(m_window->document().displayWindow().center > before.center);
+        QVERIFY(changed(picture, grab("axialView")) > 0.02);
+        QCOMPARE(m_window->document().undoStack()->count(), 1);
+        find<QAction>("undoAction")->trigger();
+        QVERIFY(m_window->document().displayWindow() == before);
+        // A preset by its key, and back.
+        QTest::keyClick(m_window.get(), Qt::Key_4);
+        QCOMPARE(m_window->document().displayWindow().width, 1500.0);
+        find<QAction>("undoAction")->trigger();
+        QVERIFY(m_window->document().displayWindow() == before);
+    }
+
+    void reconstructionAndFilmAreUndoableEditsOfTheScene() {
+        open(headPath());
+        const QImage before = grab("projectionView");
+        find<QAction>("filmAction")->trigger();
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        QTRY_VERIFY(meanGrey(grab("projectionView")) > meanGrey(before) + 40.0);
+        find<QAction>("bandLimitedAction")->trigger();
+        QVERIFY(m_window->document().scene().image.reconstruction ==
+                render::Reconstruction::bandLimited);
+        find<QAction>("undoAction")->trigger();
+        find<QAction>("undoAction")->trigger();
+        QVERIFY(m_window->document().scene().tone == render::Tone());
+        QVERIFY(!find<QAction>("filmAction")->isChecked());
+    }
+
+    void aPaneFillsTheWindowByDoubleClick() {
+        open(headPath());
+        auto *axial = find<QWidget>("axialView");
+        const QSize before = axial->size();
+        QTest::mouseDClick(axial, Qt::LeftButton);
+        QVERIFY(axial->width() > 2 * before.width());
+        QVERIFY(!projection()->isVisible());
+        QTest::mouseDClick(axial, Qt::LeftButton);
+        QCOMPARE(axial->size(), before);
+        QVERIFY(projection()->isVisible());
+    }
+
+    void theReadoutNamesPositionAndValue() {
+        open(headPath());
+        auto *axial = find<QWidget>("axialView");
+        QTest::mouseMove(axial, axial->rect().center());
+        QMouseEvent move(QEvent::MouseMove, axial->rect().center(),
+                         axial->mapToGlobal(axial->rect().center()), Qt::NoButton, Qt::NoButton,
+                         Qt::NoModifier);
+        QCoreApplication::sendEvent(axial, &move);
+        const QString text = find<QLabel>("cursorReadout")->text();
+        QVERIFY2(text.contains("HU") && text.contains("mm"), qPrintable(text));
+    }
+
+    void problemsAreListedAndNothingPopsUp() {
+        const std::string file = (m_folder / "notes.txt").string();
+        std::ofstream(file) << "this is a letter to the patient and no image at all";
+        drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
+        auto *list = find<QListWidget>("problemList");
+        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && !m_window->jobs().isRunning(), patienceMs);
+        QVERIFY(list->item(0)->text().contains("not a DICOM file"));
+        QVERIFY(QApplication::activeModalWidget() == nullptr);
+        drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
+        QTRY_VERIFY_WITH_TIMEOUT(
+            list->count() == 1 && list->item(0)->text().contains("does not exist"), patienceMs);
+        QVERIFY(find<QWidget>("startPage")->isVisible());
+    }
+
+    void cancelGivesTheProgramBackAtOnce() {
+        find<QPushButton>("headPhantomButton")->click();
+        QTRY_VERIFY(m_window->jobs().isRunning());
+        QTest::qWait(60);
+        QElapsedTimer clock;
+        clock.start();
+        find<QPushButton>("cancelButton")->click();
+        QVERIFY(!m_window->jobs().isRunning());
+        QVERIFY2(clock.elapsed() < 100, "the promise is 100 ms");
+        QTest::qWait(400); // a late result would arrive now
+        QVERIFY(!m_window->document().volume());
+        // And it can be opened again.
+        open(headPath());
+        QVERIFY(m_window->document().volume());
+    }
+
+    void thePhantomOpensFromTheStartPage() {
+        find<QPushButton>("headPhantomButton")->click();
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        save("phantom");
+        QVERIFY(meanGrey(grab("projectionView")) > 5.0);
+        QCOMPARE(find<QTreeWidget>("seriesTree")->topLevelItemCount(), 1);
+    }
+
+    void imagesWithoutPositionsOpenAsImages() {
+        if (testData().isEmpty())
+            QSKIP("PELLUCID_TEST_DATA is not set: the real series are absent");
+        drop(*m_window, {QUrl::fromLocalFile(testData() + "/nasty_pydicom/image_dfl.dcm")});
+        QTRY_VERIFY_WITH_TIMEOUT(m_window->document().volume() && !m_window->jobs().isRunning(),
+                                 patienceMs);
+        QVERIFY(!m_window->document().volume()->notes().placed);
+        QVERIFY(meanGrey(grab("axialView")) > 5.0);
+    }
+
+    // The issue's own scene: drop, wait, orbit, scroll, window, and look.
+    void theChestCtByDrop() {
+        if (testData().isEmpty())
+            QSKIP("PELLUCID_TEST_DATA is not set: the real series are absent");
+        open(testData() + "/ct_chest_philips_64");
+        save("chest");
+        for (const char *name : {"axialView", "coronalView", "sagittalView", "projectionView"})
+            QVERIFY2(meanGrey(grab(name)) > 10.0, name);
+        // The lungs are darker than the mediastinum between them.
+        const QImage front = grab("projectionView");
+        const int w = front.width(), h = front.height();
+        const double middle = meanGrey(front, QRect(w / 2 - 20, h / 2 - 20, 40, 40));
+        const double lung = meanGrey(front, QRect(w * 38 / 100 - 20, h / 2 - 20, 40, 40));
+        QVERIFY2(middle > lung + 30.0, "mediastinum over lung");
+        // The liver's dome stands higher on the patient's right, at image left.
+        const double low = 0.66;
+        QVERIFY(meanGrey(front, QRect(w * 42 / 100 - 15, int(h * low) - 15, 30, 30)) > lung);
+
+        const QImage coronal = grab("coronalView"), axial = grab("axialView");
+        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {120, -40});
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        QVERIFY(changed(front, grab("projectionView")) > 0.05);
+        for (int n = 0; n < 6; ++n)
+            turnWheel(find<QWidget>("axialView"), 1);
+        QVERIFY(changed(axial, grab("axialView")) > 0.02);
+        QTest::keyClick(m_window.get(), Qt::Key_5); // lung window
+        QVERIFY(changed(coronal, grab("coronalView")) > 0.1);
+        save("chest_turned");
+    }
+
+private:
+    QString headPath() const { return QString::fromStdString((m_folder / "head").string()); }
+
+    template <class T> T *find(const char *name) {
+        T *found = m_window->findChild<T *>(name);
+        if (found == nullptr)
+            qFatal("no %s", name);
+        return found;
+    }
+    ui::ProjectionView *projection() { return find<ui::ProjectionView>("projectionView"); }
+    QImage grab(const char *name) { return find<QWidget>(name)->grab().toImage(); }
+
+    void open(const QString &path) {
+        drop(*m_window, {QUrl::fromLocalFile(path)});
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
+                                 patienceMs);
+    }
+
+    void save(const QString &name) {
+        const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS");
+        if (folder.isEmpty())
+            return;
+        QDir().mkpath(folder);
+        QVERIFY(m_window->grab().save(folder + "/workstation_" + name + ".png"));
+    }
+
+    test::TemporaryFolder m_folder;
+    std::unique_ptr<ui::MainWindow> m_window;
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    QSurfaceFormat format;
+    format.setVersion(3, 3);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    QSurfaceFormat::setDefaultFormat(format);
+    QApplication application(argc, argv);
+    QApplication::setApplicationName("pellucid-test");
+    QApplication::setOrganizationName("pellucid-test");
+    pellucid::ui::Theme::named("dark").apply(application);
+    pellucid::WorkstationTest test;
+    return QTest::qExec(&test, argc, argv);
+}
+
+#include "workstation_test.moc"
