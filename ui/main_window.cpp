@@ -20,6 +20,7 @@
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTextBrowser>
 #include <QToolBar>
 
 #include "core/task/error.h"
@@ -262,20 +263,7 @@ void MainWindow::createHelpMenu() {
     QMenu *window = menuBar()->addMenu(tr("W&indow"));
     window->addAction(findChild<QDockWidget *>("studyDock")->toggleViewAction());
     QMenu *menu = menuBar()->addMenu(tr("&Help"));
-    addCommand(menu, tr("&Mouse and keys"), "keysAction", QKeySequence("F1"), [this] {
-        QMessageBox::information(
-            this, tr("Mouse and keys"),
-            tr("<b>Planes</b><br>Left drag: the chosen tool (window, pan, zoom, "
-               "crosshair)<br>Middle drag: pan<br>"
-               "Wheel: slices; Ctrl+wheel: zoom<br>Shift+move: crosshair in all planes<br>"
-               "Arrows: slices, with Shift ten; Home, End: first, last<br>Double-click: fill the "
-               "window; R: reset<br>"
-               "0 to 5: window presets<br><br><b>Projection</b><br>Left drag or arrows: turn; "
-               "middle drag: pan; wheel: zoom<br>"
-               "Right drag: window<br>Keypad 1, 3, 7: anterior, left, superior; with Shift the "
-               "opposite; 0 or R: reset<br><br>"
-               "Esc: cancel what runs; F11: full screen; F12: save the picture"));
-    });
+    addCommand(menu, tr("&Manual"), "manualAction", QKeySequence("F1"), [this] { showManual(); });
     addCommand(menu, tr("&About Pellucid"), "aboutAction", {}, [this] { showAbout(); });
 }
 
@@ -487,6 +475,17 @@ void MainWindow::openScene() {
     } catch (const task::Error &error) {
         report(QString::fromStdString(error.reason()), path);
     }
+}
+
+void MainWindow::showManual() {
+    // Beside the window, not over it: people read and try.
+    auto *manual = new QTextBrowser;
+    manual->setObjectName("manual");
+    manual->setAttribute(Qt::WA_DeleteOnClose);
+    manual->setWindowTitle(tr("Pellucid manual"));
+    manual->setSource(QUrl("qrc:/pellucid/manual/manual.html"));
+    manual->resize(640, 760);
+    manual->show();
 }
 
 void MainWindow::showAbout() {

@@ -64,6 +64,7 @@ private:
     void savePicture();
     void saveScene();
     void openScene();
+    void showManual();
     void showAbout();
     void remember(const QStringList &paths);
     void report(const QString &what, const QString &path);

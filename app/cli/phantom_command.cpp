@@ -51,9 +51,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     labels.bodyPart = kind == phantom::Kind::head    ? "HEAD"
                       : kind == phantom::Kind::chest ? "CHEST"
                                                      : "PHANTOM";
-    labels.windows = kind == phantom::Kind::head
-                         ? std::vector<volume::ValueWindow>{{40, 100, ""}, {300, 1500, ""}}
-                         : std::vector<volume::ValueWindow>{{40, 400, ""}};
+    labels.windows = volume.notes().windows;
     dicom::writeCtSeries(o.folder, volume, labels, syntax, progress.part(0.6, 1.0));
 }
 

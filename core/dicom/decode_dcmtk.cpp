@@ -148,7 +148,7 @@ DecodedImage decodeImage(std::span<const std::byte> bytes) {
         stream.setEos();
         DcmFileFormat file;
         file.transferInit();
-        (void)file.read(stream, EXS_Unknown, EGL_noChange);
+        const OFCondition parsed = file.read(stream, EXS_Unknown, EGL_noChange);
         file.transferEnd();
         DcmDataset *dataset = file.getDataset();
         if (dataset == nullptr || dataset->card() == 0)
@@ -156,6 +156,11 @@ DecodedImage decodeImage(std::span<const std::byte> bytes) {
         DecodedImage image{headerOf(*dataset), {}};
         if (const auto reason = whyUnusable(image.header))
             fail(*reason);
+        // DCMTK keeps what it has of an element that the file does not finish, and fills the rest.
+        DcmElement *pixels = nullptr;
+        if (parsed.bad() && dataset->findAndGetElement(DCM_PixelData, pixels).good() &&
+            pixels->transferState() != ERW_ready)
+            fail("the pixels are truncated");
         const E_TransferSyntax syntax = dataset->getOriginalXfer();
         const DcmXfer transfer(syntax);
         const std::size_t plane = std::size_t(image.header.rows) * image.header.columns;

@@ -88,18 +88,17 @@ std::vector<Part> splitBy(const Frames &sorted, const std::string &name,
     return parts;
 }
 
-// A split is right if no place repeats within a part and no part is a splinter: together they have
-// as many full stacks as places repeat.
-bool separates(const std::vector<Part> &parts) {
-    const std::size_t slices = parts.front().frames.size();
+// A split is right if every part has each place exactly once.
+bool separates(const std::vector<Part> &parts, std::size_t places) {
     return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
-               return part.frames.size() == slices && !placesRepeat(part.frames);
+               return part.frames.size() == places && !placesRepeat(part.frames);
            });
 }
 
+// Good enough where slices are missing: no place twice, and no part a splinter.
 bool separatesUnevenly(const std::vector<Part> &parts, std::size_t places) {
     return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
-               return !placesRepeat(part.frames) && (2 * part.frames.size() >= places);
+               return 2 * part.frames.size() > places && !placesRepeat(part.frames);
            });
 }
 
@@ -119,7 +118,7 @@ std::vector<Part> splitRepeats(const Frames &sorted) {
     splits.push_back(splitBy(
         sorted, "file", [](const PlacedFrame &f) { return f.reference.path.filename().string(); }));
     for (const auto &parts : splits)
-        if (separates(parts))
+        if (separates(parts, places))
             return parts;
     for (const auto &parts : splits)
         if (separatesUnevenly(parts, places))

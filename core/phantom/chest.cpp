@@ -278,7 +278,9 @@ private:
 volume::Volume makeChest(const volume::Lattice &lattice, const task::Progress &progress) {
     Painter painter(lattice, airHu, progress);
     Chest(painter).paint();
-    return painter.finish(12.0, 5, "Chest phantom");
+    return painter.finish(
+        12.0, 5,
+        phantomNotes("Chest phantom", {{25.0, 350.0, "Mediastinum"}, {-500.0, 1400.0, "Lung"}}));
 }
 
 } // namespace pellucid::phantom

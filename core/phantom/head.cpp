@@ -65,8 +65,8 @@ private:
         skin = united(skin, lips, 5);
         skin = united(skin, brow, 8);
         const auto tilt = glm::angleAxis(glm::radians(14.0), glm::normalize(dvec3(1, 0, 0.4)));
-        const Shape auricle = without(ellipsoid({81, 18, -4}, {7, 18, 30}, tilt),
-                                      ellipsoid({86, 14, -3}, {6, 11, 19}, tilt));
+        const Shape auricle = without(ellipsoid({75, 18, -4}, {7, 18, 30}, tilt),
+                                      ellipsoid({81, 14, -3}, {6, 11, 19}, tilt));
         m.paint(skin, skinHu);
         m.paint(grown(skin, -2.0), fatHu);
         // Less fat over the vault than over cheek and neck.
@@ -83,7 +83,7 @@ private:
         // Tongue and floor of the mouth.
         m.paint(ellipsoid({0, -50, -62}, {23, 30, 15}), 60.0);
         // Parotid and submandibular glands, great vessels of the neck.
-        paintBoth(ellipsoid({56, -4, -42}, {9, 15, 22}), 20.0);
+        paintBoth(ellipsoid({46, -2, -42}, {8, 15, 22}), 20.0);
         paintBoth(ellipsoid({26, -38, -92}, {9, 13, 9}), 35.0);
         paintBoth(rod({30, 6, -118}, {26, 0, -40}, 4.5, 3.5), 70.0);
         paintBoth(rod({38, 14, -118}, {34, 8, -40}, 6, 4), 60.0);
@@ -205,8 +205,13 @@ private:
         m.paint(inside, csfHu);
         const Shape cerebrum = intersected(
             grown(inside, -2.2),
-            {[](const dvec3 &p) { return 0.9 * (-14.0 + 0.35 * std::max(0.0, p.y - 20.0) - p.z); },
-             {-80, -90, -30},
+            // Behind, the cerebrum rests on the tentorium; in front it fills the fossae of the
+            // base.
+            {[](const dvec3 &p) {
+                 const double behind = std::clamp((p.y - 8.0) / 14.0, 0.0, 1.0);
+                 return 0.8 * (-60.0 + 46.0 * behind + 0.35 * std::max(0.0, p.y - 20.0) - p.z);
+             },
+             {-80, -90, -60},
              {80, 110, 110}});
         const auto tissue = [cerebrum](const dvec3 &p) {
             const double depth = -cerebrum(p);
@@ -271,7 +276,8 @@ private:
         const Shape nasal = united(roundedBox({0, -62, -22}, {11, 26, 15}, 8),
                                    rod({0, -86, -26}, {0, -99, -30}, 8, 6), 4);
         m.paint(nasal, airHu);
-        m.paint(roundedBox({0, -66, -18}, {1.1, 30, 20}, 0.6), 120.0);
+        m.paint(intersected(roundedBox({0, -66, -18}, {1.1, 34, 20}, 0.6), grown(nasal, 0.5)),
+                120.0);
         paintBoth(rod({8, -78, -30}, {8, -44, -30}, 3.6, 3.2), 50.0);
         paintBoth(rod({7, -74, -17}, {7, -46, -18}, 3.0, 2.6), 50.0);
         paintBoth(rod({9, -78, -30}, {9, -44, -30}, 1.0, 0.8), 350.0);
@@ -354,7 +360,8 @@ private:
 volume::Volume makeHead(const volume::Lattice &lattice, const task::Progress &progress) {
     Painter painter(lattice, airHu, progress);
     Head(painter).paint();
-    return painter.finish(7.0, 3, "Head phantom");
+    return painter.finish(
+        7.0, 3, phantomNotes("Head phantom", {{40.0, 100.0, "Brain"}, {300.0, 1500.0, "Bone"}}));
 }
 
 } // namespace pellucid::phantom

@@ -168,7 +168,7 @@ double normal(std::uint32_t seed, std::uint64_t index) {
 
 } // namespace
 
-volume::Volume Painter::finish(double noiseHu, std::uint32_t seed, const std::string &title) {
+volume::Volume Painter::finish(double noiseHu, std::uint32_t seed, volume::VolumeNotes notes) {
     std::vector<std::int16_t> samples(m_hu.size());
     const volume::GridSize size = m_lattice.size();
     const std::size_t plane = std::size_t(size.i) * size.j;
@@ -180,9 +180,6 @@ volume::Volume Painter::finish(double noiseHu, std::uint32_t seed, const std::st
         }
     });
     m_progress.report(1.0);
-    volume::VolumeNotes notes;
-    notes.title = title;
-    notes.modality = "CT";
     return {m_lattice, std::move(samples), volume::ValueUnit::hounsfield, std::move(notes)};
 }
 

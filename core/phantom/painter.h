@@ -50,7 +50,7 @@ public:
     void paint(const Shape &shape, double hu);
     void paint(const Shape &shape, const Texture &hu);
     /// Adds normal noise (the same for the same seed, whatever the number of threads) and rounds.
-    volume::Volume finish(double noiseHu, std::uint32_t seed, const std::string &title);
+    volume::Volume finish(double noiseHu, std::uint32_t seed, volume::VolumeNotes notes);
 
 private:
     volume::Lattice m_lattice;

@@ -12,16 +12,14 @@ namespace pellucid::phantom {
 
 using glm::dvec3;
 
-namespace {
-
-volume::VolumeNotes notesFor(const char *title) {
+volume::VolumeNotes phantomNotes(const std::string &title,
+                                 std::vector<volume::ValueWindow> windows) {
     volume::VolumeNotes notes;
     notes.title = title;
     notes.modality = "CT";
+    notes.windows = std::move(windows);
     return notes;
 }
-
-} // namespace
 
 volume::Volume makeMetal(const volume::Lattice &lattice, const task::Progress &progress) {
     Painter painter(lattice, -1024.0, progress);
@@ -33,13 +31,13 @@ volume::Volume makeMetal(const volume::Lattice &lattice, const task::Progress &p
         rod({0.3 * r, -0.3 * r, 0.1 * r}, {0.45 * r, 0.3 * r, -0.2 * r}, 0.05 * r, 0.02 * r),
         30000.0);
     painter.paint(ellipsoid({0.1 * r, 0.2 * r, 0.45 * r}, dvec3(0.09 * r)), 30000.0);
-    return painter.finish(10.0, 7, "Metal phantom");
+    return painter.finish(10.0, 7, phantomNotes("Metal phantom"));
 }
 
 volume::Volume makeCube(const volume::Lattice &lattice, const task::Progress &progress) {
     progress.check();
     return {lattice, std::vector<std::int16_t>(lattice.size().count(), 1000),
-            volume::ValueUnit::hounsfield, notesFor("Cube phantom")};
+            volume::ValueUnit::hounsfield, phantomNotes("Cube phantom")};
 }
 
 volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &progress) {
@@ -64,7 +62,8 @@ volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &pr
                 samples[(std::size_t(k) * size.j + j) * size.i + i] = on ? 1000 : 0;
             }
     });
-    return {lattice, std::move(samples), volume::ValueUnit::hounsfield, notesFor("Bar phantom")};
+    return {lattice, std::move(samples), volume::ValueUnit::hounsfield,
+            phantomNotes("Bar phantom")};
 }
 
 volume::Volume makeEllipsoids(const volume::Lattice &lattice, const task::Progress &progress) {
@@ -82,7 +81,7 @@ volume::Volume makeEllipsoids(const volume::Lattice &lattice, const task::Progre
             }
     });
     return {lattice, std::move(samples), volume::ValueUnit::hounsfield,
-            notesFor("Ellipsoid phantom")};
+            phantomNotes("Ellipsoid phantom")};
 }
 
 } // namespace pellucid::phantom

@@ -6,6 +6,7 @@
 
 #include <epoxy/gl.h>
 
+#include "core/task/error.h"
 #include "gpu/capabilities.h"
 #include "gpu/tone_pass.h"
 #include "tests/support/surfaceless_context.h"
@@ -70,10 +71,15 @@ TEST_F(TonePass, KnowsItsContext) {
     EXPECT_FALSE(capabilities.renderer.empty());
 }
 
-TEST_F(TonePass, ABrokenShaderNamesFileAndLine) {
-    // A fragment stage in the place of a vertex stage does not link or compile; either way it is
-    // said.
-    EXPECT_ANY_THROW(gpu::Program("tone.frag", "tone.frag"));
+TEST_F(TonePass, ABrokenShaderIsNamed) {
+    try {
+        gpu::Program("lib/tone.glsl", "tone.frag"); // a library has no main
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_NE(std::string(error.what()).find("lib/tone.glsl"), std::string::npos)
+            << error.what();
+    }
+    EXPECT_THROW(gpu::Program("absent.vert", "tone.frag"), task::Error);
 }
 
 TEST(Shaders, IncludesAreReplacedAndNumbered) {
