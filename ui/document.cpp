@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/document.h"
 
-#include "ui/window_presets.h"
+#include <algorithm>
 
 namespace pellucid::ui {
 
 Document::Document(QObject *parent) : QObject(parent) {}
 
-void Document::addSources(std::vector<StudySource> sources) {
-    for (StudySource &source : sources)
-        m_sources.push_back(std::move(source));
+std::vector<int> Document::addSources(std::vector<StudySource> sources) {
+    std::vector<int> indices;
+    for (StudySource &source : sources) {
+        const auto it = std::find_if(m_sources.begin(), m_sources.end(),
+                                     [&](const StudySource &s) { return s.key == source.key; });
+        indices.push_back(int(it - m_sources.begin()));
+        if (it == m_sources.end())
+            m_sources.push_back(std::move(source));
+        else
+            *it = std::move(source);
+    }
     emit sourcesChanged();
+    return indices;
 }
 
 void Document::setCurrentSource(int index) {
@@ -32,7 +41,9 @@ void Document::clearProblems() {
     emit problemsChanged();
 }
 
-void Document::setVolume(const volume::Volume &volume, bool preview) {
+void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow &initialWindow,
+                         bool preview) {
+    m_initialWindow = initialWindow;
     const bool same = m_volume && m_preview && m_volume->lattice() == volume.lattice();
     m_volume = volume;
     m_preview = preview;
@@ -43,9 +54,10 @@ void Document::setVolume(const volume::Volume &volume, bool preview) {
         m_scene = render::Scene();
         m_scene.camera.orientation = render::viewOrientation(render::StandardView::front);
     }
-    // A preview's quantiles are those of the slices that happened to come first.
-    if (!same || !preview)
-        m_window = initialWindow(volume);
+    // A preview's quantiles are those of the slices that happened to come first; a window that the
+    // user has set meanwhile stays.
+    if (!same || (!preview && m_undo.count() == 0))
+        m_window = initialWindow;
     emit volumeChanged();
 }
 

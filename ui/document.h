@@ -23,7 +23,8 @@ public:
     explicit Document(QObject *parent = nullptr);
 
     const std::vector<StudySource> &sources() const { return m_sources; }
-    void addSources(std::vector<StudySource> sources);
+    /// Adds sources, or replaces those that are there already. *Shape*: their indices, in order.
+    std::vector<int> addSources(std::vector<StudySource> sources);
     int currentSource() const { return m_currentSource; }
     void setCurrentSource(int index);
 
@@ -34,7 +35,10 @@ public:
     /// The open volume. A preview is the part that has arrived; it keeps crosshair and window.
     const std::optional<volume::Volume> &volume() const { return m_volume; }
     bool isPreview() const { return m_preview; }
-    void setVolume(const volume::Volume &volume, bool preview);
+    /// `initialWindow`: what it is first shown with, and what resetting goes back to.
+    void setVolume(const volume::Volume &volume, const volume::ValueWindow &initialWindow,
+                   bool preview);
+    const volume::ValueWindow &initialWindow() const { return m_initialWindow; }
     void closeVolume();
 
     const render::Scene &scene() const { return m_scene; }
@@ -69,7 +73,7 @@ private:
     std::optional<volume::Volume> m_volume;
     bool m_preview = false;
     render::Scene m_scene;
-    volume::ValueWindow m_window{40.0, 400.0, {}};
+    volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
     volume::PatientPoint m_crosshair;
     QUndoStack m_undo;
 };

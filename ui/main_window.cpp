@@ -39,6 +39,13 @@ namespace {
 constexpr int recentCount = 8;
 constexpr const char *recentKey = "recentPaths";
 
+QString windowLabel(const volume::ValueWindow &w) {
+    return QString("%1  %2 / %3")
+        .arg(QString::fromStdString(w.name.empty() ? "Custom" : w.name))
+        .arg(w.width, 0, 'g', 5)
+        .arg(w.center, 0, 'g', 5);
+}
+
 } // namespace
 
 MainWindow::MainWindow(const Theme &theme, QWidget *parent)
@@ -60,6 +67,8 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     connect(&m_document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
     connect(&m_opener, &StudyOpener::engineReady, m_projection, &ProjectionView::setEngine);
     connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
+    connect(&m_opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);
+    connect(&m_document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
@@ -132,6 +141,10 @@ void MainWindow::createFileMenu() {
         savePicture();
     })->setIconText(tr("Picture"));
     menu->addSeparator();
+    addCommand(menu, tr("&Forget recent studies"), "forgetRecentAction", {}, [this] {
+        QSettings().remove(recentKey);
+        m_start->setRecentPaths({});
+    });
     addCommand(menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { close(); });
 }
 
@@ -293,7 +306,7 @@ void MainWindow::createToolBar() {
         if (index >= 0 && index < actions.size())
             actions[index]->trigger();
     });
-    connect(&m_document, &Document::displayWindowChanged, this, &MainWindow::showWindowPresets);
+    connect(&m_document, &Document::displayWindowChanged, this, &MainWindow::showDisplayWindow);
 }
 
 void MainWindow::createStatusBar() {
@@ -336,7 +349,13 @@ void MainWindow::createStatusBar() {
     });
     connect(&m_jobs, &JobRunner::progressed, this,
             [this](double fraction) { m_progress->setValue(int(1000 * fraction)); });
-    connect(&m_jobs, &JobRunner::finished, this, idle);
+    connect(&m_jobs, &JobRunner::finished, this, [this, idle] {
+        idle();
+        m_projection->jobEnded();
+        // A load that was cancelled leaves nothing selected.
+        if (!m_document.volume())
+            m_document.setCurrentSource(-1);
+    });
     connect(&m_jobs, &JobRunner::failed, this, &MainWindow::report);
     connect(m_projection, &ProjectionView::engineDescribed, m_engine, &QLabel::setText);
     for (MprView *view : m_mpr)
@@ -355,31 +374,35 @@ void MainWindow::showWindowPresets() {
     m_windowMenu->clear();
     const auto &volume = m_document.volume();
     m_windowBox->setEnabled(volume.has_value());
-    const auto label = [](const volume::ValueWindow &w) {
-        return QString("%1  %2 / %3")
-            .arg(QString::fromStdString(w.name.empty() ? "Custom" : w.name))
-            .arg(w.width, 0, 'g', 5)
-            .arg(w.center, 0, 'g', 5);
-    };
     const QSignalBlocker quiet(m_windowBox);
     m_windowBox->clear();
     if (!volume)
         return;
     const auto add = [&](const volume::ValueWindow &window, const QKeySequence &key) {
-        QAction *action = m_windowMenu->addAction(label(window));
+        QAction *action = m_windowMenu->addAction(windowLabel(window));
         action->setShortcut(key);
         connect(action, &QAction::triggered, this, [this, window] { applyWindow(window); });
-        m_windowBox->addItem(label(window));
+        m_windowBox->addItem(windowLabel(window));
     };
-    add(initialWindow(*volume), QKeySequence("0"));
+    add(m_document.initialWindow(), QKeySequence("0"));
     for (const WindowPreset &preset : windowPresets(*volume))
         add(preset.window, QKeySequence(QString::number(preset.key)));
     for (std::size_t n = 1; n < volume->notes().windows.size(); ++n)
         add(volume->notes().windows[n], {});
-    const int shown = m_windowBox->findText(label(m_document.displayWindow()));
-    if (shown < 0)
-        m_windowBox->addItem(label(m_document.displayWindow()));
-    m_windowBox->setCurrentIndex(shown < 0 ? m_windowBox->count() - 1 : shown);
+    showDisplayWindow();
+}
+
+void MainWindow::showDisplayWindow() {
+    if (!m_document.volume())
+        return;
+    const QSignalBlocker quiet(m_windowBox);
+    // The presets come first; a window that is none of them has the last row.
+    while (m_windowBox->count() > m_windowMenu->actions().size())
+        m_windowBox->removeItem(m_windowBox->count() - 1);
+    const QString text = windowLabel(m_document.displayWindow());
+    if (m_windowBox->findText(text) < 0)
+        m_windowBox->addItem(text);
+    m_windowBox->setCurrentIndex(m_windowBox->findText(text));
 }
 
 void MainWindow::applyWindow(const volume::ValueWindow &window) {
@@ -388,7 +411,6 @@ void MainWindow::applyWindow(const volume::ValueWindow &window) {
 }
 
 void MainWindow::openPaths(const QStringList &paths) {
-    remember(paths);
     m_opener.openPaths(paths);
 }
 
@@ -411,10 +433,10 @@ void MainWindow::remember(const QStringList &paths) {
 void MainWindow::report(const QString &what, const QString &path) {
     m_document.addProblems({{path.toStdString(), what.toStdString()}});
     // The window stays usable: what was open stays, or the start page is there again.
-    if (!m_document.volume()) {
+    if (!m_document.volume())
         m_document.setCurrentSource(-1);
+    else
         m_projection->setMessage(what);
-    }
     statusBar()->showMessage(what, 8000);
 }
 
@@ -467,11 +489,7 @@ void MainWindow::openScene() {
     try {
         const render::Scene scene = render::sceneFromJson(file.readAll().toStdString());
         m_document.undoStack()->push(new EditScene(m_document, scene, tr("Open scene")));
-        render::Camera camera = m_document.scene().camera;
-        camera.orientation = scene.camera.orientation;
-        camera.panMm = scene.camera.panMm;
-        m_document.setCamera(camera);
-        m_document.setScene(m_document.scene());
+        m_projection->adoptCamera(scene.camera);
     } catch (const task::Error &error) {
         report(QString::fromStdString(error.reason()), path);
     }

@@ -58,6 +58,7 @@ private:
     void createStatusBar();
     void showVolumeState();
     void showWindowPresets();
+    void showDisplayWindow();
     void applyWindow(const volume::ValueWindow &window);
     void chooseFiles();
     void chooseFolder();

@@ -2,6 +2,7 @@
 #include "ui/render_worker.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pellucid::ui {
 
@@ -21,13 +22,15 @@ void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine) {
     m_next.reset();
 }
 
-void RenderWorker::request(const render::Camera &camera, const render::ImageDefinition &image,
-                           bool draft) {
+std::uint64_t RenderWorker::request(const render::Camera &camera,
+                                    const render::ImageDefinition &image,
+                                    const Reduction &reduction) {
     const std::lock_guard lock(m_mutex);
     if (!m_engine)
-        return;
-    m_next = Request{m_engine, camera, image, draft};
+        return m_number;
+    m_next = Request{m_engine, camera, image, reduction, ++m_number};
     m_wake.notify_one();
+    return m_number;
 }
 
 void RenderWorker::run(std::stop_token stop) {
@@ -40,14 +43,20 @@ void RenderWorker::run(std::stop_token stop) {
             request = std::move(*m_next);
             m_next.reset();
         }
-        if (request.draft) {
-            request.camera.pixelMm *= 2.0;
-            request.camera.width = std::max(1, (request.camera.width + 1) / 2);
-            request.camera.height = std::max(1, (request.camera.height + 1) / 2);
+        render::Camera &camera = request.camera;
+        const double factor = std::max(request.reduction.draft ? 2.0 : 1.0,
+                                       request.reduction.finestPixelMm / camera.pixelMm);
+        if (factor > 1.0) {
+            // The reduced image covers the same part of the patient, up to a pixel.
+            camera.width = std::max(1, int(std::lround(camera.width / factor)));
+            camera.height = std::max(1, int(std::lround(camera.height / factor)));
+            camera.pixelMm *= factor;
         }
         try {
             auto frame = std::make_shared<RenderedFrame>();
-            frame->draft = request.draft;
+            frame->engine = request.engine;
+            frame->number = request.number;
+            frame->draft = request.reduction.draft;
             frame->image = request.engine->render(request.camera, request.image, &frame->times);
             emit frameReady(std::move(frame));
         } catch (const std::exception &error) {

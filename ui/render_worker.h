@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,8 +16,11 @@ namespace pellucid::ui {
 
 /// A finished frame.
 struct RenderedFrame {
+    /// Who made it: a frame of an engine that is no longer shown is dropped.
+    std::shared_ptr<render::ProjectionEngine> engine;
     render::ProjectionImage image;
     render::FrameTimes times;
+    std::uint64_t number = 0; ///< of the request it answers
     bool draft = false;
 };
 
@@ -29,8 +33,15 @@ public:
     ~RenderWorker() override;
 
     void setEngine(std::shared_ptr<render::ProjectionEngine> engine);
-    /// A draft has half the pixels a side: the central part of the same spectrum.
-    void request(const render::Camera &camera, const render::ImageDefinition &image, bool draft);
+    /// How a frame is made smaller than it is shown.
+    struct Reduction {
+        bool draft = false; ///< half the pixels a side: the central part of the same spectrum
+        /// Pixels are made at least this large; finer ones would only magnify.
+        double finestPixelMm = 0.0;
+    };
+    /// The number of the request, which its frame will carry.
+    std::uint64_t request(const render::Camera &camera, const render::ImageDefinition &image,
+                          const Reduction &reduction);
 
 signals:
     void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
@@ -41,7 +52,8 @@ private:
         std::shared_ptr<render::ProjectionEngine> engine;
         render::Camera camera;
         render::ImageDefinition image;
-        bool draft;
+        Reduction reduction;
+        std::uint64_t number;
     };
     void run(std::stop_token stop);
 
@@ -49,6 +61,7 @@ private:
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
     std::optional<Request> m_next;
+    std::uint64_t m_number = 0;
     std::jthread m_thread;
 };
 

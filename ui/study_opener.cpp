@@ -10,6 +10,7 @@
 #include "ui/document.h"
 #include "ui/job_runner.h"
 #include "ui/study_source.h"
+#include "ui/window_presets.h"
 
 namespace pellucid::ui {
 
@@ -32,6 +33,35 @@ std::shared_ptr<render::ProjectionEngine> makeEngine(const classify::DensityFiel
 StudyOpener::StudyOpener(Document &document, JobRunner &jobs, QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs) {
     qRegisterMetaType<std::shared_ptr<render::ProjectionEngine>>();
+    connect(&document, &Document::sceneChanged, this, &StudyOpener::followFieldWindow);
+}
+
+void StudyOpener::followFieldWindow() {
+    const auto &wanted = m_document.scene().fieldWindow;
+    const auto &volume = m_document.volume();
+    if (!volume || m_document.isPreview() || !volume->notes().placed || wanted == m_preparedWindow)
+        return;
+    m_preparedWindow = wanted;
+    m_jobs.start(tr("Preparing the projection"), [this, volume = *volume, wanted](const Job &job) {
+        prepare(job, volume, wanted, 0.0);
+    });
+}
+
+void StudyOpener::prepare(const Job &job, const volume::Volume &volume,
+                          const std::optional<classify::FieldWindow> &window, double from) {
+    const task::Progress progress = job.progress().part(from, 1.0);
+    const auto field = classify::densityField(
+        volume, window.value_or(classify::defaultFieldWindow(volume)), progress.part(0.0, 0.1));
+    const auto announce = [&](const classify::DensityField &f, bool coarse,
+                              const task::Progress &p) {
+        double error = 0.0;
+        auto engine = makeEngine(f, error, p);
+        job.deliver([this, engine, error, coarse] { emit engineReady(engine, error, coarse); });
+    };
+    const volume::GridSize n = volume.lattice().size();
+    if (n.i > coarseSide || n.j > coarseSide || n.k > coarseSide)
+        announce(classify::coarseField(field, coarseSide), true, progress.part(0.1, 0.25));
+    announce(field, false, progress.part(0.25, 1.0));
 }
 
 void StudyOpener::openPaths(const QStringList &paths) {
@@ -41,49 +71,47 @@ void StudyOpener::openPaths(const QStringList &paths) {
     std::vector<std::filesystem::path> files;
     for (const QString &path : paths)
         files.emplace_back(path.toStdString());
-    m_jobs.start(tr("Reading headers"), [this, files](const Job &job) {
+    m_jobs.start(tr("Reading headers"), [this, files, paths](const Job &job) {
         auto catalogue =
             std::make_shared<const dicom::Catalogue>(dicom::scan(files, job.progress()));
-        job.deliver([this, catalogue, files] {
+        job.deliver([this, catalogue, files, paths] {
             m_document.addProblems(catalogue->skipped);
             if (catalogue->empty()) {
                 if (catalogue->skipped.empty())
                     m_document.addProblems({{files.front(), "holds no images"}});
                 return;
             }
-            const auto first = int(m_document.sources().size());
-            m_document.addSources(sourcesFrom(catalogue));
-            openSource(first + int(defaultSource(*catalogue)));
+            const auto indices = m_document.addSources(sourcesFrom(catalogue));
+            emit pathsOpened(paths);
+            openSource(indices[defaultSource(*catalogue)]);
         });
     });
 }
 
 void StudyOpener::openPhantom(const QString &kind) {
-    const StudySource wanted = phantomSource(kind);
-    const auto &sources = m_document.sources();
-    for (std::size_t n = 0; n < sources.size(); ++n)
-        if (sources[n].patient == wanted.patient && sources[n].series == wanted.series) {
-            openSource(int(n));
-            return;
-        }
-    m_document.addSources({wanted});
-    openSource(int(m_document.sources().size()) - 1);
+    openSource(m_document.addSources({phantomSource(kind)}).front());
 }
 
 void StudyOpener::openSource(int index) {
+    // What is shown or on its way already need not come again.
+    if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning()))
+        return;
     const StudySource source = m_document.sources().at(std::size_t(index));
+    m_preparedWindow.reset();
     m_document.setCurrentSource(index);
     m_document.closeVolume();
     m_jobs.start(tr("Loading %1").arg(source.series), [this, source](const Job &job) {
         dicom::LoadObserver observer;
         observer.preview = [&](const volume::Volume &soFar) {
-            job.deliver([this, soFar] { m_document.setVolume(soFar, true); });
+            const volume::ValueWindow window = initialWindow(soFar);
+            job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, true); });
         };
         const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
         const volume::Volume volume = loaded.volume;
-        job.deliver([this, loaded] {
+        const volume::ValueWindow window = initialWindow(volume);
+        job.deliver([this, loaded, window] {
             m_document.addProblems(loaded.skipped);
-            m_document.setVolume(loaded.volume, false);
+            m_document.setVolume(loaded.volume, window, false);
         });
         if (!volume.notes().placed) {
             job.deliver([this, volume] {
@@ -94,19 +122,7 @@ void StudyOpener::openSource(int index) {
             return;
         }
         job.stage(tr("Preparing the projection"));
-        const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume),
-                                                  job.progress().part(0.6, 0.65));
-        const auto announce = [&](const classify::DensityField &f, bool coarse,
-                                  const task::Progress &progress) {
-            double error = 0.0;
-            auto engine = makeEngine(f, error, progress);
-            job.deliver([this, engine, error, coarse] { emit engineReady(engine, error, coarse); });
-        };
-        const volume::GridSize n = volume.lattice().size();
-        if (n.i > coarseSide || n.j > coarseSide || n.k > coarseSide)
-            announce(classify::coarseField(field, coarseSide), true,
-                     job.progress().part(0.65, 0.7));
-        announce(field, false, job.progress().part(0.7, 1.0));
+        prepare(job, volume, std::nullopt, 0.6);
     });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <QObject>
 #include <QStringList>
@@ -25,6 +26,8 @@ public:
     void openSource(int index);
 
 signals:
+    /// The paths held something.
+    void pathsOpened(const QStringList &paths);
     /// An engine for the document's volume is ready; a finer one may follow.
     void engineReady(std::shared_ptr<pellucid::render::ProjectionEngine> engine,
                      double predictedError, bool coarse);
@@ -32,8 +35,14 @@ signals:
     void notProjectable(const QString &reason);
 
 private:
+    void followFieldWindow();
+    void prepare(const class Job &job, const volume::Volume &volume,
+                 const std::optional<classify::FieldWindow> &window, double from);
+
     Document &m_document;
     JobRunner &m_jobs;
+    /// The field's window that the last engine was, or is being, made for.
+    std::optional<classify::FieldWindow> m_preparedWindow;
 };
 
 } // namespace pellucid::ui

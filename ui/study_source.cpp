@@ -53,6 +53,11 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
         for (const std::string &warning : s.volume->notes.warnings)
             source.warnings << QString::fromStdString(warning);
         source.placed = s.volume->placed;
+        const auto part = [](const std::string &text) { return QString::fromStdString(text); };
+        source.patientKey = part(s.patient->id) + "\n" + part(s.patient->name);
+        source.studyKey = source.patientKey + "\n" + part(s.study->uid);
+        source.key = source.studyKey + "\n" + part(s.series->uid) + "\n" + part(s.volume->label) +
+                     "\n" + source.detail + "\n" + part(s.volume->nrrd.string());
         // The catalogue is kept alive by whoever may load from it.
         source.load = [catalogue, entry = s.volume](const task::Progress &progress,
                                                     const dicom::LoadObserver &observer) {
@@ -82,6 +87,8 @@ StudySource phantomSource(const QString &name) {
                     : name == "chest" ? tr("Chest phantom")
                                       : name;
     source.detail = sizeText(lattice);
+    source.patientKey = source.studyKey = "phantoms";
+    source.key = "phantoms\n" + name;
     source.load = [kind, lattice](const task::Progress &progress, const dicom::LoadObserver &) {
         return dicom::LoadedVolume{phantom::makePhantom(kind, lattice, progress), {}};
     };

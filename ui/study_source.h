@@ -17,6 +17,8 @@ namespace pellucid::ui {
 /// carries are for the eye only and go into no log, no title and no file name.
 struct StudySource {
     QString patient, study, series, detail;
+    /// What tells patients, studies and volumes apart; never the names, which may be equal.
+    QString patientKey, studyKey, key;
     QStringList warnings;
     bool placed = true;
     /// Thread-safe; see dicom::loadVolume.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <pthread.h>
 #include <string>
@@ -36,6 +37,9 @@ std::stop_source &stopOnInterrupt() {
         int received = 0;
         sigwait(&signals, &received);
         source.request_stop();
+        // Who asks twice does not want to wait for a transform to finish.
+        sigwait(&signals, &received);
+        std::_Exit(cancelledExit);
     }).detach();
     return source;
 }
@@ -71,5 +75,7 @@ int main(int argc, char **argv) {
     } catch (const std::exception &error) {
         return report(std::string("internal error: ") + error.what(), internalExit);
     }
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        return report("standard output cannot be written", int(task::ErrorCode::output));
     return 0;
 }

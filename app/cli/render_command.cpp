@@ -21,6 +21,7 @@
 #include "core/render/compose.h"
 #include "core/render/cpu_engine.h"
 #include "core/task/error.h"
+#include "core/task/memory.h"
 #include "core/volume/nrrd.h"
 
 namespace pellucid::cli {
@@ -106,7 +107,7 @@ render::Scene sceneFor(const Options &o, const CLI::App &command, const volume::
                         "--orientation excludes --view, --azimuth, --elevation and --roll");
         const auto q = parseNumbers("--orientation", o.orientation, ',', 4);
         const glm::dquat rotation(q[0], q[1], q[2], q[3]);
-        if (!(glm::length(rotation) > 1e-6))
+        if (!(glm::length(rotation) > 0.0))
             throw Error(ErrorCode::usage, "--orientation: the quaternion must not be zero");
         scene.camera.orientation = glm::normalize(rotation);
     } else if (o.scene.empty() || given("--view") || given("--azimuth") || given("--elevation") ||
@@ -204,7 +205,8 @@ public:
                 std::make_unique<render::CpuEngine>(std::make_shared<const fourier::Spectrum>(
                     fourier::Spectrum::prepare(field.values, m_plan.spectrum, progress)));
         } else {
-            m_plan.bytes = reference::WideKernel::bytes(field.support);
+            m_plan.bytes = reference::WideKernel::bytes(field.support) +
+                           reference::sliceBytes(field.values.lattice(), scene.camera, scene.image);
             if (m_plan.bytes > budget.bytes)
                 throw Error(ErrorCode::outOfMemory,
                             fmt::format("a tolerance of {} needs {} MB, {} MB are allowed",
@@ -276,7 +278,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const classify::FieldWindow window =
         scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
     const std::size_t held = volume.bytes() + volume.lattice().size().count() * sizeof(float);
-    render::Budget budget;
+    // Asking for more than there is would end in the system killing the program.
+    render::Budget budget{task::availableMemoryBytes()};
     if (command.count("--memory") > 0) {
         if (o.memory < held)
             throw Error(ErrorCode::outOfMemory,

@@ -85,7 +85,8 @@ void decodeJpeg2000Frames(DcmDataset &dataset, DecodedImage &image) {
     std::vector<unsigned long> starts;
     const unsigned long fragments = sequence->card();
     for (unsigned long n = 1; n < fragments; ++n)
-        if (startsCodestream(*sequence, n))
+        // The fragments of one frame belong together, whatever they start with.
+        if (h.frames.size() == 1 ? n == 1 : startsCodestream(*sequence, n))
             starts.push_back(n);
     if (starts.size() != h.frames.size())
         fail(fmt::format("holds {} compressed frames, {} are announced", starts.size(),
@@ -153,7 +154,7 @@ DecodedImage decodeImage(std::span<const std::byte> bytes) {
         DcmDataset *dataset = file.getDataset();
         if (dataset == nullptr || dataset->card() == 0)
             fail("is not a DICOM file");
-        DecodedImage image{headerOf(*dataset), {}};
+        DecodedImage image{headerOf(*dataset, bytes.size()), {}};
         if (const auto reason = whyUnusable(image.header))
             fail(*reason);
         // DCMTK keeps what it has of an element that the file does not finish, and fills the rest.
@@ -164,10 +165,12 @@ DecodedImage decodeImage(std::span<const std::byte> bytes) {
         const E_TransferSyntax syntax = dataset->getOriginalXfer();
         const DcmXfer transfer(syntax);
         const std::size_t plane = std::size_t(image.header.rows) * image.header.columns;
-        // A frame takes at least a few bytes, however well it is compressed.
-        if (image.header.frames.size() > bytes.size() / 2 ||
-            (!transfer.isEncapsulated() && syntax != EXS_DeflatedLittleEndianExplicit &&
-             plane * image.header.frames.size() > bytes.size()))
+        const std::size_t announced = plane * image.header.frames.size(); // at most 2^32 * 10^5
+        const bool plain = !transfer.isEncapsulated() && syntax != EXS_DeflatedLittleEndianExplicit;
+        // No coder in use packs more samples into a byte, not even of an empty image; what
+        // announces more is refused before memory is asked for.
+        constexpr std::size_t mostSamplesPerByte = 20000;
+        if (announced / (plain ? 1 : mostSamplesPerByte) > bytes.size())
             fail("the pixels are truncated");
         image.samples.resize(plane * image.header.frames.size());
         if (isJpeg2000(syntax)) {
@@ -180,13 +183,13 @@ DecodedImage decodeImage(std::span<const std::byte> bytes) {
             if (decoded.bad())
                 fail(fmt::format("{}: {}", transfer.getXferName(), decoded.text()));
             // The decoder may have widened or narrowed the samples.
-            const InstanceHeader after = headerOf(*dataset);
+            const InstanceHeader after = headerOf(*dataset, bytes.size());
             image.header.bitsAllocated = after.bitsAllocated;
             image.header.bitsStored = after.bitsStored;
             image.header.highBit = after.highBit;
             image.header.isSigned = after.isSigned;
             if (after.rows != image.header.rows || after.columns != image.header.columns ||
-                after.samplesPerPixel != 1)
+                after.samplesPerPixel != 1 || whyUnusable(image.header))
                 fail("the compressed image is not what the header says");
         }
         decodePlainFrames(*dataset, image);

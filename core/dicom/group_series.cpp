@@ -36,13 +36,7 @@ bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
 }
 
 bool samePlace(const PlacedFrame &a, const PlacedFrame &b) {
-    return std::abs(a.depthMm() - b.depthMm()) < 0.01;
-}
-
-void sortByDepth(Frames &frames) {
-    std::stable_sort(frames.begin(), frames.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
-        return a.depthMm() < b.depthMm();
-    });
+    return std::abs(a.depthMm - b.depthMm) < 0.01;
 }
 
 bool placesRepeat(const Frames &sorted) {

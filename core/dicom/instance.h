@@ -43,6 +43,7 @@ struct InstanceHeader {
     int seriesNumber = 0, instanceNumber = 0;
     bool hasPixels = false, floatPixels = false;
     int rows = 0, columns = 0, samplesPerPixel = 1;
+    int announcedFrames = 1; ///< NumberOfFrames, whether or not there is room for them
     int bitsAllocated = 0, bitsStored = 0, highBit = 0;
     bool isSigned = false, lossy = false;
     std::string photometric, rescaleType;

@@ -2,6 +2,7 @@
 #include "core/dicom/load_volume.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -56,8 +57,8 @@ double rescaled(const InstanceHeader &h, int frame, int stored) {
     return r.slope * stored + r.intercept;
 }
 
-// Whether every value of a file fits int16 without loss. HU beyond int16 do not occur: they
-// saturate.
+// Whether the values of a file are likely to fit int16 without loss. HU hardly ever use all of the
+// 16 bits that their header announces, so they are tried.
 bool fitsShort(const InstanceHeader &h, volume::ValueUnit unit) {
     if (!h.modalityTable.empty())
         return *std::max_element(h.modalityTable.begin(), h.modalityTable.end()) <= 32767;
@@ -95,8 +96,9 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
     return Padding{std::min(value, limit), std::max(value, limit)};
 }
 
+// False if a value does not fit T.
 template <class T>
-void place(const DecodedImage &image, int frame, volume::ValueUnit unit, T *out) {
+bool place(const DecodedImage &image, int frame, volume::ValueUnit unit, T *out) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
     const std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
@@ -110,9 +112,12 @@ void place(const DecodedImage &image, int frame, volume::ValueUnit unit, T *out)
         const double value = rescaled(h, frame, stored);
         if constexpr (std::is_same_v<T, float>)
             out[n] = float(value);
-        else // the lowest code marks missing samples
-            out[n] = T(std::clamp(value, -32767.0, 32767.0));
+        else if (std::abs(value) <= 32767.0) // the lowest code marks missing samples
+            out[n] = T(value);
+        else
+            return false;
     }
+    return true;
 }
 
 // Linear interpolation along the stack, from where the frames are to where the slices shall be.
@@ -171,20 +176,21 @@ public:
     }
 
     LoadedVolume load() {
-        // The first file decides the type; one that disagrees later sends everything to float.
+        // The first readable file decides the type; a value that does not fit sends all to float.
+        bool shorts = true;
         for (const auto &path : m_paths) {
             try {
-                const DecodedImage first = decode(path);
-                if (fitsShort(first.header, m_entry.unit))
-                    if (auto loaded = loadAs<std::int16_t>())
-                        return std::move(*loaded);
-                return std::move(*loadAs<float>());
+                shorts = fitsShort(decode(path).header, m_entry.unit);
+                break;
             } catch (const Error &error) {
                 if (error.code() != ErrorCode::unusable || path == m_paths.back())
                     throw;
             }
         }
-        throw Error(ErrorCode::unusable, "holds no images");
+        if (shorts)
+            if (auto loaded = loadAs<std::int16_t>())
+                return std::move(*loaded);
+        return std::move(*loadAs<float>());
     }
 
 private:
@@ -205,6 +211,8 @@ private:
     template <class T> std::optional<LoadedVolume> loadAs() {
         const std::size_t plane = std::size_t(m_columns()) * m_rows();
         std::vector<T> samples(plane * m_entry.frames.size(), Missing<T>::value);
+        // Set when a slice is complete, so that a preview copies no half-written one.
+        std::vector<std::atomic<bool>> arrived(m_entry.frames.size());
         std::vector<std::pair<std::size_t, Skipped>> failed;
         std::mutex guard;
         std::size_t done = 0;
@@ -212,7 +220,7 @@ private:
         auto lastPreview = Clock::now();
         tbb::parallel_for(std::size_t(0), m_paths.size(), [&](std::size_t n) {
             m_progress.check();
-            const auto &frames = m_files[m_paths[n]];
+            const auto &frames = m_files.at(m_paths[n]);
             try {
                 const DecodedImage image = decode(m_paths[n]);
                 if (std::is_same_v<T, std::int16_t> && !fitsShort(image.header, m_entry.unit)) {
@@ -220,10 +228,17 @@ private:
                     fits = false;
                     return;
                 }
-                for (const std::size_t slice : frames)
-                    if (m_entry.frames[slice].frame < int(image.header.frames.size()))
-                        place(image, m_entry.frames[slice].frame, m_entry.unit,
-                              samples.data() + slice * plane);
+                for (const std::size_t slice : frames) {
+                    const int frame = m_entry.frames[slice].frame;
+                    if (frame >= int(image.header.frames.size()))
+                        throw Error(ErrorCode::unusable, "changed while it was read");
+                    if (!place(image, frame, m_entry.unit, samples.data() + slice * plane)) {
+                        const std::lock_guard lock(guard);
+                        fits = false;
+                        return;
+                    }
+                    arrived[slice].store(true, std::memory_order_release);
+                }
             } catch (const Error &error) {
                 if (error.code() != ErrorCode::unusable)
                     throw;
@@ -233,10 +248,9 @@ private:
             }
             const std::lock_guard lock(guard);
             m_progress.report(0.9 * double(++done) / double(m_paths.size()));
-            if (m_observer.preview && m_entry.geometry.frameOffsetsMm.empty() &&
-                done < m_paths.size() && Clock::now() - lastPreview > previewInterval) {
-                m_observer.preview(
-                    volumeOf(std::vector<T>(samples), m_entry.geometry.lattice, m_entry.notes));
+            if (m_observer.preview && done < m_paths.size() &&
+                Clock::now() - lastPreview > previewInterval) {
+                m_observer.preview(preview(samples, arrived));
                 lastPreview = Clock::now();
             }
         });
@@ -254,6 +268,21 @@ private:
     }
 
     template <class T>
+    volume::Volume preview(const std::vector<T> &samples,
+                           const std::vector<std::atomic<bool>> &arrived) const {
+        const std::size_t plane = std::size_t(m_columns()) * m_rows();
+        std::vector<T> soFar(samples.size(), Missing<T>::value);
+        for (std::size_t slice = 0; slice < arrived.size(); ++slice)
+            if (arrived[slice].load(std::memory_order_acquire))
+                std::copy_n(samples.begin() + std::ptrdiff_t(slice * plane), plane,
+                            soFar.begin() + std::ptrdiff_t(slice * plane));
+        fillMissing(soFar);
+        if (!m_entry.geometry.frameOffsetsMm.empty())
+            soFar = resampled(soFar, m_entry.geometry, m_progress);
+        return volumeOf(std::move(soFar), m_entry.geometry.lattice, m_entry.notes);
+    }
+
+    template <class T>
     volume::Volume volumeOf(std::vector<T> samples, const volume::Lattice &lattice,
                             const volume::VolumeNotes &notes) const {
         return volume::Volume(lattice, std::move(samples), m_entry.unit, notes);
@@ -263,9 +292,9 @@ private:
     // them, as if they had never been in the folder.
     LoadedVolume loadWithout(const std::vector<std::pair<std::size_t, Skipped>> &failed) const {
         std::vector<Skipped> skipped;
-        VolumeEntry rest = m_entry;
-        rest.frames.clear();
         std::vector<SeriesFile> files;
+        // Grouping sees the frames of this volume only, renumbered; this leads back.
+        std::map<std::filesystem::path, std::vector<int>> originalFrame;
         for (const auto &path : m_paths) {
             const auto &frames = m_files.at(path);
             const auto it = std::find_if(failed.begin(), failed.end(),
@@ -275,13 +304,13 @@ private:
                 continue;
             }
             SeriesFile file{path, readHeader(path)};
-            // Only the frames of this volume.
             std::vector<FrameHeader> kept;
-            for (const std::size_t slice : frames)
-                kept.push_back(file.header.frames.at(std::size_t(m_entry.frames[slice].frame)));
+            for (const std::size_t slice : frames) {
+                const int frame = m_entry.frames[slice].frame;
+                kept.push_back(file.header.frames.at(std::size_t(frame)));
+                originalFrame[path].push_back(frame);
+            }
             file.header.frames = std::move(kept);
-            for (const std::size_t slice : frames)
-                rest.frames.push_back(m_entry.frames[slice]);
             files.push_back(std::move(file));
         }
         if (files.empty())
@@ -292,9 +321,16 @@ private:
             throw Error(ErrorCode::unusable,
                         skipped.front().reason + "; the other slices make no volume",
                         skipped.front().path);
+        VolumeEntry rest = m_entry;
+        rest.frames = entries[0].frames;
+        for (FrameReference &frame : rest.frames)
+            frame.frame = originalFrame.at(frame.path).at(std::size_t(frame.frame));
         rest.geometry = entries[0].geometry;
         rest.placed = entries[0].placed;
         rest.notes.placed = rest.placed;
+        // What was said of the geometry with all slices no longer holds.
+        std::erase_if(rest.notes.warnings,
+                      [](const std::string &w) { return w.rfind("uneven", 0) == 0; });
         for (const Skipped &s : skipped)
             rest.notes.warnings.push_back("without " + s.path.filename().string() + ": " +
                                           s.reason);

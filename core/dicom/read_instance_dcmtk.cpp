@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -174,8 +175,9 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
     const auto descriptor = numbers(item, DCM_LUTDescriptor, 3);
     const Uint16 *data = nullptr;
     unsigned long count = 0;
-    if (descriptor.size() != 3 || item->findAndGetUint16Array(DCM_LUTData, data, &count).bad() ||
-        data == nullptr)
+    if (descriptor.size() != 3 || !(descriptor[0] >= 0.0 && descriptor[0] <= 65536.0) ||
+        !(std::abs(descriptor[1]) <= 65536.0) ||
+        item->findAndGetUint16Array(DCM_LUTData, data, &count).bad() || data == nullptr)
         return;
     // The descriptor's first value 0 means 65536 entries; the second is signed as the pixels are.
     const std::size_t entries = descriptor[0] == 0.0 ? 65536 : std::size_t(descriptor[0]);
@@ -199,7 +201,7 @@ bool looksLikeDicom(std::span<const char> start) {
 
 } // namespace
 
-InstanceHeader headerOf(DcmDataset &dataset) {
+InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     // Names in any character set come out as UTF-8; where conversion fails the bytes stay.
     if (dataset.tagExistsWithValue(DCM_SpecificCharacterSet))
         (void)dataset.convertToUTF8();
@@ -236,9 +238,9 @@ InstanceHeader headerOf(DcmDataset &dataset) {
     h.photometric = text(&dataset, DCM_PhotometricInterpretation);
     h.rescaleType = text(&dataset, DCM_RescaleType);
     if (const auto value = number(&dataset, DCM_PixelPaddingValue))
-        h.paddingValue = int(*value);
+        h.paddingValue = int(std::clamp(*value, -65536.0, 65536.0));
     if (const auto value = number(&dataset, DCM_PixelPaddingRangeLimit))
-        h.paddingLimit = int(*value);
+        h.paddingLimit = int(std::clamp(*value, -65536.0, 65536.0));
     h.windows = readWindows(&dataset);
     readModalityTable(dataset, h);
 
@@ -257,8 +259,9 @@ InstanceHeader headerOf(DcmDataset &dataset) {
                 h.windows = readWindows(lut);
     }
     const auto count = number(&dataset, DCM_NumberOfFrames);
-    const int frames = count && *count >= 1.0 && *count < 1e6 ? int(*count) : 1;
-    const auto offsets = numbers(&dataset, DCM_GridFrameOffsetVector, 100000);
+    const double most = std::min(100000.0, double(fileBytes));
+    const int frames = count && *count >= 1.0 ? int(std::min(*count, most)) : 1;
+    h.announcedFrames = count && *count >= 1.0 && *count < 1e9 ? int(*count) : 1;
     for (int n = 0; n < frames; ++n) {
         FrameHeader frame = shared;
         if (DcmItem *groups = sequenceItem(&dataset, DCM_PerFrameFunctionalGroupsSequence, n)) {
@@ -303,7 +306,8 @@ InstanceHeader readHeader(const std::filesystem::path &path) {
                     loaded.bad() ? std::string("is not readable: ") + loaded.text()
                                  : "holds no data",
                     path);
-    InstanceHeader header = headerOf(*dataset);
+    std::error_code ignored;
+    InstanceHeader header = headerOf(*dataset, std::filesystem::file_size(path, ignored));
     if (header.sopClassUid.empty())
         header.sopClassUid = text(file.getMetaInfo(), DCM_MediaStorageSOPClassUID);
     // What follows damaged elements is lost, but a complete image in front of them is not.
@@ -324,6 +328,10 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
                                       : "has no pixels (" + h.sopClassName + ")";
     if (h.rows < 1 || h.columns < 1)
         return "has an image without size";
+    if (h.rows > 65535 || h.columns > 65535)
+        return "has an image larger than DICOM allows";
+    if (h.announcedFrames != int(h.frames.size()))
+        return fmt::format("announces {} frames, more than the file can hold", h.announcedFrames);
     if (h.samplesPerPixel != 1 || (h.photometric != "MONOCHROME1" &&
                                    h.photometric != "MONOCHROME2" && !h.photometric.empty()))
         return "is a colour image (" + h.photometric + ")";

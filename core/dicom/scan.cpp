@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <new>
 #include <set>
 #include <tuple>
 
@@ -52,7 +53,9 @@ public:
 
 private:
     void addFile(const fs::path &path) {
-        if (m_seen.insert(fs::weakly_canonical(path)).second)
+        std::error_code error;
+        const fs::path canonical = fs::weakly_canonical(path, error);
+        if (m_seen.insert(error ? path : canonical).second)
             files.push_back(path);
     }
 
@@ -81,7 +84,8 @@ private:
                 skipped.push_back({current, error.message()});
                 continue;
             }
-            for (const fs::directory_entry &entry : entries) {
+            for (; entries != fs::directory_iterator(); entries.increment(error)) {
+                const fs::directory_entry &entry = *entries;
                 std::error_code ignored;
                 const bool link = entry.is_symlink(ignored);
                 if (entry.is_directory(ignored)) {
@@ -96,6 +100,8 @@ private:
                         {entry.path(), link ? "is a broken link" : "is not a regular file"});
                 }
             }
+            if (error) // a share or a CD that fails half way
+                skipped.push_back({current, error.message()});
         }
         std::sort(found.begin(), found.end());
         for (const fs::path &path : found)
@@ -119,10 +125,13 @@ void describe(VolumeEntry &entry, const std::vector<SeriesFile> &files) {
     entry.notes.placed = entry.placed;
     if (!entry.placed)
         entry.notes.warnings.push_back("images only: " + entry.notPlacedReason);
-    for (const FrameReference &frame : entry.frames)
-        for (const SeriesFile &f : files)
-            if (f.path == frame.path && f.header.lossy)
-                entry.notes.lossy = true;
+    std::set<fs::path> lossy;
+    for (const SeriesFile &f : files)
+        if (f.header.lossy)
+            lossy.insert(f.path);
+    entry.notes.lossy =
+        std::any_of(entry.frames.begin(), entry.frames.end(),
+                    [&](const FrameReference &frame) { return lossy.contains(frame.path); });
     const bool hounsfield =
         h.rescaleType == "HU" ||
         (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
@@ -185,6 +194,8 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
                     reasons[n] = *reason;
             } catch (const Error &error) {
                 reasons[n] = error.reason();
+            } catch (const std::bad_alloc &) {
+                reasons[n] = "needs more memory than there is";
             }
         }
         const std::lock_guard lock(reporting);

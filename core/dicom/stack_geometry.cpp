@@ -16,6 +16,9 @@ namespace {
 // A gap wider than this many medians is a hole in the patient, not a change of spacing.
 constexpr double largestGapRatio = 2.5;
 
+// Resampling may not multiply the slices by more than this: such gaps are strays, not a spacing.
+constexpr double mostSlicesPerFrame = 4.0;
+
 glm::dvec3 normalOf(const FrameHeader &h) {
     return glm::cross(*h.rowAxis, *h.columnAxis);
 }
@@ -68,8 +71,13 @@ std::string unevenWarning(const std::vector<PlacedFrame> &frames, const std::vec
 
 } // namespace
 
-double PlacedFrame::depthMm() const {
-    return glm::dot(normalOf(header), *header.positionMm);
+void sortByDepth(std::vector<PlacedFrame> &frames) {
+    const glm::dvec3 normal = normalOf(frames.front().header);
+    for (PlacedFrame &frame : frames)
+        frame.depthMm = glm::dot(normal, *frame.header.positionMm);
+    std::stable_sort(frames.begin(), frames.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
+        return a.depthMm < b.depthMm;
+    });
 }
 
 // Positions are written with a few digits; half a percent also absorbs a tenth rounded off 20 mm.
@@ -94,7 +102,7 @@ StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {
         }
         std::vector<double> depths;
         for (const PlacedFrame &frame : frames)
-            depths.push_back(frame.depthMm() - frames.front().depthMm());
+            depths.push_back(frame.depthMm - frames.front().depthMm);
         const double total = depths.back();
         // One millimetre along the normal moves the stack by this much: along the normal for a
         // plain scan, askew for a tilted gantry.
@@ -112,9 +120,11 @@ StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {
         }
         const std::vector<double> gaps = gapsOf(depths);
         const double mean = total / (count - 1);
-        const bool even = std::all_of(gaps.begin(), gaps.end(), [&](double gap) {
-            return std::abs(gap - mean) <= spacingToleranceMm(mean);
-        });
+        // Gaps that creep by less than the tolerance each may add up: the places count too.
+        bool even = true;
+        for (int n = 1; n < count; ++n)
+            even = even && std::abs(gaps[std::size_t(n) - 1] - mean) <= spacingToleranceMm(mean) &&
+                   std::abs(depths[std::size_t(n)] - n * mean) <= std::max(0.02, 0.05 * mean);
         if (even) {
             result.geometry.lattice = volume::Lattice::make(
                 {columns, rows, count}, {*first.positionMm}, {across, down, mean * along});
@@ -131,6 +141,13 @@ StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {
             return result;
         }
         const double step = smallestRepeatedGap(gaps);
+        if (total / step + 1.0 > mostSlicesPerFrame * count) {
+            result.refusal = fmt::format("slice distances from {:.3f} to {:.1f} mm have no common "
+                                         "step",
+                                         *std::min_element(gaps.begin(), gaps.end()), *widest);
+            return result;
+        }
+        // A step that ends a little past the last frame still belongs to it.
         const int slices = int(std::floor(total / step + 0.01)) + 1;
         result.geometry.lattice = volume::Lattice::make(
             {columns, rows, slices}, {*first.positionMm}, {across, down, step * along});

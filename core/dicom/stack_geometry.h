@@ -17,8 +17,10 @@ struct PlacedFrame {
     int instanceNumber = 0;
     std::string sopInstanceUid;
 
-    /// Position along the slices' normal, mm. Needs a position and an orientation.
-    double depthMm() const;
+    /// Position along the normal of the block it belongs to, mm; one normal for the whole block,
+    /// because axes that differ in their last digit would move a distant image by many slices'
+    /// tolerance.
+    double depthMm = 0.0;
 };
 
 struct StackResult {
@@ -30,6 +32,10 @@ struct StackResult {
 
 /// Neighbouring slices that differ by less than this from the common distance are evenly spaced.
 double spacingToleranceMm(double spacingMm);
+
+/// Sets the depths along the first frame's normal and sorts by them. Every frame needs a position
+/// and an orientation.
+void sortByDepth(std::vector<PlacedFrame> &frames);
 
 /// The lattice of frames that are sorted by depth and share size, orientation and pixel spacing.
 /// Spacing and tilt come from the positions alone. Uneven distances are resampled onto the smallest

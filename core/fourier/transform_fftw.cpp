@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fourier/transform.h"
 
-#include <algorithm>
 #include <array>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include <fftw3.h>
+#include <tbb/parallel_for.h>
 
 namespace pellucid::fourier {
 
@@ -19,8 +18,12 @@ std::mutex &plannerMutex() {
     return mutex;
 }
 
-int threadCount() {
-    return int(std::max(1U, std::thread::hardware_concurrency()));
+// Plans are cut into this many parts whatever the machine, and oneTBB runs the parts on the threads
+// that there are: the same bits for any number of threads, and one limit for all of them.
+constexpr int parts = 8;
+
+void runParts(void *(*work)(char *), char *jobs, std::size_t size, int count, void *) {
+    tbb::parallel_for(0, count, [=](int n) { work(jobs + size * std::size_t(n)); });
 }
 
 template <class Real> struct Fftw;
@@ -29,8 +32,12 @@ template <> struct Fftw<float> {
     using Plan = fftwf_plan;
     using Complex = fftwf_complex;
     static void useThreads(int count) {
-        static const int ready = fftwf_init_threads();
-        if (ready != 0)
+        static const bool ready = [] {
+            const bool started = fftwf_init_threads() != 0;
+            fftwf_threads_set_callback(runParts, nullptr);
+            return started;
+        }();
+        if (ready)
             fftwf_plan_with_nthreads(count);
     }
     static constexpr auto planForward = &fftwf_plan_many_dft_r2c;
@@ -44,8 +51,12 @@ template <> struct Fftw<double> {
     using Plan = fftw_plan;
     using Complex = fftw_complex;
     static void useThreads(int count) {
-        static const int ready = fftw_init_threads();
-        if (ready != 0)
+        static const bool ready = [] {
+            const bool started = fftw_init_threads() != 0;
+            fftw_threads_set_callback(runParts, nullptr);
+            return started;
+        }();
+        if (ready)
             fftw_plan_with_nthreads(count);
     }
     static constexpr auto planForward = &fftw_plan_many_dft_r2c;
@@ -66,7 +77,7 @@ void forward(std::complex<Real> *data, volume::GridSize size, int rowStride, int
     typename F::Plan plan;
     {
         const std::lock_guard lock(plannerMutex());
-        F::useThreads(threadCount());
+        F::useThreads(parts);
         plan = F::planForward(3, n.data(), 1, real, realRows.data(), 1, 0, complex,
                               complexRows.data(), 1, 0, FFTW_ESTIMATE);
     }
@@ -96,8 +107,8 @@ template <class Real>
 InverseTransform2d<Real>::InverseTransform2d(int rows, int columns)
     : m_plan(new Plan{rows, columns, {}}) {
     using F = Fftw<Real>;
-    // Below 512^2 starting threads costs more than they save.
-    const int threads = std::size_t(rows) * columns >= 512 * 512 ? threadCount() : 1;
+    // Below 512^2 handing out parts costs more than it saves.
+    const int threads = std::size_t(rows) * columns >= 512 * 512 ? parts : 1;
     // ESTIMATE does not touch the arrays, which only tell that in and out differ; UNALIGNED lets
     // the plan run on any arrays later.
     std::vector<Real> out(2);

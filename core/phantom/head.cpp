@@ -114,24 +114,28 @@ private:
     }
 
     // The floor of the skull, stepping down from the anterior to the posterior fossa.
-    static double floorZ(double y) {
+    // It rises over the orbits and falls beside the middle: seen from the side it is no straight
+    // line.
+    static double floorZ(double x, double y) {
         const auto step = [](double at, double width) {
             return 0.5 * (1.0 + std::tanh(at / width));
         };
-        return 2.0 - 20.0 * step(y + 28.0, 8.0) - 26.0 * step(y - 22.0, 8.0);
+        return 2.0 + 5.0 * std::sin(0.1 * std::abs(x)) - 0.0012 * x * x -
+               20.0 * step(y + 28.0, 8.0) - 26.0 * step(y - 22.0, 8.0);
     }
 
     static Shape cavity() {
         const Shape vault = ellipsoid({0, 12, 30}, {63.5, 82, 65});
-        return {[=](const dvec3 &p) { return std::max(vault(p), 0.8 * (floorZ(p.y) - p.z)); },
+        return {[=](const dvec3 &p) { return std::max(vault(p), 0.8 * (floorZ(p.x, p.y) - p.z)); },
                 vault.low, vault.high};
     }
 
     void paintSkull() {
         const Shape vault = ellipsoid({0, 12, 30}, {70.5, 90, 72});
-        const Shape outer{
-            [=](const dvec3 &p) { return std::max(vault(p), 0.8 * (floorZ(p.y) - 6.0 - p.z)); },
-            vault.low, vault.high};
+        const Shape outer{[=](const dvec3 &p) {
+                              return std::max(vault(p), 0.8 * (floorZ(p.x, p.y) - 5.0 - p.z));
+                          },
+                          vault.low, vault.high};
         const Shape inner = cavity();
         const Shape foramen = rod({0, 33, -70}, {0, 33, -25}, 15, 15);
         const Shape skull = without(without(outer, inner), foramen);

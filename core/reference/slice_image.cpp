@@ -12,8 +12,14 @@
 
 namespace pellucid::reference {
 
-std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
-                               const render::Camera &camera, const render::ImageDefinition &image) {
+namespace {
+
+struct SliceSize {
+    int columns, rows;
+};
+
+SliceSize sliceSize(const volume::Lattice &lattice, const render::Camera &camera,
+                    const render::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
     // Eight times the ringing of the band's edge, or of the lattice's own where that is tapered
     // too.
@@ -26,8 +32,21 @@ std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::La
             std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);
         return fourier::smoothEvenSize(int(std::ceil(needed + ringing)));
     };
-    const int columns = cells(camera.width, camera.panMm.x),
-              rows = cells(camera.height, camera.panMm.y);
+    return {cells(camera.width, camera.panMm.x), cells(camera.height, camera.panMm.y)};
+}
+
+} // namespace
+
+std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &camera,
+                       const render::ImageDefinition &image) {
+    const SliceSize size = sliceSize(lattice, camera, image);
+    // The slice, the plane it becomes, and the image.
+    return 3 * sizeof(double) * std::size_t(size.columns) * std::size_t(size.rows);
+}
+
+std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
+                               const render::Camera &camera, const render::ImageDefinition &image) {
+    const auto [columns, rows] = sliceSize(lattice, camera, image);
     const double du = 1.0 / (columns * camera.pixelMm), dv = 1.0 / (rows * camera.pixelMm);
     const double limit = 0.5 / camera.pixelMm;
     const glm::dmat3 axes = camera.axes();

@@ -23,4 +23,8 @@ using SpectrumSampler = std::function<void(const std::vector<glm::dvec3> &freque
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
                                const render::Camera &camera, const render::ImageDefinition &image);
 
+/// Bytes that making such an image takes, beside the spectrum.
+std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &camera,
+                       const render::ImageDefinition &image);
+
 } // namespace pellucid::reference

@@ -26,24 +26,31 @@ double milliseconds(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-// K(q) for one axis, by linear interpolation. With 2048 entries per cycle the interpolation error
-// is below (1/2048)^2 / 8 * max|K''| = 3e-8 * 7.
+// K(q) for one axis. The smooth ones come from a table by linear interpolation: with 2048 entries
+// per cycle the error is below (1/2048)^2 / 8 * max|K''| = 3e-8 * 7. The band limit has corners and
+// is evaluated; so is what lies beyond the table, where pixels are much finer than the samples.
 class FactorTable {
 public:
-    FactorTable(const ImageDefinition &image, double largest) {
-        m_values.resize(std::size_t(std::ceil(largest * perCycle)) + 2);
+    explicit FactorTable(const ImageDefinition &image) : m_image(image) {
+        if (image.reconstruction == Reconstruction::bandLimited)
+            return;
+        m_values.resize(std::size_t(largest * perCycle) + 2);
         for (std::size_t n = 0; n < m_values.size(); ++n)
             m_values[n] = float(reconstructionFactor(image, double(n) / perCycle));
     }
     float operator()(double q) const {
-        const double at = std::abs(q) * perCycle;
+        q = std::abs(q);
+        if (m_values.empty() || q >= largest)
+            return float(reconstructionFactor(m_image, q));
+        const double at = q * perCycle;
         const auto n = std::size_t(at);
         const auto f = float(at - double(n));
         return m_values[n] + f * (m_values[n + 1] - m_values[n]);
     }
 
 private:
-    static constexpr double perCycle = 2048.0;
+    static constexpr double perCycle = 2048.0, largest = 16.0;
+    const ImageDefinition &m_image;
     std::vector<float> m_values;
 };
 
@@ -128,9 +135,7 @@ void sliceRows(const fourier::Spectrum &spectrum, const Camera &camera,
     const glm::dmat3 steps(lattice.step(0), lattice.step(1), lattice.step(2));
     const glm::dvec3 qu = glm::transpose(steps) * axes[0] * du;
     const glm::dvec3 qv = glm::transpose(steps) * axes[1] * -dv;
-    const double longest =
-        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
-    const FactorTable factor(image, longest * limit + 1e-6);
+    const FactorTable factor(image);
 
     // exp(+i 2 pi s.(c - x_wrap)) and the position of the first pixel, split into u and v.
     const glm::dvec3 shift = lattice.center().mm - spectrum.wrapPoint().mm;
@@ -254,7 +259,9 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         for (int c = 0; c < camera.width; c += grid.columns)
             std::copy_n(from, std::min(grid.columns, camera.width - c), to + c);
     }
-    if (coversLattice(camera, m_spectrum->lattice()))
+    // A sharp band limit rings beyond the image: there the image's own sum is not P(0).
+    if (image.reconstruction != Reconstruction::bandLimited && image.rollOff >= 0.03 &&
+        coversLattice(camera, m_spectrum->lattice()))
         conserveMass(result, mass);
     if (times != nullptr)
         *times = {milliseconds(start, sliced), milliseconds(sliced, Clock::now())};

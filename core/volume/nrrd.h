@@ -10,7 +10,7 @@ namespace pellucid::volume {
 
 /// Reads a three-dimensional scalar NRRD: any scalar type, either endianness, raw or gzip, attached
 /// or detached, any three directions; RAS and LAS are converted to LPS, a missing origin is 0.
-/// Integers that fit become int16, everything else float32.
+/// 8 and 16 bits become int16 where every value fits, everything else float32.
 /// *Throws* Error{unusable} naming the file and what it does not support.
 Volume readNrrd(const std::filesystem::path &path, const task::Progress &progress = {});
 

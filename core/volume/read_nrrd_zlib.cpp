@@ -357,9 +357,10 @@ Layout parseLayout(const fs::path &path) {
     for (const long long n : sizes) {
         if (n < 1 || n > std::numeric_limits<int>::max() / 4)
             fields.fail("NRRD size out of range");
-        count *= std::uint64_t(n);
-        if (count > maxSamples)
+        // Divided, not multiplied: the product of three sizes may wrap.
+        if (std::uint64_t(n) > maxSamples / count)
             fields.fail("the NRRD volume is too large");
+        count *= std::uint64_t(n);
     }
     Layout layout;
     const std::string typeName = fields.get({"type"});

@@ -288,9 +288,10 @@ private slots:
         const double middle = meanGrey(front, QRect(w / 2 - 20, h / 2 - 20, 40, 40));
         const double lung = meanGrey(front, QRect(w * 38 / 100 - 20, h / 2 - 20, 40, 40));
         QVERIFY2(middle > lung + 30.0, "mediastinum over lung");
-        // The liver's dome stands higher on the patient's right, at image left.
-        const double low = 0.66;
-        QVERIFY(meanGrey(front, QRect(w * 42 / 100 - 15, int(h * low) - 15, 30, 30)) > lung);
+        // The heart lies to the patient's left, at image right; at image left there is lung.
+        const double heart = meanGrey(front, QRect(w * 56 / 100 - 12, h * 60 / 100 - 12, 24, 24));
+        const double mirror = meanGrey(front, QRect(w * 44 / 100 - 12, h * 60 / 100 - 12, 24, 24));
+        QVERIFY2(heart > mirror + 15.0, "the heart is on the patient's left");
 
         const QImage coronal = grab("coronalView"), axial = grab("axialView");
         dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {120, -40});

@@ -15,18 +15,21 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr int sourceRole = Qt::UserRole;
+constexpr int sourceRole = Qt::UserRole, keyRole = Qt::UserRole + 1;
 
-QTreeWidgetItem *childNamed(QTreeWidget *tree, QTreeWidgetItem *parent, const QString &name) {
+// The row of a patient or a study, made if it is not there. Rows are told apart by key: two
+// patients may have one name.
+QTreeWidgetItem *rowFor(QTreeWidget *tree, QTreeWidgetItem *parent, const QString &key,
+                        const QString &name) {
     const int count = parent != nullptr ? parent->childCount() : tree->topLevelItemCount();
     for (int n = 0; n < count; ++n) {
         QTreeWidgetItem *item = parent != nullptr ? parent->child(n) : tree->topLevelItem(n);
-        if (item->text(0) == name && !item->data(0, sourceRole).isValid())
+        if (item->data(0, keyRole).toString() == key)
             return item;
     }
     auto *item =
         parent != nullptr ? new QTreeWidgetItem(parent, {name}) : new QTreeWidgetItem(tree, {name});
-    item->setExpanded(true);
+    item->setData(0, keyRole, key);
     return item;
 }
 
@@ -76,12 +79,13 @@ void SeriesPanel::showSources() {
     const auto &sources = m_document.sources();
     for (std::size_t n = 0; n < sources.size(); ++n) {
         const StudySource &source = sources[n];
-        QTreeWidgetItem *patient = childNamed(m_tree, nullptr, source.patient);
+        QTreeWidgetItem *patient = rowFor(m_tree, nullptr, source.patientKey, source.patient);
+        patient->setToolTip(0, source.patientKey.section('\n', 0, 0));
         QFont bold = font();
         bold.setBold(true);
         patient->setFont(0, bold);
-        QTreeWidgetItem *study =
-            childNamed(m_tree, patient, source.study.isEmpty() ? tr("Study") : source.study);
+        QTreeWidgetItem *study = rowFor(m_tree, patient, source.studyKey,
+                                        source.study.isEmpty() ? tr("Study") : source.study);
         study->setForeground(0, m_theme.color("muted"));
         QString text = source.series + "\n" + source.detail;
         auto *item = new QTreeWidgetItem(study, {text});

@@ -222,6 +222,12 @@ void MprView::paintTexts(QPainter &painter, const mpr::Plane &shown) {
         drawOrientationLetters(painter, rect(), shown.right, shown.up, colors);
     drawScaleBar(painter, QPoint(10, height() - 10), 1.0 / (shown.pixelMm * devicePixelRatioF()),
                  std::min(110, width() / 3), colors);
+    const auto &warnings = m_document.volume()->notes().warnings;
+    if (!warnings.empty())
+        drawText(painter, rect().adjusted(8, 8, -8, -24), Qt::AlignRight | Qt::AlignBottom,
+                 painter.fontMetrics().elidedText(QString::fromStdString(warnings.front()),
+                                                  Qt::ElideRight, width() / 2),
+                 m_theme.color("warning"));
     if (m_document.volume()->notes().lossy)
         drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignBottom,
                  tr("lossy"), QColor(0xE0, 0xA3, 0x3A));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/task/error.h"
 #include "gpu/capabilities.h"
 #include "gpu/tone_pass.h"
 
@@ -22,7 +23,12 @@ public:
         : QOpenGLWidget(parent), m_description(std::move(description)) {
         setObjectName("projectionCanvas");
     }
-    ~GlCanvas() override { release(); }
+    ~GlCanvas() override {
+        release();
+        // The base class destroys the context, which would call into an object that is gone.
+        if (context() != nullptr)
+            disconnect(context(), nullptr, this, nullptr);
+    }
 
     QWidget *widget() override { return this; }
     void setImage(const render::ProjectionImage &image) override {
@@ -42,15 +48,26 @@ protected:
         // The context goes away when the widget moves to another window; what is on it goes with
         // it.
         connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { release(); });
-        m_pass = std::make_unique<gpu::TonePass>();
+        try {
+            m_pass = std::make_unique<gpu::TonePass>();
+        } catch (const task::Error &error) {
+            // A driver that does not take the shader: the picture is composed on the processor.
+            m_description = QString::fromStdString(error.reason());
+        }
         m_fresh = true;
     }
     void paintGL() override {
         QOpenGLFunctions *gl = context()->functions();
         gl->glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         gl->glClear(GL_COLOR_BUFFER_BIT);
-        if (!m_pass || m_image.samples.empty())
+        if (m_image.samples.empty())
             return;
+        if (!m_pass) {
+            const auto rgba = render::compose(m_image, {m_range.low, m_range.high, m_inverted});
+            QPainter(this).drawImage(rect(), QImage(rgba.data(), m_image.width, m_image.height,
+                                                    QImage::Format_RGBA8888));
+            return;
+        }
         if (m_fresh)
             m_pass->upload(m_image);
         m_fresh = false;
@@ -83,11 +100,13 @@ public:
     QWidget *widget() override { return this; }
     void setImage(const render::ProjectionImage &image) override {
         m_image = image;
-        compose();
+        m_stale = true;
+        update();
     }
     void setTone(const render::ToneRange &range, bool inverted) override {
         m_tone = {range.low, range.high, inverted};
-        compose();
+        m_stale = true;
+        update();
     }
     QString description() const override { return m_description; }
 
@@ -95,6 +114,8 @@ protected:
     void paintEvent(QPaintEvent *) override {
         QPainter painter(this);
         painter.fillRect(rect(), QColor(pictureBackground));
+        if (m_stale)
+            compose();
         if (m_picture.isNull())
             return;
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
@@ -103,20 +124,20 @@ protected:
 
 private:
     void compose() {
-        if (!m_image.samples.empty()) {
-            const auto rgba = render::compose(m_image, m_tone);
-            m_picture =
-                QImage(rgba.data(), m_image.width, m_image.height, QImage::Format_RGBA8888).copy();
-        } else {
-            m_picture = {};
-        }
-        update();
+        m_stale = false;
+        m_picture = {};
+        if (m_image.samples.empty())
+            return;
+        const auto rgba = render::compose(m_image, m_tone);
+        m_picture =
+            QImage(rgba.data(), m_image.width, m_image.height, QImage::Format_RGBA8888).copy();
     }
 
     QString m_description;
     render::ProjectionImage m_image;
     render::Tone m_tone;
     QImage m_picture;
+    bool m_stale = false;
 };
 
 } // namespace

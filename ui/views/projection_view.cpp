@@ -19,6 +19,8 @@ namespace {
 // Full frames slower than this would lag behind the hand; drafts are drawn instead while it moves.
 constexpr double smoothFrameMs = 35.0;
 constexpr int restMs = 120;
+// Beyond this a finer picture shows the reconstruction's smoothness, not the patient.
+constexpr double samplesPerPixel = 4.0;
 constexpr double radiansPerPixel = 0.008;
 
 } // namespace
@@ -54,7 +56,10 @@ ProjectionView::ProjectionView(Document &document, const Theme &theme, QWidget *
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] { requestFrame(false); });
     connect(&m_worker, &RenderWorker::frameReady, this, &ProjectionView::takeFrame);
-    connect(&m_worker, &RenderWorker::failed, this, &ProjectionView::setMessage);
+    connect(&m_worker, &RenderWorker::failed, this, [this](const QString &reason) {
+        m_pending = false;
+        setMessage(reason);
+    });
     connect(&document, &Document::volumeChanged, this, [this] {
         if (m_document.volume() && m_document.isPreview())
             return;
@@ -92,6 +97,21 @@ void ProjectionView::setEngine(const std::shared_ptr<render::ProjectionEngine> &
     m_worker.setEngine(engine);
     emit engineDescribed(
         tr("%1: %2").arg(QString::fromStdString(engine->description()), m_canvas->description()));
+    requestFrame(false);
+}
+
+void ProjectionView::jobEnded() {
+    if (m_document.volume() && !m_engine && m_message == tr("Preparing the projection"))
+        setMessage(tr("Cancelled: there is no projection"));
+}
+
+void ProjectionView::adoptCamera(const render::Camera &wanted) {
+    render::Camera camera = m_document.scene().camera;
+    camera.orientation = wanted.orientation;
+    camera.panMm = wanted.panMm;
+    m_document.setCamera(camera);
+    m_zoom = std::clamp(fittingPixelMm() / wanted.pixelMm, 0.2, 20.0);
+    fitCamera();
     requestFrame(false);
 }
 
@@ -140,16 +160,18 @@ void ProjectionView::requestFrame(bool moving) {
         return;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
     m_pending = true;
-    m_worker.request(m_document.scene().camera, m_document.scene().image, draft);
+    const double finest = m_document.volume()->lattice().shortestStepMm() / samplesPerPixel;
+    m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image,
+                                   {.draft = draft, .finestPixelMm = finest});
     if (moving)
         m_rest.start();
 }
 
 void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame) {
-    if (!m_engine) // finished after the volume was closed
+    if (!m_engine || frame->engine != m_engine) // of a volume that was closed, or the coarse one's
         return;
     m_frame = frame;
-    m_pending = m_rest.isActive();
+    m_pending = m_rest.isActive() || frame->number != m_requested;
     if (!frame->draft)
         m_fullFrameMs = frame->times.totalMs();
     // The automatic range is taken once: brightness that follows the view would flicker.
@@ -322,6 +344,15 @@ void ProjectionView::paintOverlay(QPainter &painter) {
     if (!m_document.volume())
         return;
     drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, tr("X-ray"), colors.text);
+    // Warnings of the geometry stay on the image.
+    QRect warning = second.adjusted(0, line, -width() / 3, 0);
+    for (const std::string &w : m_document.volume()->notes().warnings) {
+        drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
+                 painter.fontMetrics().elidedText(QString::fromStdString(w), Qt::ElideRight,
+                                                  warning.width()),
+                 m_theme.color("warning"));
+        warning.translate(0, line);
+    }
     if (!m_message.isEmpty()) {
         painter.setPen(colors.muted);
         painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,

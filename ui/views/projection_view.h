@@ -27,6 +27,10 @@ public:
     void setEngine(const std::shared_ptr<render::ProjectionEngine> &engine, double predictedError,
                    bool coarse);
     void setMessage(const QString &message);
+    /// Looks the way another camera does, as far as the pane allows.
+    void adoptCamera(const render::Camera &wanted);
+    /// A job is over; whatever it should have delivered is there or will not come.
+    void jobEnded();
     void showStandardView(render::StandardView view);
     void resetView();
     /// The picture as it is seen, without annotations.
@@ -75,6 +79,7 @@ private:
     QString m_message;
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
     bool m_coarse = false, m_pending = false;
+    std::uint64_t m_requested = 0;
     Qt::MouseButton m_button = Qt::NoButton;
     DragId m_drag = 0;
     QPoint m_last;

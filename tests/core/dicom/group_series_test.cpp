@@ -67,6 +67,22 @@ TEST(GroupSeries, AHoleOfMoreThanTwoAndAHalfGapsIsRefusedByName) {
     EXPECT_TRUE(group(stack({0, 2, 4, 6, 10.9, 12.9}))[0].placed); // 2.45 gaps
 }
 
+TEST(GroupSeries, StraySlicesDoNotMultiplyTheStack) {
+    // Two images a hundredth of a slice beside others: their gap is no spacing.
+    const auto entries = group(stack({0, 0.05, 0.1, 5, 10, 15, 20, 25}));
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_FALSE(entries[0].placed);
+    EXPECT_NE(entries[0].notPlacedReason.find("no common step"), std::string::npos);
+}
+
+TEST(GroupSeries, GapsThatCreepAreNotEven) {
+    std::vector<double> depths{0};
+    for (int n = 0; n < 100; ++n)
+        depths.push_back(depths.back() + (n < 50 ? 1.0 : 1.009));
+    const auto entries = group(stack(depths));
+    EXPECT_FALSE(entries[0].geometry.frameOffsetsMm.empty()); // 0.2 mm off in the middle
+}
+
 TEST(GroupSeries, ASliceBesideTheLineIsRefused) {
     auto files = stack({0, 2, 4, 6});
     files[2].header.frames[0].positionMm->x = 3.0;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <string_view>
 
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
@@ -85,6 +86,24 @@ TEST(Load, ATruncatedSliceIsNamedAndTheRestIsResampledAcrossTheHole) {
     for (const std::string &warning : loaded.volume.notes().warnings)
         told = told || warning.find("uneven") != std::string::npos;
     EXPECT_TRUE(told);
+}
+
+TEST(Decode, SizesThatTheFileCannotHoldAreRefusedBeforeMemoryIsAskedFor) {
+    const test::TemporaryFolder folder;
+    for (const auto syntax : {dicom::TransferSyntax::explicitLittle, dicom::TransferSyntax::rle,
+                              dicom::TransferSyntax::jpeg2000, dicom::TransferSyntax::jpegLs}) {
+        dicom::writeCtSeries(folder.path(), tiltedHead(), {}, syntax);
+        auto bytes = dicom::readFile(folder / "IM0001.dcm");
+        // Rows (0028,0010) and Columns (0028,0011), US, two bytes each, become 65535.
+        for (const char element : {'\x10', '\x11'}) {
+            const std::string wanted{'\x28', '\0', element, '\0', 'U', 'S', '\x02', '\0'};
+            const auto *text = reinterpret_cast<const char *>(bytes.data());
+            const auto at = std::string_view(text, bytes.size()).find(wanted);
+            ASSERT_NE(at, std::string_view::npos);
+            bytes[at + 8] = bytes[at + 9] = std::byte(0xFF);
+        }
+        EXPECT_THROW(dicom::decodeImage(bytes), task::Error);
+    }
 }
 
 TEST(Load, StopsWhenCancelled) {

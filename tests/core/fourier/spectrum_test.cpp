@@ -37,15 +37,15 @@ TEST(Spectrum, CellsAreThePremultipliedSumAndTheApronWraps) {
     // Inside, on the planes where the half ends, and everywhere in the apron.
     const double scale = std::abs(exact(0, 0, 0));
     for (const auto &[p, q, r] : {std::array{0, 0, 0},
-                                 {3, 2, 1},
-                                 {8, 17, 19},
-                                 {8, 9, 10},
-                                 {-1, 0, 0},
-                                 {-4, -4, -4},
-                                 {12, 21, 23},
-                                 {9, 3, -2},
-                                 {5, 18, 7},
-                                 {2, -3, 20}}) {
+                                  {3, 2, 1},
+                                  {8, 17, 19},
+                                  {8, 9, 10},
+                                  {-1, 0, 0},
+                                  {-4, -4, -4},
+                                  {12, 21, 23},
+                                  {9, 3, -2},
+                                  {5, 18, 7},
+                                  {2, -3, 20}}) {
         const std::complex<double> found(
             spectrum.origin()[r * spectrum.planeStride() + q * spectrum.rowStride() + p]);
         EXPECT_LT(std::abs(found - exact(p, q, r)), 1e-6 * scale) << p << " " << q << " " << r;

@@ -41,7 +41,10 @@ double sum(const render::ProjectionImage &image) {
 }
 
 TEST(Invariants, TheMeanIsTheSameForEveryView) {
-    // The sum of the exact image varies by 4e-7 here, with the tails that leave the image.
+    // The sum of the exact image varies by 4e-7 here, with the tails that leave the image. The
+    // engine scales away what ghosts add (4e-5); PhantomsAgainstTheExactReference checks that the
+    // scaled image is still the exact one, TheMeanIsTheFieldsSum that the mass it is scaled to is
+    // right.
     Subject head = headSubject();
     std::mt19937 random(3);
     double low = 1e300, high = -1e300;

@@ -129,6 +129,9 @@ TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
          "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: bzip2\nendian: little\n\n"},
         {"huge", "NRRD0004\ntype: short\ndimension: 3\nsizes: 400000 400000 400000\nencoding: "
                  "raw\nendian: little\n\n"},
+        // 2^64 samples: the product of the sizes wraps to nothing.
+        {"wraps", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 262144 262144 268435456\n"
+                  "encoding: raw\n\n"},
         {"negative",
          "NRRD0004\ntype: short\ndimension: 3\nsizes: -4 4 4\nencoding: raw\nendian: little\n\n"},
         {"flat", "NRRD0004\n" + good + "space directions: (1,0,0) (2,0,0) (0,0,1)\n\n" +

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+namespace pellucid::task {
+
+/// Memory that can be had without pushing other programs out; the largest size if it is not known.
+std::size_t availableMemoryBytes();
+
+} // namespace pellucid::task
