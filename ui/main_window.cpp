@@ -17,6 +17,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSaveFile>
+#include <QScreen>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -53,7 +54,7 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     setObjectName("mainWindow");
     setWindowTitle("Pellucid");
     setAcceptDrops(true);
-    resize(1600, 1000);
+    resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
     createPanes();
     createStudyDock();
     createFileMenu();

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/input.h"
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
@@ -64,6 +67,10 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     input.seriesDescription = selection.series->description;
     input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
                          input.loaded.skipped.end());
+    // A slice that is left out is said even where no JSON is asked for.
+    for (const dicom::Skipped &s : input.loaded.skipped)
+        std::fprintf(stderr, "pellucid-cli: warning: %s: left out: %s\n", s.path.c_str(),
+                     s.reason.c_str());
     input.loadMs = watch.lapMs();
     return input;
 }
@@ -71,17 +78,19 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
 std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator,
                                  std::size_t count) {
     std::vector<double> values;
-    const char *at = text.c_str();
+    const char *at = text.c_str(), *const end = at + text.size();
     while (values.size() < count) {
-        char *end = nullptr;
-        const double value = std::strtod(at, &end);
+        double value = 0.0;
+        // Decimal numbers only: with 'x' between them, 0x10 is zero by ten.
+        const auto [stop, error] = std::from_chars(at, end, value);
         const bool last = values.size() + 1 == count;
-        if (end == at || !std::isfinite(value) || *end != (last ? '\0' : separator))
+        if (error != std::errc() || !std::isfinite(value) ||
+            (last ? stop != end : *stop != separator))
             throw Error(ErrorCode::usage, option + ": '" + text + "' is not " +
                                               std::to_string(count) + " numbers separated by '" +
                                               separator + "'");
         values.push_back(value);
-        at = end + 1;
+        at = stop + 1;
     }
     return values;
 }

@@ -32,6 +32,7 @@ std::stop_source &stopOnInterrupt() {
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     std::thread([signals] {
         int received = 0;
@@ -60,6 +61,17 @@ int main(int argc, char **argv) {
     cli::addRenderCommand(app, context);
     cli::addVolumeCommand(app, context);
     cli::addPhantomCommand(app, context);
+    // CLI11 would say no more than that a subcommand is missing.
+    const auto commands = app.get_subcommands([](const CLI::App *) { return true; });
+    const auto known = [&](const std::string &word) {
+        return word == "--help" || word == "-h" || word == "--version" ||
+               std::any_of(commands.begin(), commands.end(),
+                           [&](const CLI::App *c) { return c->get_name() == word; });
+    };
+    if (argc > 1 && !known(argv[1]))
+        return report(std::string("unknown command '") + argv[1] +
+                          "'; there are info, render, volume and phantom",
+                      usageExit);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success &success) {

@@ -27,6 +27,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const dicom::TransferSyntax syntax = dicom::transferSyntaxFromName(o.syntax);
     phantom::Sampling sampling;
     if (command.count("--size") > 0) {
+        if (o.size.find_first_not_of("0123456789x") != std::string::npos)
+            throw Error(ErrorCode::usage,
+                        "--size: '" + o.size + "' is not whole numbers with 'x' between them");
         const auto n = parseNumbers("--size", o.size, 'x', 3);
         for (const double v : n)
             if (v != std::round(v) || v < 1 || v > 4096)

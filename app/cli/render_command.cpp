@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -101,12 +103,21 @@ render::Scene sceneFor(const Options &o, const CLI::App &command, const volume::
         scene.camera.orientation = render::viewOrientation(render::StandardView::front);
         scene.camera.pixelMm = lattice.shortestStepMm();
     }
+    for (const auto &[name, value] : {std::pair{"--azimuth", o.azimuthDeg},
+                                      {"--elevation", o.elevationDeg},
+                                      {"--roll", o.rollDeg},
+                                      {"--roll-off", std::max(o.rollOff, 0.0)}})
+        if (!std::isfinite(value))
+            throw Error(ErrorCode::usage, std::string(name) + ": the number must be finite");
     if (given("--orientation")) {
         if (given("--view") || given("--azimuth") || given("--elevation") || given("--roll"))
             throw Error(ErrorCode::usage,
                         "--orientation excludes --view, --azimuth, --elevation and --roll");
         const auto q = parseNumbers("--orientation", o.orientation, ',', 4);
-        const glm::dquat rotation(q[0], q[1], q[2], q[3]);
+        // Scaled first, so that huge and tiny quaternions can be normalised too.
+        const double largest =
+            std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3]), 1e-300});
+        const glm::dquat rotation(q[0] / largest, q[1] / largest, q[2] / largest, q[3] / largest);
         if (!(glm::length(rotation) > 0.0))
             throw Error(ErrorCode::usage, "--orientation: the quaternion must not be zero");
         scene.camera.orientation = glm::normalize(rotation);
@@ -131,6 +142,9 @@ render::Scene sceneFor(const Options &o, const CLI::App &command, const volume::
         }
     }
     if (given("--size")) {
+        if (o.size.find_first_not_of("0123456789x") != std::string::npos)
+            throw Error(ErrorCode::usage,
+                        "--size: '" + o.size + "' is not whole numbers with 'x' between them");
         const auto n = parseNumbers("--size", o.size, 'x', 2);
         if (n[0] != std::round(n[0]) || n[1] != std::round(n[1]) || std::min(n[0], n[1]) < 1 ||
             std::max(n[0], n[1]) > render::largestImageSize)
@@ -196,8 +210,8 @@ class Renderer {
 public:
     Renderer(const render::Scene &scene, const classify::DensityField &field,
              const render::Budget &budget, const Context &context)
-        : m_scene(scene), m_field(field),
-          m_plan(render::planRender(scene, render::summarise(field), budget)) {
+        : m_scene(scene), m_field(field), m_summary(render::summarise(field)),
+          m_plan(render::planRender(scene, m_summary, budget)) {
         const task::Progress progress(context.stop);
         // The engine's error is known in advance; what it cannot meet the exact reference does.
         if (m_plan.predictedError <= scene.tolerance) {
@@ -248,12 +262,19 @@ public:
                 {"storage", "f32"}};
     }
     std::size_t bytes() const { return m_plan.bytes; }
-    // Double precision leaves rounding alone: about 1e-10.
-    double predictedError() const { return m_engine ? m_plan.predictedError : 1e-10; }
+    // Double precision leaves rounding, about 1e-10, and what is left of the roll-off's tails.
+    double predictedError() const {
+        if (m_engine)
+            return m_plan.predictedError;
+        return std::hypot(1e-10,
+                          reference::foldedTails(m_summary.lattice, m_scene.camera, m_scene.image,
+                                                 m_summary.energy.effectiveSamples));
+    }
 
 private:
     const render::Scene &m_scene;
     const classify::DensityField &m_field;
+    render::FieldSummary m_summary;
     render::RenderPlan m_plan;
     std::unique_ptr<render::CpuEngine> m_engine;
     std::unique_ptr<reference::WideKernel> m_reference;
@@ -292,6 +313,17 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const double fieldMs = watch.lapMs();
     Renderer renderer(scene, field, budget, context);
     const double prepareMs = watch.lapMs();
+    std::vector<std::string> warnings = volume.notes().warnings;
+    const auto warn = [&](const std::string &text) {
+        warnings.push_back(text);
+        std::fprintf(stderr, "pellucid-cli: warning: %s\n", text.c_str());
+    };
+    if (renderer.predictedError() > scene.tolerance && scene.tolerance > 1e-9)
+        warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
+                         renderer.predictedError()));
+    if (field.support.size().count() == 1 && field.values.value(field.support.lo) == 0.0)
+        warn(fmt::format("the field is empty: no value lies above {} within a window of {} to {}",
+                         window.low, window.low, window.high));
 
     render::FrameTimes times;
     double writeMs = 0.0;
@@ -303,6 +335,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
             glm::angleAxis(glm::radians(360.0 * frame / frames), glm::dvec3(0, 0, 1)) *
             scene.camera.orientation;
         const auto image = renderer.image(turned.camera, times);
+        task::Progress(context.stop).check();
         watch.lapMs();
         writeImage(o.frames > 0 ? framePath(out, frame) : out, image, turned, volume.lattice());
         writeMs += watch.lapMs();
@@ -338,7 +371,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                         {"tolerance", scene.tolerance},
                         {"predicted_error",
                          {{"relative_l2", renderer.predictedError()}, {"maximum", nullptr}}},
-                        {"warnings", volume.notes().warnings},
+                        {"warnings", warnings},
                         {"skipped", skipped}})
                   .c_str());
 }
@@ -346,6 +379,20 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 } // namespace
 
 void addRenderCommand(CLI::App &app, const Context &context) {
+    const CLI::Validator positive(
+        [](std::string &text) {
+            char *end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            const bool good =
+                end != text.c_str() && *end == '\0' && std::isfinite(value) && value > 0.0;
+            return good ? std::string() : "'" + text + "' is not a positive number";
+        },
+        "", "positive");
+    const CLI::Validator notNegative(
+        [](std::string &text) {
+            return text.rfind('-', 0) == 0 ? "'" + text + "' is not a size" : std::string();
+        },
+        "", "size");
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("render", "Project a volume into an image");
     const auto names = [](const auto &map) {
@@ -367,7 +414,7 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     c->add_option("--orientation", o->orientation, "Rotation [U V W] as a quaternion w,x,y,z");
     c->add_option("--size", o->size, "Image size WxH in pixels; default: holds every view");
     c->add_option("--pixel-mm", o->pixelMm, "Pixel size in mm; default: the shortest voxel step")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
     c->add_option("--window", o->window, "The field's window LO,HI in value units");
     c->add_option("--reconstruction", o->reconstruction, "What lies between the samples")
         ->check(CLI::IsMember(names(reconstructions)));
@@ -377,12 +424,13 @@ void addRenderCommand(CLI::App &app, const Context &context) {
         c->add_option("--quality", o->quality, "Named tolerance, default standard")
             ->check(CLI::IsMember(names(qualities)));
     c->add_option("--tolerance", o->tolerance, "Largest relative L2 error")
-        ->check(CLI::PositiveNumber)
+        ->check(positive)
         ->excludes(quality);
     c->add_option("--engine", o->engine, "auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     c->add_option("--threads", o->threads, "Most threads to use")->check(CLI::Range(1, 1024));
     c->add_option("--memory", o->memory, "Most bytes to use, with units if you like (2GB)")
+        ->check(notNegative)
         ->transform(CLI::AsSizeValue(false));
     c->add_option("--frames", o->frames, "Number of frames of a turntable")
         ->check(CLI::Range(1, 100000));

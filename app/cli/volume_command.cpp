@@ -29,13 +29,13 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const volume::Volume &volume = input.loaded.volume;
     const auto encoding = o.gzip ? volume::NrrdEncoding::gzip : volume::NrrdEncoding::raw;
     if (!o.field) {
-        volume::writeNrrd(o.out, volume, encoding);
+        volume::writeNrrd(o.out, volume, encoding, task::Progress(context.stop));
         return;
     }
     const auto field =
         classify::densityField(volume, window.value_or(classify::defaultFieldWindow(volume)),
                                task::Progress(context.stop));
-    volume::writeNrrd(o.out, field.values, encoding);
+    volume::writeNrrd(o.out, field.values, encoding, task::Progress(context.stop));
 }
 
 } // namespace

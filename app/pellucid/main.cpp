@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 
 #include <QApplication>
 #include <QSettings>
@@ -31,6 +32,16 @@ int main(int argc, char **argv) {
     format.setVersion(3, 3);
     format.setProfile(QSurfaceFormat::CoreProfile);
     QSurfaceFormat::setDefaultFormat(format);
+    // Qt ends the program when it finds no display; it shall do so in one line and with a code.
+    qInstallMessageHandler([](QtMsgType type, const QMessageLogContext &, const QString &text) {
+        if (type == QtFatalMsg) {
+            std::fprintf(stderr, "pellucid: %s\n",
+                         qPrintable(text.section('\n', 0, 0).simplified()));
+            std::_Exit(int(task::ErrorCode::noSuchDevice));
+        }
+        if (type == QtWarningMsg || type == QtCriticalMsg)
+            std::fprintf(stderr, "%s\n", qPrintable(text));
+    });
     QApplication application(argc, argv);
     QApplication::setApplicationName("pellucid");
     QApplication::setOrganizationName("pellucid");

@@ -310,6 +310,14 @@ InstanceHeader readHeader(const std::filesystem::path &path) {
     InstanceHeader header = headerOf(*dataset, std::filesystem::file_size(path, ignored));
     if (header.sopClassUid.empty())
         header.sopClassUid = text(file.getMetaInfo(), DCM_MediaStorageSOPClassUID);
+    // Plain pixels have a known size; a file that is shorter cannot hold them.
+    const E_TransferSyntax syntax = dataset->getOriginalXfer();
+    const double needed = double(header.rows) * header.columns * header.samplesPerPixel *
+                          header.bitsAllocated / 8.0 * double(header.frames.size());
+    if (header.hasPixels && !DcmXfer(syntax).isEncapsulated() &&
+        syntax != EXS_DeflatedLittleEndianExplicit && !whyUnusable(header) &&
+        needed > double(std::filesystem::file_size(path, ignored)))
+        throw Error(ErrorCode::unusable, "the pixels are truncated", path);
     // What follows damaged elements is lost, but a complete image in front of them is not.
     if (loaded.bad() && !(header.hasPixels && header.rows > 0))
         throw Error(ErrorCode::unusable, std::string("is damaged: ") + loaded.text(), path);

@@ -178,8 +178,16 @@ void addNrrd(Catalogue &catalogue, const fs::path &path, const volume::NrrdHeade
 
 Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress) {
     FileList list(progress);
-    for (const fs::path &path : paths)
-        list.add(path);
+    for (const fs::path &path : paths) {
+        try {
+            list.add(path);
+        } catch (const Error &error) {
+            // One of several paths does not keep the others from being opened.
+            if (paths.size() == 1)
+                throw;
+            list.skipped.push_back({path, error.reason()});
+        }
+    }
 
     std::vector<InstanceHeader> headers(list.files.size());
     std::vector<std::string> reasons(list.files.size());

@@ -6,13 +6,16 @@
 #include <atomic>
 #include <cstring>
 #include <mutex>
+#include <span>
 
 #include <dcmtk/config/osconfig.h>
 
+#include <dcmtk/dcmdata/dcostrmb.h>
 #include <dcmtk/dcmdata/dcpixel.h>
 #include <dcmtk/dcmdata/dcpixseq.h>
 #include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmdata/dcwcache.h>
 #include <dcmtk/dcmjpeg/djrplol.h>
 #include <dcmtk/dcmjpls/djrparam.h>
 
@@ -97,6 +100,34 @@ void compressJpeg2000(DcmDataset &dataset, const std::int16_t *slice, volume::Gr
     dataset.insert(pixels, OFTrue);
 }
 
+// DCMTK's own file output does not notice a disk that fills at the last flush.
+void writeThrough(DcmFileFormat &file, E_TransferSyntax syntax, files::AtomicFile &target,
+                  const fs::path &path) {
+    std::vector<std::byte> buffer(1 << 20);
+    DcmOutputBufferStream stream(buffer.data(), offile_off_t(buffer.size()));
+    DcmWriteCache cache;
+    const auto drain = [&] {
+        void *data = nullptr;
+        offile_off_t count = 0;
+        stream.flushBuffer(data, count);
+        target.write(std::span(static_cast<const std::byte *>(data), std::size_t(count)));
+        return count;
+    };
+    file.transferInit();
+    OFCondition written = EC_StreamNotifyClient;
+    while (written == EC_StreamNotifyClient) {
+        written =
+            file.write(stream, syntax, EET_ExplicitLength, &cache, EGL_recalcGL, EPD_noChange);
+        drain();
+    }
+    file.transferEnd();
+    if (written.bad())
+        throw Error(ErrorCode::output, std::string("cannot be encoded: ") + written.text(), path);
+    do // a deflating stream still holds its end back
+        stream.flush();
+    while (drain() > 0 || !stream.isFlushed());
+}
+
 class SeriesWriter {
 public:
     SeriesWriter(const volume::Volume &volume, const SeriesLabels &labels, TransferSyntax syntax)
@@ -172,9 +203,7 @@ public:
             compress(d);
         }
         files::AtomicFile target(path);
-        const OFCondition saved = file.saveFile(target.temporaryPath().c_str(), m_syntax);
-        if (saved.bad())
-            throw Error(ErrorCode::output, std::string("cannot be written: ") + saved.text(), path);
+        writeThrough(file, m_syntax, target, path);
         target.commit();
     }
 

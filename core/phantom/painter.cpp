@@ -138,6 +138,7 @@ void Painter::paint(const Shape &shape, const Texture &hu) {
     if (k0 >= k1)
         return;
     tbb::parallel_for(k0, k1, [&](int k) {
+        m_progress.check();
         for (int j = j0; j < j1; ++j) {
             float *row = m_hu.data() + (std::size_t(k) * size.j + j) * size.i;
             for (int i = i0; i < i1; ++i) {
@@ -173,6 +174,7 @@ volume::Volume Painter::finish(double noiseHu, std::uint32_t seed, volume::Volum
     const volume::GridSize size = m_lattice.size();
     const std::size_t plane = std::size_t(size.i) * size.j;
     tbb::parallel_for(0, size.k, [&](int k) {
+        m_progress.check();
         for (std::size_t n = k * plane; n < (k + 1) * plane; ++n) {
             const double hu = m_hu[n] + (noiseHu > 0.0 ? noiseHu * normal(seed, n) : 0.0);
             // Scanners clip at the bottom of their scale.

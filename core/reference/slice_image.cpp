@@ -9,6 +9,7 @@
 
 #include "core/fourier/padded_size.h"
 #include "core/fourier/transform.h"
+#include "core/render/error_prediction.h"
 
 namespace pellucid::reference {
 
@@ -21,11 +22,12 @@ struct SliceSize {
 SliceSize sliceSize(const volume::Lattice &lattice, const render::Camera &camera,
                     const render::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
-    // Eight times the ringing of the band's edge, or of the lattice's own where that is tapered
-    // too.
-    double ringing = 8.0 / std::max(1.0 / 32.0, image.rollOff);
+    // Four times the ringing that an engine follows, or twice that of the lattice's own band where
+    // that is tapered too.
+    double ringing = 4.0 * render::ringingPixels(image.rollOff);
     if (image.reconstruction == render::Reconstruction::bandLimited)
-        ringing *= std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) /
+        ringing *= 0.5 *
+                   std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) /
                    camera.pixelMm;
     const auto cells = [&](int size, double panMm) {
         const double needed =
@@ -42,6 +44,15 @@ std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &cam
     const SliceSize size = sliceSize(lattice, camera, image);
     // The slice, the plane it becomes, and the image.
     return 3 * sizeof(double) * std::size_t(size.columns) * std::size_t(size.rows);
+}
+
+double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
+                   const render::ImageDefinition &image, double effectiveSamples) {
+    const SliceSize size = sliceSize(lattice, camera, image);
+    const double room = 0.5 * (size.columns + size.rows - camera.width - camera.height);
+    const double share =
+        std::sqrt(double(camera.width) * camera.height / (double(size.columns) * size.rows));
+    return render::predictFoldedTails(image.rollOff, room, std::min(1.0, share), effectiveSamples);
 }
 
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,

@@ -27,4 +27,8 @@ std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::La
 std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &camera,
                        const render::ImageDefinition &image);
 
+/// What is left of the roll-off's tails, relative L2; see render::predictFoldedTails.
+double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
+                   const render::ImageDefinition &image, double effectiveSamples);
+
 } // namespace pellucid::reference

@@ -21,13 +21,6 @@ constexpr double padding = 1.5;
 // Larger slices take more memory than any image is worth.
 constexpr int largestSliceGrid = 65536;
 
-// Ringing of a raised-cosine edge over a share F of the band, in samples of that band: beyond 2/F
-// the response falls with the third power. Sharper edges than 1/32 ring for longer than is worth
-// paying.
-double ringing(double rollOff) {
-    return 2.0 / std::max(1.0 / 32.0, rollOff);
-}
-
 // How far a sample's footprint reaches, in samples: the tent ends after one; the cardinal B-spline
 // has fallen to 4e-4 after six; the tapered sinc rings.
 double footprint(const ImageDefinition &image) {
@@ -35,7 +28,7 @@ double footprint(const ImageDefinition &image) {
     case Reconstruction::linear:
         return 1.0;
     case Reconstruction::bandLimited:
-        return ringing(image.rollOff);
+        return 0.5 * ringingPixels(image.rollOff);
     case Reconstruction::cubic:
         break;
     }
@@ -68,7 +61,7 @@ SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectru
         const double reach = radius / camera.pixelMm + 0.5 * size + std::abs(pan) / camera.pixelMm;
         // The tails of the roll-off fold in along the border only, so their share of the image's
         // energy falls with its size, and so does the room they are given.
-        const double tails = ringing(image.rollOff) * std::min(1.0, 64.0 / reach);
+        const double tails = ringingPixels(image.rollOff) * std::min(1.0, 64.0 / reach);
         if (!(reach + tails < largestSliceGrid))
             throw task::Error(
                 task::ErrorCode::outOfMemory,
@@ -89,13 +82,16 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
     RenderPlan plan{
         {fourier::Kernel::exponentialSemicircle(kernelWidth, padding), field.support, padded},
         scene.image};
-    // Beside the ghosts: tails of the roll-off that fold back over the border of the slice grid,
-    // measured 6e-5 at a roll-off of 0.05 and growing as it gets sharper, and a few hundred float
-    // roundings.
-    const double folded = 6e-5 * 0.05 / std::max(0.005, std::min(scene.image.rollOff, 0.05));
+    const SliceGrid grid = sliceGrid(scene.camera, plan.spectrum, field.lattice, scene.image);
+    // Beside the ghosts: the roll-off's tails that fold back over the border of the slice grid, and
+    // a few hundred float roundings.
+    const double room = 0.5 * (grid.columns + grid.rows - scene.camera.width - scene.camera.height);
+    const double share = std::sqrt(double(scene.camera.width) * scene.camera.height /
+                                   (double(grid.columns) * grid.rows));
+    const double folded = predictFoldedTails(scene.image.rollOff, room, std::min(1.0, share),
+                                             field.energy.effectiveSamples);
     plan.predictedError =
         std::hypot(predictRelativeError(plan.spectrum, field.energy), folded, 1e-6);
-    const SliceGrid grid = sliceGrid(scene.camera, plan.spectrum, field.lattice, scene.image);
     // A frame holds the slice, its transform and the cropped image, all of the slice's size or
     // less.
     const std::size_t frame = std::size_t(grid.columns) * grid.rows * 3 * sizeof(float);

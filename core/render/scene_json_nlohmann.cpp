@@ -23,6 +23,12 @@ const std::map<std::string, Reconstruction> &reconstructionNames() {
     return names;
 }
 
+// The library's messages start with a tag of its own in brackets.
+std::string withoutTag(const std::string &text) {
+    const auto end = text.find("] ");
+    return end == std::string::npos ? text : text.substr(end + 2);
+}
+
 std::string nameOf(Reconstruction value) {
     for (const auto &[name, candidate] : reconstructionNames())
         if (candidate == value)
@@ -91,7 +97,7 @@ Scene sceneFromJson(const std::string &text) {
         }
     } catch (const json::exception &error) {
         throw task::Error(task::ErrorCode::usage,
-                          std::string("the scene is not valid: ") + error.what());
+                          "the scene is not valid: " + withoutTag(error.what()));
     }
     validate(scene);
     scene.camera.orientation = glm::normalize(scene.camera.orientation);

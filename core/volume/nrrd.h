@@ -27,8 +27,8 @@ bool isNrrdPath(const std::filesystem::path &path);
 enum class NrrdEncoding { raw, gzip };
 
 /// Writes a volume in its stored type, attached, little endian, space left-posterior-superior.
-/// The file appears only when complete. *Throws* Error{output}.
+/// The file appears only when complete. *Throws* Error{output}, Cancelled.
 void writeNrrd(const std::filesystem::path &path, const Volume &volume,
-               NrrdEncoding encoding = NrrdEncoding::raw);
+               NrrdEncoding encoding = NrrdEncoding::raw, const task::Progress &progress = {});
 
 } // namespace pellucid::volume

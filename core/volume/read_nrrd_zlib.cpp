@@ -68,8 +68,7 @@ Header readHeader(const fs::path &path) {
             continue;
         const auto colon = line.find(':');
         if (colon == std::string::npos)
-            throw Error(ErrorCode::unusable,
-                        "NRRD header line without a colon: " + line.substr(0, 60), path);
+            throw Error(ErrorCode::unusable, "the NRRD header has a line without a colon", path);
         header.fields[lower(trimmed(line.substr(0, colon)))] = trimmed(line.substr(colon + 1));
     }
     header.dataOffset = in ? std::uint64_t(in.tellg()) : 0;

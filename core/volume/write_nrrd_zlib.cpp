@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <bit>
 
 #include <fmt/format.h>
@@ -19,7 +20,8 @@ std::string vectorText(const glm::dvec3 &v) {
     return fmt::format("({},{},{})", v.x, v.y, v.z);
 }
 
-void writeGzip(files::AtomicFile &file, std::span<const std::byte> bytes) {
+void writeGzip(files::AtomicFile &file, std::span<const std::byte> bytes,
+               const task::Progress &progress) {
     z_stream stream{};
     // 15 + 16: largest window, gzip framing. Level 1: medical noise hardly compresses further.
     if (deflateInit2(&stream, 1, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -39,6 +41,7 @@ void writeGzip(files::AtomicFile &file, std::span<const std::byte> bytes) {
         stream.avail_out = uInt(out.size());
         state = deflate(&stream, done == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
         try {
+            progress.check();
             file.write(std::span(out).first(out.size() - stream.avail_out));
         } catch (...) {
             deflateEnd(&stream);
@@ -48,9 +51,19 @@ void writeGzip(files::AtomicFile &file, std::span<const std::byte> bytes) {
     deflateEnd(&stream);
 }
 
+void writeRaw(files::AtomicFile &file, std::span<const std::byte> bytes,
+              const task::Progress &progress) {
+    constexpr std::size_t chunk = 1 << 24;
+    for (std::size_t done = 0; done < bytes.size(); done += chunk) {
+        progress.report(double(done) / double(bytes.size()));
+        file.write(bytes.subspan(done, std::min(chunk, bytes.size() - done)));
+    }
+}
+
 } // namespace
 
-void writeNrrd(const std::filesystem::path &path, const Volume &volume, NrrdEncoding encoding) {
+void writeNrrd(const std::filesystem::path &path, const Volume &volume, NrrdEncoding encoding,
+               const task::Progress &progress) {
     const Lattice &lattice = volume.lattice();
     const GridSize size = lattice.size();
     const std::string header = fmt::format(
@@ -65,9 +78,9 @@ void writeNrrd(const std::filesystem::path &path, const Volume &volume, NrrdEnco
     file.write(std::as_bytes(std::span(header)));
     volume.visit([&](auto samples) {
         if (encoding == NrrdEncoding::gzip)
-            writeGzip(file, std::as_bytes(samples));
+            writeGzip(file, std::as_bytes(samples), progress);
         else
-            file.write(std::as_bytes(samples));
+            writeRaw(file, std::as_bytes(samples), progress);
     });
     file.commit();
 }

@@ -98,6 +98,9 @@ void SeriesPanel::showSources() {
             auto *warning = new QTreeWidgetItem(item, {source.warnings.join("\n")});
             warning->setForeground(0, m_theme.color("warning"));
             warning->setToolTip(0, source.warnings.join("\n"));
+            const QRect needed = fontMetrics().boundingRect(
+                QRect(0, 0, 190, 1000), Qt::TextWordWrap, source.warnings.join("\n"));
+            warning->setSizeHint(0, QSize(0, needed.height() + 8));
             warning->setFlags(Qt::ItemIsEnabled);
             item->setExpanded(true);
         }
@@ -126,6 +129,9 @@ void SeriesPanel::showProblems() {
         auto *item =
             new QListWidgetItem(name.isEmpty() ? reason : name + ": " + reason, m_problems);
         item->setToolTip(QString::fromStdString(problem.path.string()));
+        // Files that are no images at all are no errors.
+        if (reason.startsWith("is not a DICOM") || reason.startsWith("has no pixels"))
+            item->setForeground(m_theme.color("muted"));
     }
     m_problemHeading->setText(tr("PROBLEMS (%1)").arg(problems.size()));
     m_problemHeading->setVisible(!problems.empty());

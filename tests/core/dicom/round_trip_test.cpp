@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/dicom/load_volume.h"
+#include "core/dicom/read_instance.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/write_series.h"
 #include "core/phantom/phantom.h"
