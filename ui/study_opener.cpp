@@ -97,6 +97,8 @@ void StudyOpener::openSource(int index) {
     if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning()))
         return;
     const StudySource source = m_document.sources().at(std::size_t(index));
+    // First, because the end of the former job tidies up after it.
+    m_jobs.cancel();
     m_preparedWindow.reset();
     m_document.setCurrentSource(index);
     m_document.closeVolume();

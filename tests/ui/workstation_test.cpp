@@ -115,6 +115,9 @@ private slots:
         open(headPath());
         QVERIFY(!find<QWidget>("startPage")->isVisible());
         QVERIFY(!m_window->windowTitle().contains("Secret"));
+        // The open series is the selected row.
+        QVERIFY(m_window->document().currentSource() == 0);
+        QVERIFY(find<QTreeWidget>("seriesTree")->currentItem() != nullptr);
     }
 
     void everyPaneShowsTheVolume() {

@@ -345,7 +345,7 @@ void ProjectionView::paintOverlay(QPainter &painter) {
         return;
     drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, tr("X-ray"), colors.text);
     // Warnings of the geometry stay on the image.
-    QRect warning = second.adjusted(0, line, -width() / 3, 0);
+    QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
     for (const std::string &w : m_document.volume()->notes().warnings) {
         drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
                  painter.fontMetrics().elidedText(QString::fromStdString(w), Qt::ElideRight,
