@@ -52,15 +52,16 @@ void JobRunner::start(const QString &title, Work work) {
              job.m_generation = generation;
              // A report per file would flood the queue; thirty a second look smooth.
              auto last = std::make_shared<std::atomic<std::chrono::steady_clock::rep>>(0);
-             job.m_progress = task::Progress(stop, [this, generation, last](double fraction) {
-                 const auto now = std::chrono::steady_clock::now().time_since_epoch();
-                 auto before = last->load();
-                 if (now - std::chrono::steady_clock::duration(before) <
-                         std::chrono::milliseconds(33) ||
-                     !last->compare_exchange_strong(before, now.count()))
-                     return;
-                 post(generation, [this, fraction] { emit progressed(fraction); });
-             });
+             job.m_progress =
+                 task::Progress(std::move(stop), [this, generation, last](double fraction) {
+                     const auto now = std::chrono::steady_clock::now().time_since_epoch();
+                     auto before = last->load();
+                     if (now - std::chrono::steady_clock::duration(before) <
+                             std::chrono::milliseconds(33) ||
+                         !last->compare_exchange_strong(before, now.count()))
+                         return;
+                     post(generation, [this, fraction] { emit progressed(fraction); });
+                 });
              QString what, path;
              try {
                  work(job);

@@ -285,7 +285,7 @@ glm::dvec3 toLps(const Fields &fields) {
     fields.fail("NRRD space '" + *space + "' is not supported");
 }
 
-std::vector<glm::dvec3> parseVectors(const Fields &fields, std::string text) {
+std::vector<glm::dvec3> parseVectors(const Fields &fields, const std::string &text) {
     std::vector<glm::dvec3> vectors;
     for (std::size_t open = text.find('('); open != std::string::npos;
          open = text.find('(', open + 1)) {
