@@ -8,6 +8,7 @@
 #include <cmath>
 #include <new>
 #include <numbers>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -38,6 +39,7 @@ public:
         for (std::size_t n = 0; n < m_values.size(); ++n)
             m_values[n] = float(reconstructionFactor(image, double(n) / perCycle));
     }
+    const ImageDefinition &definition() const { return m_image; }
     float operator()(double q) const {
         q = std::abs(q);
         if (m_values.empty() || q >= largest)
@@ -50,7 +52,7 @@ public:
 
 private:
     static constexpr double perCycle = 2048.0, largest = 16.0;
-    const ImageDefinition &m_image;
+    ImageDefinition m_image;
     std::vector<float> m_values;
 };
 
@@ -124,8 +126,9 @@ std::vector<Complex> phases(int count, double cyclesPerStep) {
 }
 
 template <int W>
-void sliceRows(const fourier::Spectrum &spectrum, const Camera &camera,
-               const ImageDefinition &image, const SliceGrid &grid, Complex *slice) {
+void sliceRows(const fourier::Spectrum &spectrum, const Camera &camera, const FactorTable &factor,
+               const SliceGrid &grid, Complex *slice) {
+    const ImageDefinition &image = factor.definition();
     const glm::dmat3 axes = camera.axes();
     const volume::Lattice &lattice = spectrum.lattice();
     const double du = 1.0 / (grid.columns * camera.pixelMm),
@@ -135,8 +138,6 @@ void sliceRows(const fourier::Spectrum &spectrum, const Camera &camera,
     const glm::dmat3 steps(lattice.step(0), lattice.step(1), lattice.step(2));
     const glm::dvec3 qu = glm::transpose(steps) * axes[0] * du;
     const glm::dvec3 qv = glm::transpose(steps) * axes[1] * -dv;
-    const FactorTable factor(image);
-
     // exp(+i 2 pi s.(c - x_wrap)) and the position of the first pixel, split into u and v.
     const glm::dvec3 shift = lattice.center().mm - spectrum.wrapPoint().mm;
     const double firstU = camera.panMm.x - 0.5 * (camera.width - 1) * camera.pixelMm;
@@ -204,6 +205,8 @@ struct CpuEngine::Frame {
           slice(std::size_t(size.rows) * (size.columns / 2 + 1)),
           plane(std::size_t(size.rows) * size.columns) {}
     SliceGrid grid;
+    // Filling the table takes a millisecond: once per definition, not once per frame.
+    std::optional<FactorTable> factor;
     fourier::InverseTransform2d<float> inverse;
     std::vector<Complex> slice;
     std::vector<float> plane;
@@ -235,16 +238,18 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     const SliceGrid grid = sliceGrid(camera, m_spectrum->layout(), m_spectrum->lattice(), image);
     Frame &frame = frameFor(grid);
     const auto start = Clock::now();
+    if (!frame.factor || !(frame.factor->definition() == image))
+        frame.factor.emplace(image);
     switch (m_spectrum->layout().kernel.width()) {
     case 4:
-        sliceRows<4>(*m_spectrum, camera, image, grid, frame.slice.data());
+        sliceRows<4>(*m_spectrum, camera, *frame.factor, grid, frame.slice.data());
         break;
     case 6:
-        sliceRows<6>(*m_spectrum, camera, image, grid, frame.slice.data());
+        sliceRows<6>(*m_spectrum, camera, *frame.factor, grid, frame.slice.data());
         break;
     default:
         assert(m_spectrum->layout().kernel.width() == 5);
-        sliceRows<5>(*m_spectrum, camera, image, grid, frame.slice.data());
+        sliceRows<5>(*m_spectrum, camera, *frame.factor, grid, frame.slice.data());
     }
     const auto sliced = Clock::now();
     const double mass = double(frame.slice[0].real()) * grid.columns * grid.rows;
