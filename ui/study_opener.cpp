@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/study_opener.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/classify/coarse_field.h"
 #include "core/classify/density_field.h"
 #include "core/dicom/scan.h"
 #include "core/render/render_plan.h"
+#include "core/task/memory.h"
 #include "ui/document.h"
 #include "ui/job_runner.h"
 #include "ui/study_source.h"
@@ -20,9 +22,11 @@ namespace {
 constexpr int coarseSide = 96;
 
 std::shared_ptr<render::ProjectionEngine> makeEngine(const classify::DensityField &field,
+                                                     const render::Scene &scene,
                                                      double &predictedError,
                                                      const task::Progress &progress) {
-    const render::RenderPlan plan = render::planRender({}, render::summarise(field));
+    const render::RenderPlan plan =
+        render::planRender(scene, render::summarise(field), {task::availableMemoryBytes()});
     predictedError = plan.predictedError;
     return std::make_shared<render::CpuEngine>(std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(field.values, plan.spectrum, progress)));
@@ -42,20 +46,22 @@ void StudyOpener::followFieldWindow() {
     if (!volume || m_document.isPreview() || !volume->notes().placed || wanted == m_preparedWindow)
         return;
     m_preparedWindow = wanted;
-    m_jobs.start(tr("Preparing the projection"), [this, volume = *volume, wanted](const Job &job) {
-        prepare(job, volume, wanted, 0.0);
-    });
+    m_jobs.start(tr("Preparing the projection"),
+                 [this, volume = *volume, scene = m_document.scene()](const Job &job) {
+                     prepare(job, volume, scene, 0.0);
+                 });
 }
 
-void StudyOpener::prepare(const Job &job, const volume::Volume &volume,
-                          const std::optional<classify::FieldWindow> &window, double from) {
+void StudyOpener::prepare(const Job &job, const volume::Volume &volume, const render::Scene &scene,
+                          double from) {
     const task::Progress progress = job.progress().part(from, 1.0);
     const auto field = classify::densityField(
-        volume, window.value_or(classify::defaultFieldWindow(volume)), progress.part(0.0, 0.1));
+        volume, scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)),
+        progress.part(0.0, 0.1));
     const auto announce = [&](const classify::DensityField &f, bool coarse,
                               const task::Progress &p) {
         double error = 0.0;
-        auto engine = makeEngine(f, error, p);
+        auto engine = makeEngine(f, scene, error, p);
         job.deliver([this, engine, error, coarse] { emit engineReady(engine, error, coarse); });
     };
     const volume::GridSize n = volume.lattice().size();
@@ -124,7 +130,12 @@ void StudyOpener::openSource(int index) {
             return;
         }
         job.stage(tr("Preparing the projection"));
-        prepare(job, volume, std::nullopt, 0.6);
+        // Planned for the whole volume in a picture of its own; the pane's zoom comes and goes.
+        render::Scene scene;
+        scene.camera.pixelMm = volume.lattice().shortestStepMm();
+        scene.camera.width = scene.camera.height =
+            int(std::clamp(2.0 * volume.lattice().radiusMm() / scene.camera.pixelMm, 2.0, 4096.0));
+        prepare(job, volume, scene, 0.6);
     });
 }
 

@@ -36,8 +36,8 @@ signals:
 
 private:
     void followFieldWindow();
-    void prepare(const class Job &job, const volume::Volume &volume,
-                 const std::optional<classify::FieldWindow> &window, double from);
+    void prepare(const class Job &job, const volume::Volume &volume, const render::Scene &scene,
+                 double from);
 
     Document &m_document;
     JobRunner &m_jobs;

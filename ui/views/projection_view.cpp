@@ -94,6 +94,8 @@ void ProjectionView::setEngine(const std::shared_ptr<render::ProjectionEngine> &
     m_coarse = coarse;
     m_message.clear();
     m_fullFrameMs = 0.0;
+    // Another field window, or the fine field after the coarse one, has another brightness.
+    m_automaticTone.reset();
     m_worker.setEngine(engine);
     emit engineDescribed(
         tr("%1: %2").arg(QString::fromStdString(engine->description()), m_canvas->description()));
