@@ -81,11 +81,11 @@ void MainWindow::createPanes() {
     std::size_t n = 0;
     for (const auto orientation :
          {mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal}) {
-        m_mpr[n] = new MprView(m_document, orientation, m_theme);
+        m_mpr[n] = new MprView(m_document, orientation);
         panes[n] = m_mpr[n];
         ++n;
     }
-    m_projection = new ProjectionView(m_document, m_theme);
+    m_projection = new ProjectionView(m_document);
     panes[3] = m_projection;
     m_panes = new PaneArea(panes);
     for (MprView *view : m_mpr)

@@ -10,8 +10,15 @@
 #include <glm/geometric.hpp>
 
 #include "core/render/camera.h"
+#include "ui/theme.h"
 
 namespace pellucid::ui {
+
+OverlayColors overlayColors(const QString &planeRole) {
+    static const Theme dark = Theme::named("dark");
+    return {dark.color(planeRole), dark.color("letters"), dark.color("text"),   dark.color("muted"),
+            dark.color("raised"),  dark.color("accent"),  dark.color("warning")};
+}
 
 void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
               const QColor &color) {
@@ -103,7 +110,7 @@ void drawOrientationCube(QPainter &painter, QPointF center, double radius, const
             project(face.normal + face.a + face.b), project(face.normal - face.a + face.b),
             project(face.normal - face.a - face.b), project(face.normal + face.a - face.b)};
         // Faces that look at the viewer are lighter.
-        const QColor base = colors.panel;
+        const QColor base = colors.raised;
         painter.setBrush(base.lighter(int(100 + 90 * facing)));
         painter.setPen(QPen(colors.muted, 1.0));
         painter.drawPolygon(outline);

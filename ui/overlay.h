@@ -13,8 +13,11 @@ namespace pellucid::ui {
 
 /// Colors of what is drawn over pictures; the same in both themes, since pictures stay black.
 struct OverlayColors {
-    QColor plane, letters, text, muted, line, panel;
+    QColor plane, letters, text, muted, raised, accent, warning;
 };
+
+/// The dark theme's colors, with the plane's own by its role in resources/styles/colors.json.
+OverlayColors overlayColors(const QString &planeRole);
 
 /// Letters at the middle of the four sides for an image with these axes (LPS).
 void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,

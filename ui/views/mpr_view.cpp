@@ -16,6 +16,7 @@
 #include "core/render/camera.h"
 #include "ui/document.h"
 #include "ui/overlay.h"
+#include "ui/theme.h"
 
 namespace pellucid::ui {
 
@@ -56,9 +57,8 @@ constexpr std::array<mpr::Orientation, 3> allOrientations{
 
 } // namespace
 
-MprView::MprView(Document &document, mpr::Orientation orientation, const Theme &theme,
-                 QWidget *parent)
-    : QWidget(parent), m_document(document), m_orientation(orientation), m_theme(theme) {
+MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *parent)
+    : QWidget(parent), m_document(document), m_orientation(orientation) {
     setObjectName(QString("%1View").arg(roleOf(orientation)));
     setAccessibleName(titleOf(orientation));
     setFocusPolicy(Qt::StrongFocus);
@@ -76,10 +76,6 @@ MprView::MprView(Document &document, mpr::Orientation orientation, const Theme &
     });
     connect(&document, &Document::displayWindowChanged, this, refresh);
     connect(&document, &Document::crosshairChanged, this, refresh);
-}
-
-QColor MprView::planeColor(mpr::Orientation o) const {
-    return m_theme.color(roleOf(o));
 }
 
 void MprView::setTool(Tool tool) {
@@ -156,7 +152,7 @@ void MprView::paintEvent(QPaintEvent *) {
     if (m_document.volume()) {
         // Images without positions have one way to be seen.
         if (!m_document.volume()->notes().placed && m_orientation != mpr::Orientation::axial) {
-            painter.setPen(QColor(0x87, 0x92, 0x9C));
+            painter.setPen(overlayColors(roleOf(m_orientation)).muted);
             painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
                              tr("Images only: no volume to cut"));
         } else {
@@ -169,9 +165,11 @@ void MprView::paintEvent(QPaintEvent *) {
     } else {
         paintTexts(painter, shown);
     }
-    painter.fillRect(QRect(0, 0, width(), 3), planeColor(m_orientation));
+    painter.fillRect(QRect(0, 0, width(), 3), overlayColors(roleOf(m_orientation)).plane);
     if (hasFocus()) {
-        painter.setPen(QPen(QColor(0x4F, 0xB6, 0xC2, 140), 1));
+        QColor focus = overlayColors(roleOf(m_orientation)).accent;
+        focus.setAlpha(140);
+        painter.setPen(QPen(focus, 1));
         painter.drawRect(rect().adjusted(0, 3, -1, -1));
     }
 }
@@ -183,7 +181,7 @@ void MprView::paintCrosshair(QPainter &painter, const mpr::Plane &shown) {
             continue;
         // The other plane cuts this one along a line on which its own axis does not change.
         const glm::dvec3 axis = mpr::scrollAxis(other);
-        QColor color = planeColor(other);
+        QColor color = overlayColors(roleOf(other)).plane;
         color.setAlpha(170);
         painter.setPen(QPen(color, 1));
         if (std::abs(glm::dot(axis, shown.right)) > 0.5)
@@ -196,9 +194,7 @@ void MprView::paintCrosshair(QPainter &painter, const mpr::Plane &shown) {
 }
 
 void MprView::paintTexts(QPainter &painter, const mpr::Plane &shown) {
-    const OverlayColors colors{planeColor(m_orientation), m_theme.color("letters"),
-                               QColor(0xD9, 0xDE, 0xE3),  QColor(0x87, 0x92, 0x9C),
-                               QColor(0x2E, 0x36, 0x3D),  QColor(0x17, 0x1B, 0x1F)};
+    const OverlayColors colors = overlayColors(roleOf(m_orientation));
     QFont bold = painter.font();
     bold.setBold(true);
     painter.save();
@@ -227,10 +223,10 @@ void MprView::paintTexts(QPainter &painter, const mpr::Plane &shown) {
         drawText(painter, rect().adjusted(8, 8, -8, -24), Qt::AlignRight | Qt::AlignBottom,
                  painter.fontMetrics().elidedText(QString::fromStdString(warnings.front()),
                                                   Qt::ElideRight, width() / 2),
-                 m_theme.color("warning"));
+                 colors.warning);
     if (m_document.volume()->notes().lossy)
         drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignBottom,
-                 tr("lossy"), QColor(0xE0, 0xA3, 0x3A));
+                 tr("lossy"), colors.warning);
 }
 
 void MprView::resizeEvent(QResizeEvent *) {

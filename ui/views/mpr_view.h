@@ -6,7 +6,6 @@
 
 #include "core/mpr/plane.h"
 #include "ui/commands.h"
-#include "ui/theme.h"
 #include "ui/tools.h"
 
 namespace pellucid::ui {
@@ -17,8 +16,7 @@ class Document;
 class MprView : public QWidget {
     Q_OBJECT
 public:
-    MprView(Document &document, mpr::Orientation orientation, const Theme &theme,
-            QWidget *parent = nullptr);
+    MprView(Document &document, mpr::Orientation orientation, QWidget *parent = nullptr);
 
     void setTool(Tool tool);
     mpr::Orientation orientation() const { return m_orientation; }
@@ -55,11 +53,9 @@ private:
     void zoomBy(double factor);
     volume::PatientPoint patientAt(const QPointF &position) const;
     QPointF widgetPosition(const mpr::Plane &plane, volume::PatientPoint point) const;
-    QColor planeColor(mpr::Orientation orientation) const;
 
     Document &m_document;
     const mpr::Orientation m_orientation;
-    Theme m_theme;
     Tool m_tool = Tool::window;
     Tool m_dragTool = Tool::window;
     bool m_dragging = false;

@@ -43,8 +43,8 @@ private:
     ProjectionView *m_view;
 };
 
-ProjectionView::ProjectionView(Document &document, const Theme &theme, QWidget *parent)
-    : QWidget(parent), m_document(document), m_theme(theme), m_canvas(makeProjectionCanvas(this)),
+ProjectionView::ProjectionView(Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_canvas(makeProjectionCanvas(this)),
       m_overlay(new Overlay(this)) {
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));
@@ -322,21 +322,15 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
 }
 
 void ProjectionView::paintOverlay(QPainter &painter) {
-    const QColor accent = m_theme.color("accent");
-    const OverlayColors colors{accent,
-                               m_theme.color("letters"),
-                               QColor(0xD9, 0xDE, 0xE3),
-                               QColor(0x87, 0x92, 0x9C),
-                               QColor(0x2E, 0x36, 0x3D),
-                               QColor(0x20, 0x26, 0x2B)};
-    painter.fillRect(QRect(0, 0, width(), 3), accent);
+    const OverlayColors colors = overlayColors("accent");
+    painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
     const QRect inner = rect().adjusted(10, 8, -10, -8);
     const int line = painter.fontMetrics().height() + 3;
     painter.save();
     QFont bold = painter.font();
     bold.setBold(true);
     painter.setFont(bold);
-    drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop, tr("Projection"), accent);
+    drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop, tr("Projection"), colors.plane);
     painter.restore();
     drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, tr("Parallel projection"),
              colors.muted);
@@ -352,7 +346,7 @@ void ProjectionView::paintOverlay(QPainter &painter) {
         drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
                  painter.fontMetrics().elidedText(QString::fromStdString(w), Qt::ElideRight,
                                                   warning.width()),
-                 m_theme.color("warning"));
+                 colors.warning);
         warning.translate(0, line);
     }
     if (!m_message.isEmpty()) {

@@ -9,7 +9,6 @@
 
 #include "ui/commands.h"
 #include "ui/render_worker.h"
-#include "ui/theme.h"
 #include "ui/views/projection_canvas.h"
 
 namespace pellucid::ui {
@@ -21,7 +20,7 @@ class Document;
 class ProjectionView : public QWidget {
     Q_OBJECT
 public:
-    ProjectionView(Document &document, const Theme &theme, QWidget *parent = nullptr);
+    explicit ProjectionView(Document &document, QWidget *parent = nullptr);
     ~ProjectionView() override;
 
     void setEngine(const std::shared_ptr<render::ProjectionEngine> &engine, double predictedError,
@@ -68,7 +67,6 @@ private:
     void paintOverlay(QPainter &painter);
 
     Document &m_document;
-    Theme m_theme;
     std::unique_ptr<ProjectionCanvas> m_canvas;
     Overlay *m_overlay;
     RenderWorker m_worker;
