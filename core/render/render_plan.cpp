@@ -35,14 +35,9 @@ double footprint(const ImageDefinition &image) {
     return 6.0;
 }
 
-} // namespace
-
-FieldSummary summarise(const classify::DensityField &field) {
-    return {field.values.lattice(), field.support, energyMarginals(field.values, field.support)};
-}
-
-SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectrum,
-                    const volume::Lattice &lattice, const ImageDefinition &image) {
+// How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
+double reachPixels(const Camera &camera, const fourier::SpectrumLayout &spectrum,
+                   const volume::Lattice &lattice, const ImageDefinition &image) {
     const glm::dvec3 center = lattice.center().mm;
     const auto &[lo, hi] = spectrum.box;
     double radius = 0.0;
@@ -54,11 +49,22 @@ SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectru
     }
     const double longest =
         std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
-    radius += footprint(image) * longest;
+    return (radius + footprint(image) * longest) / camera.pixelMm;
+}
+
+} // namespace
+
+FieldSummary summarise(const classify::DensityField &field) {
+    return {field.values.lattice(), field.support, energyMarginals(field.values, field.support)};
+}
+
+SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectrum,
+                    const volume::Lattice &lattice, const ImageDefinition &image) {
+    const double projection = reachPixels(camera, spectrum, lattice, image);
     // A copy of the projection, a period away, must stay outside the image: its near edge lies at
     // period - radius, the image's far edge at half its size plus the pan.
     const auto cells = [&](int size, double pan) {
-        const double reach = radius / camera.pixelMm + 0.5 * size + std::abs(pan) / camera.pixelMm;
+        const double reach = projection + 0.5 * size + std::abs(pan) / camera.pixelMm;
         // The tails of the roll-off fold in along the border only, so their share of the image's
         // energy falls with its size, and so does the room they are given.
         const double tails = ringingPixels(image.rollOff) * std::min(1.0, 64.0 / reach);
@@ -85,7 +91,10 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
     const SliceGrid grid = sliceGrid(scene.camera, plan.spectrum, field.lattice, scene.image);
     // Beside the ghosts: the roll-off's tails that fold back over the border of the slice grid, and
     // a few hundred float roundings.
-    const double room = 0.5 * (grid.columns + grid.rows - scene.camera.width - scene.camera.height);
+    // The tails have the room between the image's edge and the next copy of the projection.
+    const double room =
+        0.5 * (grid.columns + grid.rows - 0.5 * (scene.camera.width + scene.camera.height)) -
+        reachPixels(scene.camera, plan.spectrum, field.lattice, scene.image);
     const double share = std::sqrt(double(scene.camera.width) * scene.camera.height /
                                    (double(grid.columns) * grid.rows));
     const double folded = predictFoldedTails(scene.image.rollOff, room, std::min(1.0, share),
