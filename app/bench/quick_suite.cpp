@@ -68,15 +68,15 @@ Row measure(const std::string &name, const classify::DensityField &field) {
     render::Scene scene;
     scene.camera = render::defaultCamera(field.values.lattice());
     const auto plan = render::planRender(scene, render::summarise(field));
-    const int width = plan.spectrum.kernel.width();
+    const int width = plan.spectrum.width();
     Row row{"quick",
             "default " + name,
             field.values.lattice().size(),
             "cpu",
-            plan.spectrum.kernel.name(),
+            plan.spectrum.kernels[0].name(),
             width * width * width,
             double(plan.spectrum.padded.i) / plan.spectrum.box.size().i,
-            "f32",
+            plan.spectrum.storage == fourier::Storage::binary16 ? "f16" : "f32",
             thisMachine().threads};
     auto start = Clock::now();
     const auto spectrum = std::make_shared<const fourier::Spectrum>(

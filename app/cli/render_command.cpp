@@ -252,14 +252,14 @@ public:
                 {"kernel", "KB12"}, {"taps", 12 * 12 * 12}, {"padding", 2.0}, {"storage", "f64"}};
         const render::SliceGrid grid =
             render::sliceGrid(m_scene.camera, s, m_field.values.lattice(), m_scene.image);
-        const int w = s.kernel.width();
-        return {{"kernel", s.kernel.name()},
+        const int w = s.width();
+        return {{"kernel", s.kernels[0].name()},
                 {"taps", w * w * w},
                 {"padded", doubles(s.padded)},
                 {"box", doubles(s.box.size())},
                 {"padding", double(s.padded.i) / s.box.size().i},
                 {"slice_grid", {grid.columns, grid.rows}},
-                {"storage", "f32"}};
+                {"storage", s.storage == fourier::Storage::binary16 ? "f16" : "f32"}};
     }
     std::size_t bytes() const { return m_plan.bytes; }
     // Double precision leaves rounding, about 1e-10, and what is left of the roll-off's tails.

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fourier/kernel.h"
 
-#include <array>
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
+
+#include "core/fourier/quadrature.h"
 
 namespace pellucid::fourier {
 
@@ -11,14 +14,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double exponentialSemicircleValue(double t, double width, double b) {
-    const double x = 2.0 * t / width;
-    return std::exp(b * (std::sqrt(std::max(0.0, 1.0 - x * x)) - 1.0));
-}
-
 // Monomial coefficients of the polynomial through the Chebyshev nodes of [-1/2, 1/2]: within a
 // small factor of the best uniform fit, and stable at the degrees used here.
-std::vector<double> fitPolynomial(int degree, const auto &function) {
+std::vector<double> fitPolynomial(int degree, const std::function<double(double)> &function) {
     const int count = degree + 1;
     std::vector<double> nodes(count), table(count);
     for (int n = 0; n < count; ++n) {
@@ -37,48 +35,107 @@ std::vector<double> fitPolynomial(int degree, const auto &function) {
     return monomials;
 }
 
-// Gauss-Legendre on [-1/2, 1/2], 12 points: exact to rounding for the product of a kernel piece and
-// a cosine that turns less than half way within a cell.
-struct Quadrature {
-    std::array<double, 12> at{}, weight{};
-    Quadrature() {
-        constexpr int n = 12;
-        for (int i = 0; i < n; ++i) {
-            double x = std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
-            for (int step = 0; step < 20; ++step) {
-                double p0 = 1.0, p1 = x;
-                for (int k = 2; k <= n; ++k) {
-                    const double p2 = ((2 * k - 1) * x * p1 - (k - 1) * p0) / k;
-                    p0 = p1;
-                    p1 = p2;
-                }
-                slope = n * (x * p1 - p0) / (x * x - 1.0);
-                x -= p1 / slope;
-            }
-            at[i] = 0.5 * x;
-            weight[i] = 1.0 / ((1.0 - x * x) * slope * slope);
-        }
-    }
-};
+double horner(const std::vector<double> &p, double c) {
+    double sum = 0.0;
+    for (auto it = p.rbegin(); it != p.rend(); ++it)
+        sum = sum * c + *it;
+    return sum;
+}
 
 } // namespace
 
-Kernel::Kernel(std::string name, int width, int degree,
-               double (*shape)(double t, double width, double b), double b)
-    : m_name(std::move(name)), m_width(width), m_degree(degree) {
-    for (int k = 0; k < width; ++k) {
+Kernel::Kernel(std::string name, int width, std::vector<std::vector<double>> pieces)
+    : m_name(std::move(name)), m_width(width), m_pieces(std::move(pieces)) {
+    assert(width >= 1 && width <= largestWidth && int(m_pieces.size()) == width);
+    std::size_t most = 1;
+    for (const auto &p : m_pieces)
+        most = std::max(most, p.size());
+    m_terms = int(most + 1) / 2;
+    assert(m_terms <= largestTerms);
+    for (int k = 0; k < (width + 1) / 2; ++k)
+        for (const std::size_t parity : {std::size_t(0), std::size_t(1)})
+            for (int n = 0; n < m_terms; ++n) {
+                const std::size_t power = 2 * std::size_t(n) + parity;
+                m_pairs.push_back(power < m_pieces[k].size() ? float(m_pieces[k][power]) : 0.0F);
+            }
+    // Sixteen points a cell follow the cosine of a ghost five periods away to rounding.
+    static const GaussLegendre<double> quadrature(16);
+    for (int k = width / 2; k < width; ++k)
+        for (std::size_t n = 0; n < quadrature.at.size(); ++n) {
+            const double t = k - 0.5 * (width - 1) + quadrature.at[n];
+            const bool middle = 2 * k == width - 1; // its negative half stands for itself
+            m_nodes.push_back(2.0 * pi * t);
+            const double value = horner(m_pieces[k], quadrature.at[n]);
+            const double weight = (middle ? 1.0 : 2.0) * quadrature.weight[n];
+            m_weighted.push_back(weight * value);
+            m_energy += weight * value * value;
+        }
+}
+
+Kernel Kernel::fitted(std::string name, int width, int degree,
+                      const std::function<double(double)> &shape) {
+    std::vector<std::vector<double>> pieces(width);
+    for (int k = 0; k < (width + 1) / 2; ++k) {
         const double middle = k - 0.5 * (width - 1);
-        const auto piece =
-            fitPolynomial(degree, [&](double c) { return shape(middle + c, width, b); });
-        m_coefficients.insert(m_coefficients.end(), piece.begin(), piece.end());
+        pieces[k] = fitPolynomial(degree, [&](double c) { return shape(middle + c); });
+        if (2 * k == width - 1)
+            for (int n = 1; n <= degree; n += 2)
+                pieces[k][n] = 0.0;
+        pieces[width - 1 - k] = pieces[k];
+        for (int n = 1; n <= degree; n += 2)
+            pieces[width - 1 - k][n] = -pieces[k][n];
     }
-    m_singles.assign(m_coefficients.begin(), m_coefficients.end());
+    return Kernel(std::move(name), width, std::move(pieces));
+}
+
+Kernel Kernel::nearest() {
+    return fitted("nearest", 1, 0, [](double) { return 1.0; });
+}
+
+Kernel Kernel::trilinear() {
+    return fitted("trilinear", 2, 1, [](double t) { return 1.0 - std::abs(t); });
+}
+
+Kernel Kernel::catmullRom() {
+    return fitted("catmull-rom", 4, 3, [](double t) {
+        const double a = std::abs(t);
+        return a < 1.0 ? (1.5 * a - 2.5) * a * a + 1.0 : ((2.5 - 0.5 * a) * a - 4.0) * a + 2.0;
+    });
+}
+
+Kernel Kernel::cubicBSpline() {
+    return fitted("b-spline", 4, 3, [](double t) {
+        const double a = std::abs(t);
+        return a < 1.0 ? 2.0 / 3.0 - a * a * (1.0 - 0.5 * a)
+                       : (2.0 - a) * (2.0 - a) * (2.0 - a) / 6.0;
+    });
+}
+
+Kernel Kernel::hammingSinc() {
+    return fitted("hamming-sinc", 5, 9, [](double t) {
+        const double window = 25.0 / 46.0 + 21.0 / 46.0 * std::cos(2.0 * pi * t / 5.0);
+        return window * (std::abs(t) < 1e-9 ? 1.0 : std::sin(pi * t) / (pi * t));
+    });
 }
 
 Kernel Kernel::exponentialSemicircle(int width, double padding) {
     const double b = 0.976 * pi * width * (1.0 - 1.0 / (2.0 * padding));
     // Degree width + 3 keeps the jump between neighbouring pieces below the ghosts of the kernel.
-    return Kernel("ES" + std::to_string(width), width, width + 3, exponentialSemicircleValue, b);
+    return fitted("ES" + std::to_string(width), width, width + 3, [&](double t) {
+        const double x = 2.0 * t / width;
+        return std::exp(b * (std::sqrt(std::max(0.0, 1.0 - x * x)) - 1.0));
+    });
+}
+
+Kernel Kernel::kaiserBessel(int width, double padding) {
+    const double a = width / padding * (padding - 0.5);
+    // Below padding 1.2 or so the formula asks for no curvature at all.
+    const double b = pi * std::sqrt(std::max(0.0, a * a - 0.8));
+    const double peak = std::cyl_bessel_i(0.0, b);
+    return fitted("KB" + std::to_string(width), width, width + 3, [&](double t) {
+        const double x = 2.0 * t / width;
+        return std::cyl_bessel_i(0.0, b * std::sqrt(std::max(0.0, 1.0 - x * x))) / peak;
+    });
 }
 
 double Kernel::value(double t) const {
@@ -86,22 +143,13 @@ double Kernel::value(double t) const {
     if (std::abs(t) > half)
         return 0.0;
     const int k = std::min(m_width - 1, int(std::floor(t + half)));
-    const double c = t - (k - 0.5 * (m_width - 1));
-    const double *p = m_coefficients.data() + std::size_t(k) * (m_degree + 1);
-    double sum = p[m_degree];
-    for (int n = m_degree - 1; n >= 0; --n)
-        sum = sum * c + p[n];
-    return sum;
+    return horner(m_pieces[k], t - (k - 0.5 * (m_width - 1)));
 }
 
-double Kernel::apodisation(double x, int padded) const {
-    static const Quadrature quadrature;
+double Kernel::apodisation(double x) const {
     double sum = 0.0;
-    for (int k = 0; k < m_width; ++k)
-        for (std::size_t n = 0; n < quadrature.at.size(); ++n) {
-            const double t = k - 0.5 * (m_width - 1) + quadrature.at[n];
-            sum += quadrature.weight[n] * value(t) * std::cos(2.0 * pi * t * x / padded);
-        }
+    for (std::size_t n = 0; n < m_nodes.size(); ++n)
+        sum += m_weighted[n] * std::cos(m_nodes[n] * x);
     return sum;
 }
 

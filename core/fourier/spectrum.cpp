@@ -1,155 +1,309 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fourier/spectrum.h"
 
+#include <algorithm>
 #include <cassert>
-#include <cstdlib>
+#include <cmath>
 #include <cstring>
-#include <new>
 
-#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "core/fourier/binary16.h"
+#include "core/fourier/page_memory.h"
+#include "core/fourier/strip_copies.h"
+#include "core/fourier/strip_transform.h"
 #include "core/fourier/transform.h"
-#include "core/task/error.h"
 
 namespace pellucid::fourier {
 
 namespace {
 
 using volume::GridSize;
+using Complex = std::complex<float>;
 
-constexpr int apron = Spectrum::apron;
+// Scratch that each thread keeps; uninitialised, 64-byte aligned.
+template <class T> class Scratch {
+public:
+    explicit Scratch(std::size_t count)
+        : m_memory([count] { return allocatePages(count * sizeof(T), "a transform's rows"); }) {}
+    T *local() { return reinterpret_cast<T *>(m_memory.local().get()); }
 
-struct Extent {
-    std::size_t x, y, z;
-    explicit Extent(GridSize padded)
-        // Rows are a multiple of 64 bytes, so that every row starts on a cache line.
-        : x((std::size_t(padded.i / 2 + 1 + 2 * apron) + 7) / 8 * 8), y(padded.j + 2 * apron),
-          z(padded.k + 2 * apron) {}
+private:
+    tbb::enumerable_thread_specific<std::shared_ptr<std::byte[]>> m_memory;
 };
+
+int blocksOf(GridSize padded) {
+    return (padded.i / 2 + stripLanes) / stripLanes;
+}
+
+// The field after the transforms along x and y: [y][block of 16 x][k][strip], so that the transform
+// along z reads one run. Planes of the field only: the padding along z is zero.
+std::size_t intermediateBytes(const SpectrumLayout &layout) {
+    return std::size_t(layout.padded.j) * blocksOf(layout.padded) * layout.box.size().k *
+           stripFloats * sizeof(float);
+}
 
 // 1/h along one axis for the samples of the box, the wrap voxel being the middle one.
 std::vector<float> premultiplier(const Kernel &kernel, int samples, int padded) {
     std::vector<float> factors(samples);
     for (int n = 0; n < samples; ++n)
-        factors[n] = float(1.0 / kernel.apodisation(n - samples / 2, padded));
+        factors[n] = float(1.0 / kernel.apodisation(double(n - samples / 2) / padded));
     return factors;
 }
 
-int wrapped(int index, int period) {
-    return index < 0 ? index + period : index;
+int modulo(int index, int period) {
+    return (index % period + period) % period;
 }
+
+// Fills strips with those of `from`, the middle one at index 0, and zero between.
+void placeStrips(const float *from, int count, float *strips, int padded) {
+    const int middle = count / 2, after = count - middle;
+    std::memcpy(strips, from + std::size_t(middle) * stripFloats,
+                std::size_t(after) * stripFloats * sizeof(float));
+    std::memset(strips + std::size_t(after) * stripFloats, 0,
+                std::size_t(padded - count) * stripFloats * sizeof(float));
+    std::memcpy(strips + std::size_t(padded - middle) * stripFloats, from,
+                std::size_t(middle) * stripFloats * sizeof(float));
+}
+
+std::uint32_t conjugate(std::uint32_t cell) {
+    return cell ^ 0x80000000U;
+}
+Complex conjugate(Complex cell) {
+    return std::conj(cell);
+}
+
+// The transform along z of the rows y and -y, which give each other's cells beyond the half, and
+// their lines in the final layout.
+template <class Cell> class RowPair {
+public:
+    RowPair(const SpectrumLayout &layout, const CellLayout &cells, const StripTransform &transform,
+            const float *intermediate, float scale, std::byte *out)
+        : m_layout(layout), m_cells(cells), m_transform(transform), m_intermediate(intermediate),
+          m_scale(scale), m_out(out),
+          m_rowCells(std::size_t(cells.step) * (cells.columns - 1) + 2 * CellLayout::columnCells +
+                     std::size_t(cells.apron)),
+          m_strips(2 * std::size_t(layout.padded.k) * stripFloats),
+          m_rows(2 * std::size_t(layout.padded.k) * m_rowCells) {}
+
+    void run(int y) {
+        const GridSize padded = m_layout.padded;
+        const int mirrored = (padded.j - y) % padded.j;
+        Cell *const first = m_rows.local();
+        Cell *const second = mirrored == y ? first : first + std::size_t(padded.k) * m_rowCells;
+        transformRow(y, first);
+        if (second != first)
+            transformRow(mirrored, second);
+        addApron(first, second);
+        if (second != first)
+            addApron(second, first);
+        writeLines(y, first);
+        if (second != first)
+            writeLines(mirrored, second);
+    }
+
+private:
+    void transformRow(int y, Cell *rows) {
+        const int depth = m_layout.box.size().k, padded = m_layout.padded.k;
+        float *const strips = m_strips.local();
+        float *const beside = strips + std::size_t(padded) * stripFloats;
+        const int blocks = blocksOf(m_layout.padded);
+        for (int block = 0; block < blocks; ++block) {
+            placeStrips(m_intermediate + (std::size_t(y) * blocks + block) * depth * stripFloats,
+                        depth, strips, padded);
+            const float *const result = m_transform.run(strips, beside);
+            storeExchanged(result, padded, m_scale, rows + m_cells.apron + block * stripLanes,
+                           m_rowCells);
+        }
+    }
+
+    // F(-s) = conj F(s) gives the cells left of the half and right of it.
+    void addApron(Cell *rows, const Cell *mirrored) const {
+        const int half = m_layout.padded.i / 2, depth = m_layout.padded.k, apron = m_cells.apron;
+        for (int z = 0; z < depth; ++z) {
+            Cell *const row = rows + std::size_t(z) * m_rowCells + apron;
+            const Cell *const other =
+                mirrored + std::size_t((depth - z) % depth) * m_rowCells + apron;
+            for (int m = 1; m <= apron; ++m) {
+                row[-m] = conjugate(other[m]);
+                row[half + m] = conjugate(other[half - m]);
+            }
+            std::fill(row + half + apron + 1, row - apron + m_rowCells, Cell());
+        }
+    }
+
+    void writeLines(int y, const Cell *rows) const {
+        constexpr std::size_t lineBytes = CellLayout::columnCells * sizeof(Cell);
+        for (int row = modulo(y - m_cells.firstY, m_layout.padded.j); row < m_cells.rows;
+             row += m_layout.padded.j)
+            for (int column = 0; column < m_cells.columns; ++column)
+                for (int plane = 0; plane < m_cells.planes; ++plane) {
+                    const int z = modulo(plane + m_cells.firstZ, m_layout.padded.k);
+                    const std::size_t line =
+                        (std::size_t(column) * m_cells.planes + plane) * m_cells.rows + row;
+                    streamLine(rows + std::size_t(z) * m_rowCells +
+                                   std::size_t(column) * m_cells.step,
+                               m_out + line * lineBytes, lineBytes);
+                }
+        finishStreaming();
+    }
+
+    const SpectrumLayout &m_layout;
+    const CellLayout &m_cells;
+    const StripTransform &m_transform;
+    const float *m_intermediate;
+    float m_scale;
+    std::byte *m_out;
+    std::size_t m_rowCells;
+    Scratch<float> m_strips;
+    Scratch<Cell> m_rows;
+};
 
 } // namespace
 
+std::size_t bytesPerCell(Storage storage) {
+    return storage == Storage::binary16 ? sizeof(std::uint32_t) : sizeof(Complex);
+}
+
+CellLayout::CellLayout(const SpectrumLayout &layout)
+    : apron(layout.width() / 2 + 1), step(columnCells + 1 - layout.width()),
+      columns((layout.padded.i / 2 + 1 + 2 * apron - layout.width()) / step + 1),
+      rows(layout.padded.j + 1 + 2 * apron), planes(layout.padded.k + 1 + 2 * apron),
+      firstX(-apron), firstY(-layout.padded.j / 2 - apron), firstZ(-layout.padded.k / 2 - apron) {}
+
 std::size_t SpectrumLayout::bytes() const {
-    const Extent extent(padded);
-    return extent.x * extent.y * extent.z * sizeof(std::complex<float>);
+    return CellLayout(*this).lines() * CellLayout::columnCells * bytesPerCell(storage) + 64;
+}
+
+std::size_t SpectrumLayout::peakBytes() const {
+    return bytes() + intermediateBytes(*this);
 }
 
 Spectrum::Spectrum(const volume::Volume &field, const SpectrumLayout &layout)
-    : m_lattice(field.lattice()), m_layout(layout) {
+    : m_lattice(field.lattice()), m_layout(layout), m_cellLayout(layout) {
     const volume::VoxelBox &box = layout.box;
     const GridSize size = box.size();
     m_wrapPoint = m_lattice.patient(
         volume::VoxelIndex{box.lo.i + size.i / 2, box.lo.j + size.j / 2, box.lo.k + size.k / 2});
-    const Extent extent(layout.padded);
-    // One cache line more, because the widest loads reach past the last tap.
-    const std::size_t cells = extent.x * extent.y * extent.z + 8;
-    void *const memory =
-        std::aligned_alloc(64, (cells * sizeof(std::complex<float>) + 63) / 64 * 64);
-    if (memory == nullptr)
-        throw task::Error(
-            task::ErrorCode::outOfMemory,
-            fmt::format("not enough memory for a spectrum of {} MB", layout.bytes() >> 20));
-    m_cells.reset(static_cast<std::complex<float> *>(memory), [](auto *p) { std::free(p); });
-    m_rowStride = std::ptrdiff_t(extent.x);
-    m_planeStride = std::ptrdiff_t(extent.x * extent.y);
-    m_origin = m_cells.get() + apron * (m_planeStride + m_rowStride + 1);
+    m_cells = allocatePages(layout.bytes(), "a spectrum");
+    std::memset(m_cells.get() + layout.bytes() - 64, 0, 64);
 }
 
 Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &layout,
                            const task::Progress &progress) {
     assert(field.isFloat());
     Spectrum spectrum(field, layout);
-    const GridSize lattice = field.lattice().size();
-    const GridSize size = layout.box.size();
+    const GridSize lattice = field.lattice().size(), size = layout.box.size();
     const GridSize padded = layout.padded;
-    const Extent extent(padded);
-
-    // Premultiply and wrap: sample n goes to (n - middle) modulo padded.
-    const auto hx = premultiplier(layout.kernel, size.i, padded.i);
-    const auto hy = premultiplier(layout.kernel, size.j, padded.j);
-    const auto hz = premultiplier(layout.kernel, size.k, padded.k);
+    const int blocks = blocksOf(padded), middleI = size.i / 2;
+    const auto hx = premultiplier(layout.kernels[0], size.i, padded.i);
+    const auto hy = premultiplier(layout.kernels[1], size.j, padded.j);
+    const auto hz = premultiplier(layout.kernels[2], size.k, padded.k);
     const auto cell = float(field.lattice().cellVolumeMm3());
+
+    // Along x and y plane by plane, which stays in the cache; rows and planes of padding are not
+    // transformed. Sample n goes to (n - middle) modulo padded.
+    const auto intermediateMemory = allocatePages(intermediateBytes(layout), "a transform");
+    auto *const intermediate = reinterpret_cast<float *>(intermediateMemory.get());
+    const ForwardTransform1d alongX(padded.i);
+    const StripTransform alongY(padded.j), alongZ(padded.k);
+    std::vector<double> planeBounds(size.k), planeSums(size.k);
+    const std::size_t rowCells = std::size_t(blocks) * stripLanes;
+    Scratch<float> realRows(padded.i);
+    Scratch<Complex> planes(size.j * rowCells);
+    Scratch<float> strips((std::size_t(size.j) + 2 * padded.j) * stripFloats);
     field.visit([&](auto samples) {
-        tbb::parallel_for(0, int(extent.z), [&](int z) {
-            progress.check();
-            std::memset(static_cast<void *>(spectrum.m_cells.get() + z * spectrum.m_planeStride), 0,
-                        std::size_t(spectrum.m_planeStride) * sizeof(std::complex<float>));
-        });
         tbb::parallel_for(0, size.k, [&](int k) {
             progress.check();
-            const int z = wrapped(k - size.k / 2, padded.k);
+            float *const real = realRows.local();
+            Complex *const plane = planes.local();
+            std::fill(real, real + padded.i, 0.0F);
+            double planeBound = 0.0, planeSum = 0.0;
             for (int j = 0; j < size.j; ++j) {
-                const int y = wrapped(j - size.j / 2, padded.j);
-                const float factor = cell * hz[k] * hy[j];
                 const auto *in =
                     samples.data() +
                     (std::size_t(k + layout.box.lo.k) * lattice.j + j + layout.box.lo.j) *
                         lattice.i +
                     layout.box.lo.i;
-                auto *row = reinterpret_cast<float *>(
-                    spectrum.m_origin + z * spectrum.m_planeStride + y * spectrum.m_rowStride);
-                const int middle = size.i / 2;
-                float *negative = row + padded.i - middle;
-                for (int i = 0; i < middle; ++i)
+                const float factor = cell * hz[k] * hy[j];
+                float *const negative = real + padded.i - middleI;
+                float sum = 0.0F;
+                for (int i = 0; i < middleI; ++i) {
                     negative[i] = float(in[i]) * factor * hx[i];
-                for (int i = middle; i < size.i; ++i)
-                    row[i - middle] = float(in[i]) * factor * hx[i];
+                    sum += std::abs(negative[i]);
+                }
+                for (int i = middleI; i < size.i; ++i) {
+                    real[i - middleI] = float(in[i]) * factor * hx[i];
+                    sum += std::abs(real[i - middleI]);
+                }
+                planeBound += double(sum);
+                for (int i = 0; i < size.i; ++i)
+                    planeSum += double(in[i]);
+                Complex *const row = plane + std::size_t(j) * rowCells;
+                alongX.run(real, row);
+                std::fill(row + padded.i / 2 + 1, row + rowCells, Complex());
+            }
+            planeBounds[k] = planeBound;
+            planeSums[k] = planeSum;
+            float *const placed = strips.local();
+            float *const column = placed + std::size_t(size.j) * stripFloats;
+            float *const beside = column + std::size_t(padded.j) * stripFloats;
+            for (int block = 0; block < blocks; ++block) {
+                for (int j = 0; j < size.j; ++j)
+                    loadExchanged(plane + std::size_t(j) * rowCells + block * stripLanes,
+                                  placed + std::size_t(j) * stripFloats);
+                placeStrips(placed, size.j, column, padded.j);
+                const float *const result = alongY.run(column, beside);
+                for (int y = 0; y < padded.j; ++y)
+                    std::memcpy(intermediate +
+                                    ((std::size_t(y) * blocks + block) * size.k + k) * stripFloats,
+                                result + std::size_t(y) * stripFloats, stripFloats * sizeof(float));
             }
         });
     });
-    progress.report(0.25);
+    progress.report(0.5);
 
-    forwardTransform3d(spectrum.m_origin, padded, int(spectrum.m_rowStride), int(extent.y));
-    progress.report(0.9);
-
-    // The apron: beyond the half by F(-s) = conj F(s), around the period by copying.
-    const std::ptrdiff_t rowStride = spectrum.m_rowStride, planeStride = spectrum.m_planeStride;
-    tbb::parallel_for(0, padded.k, [&](int z) {
-        const int mirroredZ = (padded.k - z) % padded.k;
-        for (int y = 0; y < padded.j; ++y) {
-            const int mirroredY = (padded.j - y) % padded.j;
-            std::complex<float> *row = spectrum.m_origin + z * planeStride + y * rowStride;
-            const std::complex<float> *mirror =
-                spectrum.m_origin + mirroredZ * planeStride + mirroredY * rowStride;
-            for (int m = 1; m <= apron; ++m) {
-                row[-m] = std::conj(mirror[m]);
-                row[padded.i / 2 + m] = std::conj(mirror[padded.i / 2 - m]);
-            }
-        }
-    });
-    const auto rowBytes = std::size_t(rowStride) * sizeof(std::complex<float>);
-    tbb::parallel_for(0, padded.k, [&](int z) {
-        auto *plane = spectrum.m_origin + z * planeStride - apron;
-        for (int m = 1; m <= apron; ++m) {
-            std::memcpy(static_cast<void *>(plane - m * rowStride),
-                        plane + (padded.j - m) * rowStride, rowBytes);
-            std::memcpy(static_cast<void *>(plane + (padded.j + m - 1) * rowStride),
-                        plane + (m - 1) * rowStride, rowBytes);
-        }
-    });
-    auto *first = spectrum.m_cells.get();
-    const auto planeBytes = std::size_t(planeStride) * sizeof(std::complex<float>);
-    for (int m = 0; m < apron; ++m) {
-        std::memcpy(static_cast<void *>(first + m * planeStride),
-                    first + (padded.k + m) * planeStride, planeBytes);
-        std::memcpy(static_cast<void *>(first + (padded.k + apron + m) * planeStride),
-                    first + (apron + m) * planeStride, planeBytes);
+    for (const double plane : planeSums)
+        spectrum.m_mass += plane * field.lattice().cellVolumeMm3();
+    // No cell can exceed the sum of the magnitudes; a power of two scales without rounding.
+    double scale = 1.0;
+    if (layout.storage == Storage::binary16) {
+        double bound = 0.0;
+        for (const double plane : planeBounds)
+            bound += plane;
+        if (bound > 0.0)
+            scale = std::exp2(std::floor(std::log2(32768.0 / bound)));
+        spectrum.m_unit = 1.0 / scale;
     }
+    const auto finish = [&](auto &&rowPair) {
+        tbb::parallel_for(0, padded.j / 2 + 1, [&](int y) {
+            progress.check();
+            rowPair.run(y);
+        });
+    };
+    if (layout.storage == Storage::binary16)
+        finish(RowPair<std::uint32_t>(layout, spectrum.m_cellLayout, alongZ, intermediate,
+                                      float(scale), spectrum.m_cells.get()));
+    else
+        finish(RowPair<Complex>(layout, spectrum.m_cellLayout, alongZ, intermediate, 1.0F,
+                                spectrum.m_cells.get()));
     progress.report(1.0);
     return spectrum;
+}
+
+std::complex<double> Spectrum::value(int p, int q, int r) const {
+    const CellLayout &c = m_cellLayout;
+    const int x = p - c.firstX;
+    const int column = std::min(x / c.step, c.columns - 1);
+    const std::size_t line =
+        (std::size_t(column) * c.planes + (r - c.firstZ)) * c.rows + (q - c.firstY);
+    const std::size_t at = line * CellLayout::columnCells + std::size_t(x - column * c.step);
+    if (m_layout.storage == Storage::float32)
+        return std::complex<double>(reinterpret_cast<const Complex *>(m_cells.get())[at]);
+    const std::uint32_t pair = reinterpret_cast<const std::uint32_t *>(m_cells.get())[at];
+    return m_unit * std::complex<double>(fromBinary16(std::uint16_t(pair)),
+                                         fromBinary16(std::uint16_t(pair >> 16)));
 }
 
 } // namespace pellucid::fourier

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <complex>
+#include <cstddef>
 #include <memory>
 
 #include "core/fourier/kernel.h"
@@ -10,17 +12,44 @@
 
 namespace pellucid::fourier {
 
+/// How a complex number of a spectrum is kept: two floats, or two IEEE binary16 numbers scaled by
+/// a power of two so that the largest fits.
+enum class Storage { binary16, float32 };
+
+std::size_t bytesPerCell(Storage storage);
+
 /// How a field is prepared.
 struct SpectrumLayout {
-    Kernel kernel;
-    volume::VoxelBox box;    ///< the part of the lattice that is transformed
-    volume::GridSize padded; ///< smooth, even sizes of the periodic grid
+    std::array<Kernel, 3> kernels; ///< one per axis, all of one width
+    volume::VoxelBox box;          ///< the part of the lattice that is transformed
+    volume::GridSize padded;       ///< smooth, even sizes of the periodic grid
+    Storage storage = Storage::binary16;
+
+    int width() const { return kernels[0].width(); }
     /// Bytes of the prepared spectrum.
     std::size_t bytes() const;
+    /// Bytes held at once while it is prepared, the result included.
+    std::size_t peakBytes() const;
 };
 
-/// The half spectrum of a field, divided by the kernel's apodisation, on a periodic padded grid
-/// with an apron, so that interpolation needs neither wrap nor branch.
+/// Where the cells of a half spectrum lie: [x column][z][y][16 cells]. Column c holds the x cells
+/// step c .. step c + 15, so neighbouring columns share width - 1 cells and every run of `width`
+/// neighbours lies inside one column: with binary16 storage inside one 64-byte cache line.
+/// Beyond the half, and around the period, an apron of cells is repeated, so that interpolation
+/// needs neither wrap nor branch. Indices y and z run from -padded/2.
+struct CellLayout {
+    static constexpr int columnCells = 16;
+
+    explicit CellLayout(const SpectrumLayout &layout);
+    int apron;   ///< cells around the stored half
+    int step;    ///< cells between the beginnings of columns
+    int columns; ///< *Shape*: columns x planes x rows lines of columnCells cells
+    int rows, planes;
+    int firstX, firstY, firstZ; ///< the indices of the first cell, row and plane
+    std::size_t lines() const { return std::size_t(columns) * planes * rows; }
+};
+
+/// The half spectrum of a field, divided by the kernel's apodisation, on a periodic padded grid.
 ///
 /// With the wrap voxel x_w as the origin of phase, the value at grid index (p, q, r) is
 ///   dV * sum_n f[n] / (h_0 h_1 h_2) * exp(-i 2 pi (p, q, r)/padded . (n - n_w)).
@@ -28,22 +57,24 @@ struct SpectrumLayout {
 /// is that of the lattice's own steps: tilted and anisotropic volumes are not resampled.
 class Spectrum {
 public:
-    /// Cells around the stored half, enough for kernels up to width 7.
-    static constexpr int apron = 4;
-
-    /// *Throws* Error{outOfMemory}, Cancelled.
+    /// *Shape*: the field is float32. *Throws* Error{outOfMemory}, Cancelled.
     static Spectrum prepare(const volume::Volume &field, const SpectrumLayout &layout,
                             const task::Progress &progress = {});
 
     const SpectrumLayout &layout() const { return m_layout; }
+    const CellLayout &cellLayout() const { return m_cellLayout; }
     const volume::Lattice &lattice() const { return m_lattice; }
     /// The position of the voxel that lies at index 0 of the padded grid.
     volume::PatientPoint wrapPoint() const { return m_wrapPoint; }
-    /// The value at grid index 0; indices from -apron to padded + apron - 1 in y and z, from -apron
-    /// to padded/2 + apron in x may be read.
-    const std::complex<float> *origin() const { return m_origin; }
-    std::ptrdiff_t rowStride() const { return m_rowStride; }
-    std::ptrdiff_t planeStride() const { return m_planeStride; }
+    /// *Shape*: cellLayout().lines() lines, and 64 bytes beyond them that may be read.
+    const std::byte *cells() const { return m_cells.get(); }
+    /// What a stored cell is to be multiplied by; a power of two.
+    double unit() const { return m_unit; }
+    /// dV * sum f: the value at frequency 0 before any rounding or interpolation.
+    double mass() const { return m_mass; }
+    /// The value at a grid index: p in -apron..padded/2 + apron, q and r within apron of
+    /// +-padded/2.
+    std::complex<double> value(int p, int q, int r) const;
     std::size_t bytes() const { return m_layout.bytes(); }
 
 private:
@@ -51,10 +82,10 @@ private:
 
     volume::Lattice m_lattice;
     SpectrumLayout m_layout;
+    CellLayout m_cellLayout;
     volume::PatientPoint m_wrapPoint;
-    std::shared_ptr<std::complex<float>[]> m_cells;
-    std::complex<float> *m_origin = nullptr;
-    std::ptrdiff_t m_rowStride = 0, m_planeStride = 0;
+    std::shared_ptr<std::byte[]> m_cells;
+    double m_unit = 1.0, m_mass = 0.0;
 };
 
 } // namespace pellucid::fourier

@@ -17,19 +17,32 @@ void forwardTransform3d(std::complex<float> *data, volume::GridSize size, int ro
 void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride,
                         int planeRows);
 
-/// Complex-to-real inverse 2D transform, exp(+i 2 pi ...), unnormalised, of one size: planned once,
-/// run often, from any thread. The input is overwritten.
+/// Real-to-complex transform of one length, exp(-i 2 pi ...), unnormalised: planned once, run
+/// often, from any thread.
+class ForwardTransform1d {
+public:
+    explicit ForwardTransform1d(int length);
+    ~ForwardTransform1d();
+    ForwardTransform1d(const ForwardTransform1d &) = delete;
+    ForwardTransform1d &operator=(const ForwardTransform1d &) = delete;
+    /// *Shape*: in: length, kept; out: length/2 + 1; both 64-byte aligned.
+    void run(const float *in, std::complex<float> *out) const;
+
+private:
+    struct Plan;
+    std::unique_ptr<Plan> m_plan;
+};
+
+/// Complex-to-real inverse 2D transform in double, exp(+i 2 pi ...), unnormalised, of one size:
+/// planned once, run often, from any thread. The input is overwritten.
 /// *Shape*: in: rows x (columns/2 + 1), out: rows x columns, contiguous; any alignment.
-template <class Real> class InverseTransform2d {
+class InverseTransform2d {
 public:
     InverseTransform2d(int rows, int columns);
     ~InverseTransform2d();
     InverseTransform2d(const InverseTransform2d &) = delete;
     InverseTransform2d &operator=(const InverseTransform2d &) = delete;
-
-    int rows() const;
-    int columns() const;
-    void run(std::complex<Real> *in, Real *out) const;
+    void run(std::complex<double> *in, double *out) const;
 
 private:
     struct Plan;

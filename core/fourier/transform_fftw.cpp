@@ -8,6 +8,8 @@
 #include <fftw3.h>
 #include <tbb/parallel_for.h>
 
+#include "core/fourier/page_memory.h"
+
 namespace pellucid::fourier {
 
 namespace {
@@ -41,9 +43,7 @@ template <> struct Fftw<float> {
             fftwf_plan_with_nthreads(count);
     }
     static constexpr auto planForward = &fftwf_plan_many_dft_r2c;
-    static constexpr auto planInverse = &fftwf_plan_dft_c2r_2d;
     static constexpr auto run = &fftwf_execute;
-    static constexpr auto runOn = &fftwf_execute_dft_c2r;
     static constexpr auto destroy = &fftwf_destroy_plan;
 };
 
@@ -60,9 +60,7 @@ template <> struct Fftw<double> {
             fftw_plan_with_nthreads(count);
     }
     static constexpr auto planForward = &fftw_plan_many_dft_r2c;
-    static constexpr auto planInverse = &fftw_plan_dft_c2r_2d;
     static constexpr auto run = &fftw_execute;
-    static constexpr auto runOn = &fftw_execute_dft_c2r;
     static constexpr auto destroy = &fftw_destroy_plan;
 };
 
@@ -98,45 +96,55 @@ void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int r
     forward(data, size, rowStride, planeRows);
 }
 
-template <class Real> struct InverseTransform2d<Real>::Plan {
-    int rows, columns;
-    typename Fftw<Real>::Plan plan;
+struct ForwardTransform1d::Plan {
+    fftwf_plan plan;
 };
 
-template <class Real>
-InverseTransform2d<Real>::InverseTransform2d(int rows, int columns)
-    : m_plan(new Plan{rows, columns, {}}) {
-    using F = Fftw<Real>;
+ForwardTransform1d::ForwardTransform1d(int length) : m_plan(new Plan{}) {
+    // ESTIMATE does not touch the arrays, which only tell their alignment.
+    const auto in = allocatePages(std::size_t(length) * sizeof(float), "a row");
+    const auto out = allocatePages((std::size_t(length) / 2 + 1) * 2 * sizeof(float), "a row");
+    const std::lock_guard lock(plannerMutex());
+    Fftw<float>::useThreads(1);
+    m_plan->plan = fftwf_plan_dft_r2c_1d(length, reinterpret_cast<float *>(in.get()),
+                                         reinterpret_cast<fftwf_complex *>(out.get()),
+                                         FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
+}
+
+ForwardTransform1d::~ForwardTransform1d() {
+    const std::lock_guard lock(plannerMutex());
+    fftwf_destroy_plan(m_plan->plan);
+}
+
+void ForwardTransform1d::run(const float *in, std::complex<float> *out) const {
+    fftwf_execute_dft_r2c(m_plan->plan, const_cast<float *>(in),
+                          reinterpret_cast<fftwf_complex *>(out));
+}
+
+struct InverseTransform2d::Plan {
+    fftw_plan plan;
+};
+
+InverseTransform2d::InverseTransform2d(int rows, int columns) : m_plan(new Plan{}) {
     // Below 512^2 handing out parts costs more than it saves.
     const int threads = std::size_t(rows) * columns >= 512 * 512 ? parts : 1;
-    // ESTIMATE does not touch the arrays, which only tell that in and out differ; UNALIGNED lets
-    // the plan run on any arrays later.
-    std::vector<Real> out(2);
-    std::vector<std::complex<Real>> in(2);
+    // UNALIGNED lets the plan run on any arrays later; it is only told that in and out differ.
+    std::vector<double> out(2);
+    std::vector<std::complex<double>> in(2);
     const std::lock_guard lock(plannerMutex());
-    F::useThreads(threads);
-    m_plan->plan = F::planInverse(rows, columns, reinterpret_cast<typename F::Complex *>(in.data()),
-                                  out.data(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT | FFTW_UNALIGNED);
+    Fftw<double>::useThreads(threads);
+    m_plan->plan =
+        fftw_plan_dft_c2r_2d(rows, columns, reinterpret_cast<fftw_complex *>(in.data()), out.data(),
+                             FFTW_ESTIMATE | FFTW_DESTROY_INPUT | FFTW_UNALIGNED);
 }
 
-template <class Real> InverseTransform2d<Real>::~InverseTransform2d() {
+InverseTransform2d::~InverseTransform2d() {
     const std::lock_guard lock(plannerMutex());
-    Fftw<Real>::destroy(m_plan->plan);
+    fftw_destroy_plan(m_plan->plan);
 }
 
-template <class Real> int InverseTransform2d<Real>::rows() const {
-    return m_plan->rows;
+void InverseTransform2d::run(std::complex<double> *in, double *out) const {
+    fftw_execute_dft_c2r(m_plan->plan, reinterpret_cast<fftw_complex *>(in), out);
 }
-template <class Real> int InverseTransform2d<Real>::columns() const {
-    return m_plan->columns;
-}
-
-template <class Real> void InverseTransform2d<Real>::run(std::complex<Real> *in, Real *out) const {
-    using F = Fftw<Real>;
-    F::runOn(m_plan->plan, reinterpret_cast<typename F::Complex *>(in), out);
-}
-
-template class InverseTransform2d<float>;
-template class InverseTransform2d<double>;
 
 } // namespace pellucid::fourier

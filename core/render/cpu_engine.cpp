@@ -3,176 +3,43 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
-#include <chrono>
 #include <cmath>
 #include <new>
 #include <numbers>
-#include <optional>
+#include <vector>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <fmt/format.h>
 
+#include "core/fourier/page_memory.h"
+#include "core/render/frame_job.h"
 #include "core/task/error.h"
+#include "core/task/worker_team.h"
 
 namespace pellucid::render {
 
 namespace {
 
 using Complex = std::complex<float>;
-using Clock = std::chrono::steady_clock;
+using fourier::stripFloats;
+using fourier::stripLanes;
 
-double milliseconds(Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double, std::milli>(to - from).count();
+int groupsOf(int rows) {
+    return (rows + stripLanes - 1) / stripLanes;
 }
 
-// K(q) for one axis. The smooth ones come from a table by linear interpolation: with 2048 entries
-// per cycle the error is below (1/2048)^2 / 8 * max|K''| = 3e-8 * 7. The band limit has corners and
-// is evaluated; so is what lies beyond the table, where pixels are much finer than the samples.
-class FactorTable {
-public:
-    explicit FactorTable(const ImageDefinition &image) : m_image(image) {
-        if (image.reconstruction == Reconstruction::bandLimited)
-            return;
-        m_values.resize(std::size_t(largest * perCycle) + 2);
-        for (std::size_t n = 0; n < m_values.size(); ++n)
-            m_values[n] = float(reconstructionFactor(image, double(n) / perCycle));
-    }
-    const ImageDefinition &definition() const { return m_image; }
-    float operator()(double q) const {
-        q = std::abs(q);
-        if (m_values.empty() || q >= largest)
-            return float(reconstructionFactor(m_image, q));
-        const double at = q * perCycle;
-        const auto n = std::size_t(at);
-        const auto f = float(at - double(n));
-        return m_values[n] + f * (m_values[n + 1] - m_values[n]);
-    }
-
-private:
-    static constexpr double perCycle = 2048.0, largest = 16.0;
-    ImageDefinition m_image;
-    std::vector<float> m_values;
-};
-
-// The weighted sum over a kernel's support. Rows are read in whole groups of four floats, which the
-// apron allows; the surplus is dropped.
-template <int W>
-Complex gather(const Complex *cells, std::ptrdiff_t rowStride, std::ptrdiff_t planeStride,
-               const float *wx, const float *wy, const float *wz) {
-    constexpr int lanes = (2 * W + 3) / 4 * 4;
-    std::array<float, lanes> sum{};
-    for (int k = 0; k < W; ++k)
-        for (int j = 0; j < W; ++j) {
-            const auto *row =
-                reinterpret_cast<const float *>(cells + k * planeStride + j * rowStride);
-            const float w = wz[k] * wy[j];
-            for (int n = 0; n < lanes; ++n)
-                sum[n] += w * row[n];
-        }
-    float re = 0.0F, im = 0.0F;
-    for (int i = 0; i < W; ++i) {
-        re += wx[i] * sum[2 * i];
-        im += wx[i] * sum[2 * i + 1];
-    }
-    return {re, im};
-}
-
-// One coordinate on a periodic axis: the first tap and the centred offset that the kernel wants.
-struct Taps {
-    int first;
-    float c;
-};
-
-Taps taps(double g, int width) {
-    const double first = std::ceil(g - 0.5 * width);
-    return {int(first), float(first - g + 0.5 * width - 0.5)};
-}
-
-template <int W> Complex sample(const fourier::Spectrum &spectrum, const glm::dvec3 &q) {
-    const fourier::Kernel &kernel = spectrum.layout().kernel;
-    const volume::GridSize padded = spectrum.layout().padded;
-    // q modulo 1 in [0, 1); the half with x beyond 1/2 is the conjugate of its mirror image.
-    glm::dvec3 f = q - glm::floor(q);
-    const bool mirrored = f.x > 0.5;
-    if (mirrored) {
-        f = 1.0 - f;
-        // A zero coordinate mirrors to itself, not to the far end of the period.
-        f.y = f.y >= 1.0 ? 0.0 : f.y;
-        f.z = f.z >= 1.0 ? 0.0 : f.z;
-    }
-    const Taps x = taps(f.x * padded.i, W), y = taps(f.y * padded.j, W),
-               z = taps(f.z * padded.k, W);
-    std::array<float, W> wx, wy, wz;
-    kernel.weights(x.c, wx.data());
-    kernel.weights(y.c, wy.data());
-    kernel.weights(z.c, wz.data());
-    const Complex *cells = spectrum.origin() + z.first * spectrum.planeStride() +
-                           y.first * spectrum.rowStride() + x.first;
-    const Complex value = gather<W>(cells, spectrum.rowStride(), spectrum.planeStride(), wx.data(),
-                                    wy.data(), wz.data());
-    return mirrored ? std::conj(value) : value;
-}
-
-std::vector<Complex> phases(int count, double cyclesPerStep) {
-    std::vector<Complex> result(count);
-    for (int n = 0; n < count; ++n) {
-        const double turns = n * cyclesPerStep;
-        const double angle = 2.0 * std::numbers::pi * (turns - std::floor(turns));
-        result[n] = Complex(float(std::cos(angle)), float(std::sin(angle)));
+// exp(+i 2 pi n turns), n = 0..count-1. Turning step by step in double keeps 1e-13.
+std::vector<std::complex<double>> rotations(int count, double turns) {
+    std::vector<std::complex<double>> result(count);
+    const double angle = 2.0 * std::numbers::pi * (turns - std::floor(turns));
+    const double re = std::cos(angle), im = std::sin(angle);
+    double x = 1.0, y = 0.0;
+    for (auto &r : result) {
+        r = {x, y};
+        const double next = x * re - y * im;
+        y = x * im + y * re;
+        x = next;
     }
     return result;
-}
-
-template <int W>
-void sliceRows(const fourier::Spectrum &spectrum, const Camera &camera, const FactorTable &factor,
-               const SliceGrid &grid, Complex *slice) {
-    const ImageDefinition &image = factor.definition();
-    const glm::dmat3 axes = camera.axes();
-    const volume::Lattice &lattice = spectrum.lattice();
-    const double du = 1.0 / (grid.columns * camera.pixelMm),
-                 dv = 1.0 / (grid.rows * camera.pixelMm);
-    const double limit = 0.5 / camera.pixelMm;
-    // q_d = a_d.s for one step along u and along image rows (downward, hence the sign).
-    const glm::dmat3 steps(lattice.step(0), lattice.step(1), lattice.step(2));
-    const glm::dvec3 qu = glm::transpose(steps) * axes[0] * du;
-    const glm::dvec3 qv = glm::transpose(steps) * axes[1] * -dv;
-    // exp(+i 2 pi s.(c - x_wrap)) and the position of the first pixel, split into u and v.
-    const glm::dvec3 shift = lattice.center().mm - spectrum.wrapPoint().mm;
-    const double firstU = camera.panMm.x - 0.5 * (camera.width - 1) * camera.pixelMm;
-    const double firstV = camera.panMm.y + 0.5 * (camera.height - 1) * camera.pixelMm;
-    const auto phaseU = phases(grid.columns / 2 + 1, du * (glm::dot(axes[0], shift) + firstU));
-    const auto phaseV = phases(grid.rows / 2 + 1, -dv * (glm::dot(axes[1], shift) + firstV));
-    const auto area = float(du * dv);
-
-    const int stride = grid.columns / 2 + 1;
-    tbb::parallel_for(
-        tbb::blocked_range<int>(0, grid.rows, 4), [&](const tbb::blocked_range<int> &range) {
-            for (int r = range.begin(); r != range.end(); ++r) {
-                Complex *row = slice + std::size_t(r) * stride;
-                const int ky = r <= grid.rows / 2 ? r : r - grid.rows;
-                const double sv = ky * dv;
-                int end = 0;
-                if (std::abs(ky) < grid.rows / 2) {
-                    // The disc |s| < limit; its edge has roll-off 0, as have the Nyquist row and
-                    // column.
-                    end = int(std::ceil(std::sqrt(std::max(0.0, limit * limit - sv * sv)) / du));
-                    end = std::min(end, grid.columns / 2);
-                }
-                const Complex rowPhase = ky >= 0 ? phaseV[ky] : std::conj(phaseV[-ky]);
-                for (int kx = 0; kx < end; ++kx) {
-                    const double su = kx * du;
-                    const glm::dvec3 q = double(kx) * qu + double(ky) * qv;
-                    const double radius = std::sqrt(su * su + sv * sv) / limit;
-                    float weight = area * factor(q.x) * factor(q.y) * factor(q.z);
-                    if (radius > 1.0 - image.rollOff)
-                        weight *= float(rollOffFactor(image.rollOff, radius));
-                    row[kx] = weight * (sample<W>(spectrum, q) * (phaseU[kx] * rowPhase));
-                }
-                std::fill(row + end, row + stride, Complex(0.0F));
-            }
-        });
 }
 
 // True if no part of the lattice can project outside the image, from any direction.
@@ -182,94 +49,242 @@ bool coversLattice(const Camera &camera, const volume::Lattice &lattice) {
     return std::min(half.x, half.y) >= lattice.radiusMm() * (1.0 - 1e-9);
 }
 
-// An image that holds the whole projection sums to P(0), which the spectrum gives exactly at a grid
-// point, for every view. The kernel's ghosts sum to zero over a period, but not over the image:
-// they shift its sum by 1e-5 to 2e-4 from view to view. Scaling takes that part of the error away.
-void conserveMass(ProjectionImage &image, double mass) {
+// What depends on the slice grid and the roll-off alone, and is kept from frame to frame.
+struct GridTables {
+    GridTables(const SliceGrid &size, double rollOffShare)
+        : grid(size), share(rollOffShare), alongRows(size.rows), halfColumns(size.columns / 2) {
+        for (const auto &factor : rotations(size.columns / 2, 1.0 / size.columns))
+            untangle.emplace_back(factor);
+        const auto radius = [&](int column, int row) {
+            return std::hypot(2.0 * column / size.columns, 2.0 * row / size.rows);
+        };
+        // The Nyquist row and column lie on the edge of the disc, whose roll-off is 0.
+        for (int strip = 0; strip < groupsOf(size.columns / 2); ++strip) {
+            const int first = strip * stripLanes, last = first + stripLanes - 1;
+            StripBounds bounds;
+            while (bounds.outerRow + 1 < size.rows / 2 && radius(first, bounds.outerRow + 1) < 1.0)
+                ++bounds.outerRow;
+            while (bounds.innerRow < bounds.outerRow &&
+                   radius(last, bounds.innerRow + 1) <= 1.0 - share)
+                ++bounds.innerRow;
+            bounds.rollOff = rollOff.size();
+            for (int row = bounds.innerRow + 1; row <= bounds.outerRow; ++row)
+                for (int column = first; column <= last; ++column)
+                    rollOff.push_back(float(rollOffFactor(share, radius(column, row))));
+            strips.push_back(bounds);
+        }
+    }
+    SliceGrid grid;
+    double share;
+    fourier::StripTransform alongRows, halfColumns;
+    std::vector<Complex> untangle;
+    std::vector<StripBounds> strips;
+    std::vector<float> rollOff;
+};
+
+} // namespace
+
+// Buffers and tables of the frames of one size.
+struct CpuEngine::Workplace {
+    explicit Workplace(int threads) : team(threads), scratch(team.slots()) {}
+
+    void fit(const SliceGrid &grid, const ImageDefinition &image) {
+        if (tables && tables->grid == grid && tables->share == image.rollOff)
+            return;
+        tables.reset();
+        tables = std::make_unique<GridTables>(grid, image.rollOff);
+        const std::size_t columns = tables->strips.size() * stripLanes;
+        const std::size_t length = std::size_t(groupsOf(std::max(grid.rows, grid.columns))) *
+                                   stripLanes; // rows fill their last group
+        const auto floats = [](std::size_t count) {
+            auto memory = fourier::allocatePages(count * sizeof(float), "an image of this size");
+            std::fill_n(reinterpret_cast<float *>(memory.get()), count, 0.0F);
+            return memory;
+        };
+        lines = floats(groupsOf(grid.rows) * columns * stripFloats);
+        columnPhase = floats(2 * columns);
+        rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
+        columnSums.resize(tables->strips.size() * stripFloats);
+        batches = fourier::allocatePages(
+            scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch), "an image of this size");
+        strips.clear();
+        for (std::size_t n = 0; n < scratch.size(); ++n) {
+            strips.push_back(floats(2 * length * stripFloats));
+            scratch[n].strips = reinterpret_cast<float *>(strips.back().get());
+            scratch[n].beside = scratch[n].strips + length * stripFloats;
+            auto *const first = reinterpret_cast<FrequencyBatch *>(batches.get());
+            scratch[n].batches = first + n * (batchesAhead + 1);
+            std::uninitialized_default_construct_n(scratch[n].batches, batchesAhead + 1);
+        }
+    }
+
+    task::WorkerTeam team;
+    std::vector<FrameScratch> scratch;
+    std::unique_ptr<GridTables> tables;
+    std::shared_ptr<std::byte[]> lines, columnPhase, batches;
+    std::vector<std::shared_ptr<std::byte[]>> strips;
+    std::vector<Complex> rowPhase;
+    std::vector<double> columnSums;
+};
+
+namespace {
+
+struct Frame {
+    FrameJob job;
+    FrameScratch *scratch;
+    bool conservesMass;
+};
+
+// An image that holds the whole projection sums to P(0), the field's own sum, for every view. The
+// kernel's ghosts sum to zero over a period, but not over the image: they shift its sum by 1e-5 to
+// 2e-4 from view to view, and binary16 rounds P(0) by as much. Scaling takes that part of the error
+// away; the sums of the columns tell the image's sum before the image is made.
+double scaleToMass(const FrameJob &job) {
+    // Over a whole period only the frequency 0 has a sum, its own at every pixel.
+    const double mass = job.zeroFrequency * job.columns * job.rows;
+    const auto turn = rotations(job.columns, 1.0 / job.columns);
     double sum = 0.0;
-    for (const float p : image.samples)
-        sum += p;
+    for (int column = 0; column < std::min(job.columns / 2, job.stripCount * stripLanes);
+         ++column) {
+        const double *const at =
+            job.columnSums + std::size_t(column / stripLanes) * stripFloats + column % stripLanes;
+        if (column == 0) {
+            sum += at[0] * job.imageColumns;
+            continue;
+        }
+        // Sum over the image's columns of exp(+i 2 pi n column/columns).
+        const auto last = turn[std::size_t(std::int64_t(column) * job.imageColumns % job.columns)];
+        const std::complex<double> seen = (1.0 - last) / (1.0 - turn[column]);
+        sum += 2.0 * (at[0] * seen.real() - at[stripLanes] * seen.imag());
+    }
     const double scale = mass / sum;
     // Anything further from 1 is not a ghost: an empty field, or an image without a mean.
-    if (!(std::abs(scale - 1.0) < 1e-3))
-        return;
-    for (float &p : image.samples)
-        p = float(p * scale);
+    return std::abs(scale - 1.0) < 1e-3 ? scale : 1.0;
 }
 
 } // namespace
 
-struct CpuEngine::Frame {
-    explicit Frame(const SliceGrid &size)
-        : grid(size), inverse(size.rows, size.columns),
-          slice(std::size_t(size.rows) * (size.columns / 2 + 1)),
-          plane(std::size_t(size.rows) * size.columns) {}
-    SliceGrid grid;
-    // Filling the table takes a millisecond: once per definition, not once per frame.
-    std::optional<FactorTable> factor;
-    fourier::InverseTransform2d<float> inverse;
-    std::vector<Complex> slice;
-    std::vector<float> plane;
-};
-
-CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum)
-    : m_spectrum(std::move(spectrum)) {}
+CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum, int threads)
+    : m_spectrum(std::move(spectrum)), m_workplace(std::make_unique<Workplace>(threads)) {}
 CpuEngine::~CpuEngine() = default;
 
 std::string CpuEngine::description() const {
-    return "CPU engine, " + std::to_string(tbb::this_task_arena::max_concurrency()) + " threads";
-}
-
-CpuEngine::Frame &CpuEngine::frameFor(const SliceGrid &grid) {
-    if (!m_frame || !(m_frame->grid == grid)) {
-        m_frame.reset();
-        try {
-            m_frame = std::make_unique<Frame>(grid);
-        } catch (const std::bad_alloc &) {
-            throw task::Error(task::ErrorCode::outOfMemory,
-                              "not enough memory for an image of this size");
-        }
-    }
-    return *m_frame;
+    const int threads = m_workplace->team.threads();
+    return fmt::format("CPU engine, {}, {} thread{}", instructionSet(), threads,
+                       threads == 1 ? "" : "s");
 }
 
 ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &image,
                                   FrameTimes *times) {
-    const SliceGrid grid = sliceGrid(camera, m_spectrum->layout(), m_spectrum->lattice(), image);
-    Frame &frame = frameFor(grid);
-    const auto start = Clock::now();
-    if (!frame.factor || !(frame.factor->definition() == image))
-        frame.factor.emplace(image);
-    switch (m_spectrum->layout().kernel.width()) {
-    case 4:
-        sliceRows<4>(*m_spectrum, camera, *frame.factor, grid, frame.slice.data());
-        break;
-    case 6:
-        sliceRows<6>(*m_spectrum, camera, *frame.factor, grid, frame.slice.data());
-        break;
-    default:
-        assert(m_spectrum->layout().kernel.width() == 5);
-        sliceRows<5>(*m_spectrum, camera, *frame.factor, grid, frame.slice.data());
+    const double start = frameClockSeconds();
+    const fourier::SpectrumLayout &layout = m_spectrum->layout();
+    const volume::Lattice &lattice = m_spectrum->lattice();
+    const SliceGrid grid = sliceGrid(camera, layout, lattice, image);
+    ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}};
+    try {
+        m_workplace->fit(grid, image);
+        result.samples.resize(std::size_t(camera.width) * camera.height);
+    } catch (const std::bad_alloc &) {
+        m_workplace->tables.reset();
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          "not enough memory for an image of this size");
     }
-    const auto sliced = Clock::now();
-    const double mass = double(frame.slice[0].real()) * grid.columns * grid.rows;
-    frame.inverse.run(frame.slice.data(), frame.plane.data());
+    Workplace &place = *m_workplace;
+    const GridTables &tables = *place.tables;
 
-    ProjectionImage result{camera.width, camera.height, camera.pixelMm,
-                           std::vector<float>(std::size_t(camera.width) * camera.height)};
-    for (int r = 0; r < camera.height; ++r) {
-        const float *from = frame.plane.data() + std::size_t(r % grid.rows) * grid.columns;
-        float *to = result.samples.data() + std::size_t(r) * camera.width;
-        // An image wider than the period shows the empty part of it again.
-        for (int c = 0; c < camera.width; c += grid.columns)
-            std::copy_n(from, std::min(grid.columns, camera.width - c), to + c);
+    const glm::dmat3 axes = camera.axes();
+    const double du = 1.0 / (grid.columns * camera.pixelMm);
+    const double dv = 1.0 / (grid.rows * camera.pixelMm);
+    Frame frame{{}, place.scratch.data(), false};
+    FrameJob &job = frame.job;
+    job.spectrum = m_spectrum.get();
+    job.image = image;
+    job.columns = grid.columns;
+    job.rows = grid.rows;
+    job.imageColumns = camera.width;
+    job.imageRows = camera.height;
+    for (int d = 0; d < 3; ++d) {
+        // Image rows run downward, against V.
+        job.cellsPerColumn[d] = layout.padded[d] * glm::dot(lattice.step(d), axes[0]) * du;
+        job.cellsPerRow[d] = -layout.padded[d] * glm::dot(lattice.step(d), axes[1]) * dv;
+        job.wraps = job.wraps || lattice.spacingMm(d) > camera.pixelMm * (1.0 + 1e-9);
     }
+    job.strips = tables.strips.data();
+    job.stripCount = int(tables.strips.size());
+    job.rollOff = tables.rollOff.data();
+    // exp(+i 2 pi s.(c - x_wrap)) and the position of the first pixel, split into u and v.
+    const glm::dvec3 shift = lattice.center().mm - m_spectrum->wrapPoint().mm;
+    const double firstU = camera.panMm.x - 0.5 * (camera.width - 1) * camera.pixelMm;
+    const double firstV = camera.panMm.y + 0.5 * (camera.height - 1) * camera.pixelMm;
+    const int columns = job.stripCount * stripLanes;
+    auto *const columnPhase = reinterpret_cast<float *>(place.columnPhase.get());
+    const auto turnU = rotations(columns, du * (glm::dot(axes[0], shift) + firstU));
+    for (int n = 0; n < columns; ++n) {
+        columnPhase[n] = float(turnU[n].real());
+        columnPhase[columns + n] = float(turnU[n].imag());
+    }
+    const auto turnV = rotations(grid.rows / 2 + 1, -dv * (glm::dot(axes[1], shift) + firstV));
+    const double unit = du * dv * m_spectrum->unit();
+    for (std::size_t n = 0; n < turnV.size(); ++n)
+        place.rowPhase[n] = Complex(unit * turnV[n]);
+    job.columnPhase = columnPhase;
+    job.rowPhase = place.rowPhase.data();
+    job.alongRows = &tables.alongRows;
+    job.halfColumns = &tables.halfColumns;
+    job.untangle = tables.untangle.data();
+    job.lines = reinterpret_cast<float *>(place.lines.get());
+    job.samples = result.samples.data();
     // A sharp band limit rings beyond the image: there the image's own sum is not P(0).
-    if (image.reconstruction != Reconstruction::bandLimited && image.rollOff >= 0.03 &&
-        coversLattice(camera, m_spectrum->lattice()))
-        conserveMass(result, mass);
-    if (times != nullptr)
-        *times = {milliseconds(start, sliced), milliseconds(sliced, Clock::now())};
+    frame.conservesMass = image.reconstruction != Reconstruction::bandLimited &&
+                          image.rollOff >= 0.03 && coversLattice(camera, lattice);
+    job.zeroFrequency = m_spectrum->mass() * du * dv;
+    if (frame.conservesMass)
+        job.columnSums = place.columnSums.data();
+    for (FrameScratch &scratch : place.scratch)
+        scratch.sliceSeconds = scratch.stripSeconds = 0.0;
+
+    double rowsStart = 0.0;
+    struct Context {
+        Frame &frame;
+        double &rowsStart;
+    } context{frame, rowsStart};
+    using task::WorkerTeam;
+    const std::array<WorkerTeam::Phase, 3> phases{{{job.stripCount,
+                                                    [](void *c, int part, int slot) {
+                                                        Frame &f = static_cast<Context *>(c)->frame;
+                                                        sliceStrip(f.job, part, f.scratch[slot]);
+                                                    },
+                                                    &context},
+                                                   {1,
+                                                    [](void *c, int, int) {
+                                                        auto &[f, begun] =
+                                                            *static_cast<Context *>(c);
+                                                        begun = frameClockSeconds();
+                                                        if (f.conservesMass)
+                                                            f.job.scale = float(scaleToMass(f.job));
+                                                    },
+                                                    &context},
+                                                   {groupsOf(std::min(camera.height, grid.rows)),
+                                                    [](void *c, int part, int slot) {
+                                                        Frame &f = static_cast<Context *>(c)->frame;
+                                                        finishRows(f.job, part, f.scratch[slot]);
+                                                    },
+                                                    &context}}};
+    place.team.run(phases);
+
+    if (times != nullptr) {
+        // Strips are transformed as soon as they are interpolated: the wall time of the strips is
+        // shared out as the threads' own times are.
+        const double end = frameClockSeconds();
+        double slice = 0.0, strips = 0.0;
+        for (const FrameScratch &scratch : place.scratch) {
+            slice += scratch.sliceSeconds;
+            strips += scratch.stripSeconds;
+        }
+        const double wall = rowsStart - start;
+        const double sliced = strips > 0.0 ? wall * slice / strips : wall;
+        *times = {1e3 * sliced, 1e3 * (end - start - sliced)};
+    }
     return result;
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/fourier/spectrum.h"
-#include "core/fourier/transform.h"
 #include "core/render/projection_image.h"
 #include "core/render/render_plan.h"
 
@@ -24,10 +23,13 @@ public:
 };
 
 /// The projection-slice theorem on the processor: interpolates the central slice of the half
-/// spectrum, multiplies by the reconstruction and the roll-off, transforms back.
+/// spectrum strip by strip, multiplies by the reconstruction and the roll-off, and transforms each
+/// strip back while it is in the cache. The same bits for any number of threads; between
+/// instruction sets images differ by less than 2e-6 of their largest value.
 class CpuEngine final : public ProjectionEngine {
 public:
-    explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum);
+    /// `threads`: 0 for as many as oneTBB may use.
+    explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum, int threads = 0);
     ~CpuEngine() override;
 
     std::string description() const override;
@@ -35,11 +37,10 @@ public:
                            FrameTimes *times = nullptr) override;
 
 private:
-    struct Frame;
-    Frame &frameFor(const SliceGrid &grid);
+    struct Workplace;
 
     std::shared_ptr<const fourier::Spectrum> m_spectrum;
-    std::unique_ptr<Frame> m_frame;
+    std::unique_ptr<Workplace> m_workplace;
 };
 
 } // namespace pellucid::render

@@ -18,11 +18,30 @@ struct EnergyMarginals {
 /// *Shape*: one entry per sample of the box on every axis.
 EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box);
 
-/// The relative L2 error of an image that the kernel's ghosts leave: on axis d the ghost of voxel x
-/// in period m has the amplitude r = h(x + m padded)/h(x), and
-///   error^2 = prod_d (1 + sum_x energy_d(x) sum_m r^2) - 1.
-/// Ghosts that land outside the image are counted too, so this is high rather than low.
-double predictRelativeError(const fourier::SpectrumLayout &layout, const EnergyMarginals &energy);
+/// What one axis of a layout leaves, relative to the energy of the field.
+struct AxisError {
+    /// sum_x e(x) sum_m r^2 with r = h(x + m)/h(x), the amplitude of the ghost of x in period m.
+    double ghosts = 0.0;
+    /// integral H^2 times sum_x e(x)/h(x)^2: how rounding of the cells reaches the image.
+    double noise = 1.0;
+};
+
+/// *Shape*: one energy per sample of the axis; *Units*: padded in samples.
+AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy);
+
+/// How much of what the ghosts and the rounding spread over the period falls into the image,
+/// relative to the share of the projection's energy that the image holds.
+struct ImageShare {
+    double inImage = 1.0;
+};
+
+/// The relative L2 error of an image from a direction that no axis is close to, or along an axis,
+/// whichever is worse. A ghost lies one or more padded periods away along its axis. Seen across the
+/// axis it lands anywhere in the slice's period, hence in the image by its share of the area; seen
+/// along the axis all of it falls onto the projection. Rounding to binary16 leaves 2.1e-4 of each
+/// cell, spread evenly over the period; rounding to float and summing 3e-7.
+double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
+                            const ImageShare &share);
 
 /// How far the response of a raised-cosine edge over a share F of the band is followed, in pixels:
 /// 4/F, and never further than 256.

@@ -2,7 +2,12 @@
 #include "core/render/render_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,10 +18,12 @@ namespace pellucid::render {
 
 namespace {
 
-// Width 5 at padding 1.5 keeps the ghosts of any field, one that fills its lattice to the corners
-// included, below 7e-4.
-constexpr int kernelWidth = 5;
-constexpr double padding = 1.5;
+// Paddings that are tried on each axis; below 1.2 the seam of a full lattice shows.
+constexpr std::array<double, 6> paddings{1.25, 1.375, 1.5, 1.625, 1.75, 2.0};
+
+// Relative times of a frequency sample by kernel width, with binary16 and with float cells.
+constexpr std::array<double, 8> sampleTime{0.0, 0.0, 0.5, 0.7, 1.0, 1.7, 2.2, 2.9};
+constexpr double floatCells = 1.4;
 
 // Larger slices take more memory than any image is worth.
 constexpr int largestSliceGrid = 65536;
@@ -79,37 +86,143 @@ SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectru
     return {cells(camera.width, camera.panMm.x), cells(camera.height, camera.panMm.y)};
 }
 
+namespace {
+
+// The kernels of one axis by width and padding, made when first asked for: each takes milliseconds.
+class AxisCandidates {
+public:
+    AxisCandidates(int samples, const std::vector<double> &energy)
+        : m_samples(samples), m_energy(energy), m_folded((std::size_t(samples) + 3) / 2, 0.0) {
+        // From the wrap voxel, the middle one, outward.
+        for (int n = 0; n < samples; ++n)
+            m_folded[std::size_t(std::abs(n - samples / 2))] += energy[n];
+    }
+
+    struct Candidate {
+        fourier::Kernel kernel;
+        int padded;
+        AxisError error;
+    };
+    const Candidate &at(int width, std::size_t level) {
+        auto &slot = m_made[{width, level}];
+        if (!slot) {
+            const int padded = fourier::paddedSize(m_samples, paddings[level]);
+            // Small axes are padded to more than they need: the kernel may know.
+            const double padding = std::min(2.5, double(padded) / m_samples);
+            auto kernel = fourier::Kernel::leastGhosts(width, padding, m_folded);
+            const AxisError error = axisError(kernel, padded, m_energy);
+            slot = std::make_unique<Candidate>(Candidate{std::move(kernel), padded, error});
+        }
+        return *slot;
+    }
+
+private:
+    int m_samples;
+    const std::vector<double> &m_energy;
+    std::vector<double> m_folded;
+    std::map<std::pair<int, std::size_t>, std::unique_ptr<Candidate>> m_made;
+};
+
+// What the frames of a camera take beside the spectrum: the lines between the two transforms and
+// the image, both of the slice's size or less.
+std::size_t frameBytes(const SliceGrid &grid) {
+    return std::size_t(grid.columns) * grid.rows * 3 * sizeof(float);
+}
+
+ImageShare imageShare(const Camera &camera, const SliceGrid &grid, const FieldSummary &field) {
+    const double image = double(camera.width) * camera.height;
+    const double period = double(grid.columns) * grid.rows;
+    // A convex body's shadow has on average a quarter of its surface.
+    const volume::GridSize size = field.support.size();
+    const double a = size.i * field.lattice.spacingMm(0), b = size.j * field.lattice.spacingMm(1),
+                 c = size.k * field.lattice.spacingMm(2);
+    const double shadow = 0.5 * (a * b + b * c + c * a) / (camera.pixelMm * camera.pixelMm);
+    return {std::min(1.0, image / period) / std::min(1.0, image / shadow)};
+}
+
+} // namespace
+
 RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budget &budget) {
     validate(scene);
     const volume::GridSize size = field.support.size();
-    const volume::GridSize padded{fourier::paddedSize(size.i, padding),
-                                  fourier::paddedSize(size.j, padding),
-                                  fourier::paddedSize(size.k, padding)};
-    RenderPlan plan{
-        {fourier::Kernel::exponentialSemicircle(kernelWidth, padding), field.support, padded},
-        scene.image};
-    const SliceGrid grid = sliceGrid(scene.camera, plan.spectrum, field.lattice, scene.image);
-    // Beside the ghosts: the roll-off's tails that fold back over the border of the slice grid, and
-    // a few hundred float roundings.
-    // The tails have the room between the image's edge and the next copy of the projection.
+    std::array<AxisCandidates, 3> axes{AxisCandidates(size.i, field.energy.axis[0]),
+                                       AxisCandidates(size.j, field.energy.axis[1]),
+                                       AxisCandidates(size.k, field.energy.axis[2])};
+    const auto layoutAt = [&](int width, const std::array<std::size_t, 3> &level,
+                              fourier::Storage storage) {
+        const auto &x = axes[0].at(width, level[0]), &y = axes[1].at(width, level[1]),
+                   &z = axes[2].at(width, level[2]);
+        return fourier::SpectrumLayout{
+            {x.kernel, y.kernel, z.kernel}, field.support, {x.padded, y.padded, z.padded}, storage};
+    };
+    // The slice grid depends on box and camera alone.
+    const SliceGrid grid = sliceGrid(scene.camera, layoutAt(4, {}, fourier::Storage::binary16),
+                                     field.lattice, scene.image);
+    const ImageShare share = imageShare(scene.camera, grid, field);
+    // Beside ghosts and rounding: the roll-off's tails that fold back over the border of the slice
+    // grid. They have the room between the image's edge and the next copy of the projection.
     const double room =
         0.5 * (grid.columns + grid.rows - 0.5 * (scene.camera.width + scene.camera.height)) -
-        reachPixels(scene.camera, plan.spectrum, field.lattice, scene.image);
-    const double share = std::sqrt(double(scene.camera.width) * scene.camera.height /
-                                   (double(grid.columns) * grid.rows));
-    const double folded = predictFoldedTails(scene.image.rollOff, room, std::min(1.0, share),
+        reachPixels(scene.camera, layoutAt(4, {}, fourier::Storage::binary16), field.lattice,
+                    scene.image);
+    const double side = std::sqrt(double(scene.camera.width) * scene.camera.height /
+                                  (double(grid.columns) * grid.rows));
+    const double folded = predictFoldedTails(scene.image.rollOff, room, std::min(1.0, side),
                                              field.energy.effectiveSamples);
-    plan.predictedError =
-        std::hypot(predictRelativeError(plan.spectrum, field.energy), folded, 1e-6);
-    // A frame holds the slice, its transform and the cropped image, all of the slice's size or
-    // less.
-    const std::size_t frame = std::size_t(grid.columns) * grid.rows * 3 * sizeof(float);
-    plan.bytes = plan.spectrum.bytes() + frame;
-    if (plan.bytes > budget.bytes)
+
+    std::optional<RenderPlan> best;
+    double bestTime = 0.0;
+    std::size_t leastBytes = std::numeric_limits<std::size_t>::max();
+    for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
+        for (int width = 3; width <= fourier::Kernel::largestWidth; ++width) {
+            std::array<std::size_t, 3> level{};
+            for (;;) {
+                std::array<AxisError, 3> errors;
+                for (int d = 0; d < 3; ++d)
+                    errors[d] = axes[d].at(width, level[d]).error;
+                const auto layout = layoutAt(width, level, storage);
+                const double predicted =
+                    std::hypot(predictRelativeError(errors, storage, share), folded);
+                const std::size_t bytes = layout.peakBytes() + frameBytes(grid);
+                leastBytes = std::min(leastBytes, bytes);
+                if (bytes > budget.bytes)
+                    break; // more padding takes more
+                const bool meets = predicted <= scene.tolerance;
+                // A larger spectrum is slower to read and to prepare: a tenth for each doubling.
+                const double time = sampleTime[std::size_t(width)] *
+                                    (storage == fourier::Storage::float32 ? floatCells : 1.0) *
+                                    (1.0 + 0.1 * std::log2(double(bytes)));
+                const bool bestMeets = best && best->predictedError <= scene.tolerance;
+                if (!best || (meets && (!bestMeets || time < bestTime)) ||
+                    (!meets && !bestMeets && predicted < best->predictedError)) {
+                    best = RenderPlan{layout, scene.image, predicted, bytes};
+                    bestTime = time;
+                }
+                if (meets)
+                    break;
+                // More padding where the ghosts are strongest.
+                int worst = -1;
+                for (int d = 0; d < 3; ++d)
+                    if (level[d] + 1 < paddings.size() &&
+                        (worst < 0 || errors[d].ghosts > errors[worst].ghosts))
+                        worst = d;
+                if (worst < 0)
+                    break;
+                ++level[std::size_t(worst)];
+            }
+            // A wider kernel with less padding may fit where this one does not meet; one that is
+            // met is not made faster by more taps.
+            if (best && best->predictedError <= scene.tolerance)
+                break;
+        }
+        if (best && best->predictedError <= scene.tolerance)
+            break; // float cells only cost more
+    }
+    if (!best)
         throw task::Error(task::ErrorCode::outOfMemory,
                           fmt::format("the projection needs {} MB, {} MB are allowed",
-                                      (plan.bytes >> 20) + 1, budget.bytes >> 20));
-    return plan;
+                                      (leastBytes >> 20) + 1, budget.bytes >> 20));
+    return *best;
 }
 
 } // namespace pellucid::render

@@ -38,12 +38,14 @@ struct RenderPlan {
     ImageDefinition image;
     /// Relative L2 error of the image, predicted from the field.
     double predictedError = 0.0;
-    /// Most bytes held at once by the spectrum and the frames of the planned camera.
+    /// Most bytes held at once by the spectrum, its preparation and the frames of the planned
+    /// camera.
     std::size_t bytes = 0;
 };
 
-/// *Throws* Error{outOfMemory} if the plan does not fit the budget, Error{usage} if the scene is
-/// invalid.
+/// The cheapest kernel, padding of each axis and storage whose predicted error is within the
+/// scene's tolerance; if none is, or none of those fits the budget, the most accurate that fits.
+/// *Throws* Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budget &budget = {});
 
 /// The slice grid for a camera: wide enough that no part of the projection, seen from any

@@ -26,7 +26,10 @@ TEST(RenderPlan, PadsTheSupportOnly) {
     const volume::Volume values(lattice, samples, volume::ValueUnit::none);
     const auto field = classify::densityField(values, {0, 1});
     const auto plan = render::planRender(sceneFor(lattice), render::summarise(field));
-    EXPECT_EQ(plan.spectrum.padded, (volume::GridSize{32, 16, 16}));
+    EXPECT_GE(plan.spectrum.padded.i, 27); // 1.25 times 21
+    EXPECT_LE(plan.spectrum.padded.i, 42); // twice 21
+    EXPECT_EQ(plan.spectrum.padded.j, 16); // the least there is
+    EXPECT_EQ(plan.spectrum.padded.k, 16);
 }
 
 TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
@@ -44,16 +47,37 @@ TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
     EXPECT_GE(narrow.columns, 20 + 86);
 }
 
-TEST(RenderPlan, RefusesWhatExceedsTheBudget) {
+TEST(RenderPlan, ReducesWhatExceedsTheBudgetAndRefusesTheImpossible) {
     const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
     const auto summary = render::summarise(test::noiseField(lattice));
-    const auto plan = render::planRender(sceneFor(lattice), summary);
-    EXPECT_NO_THROW(render::planRender(sceneFor(lattice), summary, {plan.bytes}));
+    const auto scene = sceneFor(lattice);
+    const auto plan = render::planRender(scene, summary);
+    EXPECT_LE(plan.predictedError, scene.tolerance);
+    EXPECT_EQ(render::planRender(scene, summary, {plan.bytes}).bytes, plan.bytes);
+    const auto reduced = render::planRender(scene, summary, {plan.bytes * 7 / 10});
+    EXPECT_LE(reduced.bytes, plan.bytes * 7 / 10);
     try {
-        render::planRender(sceneFor(lattice), summary, {plan.bytes - 1});
+        render::planRender(scene, summary, {plan.bytes / 10});
         FAIL();
     } catch (const task::Error &error) {
         EXPECT_EQ(error.code(), task::ErrorCode::outOfMemory);
+    }
+}
+
+TEST(RenderPlan, TighterTolerancesTakeMoreTapsAndThenFloatCells) {
+    const auto lattice = volume::Lattice::centred({48, 48, 48}, {1, 1, 1});
+    const auto summary = render::summarise(test::noiseField(lattice));
+    auto scene = sceneFor(lattice);
+    scene.image.rollOff = 1.0; // no tails to speak of
+    int width = 0;
+    for (const double tolerance : {3e-2, 1e-2, 1e-3, 1e-4, 2e-5}) {
+        scene.tolerance = tolerance;
+        const auto plan = render::planRender(scene, summary);
+        EXPECT_LE(plan.predictedError, tolerance);
+        EXPECT_GE(plan.spectrum.width(), width);
+        width = plan.spectrum.width();
+        EXPECT_EQ(plan.spectrum.storage,
+                  tolerance > 3e-4 ? fourier::Storage::binary16 : fourier::Storage::float32);
     }
 }
 

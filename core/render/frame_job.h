@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/fourier/spectrum.h"
+#include "core/fourier/strip_transform.h"
+#include "core/render/image_definition.h"
+
+namespace pellucid::render {
+
+/// One strip of the slice: 16 columns of the frequency grid and every row within the band's disc.
+struct StripBounds {
+    int innerRow = -1; ///< up to here, on both sides of 0, the roll-off is 1 in every lane
+    int outerRow = -1; ///< last row with a frequency inside the disc; -1: none
+    /// Where the roll-off of row innerRow + 1 begins in `FrameJob::rollOff`; 16 values a row.
+    std::size_t rollOff = 0;
+};
+
+/// Where a batch of 16 neighbouring frequencies reads, and with which weights. *Shape*: y and z
+/// weights [tap][lane]; x weights [lane][4 or 8 taps].
+struct alignas(64) FrequencyBatch {
+    static constexpr int lanes = fourier::stripLanes;
+    std::array<float, std::size_t(lanes) * 8 + 16> x;
+    std::array<float, std::size_t(lanes) * fourier::Kernel::largestWidth> y, z;
+    std::array<std::int32_t, lanes> line, offset;
+    std::array<float, lanes> factor; ///< reconstruction and roll-off
+    std::array<float, lanes> sign;   ///< -1: the conjugate is meant
+};
+
+/// What a frame's parts share: read by every thread, except what each part writes for itself.
+struct FrameJob {
+    const fourier::Spectrum *spectrum = nullptr;
+    ImageDefinition image;
+    bool wraps = false; ///< some |a_d.s| of the disc exceeds 1/2
+
+    int columns = 0, rows = 0; ///< of the frequency grid, hence of the periodic image
+    int imageColumns = 0, imageRows = 0;
+    /// Grid cells of the spectrum per column and per row of the slice, by axis.
+    std::array<double, 3> cellsPerColumn{}, cellsPerRow{};
+    const StripBounds *strips = nullptr;
+    int stripCount = 0;
+    const float *rollOff = nullptr;
+    /// exp(+i ...) that moves the wrap voxel and the first pixel to where they are, by column
+    /// (real parts, then imaginary parts, 16 x stripCount each) and by row 0..rows/2; the row's
+    /// holds the frequency cell's area and the spectrum's unit too.
+    const float *columnPhase = nullptr;
+    const std::complex<float> *rowPhase = nullptr;
+
+    const fourier::StripTransform *alongRows = nullptr;   ///< length rows
+    const fourier::StripTransform *halfColumns = nullptr; ///< length columns / 2
+    /// exp(+i 2 pi k / columns), k = 0..columns/2 - 1.
+    const std::complex<float> *untangle = nullptr;
+
+    /// After the transform along image rows' direction: [group of 16 image rows][column][strip].
+    float *lines = nullptr;
+    /// Sums over the image rows of each column, real and imaginary; filled if not null.
+    double *columnSums = nullptr;
+    float scale = 1.0F;         ///< what the image is multiplied by
+    double zeroFrequency = 0.0; ///< what the slice is at frequency 0, exactly
+    float *samples = nullptr;   ///< imageRows x imageColumns
+};
+
+/// Scratch of one thread: two arrays of `length` strips and a few batches.
+struct FrameScratch {
+    float *strips = nullptr, *beside = nullptr;
+    FrequencyBatch *batches = nullptr; ///< `batchesAhead` + 1 of them
+    /// Time spent on strips, and on their interpolation alone, added up.
+    double stripSeconds = 0.0, sliceSeconds = 0.0;
+};
+inline constexpr int batchesAhead = 3;
+/// Cuts a frame's times in two: seconds since some moment.
+double frameClockSeconds();
+
+/// Interpolates one strip of the slice and transforms it along the rows.
+void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch);
+/// Transforms 16 image rows along the columns and stores what belongs to the image.
+void finishRows(const FrameJob &job, int group, FrameScratch &scratch);
+/// The instruction set in use.
+const char *instructionSet();
+
+} // namespace pellucid::render

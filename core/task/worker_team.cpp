@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/task/worker_team.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <thread>
+
+#ifdef __linux__
+#include <pthread.h>
+#include <sched.h>
+#endif
+#include <tbb/global_control.h>
+
+namespace pellucid::task {
+
+namespace {
+
+constexpr int partBits = 20;
+constexpr std::uint64_t partMask = (std::uint64_t(1) << partBits) - 1;
+
+std::uint64_t claimWord(std::uint64_t phase, int parts) {
+    return phase << (2 * partBits) | std::uint64_t(parts) << partBits;
+}
+
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+}
+
+// How long a worker looks for more work before it sleeps: longer than the gap between the phases of
+// a frame, and short enough to cost nothing between frames.
+constexpr auto patience = std::chrono::microseconds(60);
+
+std::vector<int> allowedProcessors() {
+    std::vector<int> list;
+#ifdef __linux__
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0)
+        for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
+            if (CPU_ISSET(cpu, &set))
+                list.push_back(cpu);
+#endif
+    return list;
+}
+
+int currentProcessor() {
+#ifdef __linux__
+    return sched_getcpu();
+#else
+    return -1;
+#endif
+}
+
+} // namespace
+
+struct WorkerTeam::Worker {
+    int slot = 0;
+    int processor = -1; ///< -1: not pinned
+    alignas(64) std::atomic<std::uint32_t> wake{0};
+    std::atomic<bool> asleep{false};
+    std::thread thread;
+};
+
+WorkerTeam::WorkerTeam(int threads) : m_threads(threads) {
+    const auto allowed =
+        int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    if (m_threads <= 0)
+        m_threads = allowed;
+    m_threads = std::clamp(m_threads, 1, 256);
+    if (m_threads == 1)
+        return;
+    // One worker more than can work at once: which of them stays asleep depends on where the
+    // caller runs.
+    const std::vector<int> processors = allowedProcessors();
+    for (int n = 0; n < m_threads; ++n) {
+        auto worker = std::make_unique<Worker>();
+        worker->slot = n + 1;
+        worker->processor =
+            processors.empty() ? -1 : processors[std::size_t(n) % processors.size()];
+        worker->thread = std::thread([this, w = worker.get()] { work(*w); });
+        m_workers.push_back(std::move(worker));
+    }
+}
+
+WorkerTeam::~WorkerTeam() {
+    m_stop = true;
+    for (const auto &worker : m_workers) {
+        worker->wake.fetch_add(1);
+        worker->wake.notify_one();
+    }
+    for (const auto &worker : m_workers)
+        worker->thread.join();
+}
+
+int WorkerTeam::slots() const {
+    return int(m_workers.size()) + 1;
+}
+
+bool WorkerTeam::takePart(int slot) {
+    std::uint64_t claim = m_claim.load(std::memory_order_acquire);
+    for (;;) {
+        const std::uint64_t next = claim & partMask, parts = (claim >> partBits) & partMask;
+        if (next >= parts)
+            return false;
+        if (m_claim.compare_exchange_weak(claim, claim + 1, std::memory_order_acq_rel))
+            break;
+    }
+    // The phase cannot end, nor m_phase change, before this part is counted as done.
+    m_phase.work(m_phase.context, int(claim & partMask), slot);
+    m_done.fetch_add(1, std::memory_order_release);
+    return true;
+}
+
+void WorkerTeam::work(Worker &worker) {
+#ifdef __linux__
+    if (worker.processor >= 0) {
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        CPU_SET(worker.processor, &set);
+        pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+    }
+#endif
+    auto lastWork = std::chrono::steady_clock::now();
+    while (!m_stop.load(std::memory_order_relaxed)) {
+        const std::uint32_t seen = worker.wake.load(std::memory_order_acquire);
+        if (takePart(worker.slot)) {
+            while (takePart(worker.slot))
+                ;
+            lastWork = std::chrono::steady_clock::now();
+            continue;
+        }
+        if (std::chrono::steady_clock::now() - lastWork < patience) {
+            for (int n = 0; n < 16; ++n)
+                pause();
+            continue;
+        }
+        worker.asleep.store(true);
+        if (!m_stop.load())
+            worker.wake.wait(seen);
+        worker.asleep.store(false);
+        lastWork = std::chrono::steady_clock::now();
+    }
+}
+
+void WorkerTeam::run(std::span<const Phase> phases) {
+    std::uint64_t phaseNumber = m_claim.load(std::memory_order_relaxed) >> (2 * partBits);
+    bool woken = m_workers.empty();
+    for (const Phase &phase : phases) {
+        assert(phase.parts >= 0 && std::uint64_t(phase.parts) < partMask);
+        m_phase = phase;
+        m_done.store(0, std::memory_order_relaxed);
+        m_claim.store(claimWord(++phaseNumber, phase.parts), std::memory_order_seq_cst);
+        if (!woken && phase.parts > 1) {
+            woken = true;
+            const int here = currentProcessor();
+            // The one that shares the caller's processor stays asleep, or, if none does, the last.
+            int skip = int(m_workers.size()) - 1;
+            for (int n = 0; n < int(m_workers.size()); ++n)
+                if (m_workers[n]->processor == here)
+                    skip = n;
+            for (int n = 0; n < int(m_workers.size()); ++n) {
+                Worker &worker = *m_workers[n];
+                if (n == skip || n >= m_threads)
+                    continue;
+                worker.wake.fetch_add(1);
+                if (worker.asleep.load())
+                    worker.wake.notify_one();
+            }
+        }
+        while (takePart(0))
+            ;
+        while (m_done.load(std::memory_order_acquire) < phase.parts)
+            pause();
+    }
+}
+
+} // namespace pellucid::task

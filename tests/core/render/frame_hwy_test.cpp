@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <hwy/targets.h>
+
+#include "core/reference/wide_kernel.h"
+#include "core/render/cpu_engine.h"
+#include "core/render/frame_job.h"
+#include "tests/support/fields.h"
+
+namespace pellucid {
+
+namespace {
+
+// Every kernel width and storage, on a tilted lattice with thick slices (whose spectrum is read
+// beyond its period) and a camera between the axes.
+class EveryWidth : public testing::TestWithParam<std::tuple<const char *, fourier::Storage>> {};
+
+TEST_P(EveryWidth, IsWithinTheKernelsError) {
+    const auto [name, storage] = GetParam();
+    const auto lattice = test::tiltedLattice({24, 20, 12}, {1, 1.1, 2.5}, 15);
+    const auto field = test::noiseField(lattice);
+    const auto choice = fourier::kernelFromName(name);
+    const auto kernel = fourier::makeKernel(choice, 2.0);
+    const fourier::SpectrumLayout layout{
+        {kernel, kernel, kernel}, field.support, {48, 40, 24}, storage};
+    render::Camera camera = render::defaultCamera(lattice);
+    camera.orientation = render::viewOrientation(render::StandardView::left, {20, 30, 40});
+    render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
+        fourier::Spectrum::prepare(field.values, layout)));
+    const auto exact = reference::WideKernel(field.values, field.support).image(camera, {});
+    const double error = test::relativeL2(engine.render(camera, {}).samples, exact);
+    // What the kernel leaves at padding 2, by the energy in its ghosts, with every ghost inside
+    // the image; 4e-4 for the tails of the roll-off of so small an image, 3e-4 for binary16.
+    const auto energy = render::energyMarginals(field.values, field.support);
+    std::array<render::AxisError, 3> axes;
+    for (int d = 0; d < 3; ++d)
+        axes[d] = render::axisError(kernel, layout.padded[d], energy.axis[d]);
+    const double predicted = render::predictRelativeError(axes, storage, {1.0});
+    EXPECT_LT(error, 1.3 * predicted + 4e-4) << predicted;
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, EveryWidth,
+                         testing::Combine(testing::Values("nearest", "trilinear", "catmull-rom",
+                                                          "b-spline", "hamming-sinc", "LS2", "LS3",
+                                                          "LS4", "LS5", "LS6", "LS7", "ES5", "KB6"),
+                                          testing::Values(fourier::Storage::binary16,
+                                                          fourier::Storage::float32)));
+
+// The promise of CpuEngine: 2e-6 of the largest value between instruction sets, which add in
+// different orders and fuse multiplications or do not.
+TEST(InstructionSets, AgreeWithinRounding) {
+    const auto lattice = test::tiltedLattice({32, 30, 17}, {1, 1, 2}, 10);
+    const auto field = test::noiseField(lattice);
+    render::Camera camera = render::defaultCamera(lattice);
+    camera.orientation = render::viewOrientation(render::StandardView::front, {25, 35, 45});
+    for (const char *name : {"LS4", "LS6"})
+        for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
+            const auto kernel = fourier::makeKernel(fourier::kernelFromName(name), 1.5);
+            const auto spectrum =
+                std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
+                    field.values,
+                    {{kernel, kernel, kernel}, field.support, {48, 48, 28}, storage}));
+            std::vector<float> best;
+            float peak = 0.0F;
+            const std::int64_t all = hwy::SupportedTargets();
+            for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+                hwy::SetSupportedTargetsForTest(rest & -rest);
+                hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+                const std::string set = render::instructionSet();
+                const auto image = render::CpuEngine(spectrum).render(camera, {}).samples;
+                if (best.empty()) {
+                    best = image;
+                    peak = *std::max_element(best.begin(), best.end());
+                }
+                float most = 0.0F;
+                for (std::size_t n = 0; n < best.size(); ++n)
+                    most = std::max(most, std::abs(best[n] - image[n]));
+                EXPECT_LT(most, 2e-6F * peak) << name << " " << set;
+            }
+            hwy::SetSupportedTargetsForTest(0);
+            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        }
+}
+
+TEST(InstructionSets, FourThreadsGiveTheBitsOfOne) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
+    const auto field = test::noiseField(lattice);
+    const auto kernel = fourier::Kernel::leastGhosts(4, 1.5);
+    const auto spectrum = std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
+        field.values, {{kernel, kernel, kernel}, field.support, {60, 60, 60}}));
+    render::Camera camera = render::defaultCamera(lattice);
+    camera.orientation = render::viewOrientation(render::StandardView::front, {25, 35, 45});
+    const auto one = render::CpuEngine(spectrum, 1).render(camera, {}).samples;
+    EXPECT_EQ(render::CpuEngine(spectrum, 2).render(camera, {}).samples, one);
+    EXPECT_EQ(render::CpuEngine(spectrum, 4).render(camera, {}).samples, one);
+}
+
+} // namespace
+} // namespace pellucid
