@@ -59,7 +59,11 @@ TEST_P(SpectrumCells, AreThePremultipliedSumAndTheApronWraps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Storages, SpectrumCells,
-                         testing::Values(fourier::Storage::binary16, fourier::Storage::float32));
+                         testing::Values(fourier::Storage::binary16, fourier::Storage::float32),
+                         [](const auto &test) {
+                             return test.param == fourier::Storage::binary16 ? "binary16"
+                                                                             : "float32";
+                         });
 
 TEST(Spectrum, TakesFourBytesACellAndLittleMoreToMake) {
     const auto kernel = fourier::Kernel::leastGhosts(4, 1.5);

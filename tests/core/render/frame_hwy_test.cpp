@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include <hwy/targets.h>
 
@@ -16,7 +17,7 @@ namespace {
 
 // Every kernel width and storage, on a tilted lattice with thick slices (whose spectrum is read
 // beyond its period) and a camera between the axes.
-class EveryWidth : public testing::TestWithParam<std::tuple<const char *, fourier::Storage>> {};
+class EveryWidth : public testing::TestWithParam<std::tuple<std::string, fourier::Storage>> {};
 
 TEST_P(EveryWidth, IsWithinTheKernelsError) {
     const auto [name, storage] = GetParam();
