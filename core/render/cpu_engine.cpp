@@ -91,9 +91,10 @@ struct CpuEngine::Workplace {
     void fit(const SliceGrid &grid, const ImageDefinition &image) {
         if (tables && tables->grid == grid && tables->share == image.rollOff)
             return;
+        // Set last: if memory runs out half way, nothing here may look ready.
         tables.reset();
-        tables = std::make_unique<GridTables>(grid, image.rollOff);
-        const std::size_t columns = tables->strips.size() * stripLanes;
+        auto made = std::make_unique<GridTables>(grid, image.rollOff);
+        const std::size_t columns = made->strips.size() * stripLanes;
         const std::size_t length = std::size_t(groupsOf(std::max(grid.rows, grid.columns))) *
                                    stripLanes; // rows fill their last group
         const auto floats = [](std::size_t count) {
@@ -104,7 +105,7 @@ struct CpuEngine::Workplace {
         lines = floats(groupsOf(grid.rows) * columns * stripFloats);
         columnPhase = floats(2 * columns);
         rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
-        columnSums.resize(tables->strips.size() * stripFloats);
+        columnSums.resize(made->strips.size() * stripFloats);
         batches = fourier::allocatePages(
             scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch), "an image of this size");
         strips.clear();
@@ -116,6 +117,7 @@ struct CpuEngine::Workplace {
             scratch[n].batches = first + n * (batchesAhead + 1);
             std::uninitialized_default_construct_n(scratch[n].batches, batchesAhead + 1);
         }
+        tables = std::move(made);
     }
 
     task::WorkerTeam team;
@@ -185,7 +187,6 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         m_workplace->fit(grid, image);
         result.samples.resize(std::size_t(camera.width) * camera.height);
     } catch (const std::bad_alloc &) {
-        m_workplace->tables.reset();
         throw task::Error(task::ErrorCode::outOfMemory,
                           "not enough memory for an image of this size");
     }

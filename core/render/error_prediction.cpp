@@ -104,8 +104,9 @@ double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Stora
         most = std::max(most, axis.ghosts);
         noise *= axis.noise;
     }
-    // Views differ: the worst of many noise fields and directions had 1.3 times the error expected
-    // (1.7 in energy).
+    // Single views scatter about what is expected: noise in seven thick slices had 1.11 times of
+    // it. A margin of 1.3 (1.7 in energy) keeps the promise; wider statistics are still to be
+    // taken.
     const double ghosts = 1.7 * (most + share.inImage * (all - most));
     // A rounding error is evenly spread up to half a unit in the last place, 2^-11 of the leading
     // power of two; over the mantissas that is 0.73 * 2^-11/sqrt(3).
