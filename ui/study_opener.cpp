@@ -28,8 +28,10 @@ std::shared_ptr<render::ProjectionEngine> makeEngine(const classify::DensityFiel
     const render::RenderPlan plan =
         render::planRender(scene, render::summarise(field), {task::availableMemoryBytes()});
     predictedError = plan.predictedError;
-    return std::make_shared<render::CpuEngine>(std::make_shared<const fourier::Spectrum>(
-        fourier::Spectrum::prepare(field.values, plan.spectrum, progress)));
+    return std::make_shared<render::CpuEngine>(
+        std::make_shared<const fourier::Spectrum>(
+            fourier::Spectrum::prepare(field.values, plan.spectrum, progress)),
+        plan.room);
 }
 
 } // namespace

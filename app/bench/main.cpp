@@ -26,15 +26,25 @@ int main(int argc, char **argv) {
     using namespace pellucid;
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Speed and error, side by side", "pellucid-bench");
-    std::string suite = "quick", json, csv;
-    app.add_option("--suite", suite, "What to measure")->check(CLI::IsMember({"quick"}));
+    std::string suite = "quick", json, csv, file;
+    app.add_option("--suite", suite, "What to measure")->check(CLI::IsMember({"quick", "scaling"}));
+    app.add_option("--volume", file, "An NRRD volume in place of the suite's own fields");
     app.add_option("--json", json, "Write the rows as JSON");
     app.add_option("--csv", csv, "Write the rows as CSV");
     try {
         app.parse(argc, argv);
         const auto machine = bench::thisMachine();
-        const auto rows = bench::runQuickSuite();
-        std::fputs(bench::tableText(machine, rows).c_str(), stdout);
+        std::fputs(bench::tableHead(machine).c_str(), stdout);
+        std::vector<bench::Row> rows;
+        const auto report = [&](const bench::Row &row) {
+            std::fputs(bench::tableLine(row).c_str(), stdout);
+            std::fflush(stdout);
+            rows.push_back(row);
+        };
+        if (suite == "quick")
+            bench::runQuickSuite(report);
+        else
+            bench::runScalingSuite(report, nullptr);
         save(json, bench::jsonText(machine, rows));
         save(csv, bench::csvText(rows));
     } catch (const CLI::Success &success) {

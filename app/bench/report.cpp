@@ -44,6 +44,7 @@ json rowJson(const Row &r) {
             {"ray_sum_msamples_per_s", figure(r.raySumMsamplesPerSecond)},
             {"ray_sum_rel_l2", figure(r.raySumRelativeL2)},
             {"shear_warp_ms", figure(r.shearWarpMs)},
+            {"tolerance", figure(r.tolerance)},
             {"note", r.note}};
 }
 
@@ -53,26 +54,35 @@ std::string cell(const std::optional<double> &value, const char *format) {
 
 } // namespace
 
-std::string tableText(const Machine &machine, const std::vector<Row> &rows) {
-    std::string text = fmt::format("{}, {} threads, {:.0f} GiB, {}\n\n", machine.processor,
-                                   machine.threads, machine.memoryGiB, machine.system);
-    text += fmt::format(
-        "{:<28} {:>13} {:>6} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} {:>8}\n",
-        "case", "size", "kernel", "padding", "prepare", "slice", "transform", "frame", "MB",
-        "predicted", "measured", "max", "PSNR");
-    text += fmt::format(
-        "{:<28} {:>13} {:>6} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "",
-        "", "", "", "ms", "ms", "ms", "ms", "", "rel. L2", "rel. L2", "of peak", "dB");
-    for (const Row &r : rows) {
-        const auto megabytes = r.bytes ? std::optional(*r.bytes / 1048576.0) : std::nullopt;
-        text += fmt::format(
-            "{:<28} {:>13} {:>6} {:>8.2f} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>10} {:>9} "
-            "{:>8}\n",
-            r.name, fmt::format("{}x{}x{}", r.size.i, r.size.j, r.size.k), r.kernel, r.padding,
-            cell(r.prepareMs, "{:.1f}"), cell(r.sliceMs, "{:.2f}"), cell(r.transformMs, "{:.2f}"),
-            cell(r.frameMs, "{:.2f}"), cell(megabytes, "{:.0f}"), cell(r.predictedError, "{:.2e}"),
-            cell(r.relativeL2, "{:.2e}"), cell(r.maxError, "{:.1e}"), cell(r.psnrDb, "{:.1f}"));
-    }
+std::string tableHead(const Machine &machine) {
+    constexpr const char *columns = "{:<34} {:>11} {:>12} {:>4} {:>7} {:>3} {:>8} {:>8} {:>9} "
+                                    "{:>8} {:>6} {:>9} {:>9} {:>8} {:>6}\n";
+    return fmt::format("{}, {} threads, {:.0f} GiB, {}\n\n", machine.processor, machine.threads,
+                       machine.memoryGiB, machine.system) +
+           fmt::format(fmt::runtime(columns), "case", "size", "kernel", "taps", "padding", "",
+                       "prepare", "slice", "transform", "frame", "MB", "predicted", "measured",
+                       "max", "PSNR") +
+           fmt::format(fmt::runtime(columns), "", "", "", "", "", "", "ms", "ms", "ms", "ms", "",
+                       "rel. L2", "rel. L2", "of peak", "dB");
+}
+
+std::string tableLine(const Row &r) {
+    const auto megabytes = r.bytes ? std::optional(*r.bytes / 1048576.0) : std::nullopt;
+    std::string text = fmt::format(
+        "{:<34} {:>11} {:>12} {:>4} {:>7.2f} {:>3} {:>8} {:>8} {:>9} {:>8} {:>6} {:>9} {:>9} "
+        "{:>8} {:>6}\n",
+        r.name, fmt::format("{}x{}x{}", r.size.i, r.size.j, r.size.k), r.kernel, r.taps, r.padding,
+        r.storage, cell(r.prepareMs, "{:.1f}"), cell(r.sliceMs, "{:.2f}"),
+        cell(r.transformMs, "{:.2f}"), cell(r.frameMs, "{:.2f}"), cell(megabytes, "{:.0f}"),
+        cell(r.predictedError, "{:.2e}"), cell(r.relativeL2, "{:.2e}"), cell(r.maxError, "{:.1e}"),
+        cell(r.psnrDb, "{:.1f}"));
+    if (r.raySumMs)
+        text += fmt::format("    ray sum {:.1f} ms, {} million samples/s, rel. L2 {}; shear-warp "
+                            "sum {} ms\n",
+                            *r.raySumMs, cell(r.raySumMsamplesPerSecond, "{:.0f}"),
+                            cell(r.raySumRelativeL2, "{:.2e}"), cell(r.shearWarpMs, "{:.2f}"));
+    if (!r.note.empty())
+        text += "    " + r.note + "\n";
     return text;
 }
 

@@ -33,11 +33,13 @@ struct Row {
                           maxError = {}, psnrDb = {};
     std::optional<double> raySumMs = {}, raySumMsamplesPerSecond = {}, raySumRelativeL2 = {},
                           shearWarpMs = {};
+    std::optional<double> tolerance = {};
     std::string note = {};
 };
 
-/// A table for the eye.
-std::string tableText(const Machine &machine, const std::vector<Row> &rows);
+/// A table for the eye, line by line.
+std::string tableHead(const Machine &machine);
+std::string tableLine(const Row &row);
 /// {"machine": ..., "rows": [...]}; a figure that was not measured is null.
 std::string jsonText(const Machine &machine, const std::vector<Row> &rows);
 std::string csvText(const std::vector<Row> &rows);

@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
-#include "app/bench/report.h"
+#include "app/bench/measure.h"
 
 namespace pellucid::bench {
 
-/// Phantoms and noise at 64^3 to 256^3 in the default quality: seconds to run, time beside error.
-std::vector<Row> runQuickSuite();
+/// Takes each row as soon as it is measured.
+using Report = std::function<void(const Row &)>;
+
+/// Phantoms and noise at 64^3 to 256^3 in the default quality: seconds to run.
+void runQuickSuite(const Report &report);
+/// Every kernel at every padding and storage on one field: error against time. 64^3 noise in a
+/// sphere and a head; or the given volume.
+void runKernelsSuite(const Report &report, const Subject *given);
+/// The default quality from 64^3 to 512^3 beside the ray sum and the shear-warp sum, with the
+/// exponents of their growth.
+void runScalingSuite(const Report &report, const Subject *given);
+/// The fields that break projectors, at four tolerances.
+void runHardSuite(const Report &report);
+/// Cheng 2007, tables 4.1 to 4.6.
+void runThesisSuite(const Report &report);
+/// Totsuka and Levoy 1993, table 1, and their adaptive filter.
+void runTotsukaSuite(const Report &report);
 
 } // namespace pellucid::bench

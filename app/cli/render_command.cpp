@@ -215,9 +215,10 @@ public:
         const task::Progress progress(context.stop);
         // The engine's error is known in advance; what it cannot meet the exact reference does.
         if (m_plan.predictedError <= scene.tolerance) {
-            m_engine =
-                std::make_unique<render::CpuEngine>(std::make_shared<const fourier::Spectrum>(
-                    fourier::Spectrum::prepare(field.values, m_plan.spectrum, progress)));
+            m_engine = std::make_unique<render::CpuEngine>(
+                std::make_shared<const fourier::Spectrum>(
+                    fourier::Spectrum::prepare(field.values, m_plan.spectrum, progress)),
+                m_plan.room);
         } else {
             m_plan.bytes = reference::WideKernel::bytes(field.support) +
                            reference::sliceBytes(field.values.lattice(), scene.camera, scene.image);
@@ -251,7 +252,7 @@ public:
             return {
                 {"kernel", "KB12"}, {"taps", 12 * 12 * 12}, {"padding", 2.0}, {"storage", "f64"}};
         const render::SliceGrid grid =
-            render::sliceGrid(m_scene.camera, s, m_field.values.lattice(), m_scene.image);
+            render::sliceGrid(m_scene.camera, m_plan.room, m_field.values.lattice(), m_scene.image);
         const int w = s.width();
         return {{"kernel", s.kernels[0].name()},
                 {"taps", w * w * w},
@@ -266,9 +267,8 @@ public:
     double predictedError() const {
         if (m_engine)
             return m_plan.predictedError;
-        return std::hypot(1e-10,
-                          reference::foldedTails(m_summary.lattice, m_scene.camera, m_scene.image,
-                                                 m_summary.energy.effectiveSamples));
+        return std::hypot(1e-10, reference::foldedTails(m_summary.lattice, m_scene.camera,
+                                                        m_scene.image, m_summary.energy.roughness));
     }
 
 private:

@@ -82,6 +82,24 @@ struct Coefficients {
             result.push_back((2 * k == width - 1 ? 1 : 2) * sums[k][n]);
         return result;
     }
+    // The transform of every coefficient's part of the taps that a frequency on the grid reads,
+    // real and imaginary part. Of an even width the first tap lies on the edge and has no partner.
+    std::pair<Vector, Vector> transformsOnGrid(Real x) const {
+        const Real c = width % 2 == 0 ? Real(-0.5) : Real(0);
+        const Vector p = legendre(degree, c), mirrored = legendre(degree, -c);
+        Vector real, imaginary;
+        for (const auto &[k, n] : at) {
+            const Real t = c + Real(k) - Real(width - 1) / 2;
+            const Real other = c + Real(width - 1 - k) - Real(width - 1) / 2;
+            real.push_back(p[n] * std::cos(2 * pi * t * x));
+            imaginary.push_back(p[n] * std::sin(2 * pi * t * x));
+            if (2 * k == width - 1)
+                continue;
+            real.back() += mirrored[n] * std::cos(2 * pi * other * x);
+            imaginary.back() += mirrored[n] * std::sin(2 * pi * other * x);
+        }
+        return {real, imaginary};
+    }
 };
 
 // Monomials in c of a Legendre series on [-1/2, 1/2].
@@ -105,7 +123,9 @@ std::vector<double> monomials(const Vector &series) {
 }
 
 // What is minimised is J(a) = sum_x e(x) g(x) / h(x)^2 with h = b_0.a and g the sum of the squares
-// of b_m.a over the ghosts m. Its gradient vanishes where
+// of b_m.a over the ghosts m, and of what they add up to for a frequency on the grid. There, in
+// views along an axis, they are in phase: the kernel of width 4 that only spared them one by one
+// had 2.6 times the error in these views, which are the standard ones. The gradient vanishes where
 //   [sum_x e/h^2 sum_m b_m b_m^T] a = sum_x e g/h^3 b_0,
 // which a few rounds of solving for a with g and h of the round before reach.
 Vector leastGhostCoefficients(const Coefficients &kernel, double padding,
@@ -131,6 +151,11 @@ Vector leastGhostCoefficients(const Coefficients &kernel, double padding,
         for (int m = -farthest; m <= farthest; ++m)
             if (m != 0)
                 ghosts[i].push_back(kernel.transforms(x + m));
+        auto [real, imaginary] = kernel.transformsOnGrid(x);
+        for (std::size_t p = 0; p < count; ++p)
+            real[p] -= direct[std::size_t(i)][p];
+        ghosts[i].push_back(std::move(real));
+        ghosts[i].push_back(std::move(imaginary));
     }
     std::vector<std::vector<Vector>> squares(positions,
                                              std::vector<Vector>(count, Vector(count, 0)));

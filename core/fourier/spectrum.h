@@ -7,16 +7,11 @@
 #include <memory>
 
 #include "core/fourier/kernel.h"
+#include "core/fourier/storage.h"
 #include "core/task/progress.h"
 #include "core/volume/volume.h"
 
 namespace pellucid::fourier {
-
-/// How a complex number of a spectrum is kept: two floats, or two IEEE binary16 numbers scaled by
-/// a power of two so that the largest fits.
-enum class Storage { binary16, float32 };
-
-std::size_t bytesPerCell(Storage storage);
 
 /// How a field is prepared.
 struct SpectrumLayout {
@@ -72,6 +67,8 @@ public:
     double unit() const { return m_unit; }
     /// dV * sum f: the value at frequency 0 before any rounding or interpolation.
     double mass() const { return m_mass; }
+    /// dV * sum |f|.
+    double absoluteMass() const { return m_absoluteMass; }
     /// The value at a grid index: p in -apron..padded/2 + apron, q and r within apron of
     /// +-padded/2.
     std::complex<double> value(int p, int q, int r) const;
@@ -85,7 +82,7 @@ private:
     CellLayout m_cellLayout;
     volume::PatientPoint m_wrapPoint;
     std::shared_ptr<std::byte[]> m_cells;
-    double m_unit = 1.0, m_mass = 0.0;
+    double m_unit = 1.0, m_mass = 0.0, m_absoluteMass = 0.0;
 };
 
 } // namespace pellucid::fourier

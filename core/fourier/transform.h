@@ -12,10 +12,23 @@ namespace pellucid::fourier {
 /// *Shape*: `data` points at sample (0,0,0) of a row-major array whose rows hold `rowStride`
 /// complex numbers and whose planes hold `planeRows` rows; the real samples of a row lie in its
 /// first size.i reals, the result in its first size.i/2 + 1 complex numbers.
-void forwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride,
-                        int planeRows);
 void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride,
                         int planeRows);
+
+/// The same in float, planned once, for one array: run it often.
+class ForwardTransform3d {
+public:
+    ForwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride,
+                       int planeRows);
+    ~ForwardTransform3d();
+    ForwardTransform3d(const ForwardTransform3d &) = delete;
+    ForwardTransform3d &operator=(const ForwardTransform3d &) = delete;
+    void run() const;
+
+private:
+    struct Plan;
+    std::unique_ptr<Plan> m_plan;
+};
 
 /// Real-to-complex transform of one length, exp(-i 2 pi ...), unnormalised: planned once, run
 /// often, from any thread.

@@ -43,8 +43,6 @@ template <> struct Fftw<float> {
             fftwf_plan_with_nthreads(count);
     }
     static constexpr auto planForward = &fftwf_plan_many_dft_r2c;
-    static constexpr auto run = &fftwf_execute;
-    static constexpr auto destroy = &fftwf_destroy_plan;
 };
 
 template <> struct Fftw<double> {
@@ -60,40 +58,48 @@ template <> struct Fftw<double> {
             fftw_plan_with_nthreads(count);
     }
     static constexpr auto planForward = &fftw_plan_many_dft_r2c;
-    static constexpr auto run = &fftw_execute;
-    static constexpr auto destroy = &fftw_destroy_plan;
 };
 
 template <class Real>
-void forward(std::complex<Real> *data, volume::GridSize size, int rowStride, int planeRows) {
+typename Fftw<Real>::Plan planForward3d(std::complex<Real> *data, volume::GridSize size,
+                                        int rowStride, int planeRows) {
     using F = Fftw<Real>;
     const std::array<int, 3> n{size.k, size.j, size.i};
     const std::array<int, 3> realRows{size.k, planeRows, 2 * rowStride};
     const std::array<int, 3> complexRows{size.k, planeRows, rowStride};
     auto *const real = reinterpret_cast<Real *>(data);
     auto *const complex = reinterpret_cast<typename F::Complex *>(data);
-    typename F::Plan plan;
-    {
-        const std::lock_guard lock(plannerMutex());
-        F::useThreads(parts);
-        plan = F::planForward(3, n.data(), 1, real, realRows.data(), 1, 0, complex,
-                              complexRows.data(), 1, 0, FFTW_ESTIMATE);
-    }
-    F::run(plan);
     const std::lock_guard lock(plannerMutex());
-    F::destroy(plan);
+    F::useThreads(parts);
+    return F::planForward(3, n.data(), 1, real, realRows.data(), 1, 0, complex, complexRows.data(),
+                          1, 0, FFTW_ESTIMATE);
 }
 
 } // namespace
 
-void forwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride,
-                        int planeRows) {
-    forward(data, size, rowStride, planeRows);
-}
-
 void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride,
                         int planeRows) {
-    forward(data, size, rowStride, planeRows);
+    const auto plan = planForward3d(data, size, rowStride, planeRows);
+    fftw_execute(plan);
+    const std::lock_guard lock(plannerMutex());
+    fftw_destroy_plan(plan);
+}
+
+struct ForwardTransform3d::Plan {
+    fftwf_plan plan;
+};
+
+ForwardTransform3d::ForwardTransform3d(std::complex<float> *data, volume::GridSize size,
+                                       int rowStride, int planeRows)
+    : m_plan(new Plan{planForward3d(data, size, rowStride, planeRows)}) {}
+
+ForwardTransform3d::~ForwardTransform3d() {
+    const std::lock_guard lock(plannerMutex());
+    fftwf_destroy_plan(m_plan->plan);
+}
+
+void ForwardTransform3d::run() const {
+    fftwf_execute(m_plan->plan);
 }
 
 struct ForwardTransform1d::Plan {

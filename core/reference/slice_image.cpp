@@ -47,12 +47,12 @@ std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &cam
 }
 
 double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
-                   const render::ImageDefinition &image, double effectiveSamples) {
+                   const render::ImageDefinition &image, double roughness) {
     const SliceSize size = sliceSize(lattice, camera, image);
     const double room = 0.5 * (size.columns + size.rows - camera.width - camera.height);
     const double share =
         std::sqrt(double(camera.width) * camera.height / (double(size.columns) * size.rows));
-    return render::predictFoldedTails(image.rollOff, room, std::min(1.0, share), effectiveSamples);
+    return render::predictFoldedTails(image.rollOff, room, std::min(1.0, share), roughness);
 }
 
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,

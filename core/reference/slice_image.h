@@ -29,6 +29,6 @@ std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &cam
 
 /// What is left of the roll-off's tails, relative L2; see render::predictFoldedTails.
 double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
-                   const render::ImageDefinition &image, double effectiveSamples);
+                   const render::ImageDefinition &image, double roughness);
 
 } // namespace pellucid::reference

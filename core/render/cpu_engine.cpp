@@ -88,13 +88,29 @@ struct GridTables {
 struct CpuEngine::Workplace {
     explicit Workplace(int threads) : team(threads), scratch(team.slots()) {}
 
+    // Makes ready for frames of a grid.
     void fit(const SliceGrid &grid, const ImageDefinition &image) {
-        if (tables && tables->grid == grid && tables->share == image.rollOff)
-            return;
+        for (auto &kept : others)
+            if (kept && kept->grid == grid && kept->share == image.rollOff)
+                std::swap(tables, kept);
+        if (!tables || tables->grid != grid || tables->share != image.rollOff) {
+            auto made = std::make_unique<GridTables>(grid, image.rollOff);
+            // The one unused for longest goes.
+            others.back() = std::move(others.front());
+            others.front() = std::move(tables);
+            tables = std::move(made);
+        }
+        const SliceGrid need{std::max(room.columns, grid.columns), std::max(room.rows, grid.rows)};
+        if (need != room)
+            allocate(need);
+    }
+
+    // Buffers for every grid up to a size.
+    void allocate(const SliceGrid &grid) {
         // Set last: if memory runs out half way, nothing here may look ready.
-        tables.reset();
-        auto made = std::make_unique<GridTables>(grid, image.rollOff);
-        const std::size_t columns = made->strips.size() * stripLanes;
+        room = {0, 0};
+        const std::size_t stripCount = groupsOf(grid.columns / 2);
+        const std::size_t columns = stripCount * stripLanes;
         const std::size_t length = std::size_t(groupsOf(std::max(grid.rows, grid.columns))) *
                                    stripLanes; // rows fill their last group
         const auto floats = [](std::size_t count) {
@@ -105,7 +121,7 @@ struct CpuEngine::Workplace {
         lines = floats(groupsOf(grid.rows) * columns * stripFloats);
         columnPhase = floats(2 * columns);
         rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
-        columnSums.resize(made->strips.size() * stripFloats);
+        columnSums.resize(stripCount * stripFloats);
         batches = fourier::allocatePages(
             scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch), "an image of this size");
         strips.clear();
@@ -117,12 +133,15 @@ struct CpuEngine::Workplace {
             scratch[n].batches = first + n * (batchesAhead + 1);
             std::uninitialized_default_construct_n(scratch[n].batches, batchesAhead + 1);
         }
-        tables = std::move(made);
+        room = grid;
     }
 
     task::WorkerTeam team;
     std::vector<FrameScratch> scratch;
+    // A draft and a full frame take turns while the hand moves: their tables are kept, and a third.
     std::unique_ptr<GridTables> tables;
+    std::array<std::unique_ptr<GridTables>, 2> others;
+    SliceGrid room{0, 0}; ///< what the buffers hold
     std::shared_ptr<std::byte[]> lines, columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> strips;
     std::vector<Complex> rowPhase;
@@ -166,8 +185,10 @@ double scaleToMass(const FrameJob &job) {
 
 } // namespace
 
-CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum, int threads)
-    : m_spectrum(std::move(spectrum)), m_workplace(std::make_unique<Workplace>(threads)) {}
+CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
+                     const std::optional<SliceRoom> &room, int threads)
+    : m_spectrum(std::move(spectrum)), m_workplace(std::make_unique<Workplace>(threads)),
+      m_room(room ? *room : roomOfBox(m_spectrum->lattice(), m_spectrum->layout().box)) {}
 CpuEngine::~CpuEngine() = default;
 
 std::string CpuEngine::description() const {
@@ -181,7 +202,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     const double start = frameClockSeconds();
     const fourier::SpectrumLayout &layout = m_spectrum->layout();
     const volume::Lattice &lattice = m_spectrum->lattice();
-    const SliceGrid grid = sliceGrid(camera, layout, lattice, image);
+    const SliceGrid grid = sliceGrid(camera, m_room, lattice, image);
     ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}};
     try {
         m_workplace->fit(grid, image);
@@ -236,7 +257,9 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     job.lines = reinterpret_cast<float *>(place.lines.get());
     job.samples = result.samples.data();
     // A sharp band limit rings beyond the image: there the image's own sum is not P(0).
-    frame.conservesMass = image.reconstruction != Reconstruction::bandLimited &&
+    // Where dark and bright cancel, P(0) is small and what is scaled would not be a ghost.
+    frame.conservesMass = m_spectrum->mass() >= 0.5 * m_spectrum->absoluteMass() &&
+                          image.reconstruction != Reconstruction::bandLimited &&
                           image.rollOff >= 0.03 && coversLattice(camera, lattice);
     job.zeroFrequency = m_spectrum->mass() * du * dv;
     if (frame.conservesMass)

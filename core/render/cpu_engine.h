@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/fourier/spectrum.h"
@@ -28,8 +29,10 @@ public:
 /// instruction sets images differ by less than 2e-6 of their largest value.
 class CpuEngine final : public ProjectionEngine {
 public:
-    /// `threads`: 0 for as many as oneTBB may use.
-    explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum, int threads = 0);
+    /// `room`: the plan's; without one the spectrum's box is taken to be full. `threads`: 0 for as
+    /// many as oneTBB may use.
+    explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
+                       const std::optional<SliceRoom> &room = std::nullopt, int threads = 0);
     ~CpuEngine() override;
 
     std::string description() const override;
@@ -41,6 +44,7 @@ private:
 
     std::shared_ptr<const fourier::Spectrum> m_spectrum;
     std::unique_ptr<Workplace> m_workplace;
+    SliceRoom m_room;
 };
 
 } // namespace pellucid::render

@@ -11,8 +11,12 @@ namespace pellucid::render {
 /// How a field's energy f^2 is spread along each axis of its box; sums to 1 on each axis.
 struct EnergyMarginals {
     std::array<std::vector<double>, 3> axis;
-    /// (sum f)^2 / sum f^2: 1 for a point, the number of samples for a block.
-    double effectiveSamples = 1.0;
+    /// How rough its projections along x and y are, the rougher of the two: the mean square of the
+    /// differences of neighbours over twice the mean square. 1 for a point or noise without a mean,
+    /// far less for anatomy.
+    double roughness = 1.0;
+    /// How far from the centre of the lattice a sample is not zero, mm.
+    double radiusMm = 0.0;
 };
 
 /// *Shape*: one entry per sample of the box on every axis.
@@ -22,6 +26,12 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
 struct AxisError {
     /// sum_x e(x) sum_m r^2 with r = h(x + m)/h(x), the amplitude of the ghost of x in period m.
     double ghosts = 0.0;
+    /// The same of a frequency on the grid of the axis, where the ghosts add up in phase:
+    /// sum_x e(x) |S(x)/h(x) - 1|^2 with S the transform of the taps.
+    double inPhase = 0.0;
+    /// The brightest ghost: the largest amplitude r, times the square root of e relative to the
+    /// brightest part of the axis.
+    double brightest = 0.0;
     /// integral H^2 times sum_x e(x)/h(x)^2: how rounding of the cells reaches the image.
     double noise = 1.0;
 };
@@ -38,10 +48,17 @@ struct ImageShare {
 /// The relative L2 error of an image from a direction that no axis is close to, or along an axis,
 /// whichever is worse. A ghost lies one or more padded periods away along its axis. Seen across the
 /// axis it lands anywhere in the slice's period, hence in the image by its share of the area; seen
-/// along the axis all of it falls onto the projection. Rounding to binary16 leaves 2.1e-4 of each
-/// cell, spread evenly over the period; rounding to float and summing 3e-7.
+/// along the axis all of it falls onto the projection, in phase with the ghosts of the other
+/// periods. Rounding to binary16 leaves 2.1e-4 of each cell, spread evenly over the period;
+/// rounding to float and summing 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                             const ImageShare &share);
+
+/// The largest error of a pixel relative to the largest pixel, roughly: the brightest ghosts of the
+/// axes, and the rounding at 4.5 standard deviations of an image whose mean square is a fifth of
+/// its peak's. Beside metal it says what the relative L2 error hides.
+double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
+                      const ImageShare &share);
 
 /// How far the response of a raised-cosine edge over a share F of the band is followed, in pixels:
 /// 4/F, and never further than 256.
@@ -53,9 +70,8 @@ double ringingPixels(double rollOff);
 ///
 /// A sharp disc leaves sqrt(2/(pi^2 r)) of a point's response beyond r pixels; a roll-off F lowers
 /// that by (0.3/(F r))^2 (measured); the share of it that lands in the image is as the areas are.
-/// Extended fields have less at the edge of the band: their tails add incoherently, which the
-/// fourth root of the number of samples bounds for noise and more so for anatomy (measured from one
-/// voxel to 256^3).
-double predictFoldedTails(double rollOff, double roomPixels, double share, double effectiveSamples);
+/// A point has all frequencies alike; of a smooth projection only what lies at the edge of the band
+/// has tails, the roughness of its energy.
+double predictFoldedTails(double rollOff, double roomPixels, double share, double roughness);
 
 } // namespace pellucid::render

@@ -18,11 +18,8 @@ namespace pellucid::render {
 
 namespace {
 
-// Paddings that are tried on each axis; below 1.2 the seam of a full lattice shows.
-constexpr std::array<double, 6> paddings{1.25, 1.375, 1.5, 1.625, 1.75, 2.0};
-
 // Relative times of a frequency sample by kernel width, with binary16 and with float cells.
-constexpr std::array<double, 8> sampleTime{0.0, 0.0, 0.5, 0.7, 1.0, 1.7, 2.2, 2.9};
+constexpr std::array<double, 8> sampleTime{0.0, 0.4, 0.5, 0.7, 1.0, 1.7, 2.2, 2.9};
 constexpr double floatCells = 1.4;
 
 // Larger slices take more memory than any image is worth.
@@ -43,38 +40,43 @@ double footprint(const ImageDefinition &image) {
 }
 
 // How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
-double reachPixels(const Camera &camera, const fourier::SpectrumLayout &spectrum,
-                   const volume::Lattice &lattice, const ImageDefinition &image) {
+double reachPixels(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
+                   const ImageDefinition &image) {
+    const double longest =
+        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
+    return (room.radiusMm + footprint(image) * longest) / camera.pixelMm;
+}
+
+} // namespace
+
+SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box) {
     const glm::dvec3 center = lattice.center().mm;
-    const auto &[lo, hi] = spectrum.box;
-    double radius = 0.0;
+    const auto &[lo, hi] = box;
+    SliceRoom room;
     for (int corner = 0; corner < 8; ++corner) {
         const volume::VoxelPoint p{{(corner & 1) != 0 ? hi.i - 1 : lo.i,
                                     (corner & 2) != 0 ? hi.j - 1 : lo.j,
                                     (corner & 4) != 0 ? hi.k - 1 : lo.k}};
-        radius = std::max(radius, glm::distance(center, lattice.patient(p).mm));
+        room.radiusMm = std::max(room.radiusMm, glm::distance(center, lattice.patient(p).mm));
     }
-    const double longest =
-        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
-    return (radius + footprint(image) * longest) / camera.pixelMm;
+    return room;
 }
-
-} // namespace
 
 FieldSummary summarise(const classify::DensityField &field) {
     return {field.values.lattice(), field.support, energyMarginals(field.values, field.support)};
 }
 
-SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectrum,
-                    const volume::Lattice &lattice, const ImageDefinition &image) {
-    const double projection = reachPixels(camera, spectrum, lattice, image);
+SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
+                    const ImageDefinition &image) {
+    const double projection = reachPixels(camera, room, lattice, image);
     // A copy of the projection, a period away, must stay outside the image: its near edge lies at
     // period - radius, the image's far edge at half its size plus the pan.
     const auto cells = [&](int size, double pan) {
         const double reach = projection + 0.5 * size + std::abs(pan) / camera.pixelMm;
         // The tails of the roll-off fold in along the border only, so their share of the image's
         // energy falls with its size, and so does the room they are given.
-        const double tails = ringingPixels(image.rollOff) * std::min(1.0, 64.0 / reach);
+        const double tails =
+            room.tails * ringingPixels(image.rollOff) * std::min(1.0, 64.0 / reach);
         if (!(reach + tails < largestSliceGrid))
             throw task::Error(
                 task::ErrorCode::outOfMemory,
@@ -88,7 +90,8 @@ SliceGrid sliceGrid(const Camera &camera, const fourier::SpectrumLayout &spectru
 
 namespace {
 
-// The kernels of one axis by width and padding, made when first asked for: each takes milliseconds.
+// The kernels of one axis by choice and padding, made when first asked for: each takes
+// milliseconds.
 class AxisCandidates {
 public:
     AxisCandidates(int samples, const std::vector<double> &energy)
@@ -103,13 +106,13 @@ public:
         int padded;
         AxisError error;
     };
-    const Candidate &at(int width, std::size_t level) {
-        auto &slot = m_made[{width, level}];
+    const Candidate &at(const fourier::KernelChoice &choice, double wanted) {
+        auto &slot = m_made[{fourier::kernelName(choice), wanted}];
         if (!slot) {
-            const int padded = fourier::paddedSize(m_samples, paddings[level]);
+            const int padded = fourier::paddedSize(m_samples, wanted);
             // Small axes are padded to more than they need: the kernel may know.
-            const double padding = std::min(2.5, double(padded) / m_samples);
-            auto kernel = fourier::Kernel::leastGhosts(width, padding, m_folded);
+            const double padding = std::min(std::max(2.5, wanted), double(padded) / m_samples);
+            auto kernel = fourier::makeKernel(choice, padding, m_folded);
             const AxisError error = axisError(kernel, padded, m_energy);
             slot = std::make_unique<Candidate>(Candidate{std::move(kernel), padded, error});
         }
@@ -120,7 +123,7 @@ private:
     int m_samples;
     const std::vector<double> &m_energy;
     std::vector<double> m_folded;
-    std::map<std::pair<int, std::size_t>, std::unique_ptr<Candidate>> m_made;
+    std::map<std::pair<std::string, double>, std::unique_ptr<Candidate>> m_made;
 };
 
 // What the frames of a camera take beside the spectrum: the lines between the two transforms and
@@ -140,62 +143,134 @@ ImageShare imageShare(const Camera &camera, const SliceGrid &grid, const FieldSu
     return {std::min(1.0, image / period) / std::min(1.0, image / shadow)};
 }
 
+// The slice grid with the least room for the roll-off's tails that leaves the kernel most of the
+// tolerance, and what these tails leave.
+struct PlannedGrid {
+    SliceGrid grid;
+    SliceRoom room;
+    double folded = 0.0;
+};
+
+PlannedGrid planGrid(const Scene &scene, const FieldSummary &field) {
+    const Camera &camera = scene.camera;
+    SliceRoom room{field.energy.radiusMm, 1.0};
+    const double reach = reachPixels(camera, room, field.lattice, scene.image);
+    const double image = double(camera.width) * camera.height;
+    std::optional<PlannedGrid> best;
+    SliceGrid least;
+    for (const double tails : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0}) {
+        room.tails = tails;
+        SliceGrid grid;
+        try {
+            grid = sliceGrid(camera, room, field.lattice, scene.image);
+        } catch (const task::Error &) {
+            if (best)
+                break;
+            throw;
+        }
+        if (!best)
+            least = grid;
+        // Four times the work is the most that tails are worth.
+        if (double(grid.columns) * grid.rows > 4.0 * double(least.columns) * double(least.rows))
+            break;
+        // The tails have the room between the image's edge and the next copy of the projection.
+        const double pixels =
+            0.5 * (grid.columns + grid.rows - 0.5 * (camera.width + camera.height)) - reach;
+        const double side = std::sqrt(image / (double(grid.columns) * grid.rows));
+        const double folded = predictFoldedTails(scene.image.rollOff, pixels, std::min(1.0, side),
+                                                 field.energy.roughness);
+        if (!best || folded < best->folded)
+            best = PlannedGrid{grid, room, folded};
+        if (folded <= 0.4 * scene.tolerance)
+            break;
+    }
+    return *best;
+}
+
+template <class T>
+std::vector<T> choices(const std::optional<T> &fixed, std::initializer_list<T> planned) {
+    return fixed ? std::vector<T>{*fixed} : std::vector<T>(planned);
+}
+
+std::string reasonFor(const RenderPlan &plan, const Scene &scene, bool overBudget) {
+    const bool meets = plan.predictedError <= scene.tolerance;
+    std::string fixed;
+    const Interpolation &wanted = scene.interpolation;
+    for (const auto &[given, what] : {std::pair(wanted.kernel.has_value(), "kernel"),
+                                      std::pair(wanted.padding.has_value(), "padding"),
+                                      std::pair(wanted.storage.has_value(), "storage")})
+        if (given)
+            fixed += (fixed.empty() ? "" : ", ") + std::string(what);
+    std::string reason = meets        ? "the cheapest that keeps the tolerance"
+                         : overBudget ? "the most accurate that fits the memory"
+                                      : "the most accurate there is";
+    if (!fixed.empty())
+        reason += " with the chosen " + fixed;
+    return reason;
+}
+
 } // namespace
 
 RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budget &budget) {
     validate(scene);
+    using fourier::KernelFamily;
+    constexpr auto least = KernelFamily::leastGhosts;
+    const auto kernels = choices<fourier::KernelChoice>(
+        scene.interpolation.kernel, {{least, 3}, {least, 4}, {least, 5}, {least, 6}, {least, 7}});
+    // Below 1.2 the seam of a full lattice shows.
+    const auto paddings =
+        choices(scene.interpolation.padding, {1.25, 1.375, 1.5, 1.625, 1.75, 2.0});
+    const auto storages = choices(scene.interpolation.storage,
+                                  {fourier::Storage::binary16, fourier::Storage::float32});
     const volume::GridSize size = field.support.size();
     std::array<AxisCandidates, 3> axes{AxisCandidates(size.i, field.energy.axis[0]),
                                        AxisCandidates(size.j, field.energy.axis[1]),
                                        AxisCandidates(size.k, field.energy.axis[2])};
-    const auto layoutAt = [&](int width, const std::array<std::size_t, 3> &level,
-                              fourier::Storage storage) {
-        const auto &x = axes[0].at(width, level[0]), &y = axes[1].at(width, level[1]),
-                   &z = axes[2].at(width, level[2]);
-        return fourier::SpectrumLayout{
-            {x.kernel, y.kernel, z.kernel}, field.support, {x.padded, y.padded, z.padded}, storage};
-    };
     // The slice grid depends on box and camera alone.
-    const SliceGrid grid = sliceGrid(scene.camera, layoutAt(4, {}, fourier::Storage::binary16),
-                                     field.lattice, scene.image);
-    const ImageShare share = imageShare(scene.camera, grid, field);
-    // Beside ghosts and rounding: the roll-off's tails that fold back over the border of the slice
-    // grid. They have the room between the image's edge and the next copy of the projection.
-    const double room =
-        0.5 * (grid.columns + grid.rows - 0.5 * (scene.camera.width + scene.camera.height)) -
-        reachPixels(scene.camera, layoutAt(4, {}, fourier::Storage::binary16), field.lattice,
-                    scene.image);
-    const double side = std::sqrt(double(scene.camera.width) * scene.camera.height /
-                                  (double(grid.columns) * grid.rows));
-    const double folded = predictFoldedTails(scene.image.rollOff, room, std::min(1.0, side),
-                                             field.energy.effectiveSamples);
+    const PlannedGrid planned = planGrid(scene, field);
+    const ImageShare share = imageShare(scene.camera, planned.grid, field);
 
     std::optional<RenderPlan> best;
     double bestTime = 0.0;
+    bool overBudget = false;
     std::size_t leastBytes = std::numeric_limits<std::size_t>::max();
-    for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
-        for (int width = 3; width <= fourier::Kernel::largestWidth; ++width) {
+    for (const auto storage : storages) {
+        for (const auto &choice : kernels) {
             std::array<std::size_t, 3> level{};
             for (;;) {
+                std::array<const AxisCandidates::Candidate *, 3> at;
                 std::array<AxisError, 3> errors;
-                for (int d = 0; d < 3; ++d)
-                    errors[d] = axes[d].at(width, level[d]).error;
-                const auto layout = layoutAt(width, level, storage);
+                for (int d = 0; d < 3; ++d) {
+                    at[d] = &axes[d].at(choice, paddings[level[d]]);
+                    errors[d] = at[d]->error;
+                }
+                const fourier::SpectrumLayout layout{{at[0]->kernel, at[1]->kernel, at[2]->kernel},
+                                                     field.support,
+                                                     {at[0]->padded, at[1]->padded, at[2]->padded},
+                                                     storage};
                 const double predicted =
-                    std::hypot(predictRelativeError(errors, storage, share), folded);
-                const std::size_t bytes = layout.peakBytes() + frameBytes(grid);
+                    std::hypot(predictRelativeError(errors, storage, share), planned.folded);
+                const std::size_t bytes = layout.peakBytes() + frameBytes(planned.grid);
                 leastBytes = std::min(leastBytes, bytes);
-                if (bytes > budget.bytes)
+                if (bytes > budget.bytes) {
+                    overBudget = true;
                     break; // more padding takes more
+                }
                 const bool meets = predicted <= scene.tolerance;
                 // A larger spectrum is slower to read and to prepare: a tenth for each doubling.
-                const double time = sampleTime[std::size_t(width)] *
+                const double time = sampleTime[std::size_t(layout.width())] *
                                     (storage == fourier::Storage::float32 ? floatCells : 1.0) *
                                     (1.0 + 0.1 * std::log2(double(bytes)));
                 const bool bestMeets = best && best->predictedError <= scene.tolerance;
                 if (!best || (meets && (!bestMeets || time < bestTime)) ||
                     (!meets && !bestMeets && predicted < best->predictedError)) {
-                    best = RenderPlan{layout, scene.image, predicted, bytes};
+                    best = RenderPlan{layout,
+                                      scene.image,
+                                      planned.room,
+                                      predicted,
+                                      predictMaximum(errors, storage, share),
+                                      bytes,
+                                      {}};
                     bestTime = time;
                 }
                 if (meets)
@@ -222,6 +297,7 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
         throw task::Error(task::ErrorCode::outOfMemory,
                           fmt::format("the projection needs {} MB, {} MB are allowed",
                                       (leastBytes >> 20) + 1, budget.bytes >> 20));
+    best->reason = reasonFor(*best, scene, overBudget);
     return *best;
 }
 

@@ -33,6 +33,8 @@ void validate(const Scene &scene) {
             "the roll-off must be within 0 to 1");
     require(std::isfinite(scene.tolerance) && scene.tolerance > 0.0,
             "the tolerance must be positive");
+    const auto &padding = scene.interpolation.padding;
+    require(!padding || (*padding >= 1.0 && *padding <= 4.0), "the padding must be within 1 to 4");
     if (scene.fieldWindow)
         require(std::isfinite(scene.fieldWindow->low) && std::isfinite(scene.fieldWindow->high) &&
                     scene.fieldWindow->low < scene.fieldWindow->high,

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "core/classify/density_field.h"
+#include "core/fourier/kernel.h"
+#include "core/fourier/storage.h"
 #include "core/render/camera.h"
 #include "core/render/image_definition.h"
 
@@ -18,6 +20,15 @@ struct Tone {
     bool operator==(const Tone &) const = default;
 };
 
+/// What the user fixes of how the spectrum is kept and read; what is absent the planner chooses.
+struct Interpolation {
+    std::optional<fourier::KernelChoice> kernel;
+    /// Padded size over field size, 1 to 4, the same on every axis.
+    std::optional<double> padding;
+    std::optional<fourier::Storage> storage;
+    bool operator==(const Interpolation &) const = default;
+};
+
 /// What the user asked to see. A plain value: the window, the command line and the tests share it.
 struct Scene {
     Camera camera;
@@ -26,6 +37,7 @@ struct Scene {
     ImageDefinition image;
     /// Largest relative L2 error of the float image.
     double tolerance = 1.1e-3;
+    Interpolation interpolation;
     Tone tone;
 
     bool operator==(const Scene &) const = default;

@@ -56,6 +56,13 @@ std::string toJson(const Scene &scene) {
         out["tone"]["low"] = *scene.tone.low;
     if (scene.tone.high)
         out["tone"]["high"] = *scene.tone.high;
+    const Interpolation &fixed = scene.interpolation;
+    if (fixed.kernel)
+        out["kernel"] = fourier::kernelName(*fixed.kernel);
+    if (fixed.padding)
+        out["padding"] = *fixed.padding;
+    if (fixed.storage)
+        out["storage"] = fourier::storageName(*fixed.storage);
     return out.dump(2);
 }
 
@@ -87,6 +94,12 @@ Scene sceneFromJson(const std::string &text) {
         scene.image.reconstruction = it->second;
         scene.image.rollOff = in.value("roll_off", scene.image.rollOff);
         scene.tolerance = in.value("tolerance", scene.tolerance);
+        if (in.contains("kernel"))
+            scene.interpolation.kernel = fourier::kernelFromName(in.at("kernel"));
+        if (in.contains("padding"))
+            scene.interpolation.padding = in.at("padding").get<double>();
+        if (in.contains("storage"))
+            scene.interpolation.storage = fourier::storageFromName(in.at("storage"));
         if (in.contains("tone")) {
             const json &tone = in.at("tone");
             scene.tone.inverted = tone.value("inverted", false);

@@ -20,7 +20,8 @@ using render::StandardView;
 render::CpuEngine engineFor(const classify::DensityField &field, const render::Scene &scene = {}) {
     const auto plan = render::planRender(scene, render::summarise(field));
     return render::CpuEngine(std::make_shared<const fourier::Spectrum>(
-        fourier::Spectrum::prepare(field.values, plan.spectrum)));
+                                 fourier::Spectrum::prepare(field.values, plan.spectrum)),
+                             plan.room);
 }
 
 render::Camera cameraFor(const volume::Lattice &lattice, StandardView view,

@@ -94,9 +94,9 @@ TEST(InstructionSets, FourThreadsGiveTheBitsOfOne) {
         field.values, {{kernel, kernel, kernel}, field.support, {60, 60, 60}}));
     render::Camera camera = render::defaultCamera(lattice);
     camera.orientation = render::viewOrientation(render::StandardView::front, {25, 35, 45});
-    const auto one = render::CpuEngine(spectrum, 1).render(camera, {}).samples;
-    EXPECT_EQ(render::CpuEngine(spectrum, 2).render(camera, {}).samples, one);
-    EXPECT_EQ(render::CpuEngine(spectrum, 4).render(camera, {}).samples, one);
+    const auto one = render::CpuEngine(spectrum, std::nullopt, 1).render(camera, {}).samples;
+    EXPECT_EQ(render::CpuEngine(spectrum, std::nullopt, 2).render(camera, {}).samples, one);
+    EXPECT_EQ(render::CpuEngine(spectrum, std::nullopt, 4).render(camera, {}).samples, one);
 }
 
 } // namespace

@@ -38,10 +38,10 @@ TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
     auto scene = sceneFor(lattice);
     const auto plan = render::planRender(scene, render::summarise(field));
     // The projection of a cube is up to sqrt(3) N wide; half of it beside half of the image.
-    const auto grid = render::sliceGrid(scene.camera, plan.spectrum, lattice, scene.image);
+    const auto grid = render::sliceGrid(scene.camera, plan.room, lattice, scene.image);
     EXPECT_GE(grid.columns, 173);
     scene.camera.width = 40;
-    const auto narrow = render::sliceGrid(scene.camera, plan.spectrum, lattice, scene.image);
+    const auto narrow = render::sliceGrid(scene.camera, plan.room, lattice, scene.image);
     EXPECT_LT(narrow.columns, grid.columns);
     EXPECT_EQ(narrow.rows, grid.rows);
     EXPECT_GE(narrow.columns, 20 + 86);
@@ -90,7 +90,8 @@ TEST(RenderPlan, PredictsTheMeasuredError) {
         auto scene = sceneFor(lattice);
         const auto plan = render::planRender(scene, render::summarise(field));
         render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
-            fourier::Spectrum::prepare(field.values, plan.spectrum)));
+                                     fourier::Spectrum::prepare(field.values, plan.spectrum)),
+                                 plan.room);
         const reference::WideKernel wide(field.values, field.support);
         double measured = 0.0;
         for (const double azimuth : {0.0, 30.0, 60.0, 90.0}) {

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/bench/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/fourier/transform.h"
+
+namespace pellucid::bench {
+
+double millisecondsNow() {
+    return std::chrono::duration<double, std::milli>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
+                     values.end());
+    return values[values.size() / 2];
+}
+
+std::vector<glm::dquat> randomViews(int count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<glm::dquat> views;
+    for (int n = 0; n < count; ++n) {
+        const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+        views.push_back(glm::normalize(glm::dquat(w, x, y, z)));
+    }
+    return views;
+}
+
+ImageError compare(const std::vector<float> &image, const std::vector<double> &truth) {
+    double difference = 0.0, energy = 0.0, peak = 0.0, most = 0.0;
+    for (std::size_t n = 0; n < truth.size(); ++n) {
+        const double e = double(image[n]) - truth[n];
+        difference += e * e;
+        energy += truth[n] * truth[n];
+        peak = std::max(peak, std::abs(truth[n]));
+        most = std::max(most, std::abs(e));
+    }
+    if (energy == 0.0) // an empty field: any light at all is wrong
+        return {std::sqrt(difference), most, 0.0};
+    const double psnr = difference > 0.0
+                            ? 10.0 * std::log10(peak * peak * double(truth.size()) / difference)
+                            : 999.0;
+    return {std::sqrt(difference / energy), most / peak, psnr};
+}
+
+render::Camera squareCamera(const volume::Lattice &lattice, int side) {
+    render::Camera camera = render::defaultCamera(lattice);
+    camera.width = camera.height = side;
+    return camera;
+}
+
+Truth::Truth(const Subject &subject, const render::Camera &camera, int views) : m_subject(subject) {
+    const auto random = randomViews(views, 11);
+    for (int view = 0; view < views; ++view) {
+        m_cameras.push_back(camera);
+        m_cameras.back().orientation =
+            view == 0   ? render::viewOrientation(render::StandardView::front)
+            : view == 1 ? render::viewOrientation(render::StandardView::top)
+                        : random[std::size_t(view)];
+    }
+}
+
+const std::vector<double> &Truth::image(int view, const render::ImageDefinition &definition) {
+    if (!m_reference)
+        m_reference = std::make_unique<reference::WideKernel>(m_subject.field.values,
+                                                              m_subject.field.support);
+    if (definition.rollOff != m_rollOff)
+        m_images.clear();
+    m_rollOff = definition.rollOff;
+    auto &slot = m_images[{view, int(definition.reconstruction)}];
+    if (slot.empty())
+        slot = m_reference->image(camera(view), definition);
+    return slot;
+}
+
+namespace {
+
+// FFTW's own transform of the padded size, in place, its plan at hand.
+double transformMs(const fourier::SpectrumLayout &layout) {
+    const volume::GridSize p = layout.padded;
+    const int stride = p.i / 2 + 1;
+    std::vector<std::complex<float>> data(std::size_t(stride) * p.j * p.k);
+    const fourier::ForwardTransform3d transform(data.data(), p, stride, p.j);
+    for (std::size_t n = 0; n < data.size(); ++n)
+        data[n] = {float(n % 7), float(n % 5)};
+    const double start = millisecondsNow();
+    transform.run();
+    return millisecondsNow() - start;
+}
+
+} // namespace
+
+Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
+            const Measurement &how) {
+    const classify::DensityField &field = subject.field;
+    const auto plan = render::planRender(how.scene, render::summarise(field));
+    const int width = plan.spectrum.width();
+    Row row{suite,
+            name,
+            field.values.lattice().size(),
+            "cpu",
+            plan.spectrum.kernels[0].name(),
+            width * width * width,
+            double(plan.spectrum.padded.i) / plan.spectrum.box.size().i,
+            fourier::storageName(plan.spectrum.storage),
+            how.threads > 0 ? how.threads : thisMachine().threads};
+    double start = millisecondsNow();
+    const auto spectrum = std::make_shared<const fourier::Spectrum>(
+        fourier::Spectrum::prepare(field.values, plan.spectrum));
+    row.prepareMs = millisecondsNow() - start;
+    if (how.transform)
+        row.fft3dMs = transformMs(plan.spectrum);
+    row.bytes = double(spectrum->bytes());
+    row.predictedError = plan.predictedError;
+    row.predictedMax = plan.predictedMaximum;
+    row.tolerance = how.scene.tolerance;
+
+    render::CpuEngine engine(spectrum, plan.room, how.threads);
+    render::Camera camera = how.scene.camera;
+    std::vector<double> slice, transform, frame;
+    for (const glm::dquat &orientation : randomViews(how.views)) {
+        camera.orientation = orientation;
+        render::FrameTimes times;
+        start = millisecondsNow();
+        engine.render(camera, how.scene.image, &times);
+        frame.push_back(millisecondsNow() - start);
+        slice.push_back(times.sliceMs);
+        transform.push_back(times.transformMs);
+    }
+    row.sliceMs = median(slice);
+    row.transformMs = median(transform);
+    row.frameMs = median(frame);
+
+    ImageError worst{0.0, 0.0, 1e9};
+    for (int view = 0; view < truth.views(); ++view) {
+        const auto image = engine.render(truth.camera(view), how.scene.image);
+        const ImageError error = compare(image.samples, truth.image(view, how.scene.image));
+        worst = {std::max(worst.relativeL2, error.relativeL2),
+                 std::max(worst.maximum, error.maximum), std::min(worst.psnrDb, error.psnrDb)};
+    }
+    if (truth.views() > 0) {
+        row.relativeL2 = worst.relativeL2;
+        row.maxError = worst.maximum;
+        row.psnrDb = worst.psnrDb;
+    }
+    return row;
+}
+
+} // namespace pellucid::bench

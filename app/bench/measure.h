@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "app/bench/report.h"
+#include "app/bench/spatial_peers.h"
+#include "app/bench/subjects.h"
+#include "core/reference/wide_kernel.h"
+#include "core/render/cpu_engine.h"
+
+namespace pellucid::bench {
+
+double millisecondsNow();
+double median(std::vector<double> values);
+/// The views of every suite: a sequence of random rotations.
+std::vector<glm::dquat> randomViews(int count, unsigned seed = 7);
+
+/// How far an image is from the truth.
+struct ImageError {
+    double relativeL2 = 0.0, maximum = 0.0, psnrDb = 0.0; ///< maximum: over the truth's largest
+};
+ImageError compare(const std::vector<float> &image, const std::vector<double> &truth);
+
+/// The exact images of one field from the views that errors are taken at: along two axes, and a
+/// few random ones. Made when first asked for.
+class Truth {
+public:
+    Truth(const Subject &subject, const render::Camera &camera, int views);
+
+    int views() const { return int(m_cameras.size()); }
+    const render::Camera &camera(int view) const { return m_cameras[std::size_t(view)]; }
+    const std::vector<double> &image(int view, const render::ImageDefinition &definition);
+
+private:
+    const Subject &m_subject;
+    std::vector<render::Camera> m_cameras;
+    std::unique_ptr<reference::WideKernel> m_reference;
+    std::map<std::pair<int, int>, std::vector<double>> m_images;
+    double m_rollOff = -1.0;
+};
+
+/// What is rendered, and how often.
+struct Measurement {
+    render::Scene scene; ///< its camera is what all views share but the orientation
+    int views = 64;
+    int threads = 0;       ///< 0: all
+    bool transform = true; ///< time FFTW's own transform of the padded size too
+};
+
+/// Plans, prepares and times one case; the error is the worst of the truth's views.
+Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
+            const Measurement &how);
+
+/// The camera of an image of side x side pixels of the shortest step, for any lattice.
+render::Camera squareCamera(const volume::Lattice &lattice, int side);
+
+} // namespace pellucid::bench

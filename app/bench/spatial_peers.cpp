@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/bench/spatial_peers.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
+#include "app/bench/spatial_work.h"
+
+namespace pellucid::bench {
+
+namespace {
+
+// Zeros between slices, so that a shifted slice may be read beyond its ends.
+const std::vector<std::int16_t> &zeroRow(std::size_t length) {
+    thread_local std::vector<std::int16_t> row;
+    if (row.size() < length)
+        row.assign(length, 0);
+    return row;
+}
+
+glm::dvec3 inVoxels(const volume::Lattice &lattice, const glm::dvec3 &mm) {
+    return glm::inverse(glm::dmat3(lattice.step(0), lattice.step(1), lattice.step(2))) * mm;
+}
+
+} // namespace
+
+SpatialVolume::SpatialVolume(const volume::Volume &field) : m_lattice(field.lattice()) {
+    const volume::GridSize n = m_lattice.size();
+    const auto layOut = [](int i, int j, int k, std::ptrdiff_t &row, std::ptrdiff_t &plane,
+                           std::ptrdiff_t &first) {
+        row = i + gap;
+        plane = row * (j + 1);
+        first = plane + row + gap;
+        return std::size_t(plane * (k + 3) + row + 2 * gap);
+    };
+    m_samples.assign(layOut(n.i, n.j, n.k, m_rowStride, m_planeStride, m_first), 0);
+    m_exchanged.assign(
+        layOut(n.k, n.j, n.i, m_exchangedRowStride, m_exchangedPlaneStride, m_exchangedFirst), 0);
+    field.visit([&](auto values) {
+        tbb::parallel_for(0, n.j, [&](int j) {
+            for (int k = 0; k < n.k; ++k)
+                for (int i = 0; i < n.i; ++i) {
+                    const double f = double(values[(std::size_t(k) * n.j + j) * n.i + i]);
+                    const auto value = std::int16_t(std::lround(f * largestValue));
+                    m_samples[std::size_t(m_first + k * m_planeStride + j * m_rowStride + i)] =
+                        value;
+                    m_exchanged[std::size_t(m_exchangedFirst + i * m_exchangedPlaneStride +
+                                            j * m_exchangedRowStride + k)] = value;
+                }
+        });
+    });
+}
+
+SpatialImage raySum(const SpatialVolume &volume, const render::Camera &camera, double stepMm) {
+    const volume::Lattice &lattice = volume.lattice();
+    const glm::dmat3 axes = camera.axes();
+    const glm::dvec3 corner =
+        inVoxels(lattice, camera.panMm.x * axes[0] + camera.panMm.y * axes[1] -
+                              0.5 * (camera.width - 1) * camera.pixelMm * axes[0] +
+                              0.5 * (camera.height - 1) * camera.pixelMm * axes[1]);
+    const glm::dvec3 column = inVoxels(lattice, camera.pixelMm * axes[0]);
+    const glm::dvec3 row = inVoxels(lattice, -camera.pixelMm * axes[1]);
+    const glm::dvec3 step = inVoxels(lattice, stepMm * axes[2]);
+    const volume::GridSize n = lattice.size();
+    const std::array<int, 3> size{n.i, n.j, n.k};
+    RayJob job;
+    job.samples = volume.samples() - volume.planeStride() - volume.rowStride() - 1;
+    job.rowStride = volume.rowStride();
+    job.planeStride = volume.planeStride();
+    for (int axis = 0; axis < 3; ++axis) {
+        job.first[axis] = corner[axis] + 0.5 * (size[axis] - 1) + 1.0;
+        job.perColumn[axis] = column[axis];
+        job.perRow[axis] = row[axis];
+        job.step[axis] = float(step[axis]);
+        job.end[axis] = float(size[axis] + 1);
+    }
+    job.width = camera.width;
+    job.height = camera.height;
+    job.farthest = int(lattice.radiusMm() / stepMm + camera.pixelMm * camera.width / stepMm) + 4;
+    // The two neighbours along x are weighed in 1/16384.
+    job.scale = float(stepMm / (16384.0 * SpatialVolume::largestValue));
+    SpatialImage image{std::vector<float>(std::size_t(camera.width) * camera.height), camera.width,
+                       camera.height, 0};
+    std::atomic<std::size_t> count{0};
+    const auto tiles = [](int pixels) { return (pixels + rayTile - 1) / rayTile; };
+    tbb::parallel_for(tbb::blocked_range2d<int>(0, tiles(camera.height), 0, tiles(camera.width)),
+                      [&](const tbb::blocked_range2d<int> &range) {
+                          std::size_t taken = 0;
+                          for (int y = range.rows().begin(); y != range.rows().end(); ++y)
+                              for (int x = range.cols().begin(); x != range.cols().end(); ++x)
+                                  castRayTile(job, x * rayTile, y * rayTile, image.samples.data(),
+                                              taken);
+                          count += taken;
+                      });
+    image.sampleCount = count;
+    return image;
+}
+
+SpatialImage shearWarpSum(const SpatialVolume &volume, const render::Camera &camera) {
+    const volume::Lattice &lattice = volume.lattice();
+    const glm::dvec3 ray = inVoxels(lattice, camera.axes()[2]);
+    const volume::GridSize n = lattice.size();
+    // The slices lie across the axis that the ray follows most; x within a slice is contiguous.
+    int principal = 0;
+    for (int axis = 1; axis < 3; ++axis)
+        if (std::abs(ray[axis]) > std::abs(ray[principal]))
+            principal = axis;
+    int columns = n.i, rows = n.j, depth = n.k;
+    double perSliceX = -ray.x / ray.z, perSliceY = -ray.y / ray.z;
+    std::ptrdiff_t rowStride = volume.rowStride(), sliceStride = volume.planeStride();
+    const std::int16_t *samples = volume.samples();
+    if (principal == 1) {
+        rows = n.k;
+        depth = n.j;
+        perSliceX = -ray.x / ray.y;
+        perSliceY = -ray.z / ray.y;
+        std::swap(rowStride, sliceStride);
+    } else if (principal == 0) {
+        columns = n.k;
+        depth = n.i;
+        perSliceX = -ray.z / ray.x;
+        perSliceY = -ray.y / ray.x;
+        samples = volume.exchanged();
+        rowStride = volume.exchangedRowStride();
+        sliceStride = volume.exchangedPlaneStride();
+    }
+    const auto extent = [&](int size, double perSlice) {
+        return size + int(std::ceil(std::abs(perSlice) * (depth - 1))) + 1;
+    };
+    SpatialImage image{{},
+                       extent(columns, perSliceX),
+                       extent(rows, perSliceY),
+                       std::size_t(columns) * rows * depth};
+    image.samples.resize(std::size_t(image.width) * image.height);
+    const double firstX = perSliceX < 0.0 ? -perSliceX * (depth - 1) : 0.0;
+    const double firstY = perSliceY < 0.0 ? -perSliceY * (depth - 1) : 0.0;
+    const std::size_t bufferWidth = std::size_t(image.width) + SpatialVolume::gap;
+    constexpr int band = 16;
+    tbb::parallel_for(0, (image.height + band - 1) / band, [&](int part) {
+        const std::int16_t *const zeros =
+            zeroRow(std::size_t(columns) + 2 * SpatialVolume::gap).data() + SpatialVolume::gap;
+        std::vector<std::int32_t> sums(bufferWidth * band, 0);
+        const int first = part * band, last = std::min(first + band, image.height);
+        for (int slice = 0; slice < depth; slice += shearSlices)
+            for (int y = first; y < last; ++y) {
+                ShearGroup group;
+                group.begin = image.width;
+                for (int m = 0; m < shearSlices; ++m) {
+                    ShearedSlice &s = group.slices[m];
+                    const int k = slice + m;
+                    if (k >= depth) {
+                        s = {zeros, zeros, 0, -SpatialVolume::gap, 0, 0};
+                        continue;
+                    }
+                    const double x = firstX + perSliceX * k, dy = firstY + perSliceY * k;
+                    const int shift = int(std::floor(x)), shiftY = int(std::floor(dy));
+                    const int from = y - shiftY;
+                    const std::int16_t *const plane = samples + k * sliceStride;
+                    const auto at = [&](int row) {
+                        return row >= 0 && row < rows ? plane + row * rowStride : zeros;
+                    };
+                    s = {at(from),
+                         at(from - 1),
+                         shift,
+                         columns,
+                         std::int16_t(std::min(32767.0, std::round((x - shift) * 32768.0))),
+                         std::int16_t(std::min(32767.0, std::round((dy - shiftY) * 32768.0)))};
+                    if (s.row == zeros && s.rowBefore == zeros) {
+                        s.width = -SpatialVolume::gap;
+                        continue;
+                    }
+                    group.begin = std::min(group.begin, shift);
+                    group.end = std::max(group.end, shift + columns + 1);
+                }
+                if (group.begin < group.end)
+                    addShearedSlices(group, image.width,
+                                     sums.data() + std::size_t(y - first) * bufferWidth);
+            }
+        for (int y = first; y < last; ++y)
+            for (int x = 0; x < image.width; ++x)
+                image.samples[std::size_t(y) * image.width + x] =
+                    float(sums[std::size_t(y - first) * bufferWidth + x]) /
+                    SpatialVolume::largestValue;
+    });
+    return image;
+}
+
+} // namespace pellucid::bench

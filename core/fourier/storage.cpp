@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fourier/storage.h"
+
+#include <complex>
+#include <cstdint>
+
+#include "core/task/error.h"
+
+namespace pellucid::fourier {
+
+std::size_t bytesPerCell(Storage storage) {
+    return storage == Storage::binary16 ? 2 * sizeof(std::uint16_t) : sizeof(std::complex<float>);
+}
+
+Storage storageFromName(const std::string &name) {
+    if (name == "f16")
+        return Storage::binary16;
+    if (name == "f32")
+        return Storage::float32;
+    throw task::Error(task::ErrorCode::usage,
+                      "'" + name + "' is not a storage; there are f16 and f32");
+}
+
+std::string storageName(Storage storage) {
+    return storage == Storage::binary16 ? "f16" : "f32";
+}
+
+} // namespace pellucid::fourier
