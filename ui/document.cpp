@@ -51,7 +51,11 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         // Edits belong to the study they were made on.
         m_undo.clear();
         m_crosshair = volume.lattice().center();
-        m_scene = render::Scene();
+        // How well pictures are made belongs to the person, what they show to the study.
+        render::Scene fresh;
+        fresh.tolerance = m_scene.tolerance;
+        fresh.interpolation = m_scene.interpolation;
+        m_scene = fresh;
         m_scene.camera.orientation = render::viewOrientation(render::StandardView::front);
     }
     // A preview's quantiles are those of the slices that happened to come first; a window that the

@@ -26,6 +26,7 @@
 
 #include "core/task/error.h"
 #include "ui/commands.h"
+#include "ui/panels/quality_panel.h"
 #include "ui/panels/series_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/views/mpr_view.h"
@@ -57,6 +58,7 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
     createPanes();
     createStudyDock();
+    createQualityDock();
     createFileMenu();
     createEditMenu();
     createViewMenu();
@@ -114,6 +116,19 @@ void MainWindow::createStudyDock() {
     dock->setWidget(panel);
     panel->setMinimumWidth(250);
     addDockWidget(Qt::LeftDockWidgetArea, dock);
+}
+
+void MainWindow::createQualityDock() {
+    auto *panel = new QualityPanel(m_document);
+    connect(&m_opener, &StudyOpener::engineReady, panel, &QualityPanel::showPlan);
+    connect(m_projection, &ProjectionView::frameShown, panel, &QualityPanel::showFrame);
+    auto *dock = new QDockWidget(tr("QUALITY"), this);
+    dock->setObjectName("qualityDock");
+    dock->setWidget(panel);
+    panel->setFixedWidth(250);
+    // Docks of this side stand at the top, one below the other.
+    panel->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Maximum);
+    addDockWidget(Qt::RightDockWidgetArea, dock);
 }
 
 QAction *MainWindow::addCommand(QMenu *menu, const QString &text, const char *name,
@@ -275,7 +290,8 @@ void MainWindow::createToolsMenu() {
 
 void MainWindow::createHelpMenu() {
     QMenu *window = menuBar()->addMenu(tr("W&indow"));
-    window->addAction(findChild<QDockWidget *>("studyDock")->toggleViewAction());
+    for (const char *dock : {"studyDock", "qualityDock"})
+        window->addAction(findChild<QDockWidget *>(dock)->toggleViewAction());
     QMenu *menu = menuBar()->addMenu(tr("&Help"));
     addCommand(menu, tr("&Manual"), "manualAction", QKeySequence("F1"), [this] { showManual(); });
     addCommand(menu, tr("&About Pellucid"), "aboutAction", {}, [this] { showAbout(); });

@@ -24,6 +24,7 @@ namespace pellucid::ui {
 class MprView;
 class PaneArea;
 class ProjectionView;
+class QualityPanel;
 class SeriesPanel;
 class StartPage;
 
@@ -48,6 +49,7 @@ protected:
 private:
     void createPanes();
     void createStudyDock();
+    void createQualityDock();
     void createFileMenu();
     void createEditMenu();
     void createViewMenu();

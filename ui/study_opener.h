@@ -7,7 +7,7 @@
 #include <QObject>
 #include <QStringList>
 
-#include "core/render/cpu_engine.h"
+#include "core/render/prepared_engine.h"
 
 namespace pellucid::ui {
 
@@ -29,20 +29,29 @@ signals:
     /// The paths held something.
     void pathsOpened(const QStringList &paths);
     /// An engine for the document's volume is ready; a finer one may follow.
-    void engineReady(std::shared_ptr<pellucid::render::ProjectionEngine> engine,
-                     double predictedError, bool coarse);
+    void engineReady(const pellucid::render::PreparedEngine &engine, bool coarse);
     /// The open volume cannot be projected.
     void notProjectable(const QString &reason);
 
 private:
-    void followFieldWindow();
-    void prepare(const class Job &job, const volume::Volume &volume, const render::Scene &scene,
-                 double from);
+    /// What of a scene an engine is made for; the rest changes from frame to frame.
+    struct Prepared {
+        explicit Prepared(const render::Scene &scene)
+            : window(scene.fieldWindow), tolerance(scene.tolerance),
+              interpolation(scene.interpolation) {}
+        std::optional<classify::FieldWindow> window;
+        double tolerance;
+        render::Interpolation interpolation;
+        bool operator==(const Prepared &) const = default;
+    };
+    void followScene();
+    void prepare(const class Job &job, const volume::Volume &volume, const Prepared &wanted,
+                 double from, bool coarseFirst);
 
     Document &m_document;
     JobRunner &m_jobs;
-    /// The field's window that the last engine was, or is being, made for.
-    std::optional<classify::FieldWindow> m_preparedWindow;
+    /// What the last engine was, or is being, made for.
+    Prepared m_prepared{render::Scene()};
 };
 
 } // namespace pellucid::ui

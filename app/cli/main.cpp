@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/commands.h"
+#include "core/files/user_folders.h"
+#include "core/fourier/wisdom.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
 
@@ -53,6 +55,9 @@ int main(int argc, char **argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     const cli::Context context{stopOnInterrupt().get_token()};
+
+    if (const auto cache = files::userCacheFolder())
+        fourier::keepWisdomIn(*cache / "fftw-wisdom");
 
     CLI::App app("Projections of DICOM studies in the frequency domain", "pellucid-cli");
     app.set_version_flag("--version", "pellucid-cli " PELLUCID_VERSION);

@@ -21,7 +21,7 @@
 #include "core/files/image_files.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/compose.h"
-#include "core/render/cpu_engine.h"
+#include "core/render/prepared_engine.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
 #include "core/volume/nrrd.h"
@@ -36,10 +36,10 @@ using task::Error;
 using task::ErrorCode;
 
 struct Options {
-    std::string path, out, series, view, orientation, size, window, reconstruction, quality,
-        engine = "auto", scene;
+    std::string path, out, series, view, orientation, size, window, reconstruction, quality, kernel,
+        storage, engine = "auto", scene;
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,
-           tolerance = 0.0;
+           tolerance = 0.0, padding = 0.0;
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
     bool turntable = false, json = false;
@@ -54,13 +54,6 @@ const std::map<std::string, render::Reconstruction> reconstructions{
     {"cubic", render::Reconstruction::cubic},
     {"linear", render::Reconstruction::linear},
     {"band-limited", render::Reconstruction::bandLimited}};
-
-// Tolerances of the named qualities; the reference is as exact as double precision allows.
-const std::map<std::string, double> qualities{{"draft", 3e-2},
-                                              {"interactive", 1e-2},
-                                              {"standard", 1.1e-3},
-                                              {"fine", 1e-4},
-                                              {"reference", 1e-10}};
 
 enum class OutputKind { png, npy, nrrd };
 
@@ -161,9 +154,17 @@ render::Scene sceneFor(const Options &o, const CLI::App &command, const volume::
     if (given("--roll-off"))
         scene.image.rollOff = o.rollOff;
     if (given("--quality"))
-        scene.tolerance = qualities.at(o.quality);
+        for (const auto &[name, tolerance] : render::namedTolerances)
+            if (o.quality == name)
+                scene.tolerance = tolerance;
     if (given("--tolerance"))
         scene.tolerance = o.tolerance;
+    if (given("--kernel"))
+        scene.interpolation.kernel = fourier::kernelFromName(o.kernel);
+    if (given("--padding"))
+        scene.interpolation.padding = o.padding;
+    if (given("--storage"))
+        scene.interpolation.storage = fourier::storageFromName(o.storage);
     render::validate(scene);
     return scene;
 }
@@ -210,25 +211,34 @@ class Renderer {
 public:
     Renderer(const render::Scene &scene, const classify::DensityField &field,
              const render::Budget &budget, const Context &context)
-        : m_scene(scene), m_field(field), m_summary(render::summarise(field)),
-          m_plan(render::planRender(scene, m_summary, budget)) {
+        : m_scene(scene), m_field(field), m_summary(render::summarise(field)) {
+        auto fitting = render::planWithin(scene, field, m_summary, budget);
+        m_plan = std::move(fitting.plan);
         const task::Progress progress(context.stop);
-        // The engine's error is known in advance; what it cannot meet the exact reference does.
-        if (m_plan.predictedError <= scene.tolerance) {
+        // The engine's error is known in advance; what it cannot meet the exact reference does,
+        // unless the memory is short or the user wants to see what a kernel does.
+        const std::size_t exactBytes =
+            reference::WideKernel::bytes(field.support) +
+            reference::sliceBytes(field.values.lattice(), scene.camera, scene.image);
+        const bool engine = m_plan->predictedError <= scene.tolerance ||
+                            scene.interpolation != render::Interpolation() || fitting.reduction > 1;
+        if (engine) {
+            const auto &source = fitting.reducedField ? *fitting.reducedField : field;
             m_engine = std::make_unique<render::CpuEngine>(
                 std::make_shared<const fourier::Spectrum>(
-                    fourier::Spectrum::prepare(field.values, m_plan.spectrum, progress)),
-                m_plan.room);
+                    fourier::Spectrum::prepare(source.values, m_plan->spectrum, progress)),
+                m_plan->room);
+            m_lattice = source.values.lattice();
+            m_bytes = m_plan->bytes;
         } else {
-            m_plan.bytes = reference::WideKernel::bytes(field.support) +
-                           reference::sliceBytes(field.values.lattice(), scene.camera, scene.image);
-            if (m_plan.bytes > budget.bytes)
+            if (exactBytes > budget.bytes)
                 throw Error(ErrorCode::outOfMemory,
                             fmt::format("a tolerance of {} needs {} MB, {} MB are allowed",
-                                        scene.tolerance, (m_plan.bytes >> 20) + 1,
+                                        scene.tolerance, (exactBytes >> 20) + 1,
                                         budget.bytes >> 20));
             m_reference =
                 std::make_unique<reference::WideKernel>(field.values, field.support, progress);
+            m_bytes = exactBytes;
         }
     }
 
@@ -247,12 +257,12 @@ public:
     }
 
     json planJson() const {
-        const auto &s = m_plan.spectrum;
+        const auto &s = m_plan->spectrum;
         if (!m_engine)
             return {
                 {"kernel", "KB12"}, {"taps", 12 * 12 * 12}, {"padding", 2.0}, {"storage", "f64"}};
         const render::SliceGrid grid =
-            render::sliceGrid(m_scene.camera, m_plan.room, m_field.values.lattice(), m_scene.image);
+            render::sliceGrid(m_scene.camera, m_plan->room, *m_lattice, m_scene.image);
         const int w = s.width();
         return {{"kernel", s.kernels[0].name()},
                 {"taps", w * w * w},
@@ -260,13 +270,18 @@ public:
                 {"box", doubles(s.box.size())},
                 {"padding", double(s.padded.i) / s.box.size().i},
                 {"slice_grid", {grid.columns, grid.rows}},
-                {"storage", s.storage == fourier::Storage::binary16 ? "f16" : "f32"}};
+                {"storage", fourier::storageName(s.storage)},
+                {"reason", m_plan->reason}};
     }
-    std::size_t bytes() const { return m_plan.bytes; }
+    std::size_t bytes() const { return m_bytes; }
+    // The reference's largest error is not predicted: it lies below what a float image holds.
+    std::optional<double> predictedMaximum() const {
+        return m_engine ? std::optional(m_plan->predictedMaximum) : std::nullopt;
+    }
     // Double precision leaves rounding, about 1e-10, and what is left of the roll-off's tails.
     double predictedError() const {
         if (m_engine)
-            return m_plan.predictedError;
+            return m_plan->predictedError;
         return std::hypot(1e-10, reference::foldedTails(m_summary.lattice, m_scene.camera,
                                                         m_scene.image, m_summary.energy.roughness));
     }
@@ -275,7 +290,9 @@ private:
     const render::Scene &m_scene;
     const classify::DensityField &m_field;
     render::FieldSummary m_summary;
-    render::RenderPlan m_plan;
+    std::optional<render::RenderPlan> m_plan;
+    std::optional<volume::Lattice> m_lattice; ///< of what the engine renders
+    std::size_t m_bytes = 0;
     std::unique_ptr<render::CpuEngine> m_engine;
     std::unique_ptr<reference::WideKernel> m_reference;
 };
@@ -346,34 +363,37 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     for (const auto &s : input.skipped)
         skipped.push_back({{"path", s.path.string()}, {"reason", s.reason}});
     const volume::Lattice &l = volume.lattice();
-    std::puts(jsonText({{"engine", renderer.description()},
-                        {"device", "cpu"},
-                        {"size", {scene.camera.width, scene.camera.height}},
-                        {"pixel_mm", scene.camera.pixelMm},
-                        {"frames", frames},
-                        {"volume",
-                         {{"size", doubles(l.size())},
-                          {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
-                          {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
-                          {"series", input.seriesUid}}},
-                        {"window", {window.low, window.high}},
-                        {"milliseconds",
-                         {{"scan", input.scanMs},
-                          {"load", input.loadMs},
-                          {"field", fieldMs},
-                          {"prepare", prepareMs},
-                          {"slice", times.sliceMs},
-                          {"transform", times.transformMs},
-                          {"frame", times.totalMs()},
-                          {"write", writeMs}}},
-                        {"bytes", renderer.bytes()},
-                        {"plan", renderer.planJson()},
-                        {"tolerance", scene.tolerance},
-                        {"predicted_error",
-                         {{"relative_l2", renderer.predictedError()}, {"maximum", nullptr}}},
-                        {"warnings", warnings},
-                        {"skipped", skipped}})
-                  .c_str());
+    std::puts(
+        jsonText({{"engine", renderer.description()},
+                  {"device", "cpu"},
+                  {"size", {scene.camera.width, scene.camera.height}},
+                  {"pixel_mm", scene.camera.pixelMm},
+                  {"frames", frames},
+                  {"volume",
+                   {{"size", doubles(l.size())},
+                    {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
+                    {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
+                    {"series", input.seriesUid}}},
+                  {"window", {window.low, window.high}},
+                  {"milliseconds",
+                   {{"scan", input.scanMs},
+                    {"load", input.loadMs},
+                    {"field", fieldMs},
+                    {"prepare", prepareMs},
+                    {"slice", times.sliceMs},
+                    {"transform", times.transformMs},
+                    {"frame", times.totalMs()},
+                    {"write", writeMs}}},
+                  {"bytes", renderer.bytes()},
+                  {"plan", renderer.planJson()},
+                  {"tolerance", scene.tolerance},
+                  {"predicted_error",
+                   {{"relative_l2", renderer.predictedError()},
+                    {"maximum", renderer.predictedMaximum() ? json(*renderer.predictedMaximum())
+                                                            : json(nullptr)}}},
+                  {"warnings", warnings},
+                  {"skipped", skipped}})
+            .c_str());
 }
 
 } // namespace
@@ -422,10 +442,16 @@ void addRenderCommand(CLI::App &app, const Context &context) {
         ->check(CLI::Range(0.0, 1.0));
     CLI::Option *quality =
         c->add_option("--quality", o->quality, "Named tolerance, default standard")
-            ->check(CLI::IsMember(names(qualities)));
+            ->check(CLI::IsMember(names(render::namedTolerances)));
     c->add_option("--tolerance", o->tolerance, "Largest relative L2 error")
         ->check(positive)
         ->excludes(quality);
+    c->add_option("--kernel", o->kernel,
+                  "Interpolation kernel; default: the cheapest that keeps the tolerance");
+    c->add_option("--padding", o->padding, "Padded size over field size, default as needed")
+        ->check(CLI::Range(1.0, 4.0));
+    c->add_option("--storage", o->storage, "Cells of the spectrum, default as needed")
+        ->check(CLI::IsMember({"f16", "f32"}));
     c->add_option("--engine", o->engine, "auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     c->add_option("--threads", o->threads, "Most threads to use")->check(CLI::Range(1, 1024));

@@ -9,6 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/files/user_folders.h"
+#include "core/fourier/wisdom.h"
 #include "core/task/error.h"
 #include "ui/main_window.h"
 #include "ui/theme.h"
@@ -42,6 +44,8 @@ int main(int argc, char **argv) {
         if (type == QtWarningMsg || type == QtCriticalMsg)
             std::fprintf(stderr, "%s\n", qPrintable(text));
     });
+    if (const auto cache = files::userCacheFolder())
+        fourier::keepWisdomIn(*cache / "fftw-wisdom");
     QApplication application(argc, argv);
     QApplication::setApplicationName("pellucid");
     QApplication::setOrganizationName("pellucid");

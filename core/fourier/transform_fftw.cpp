@@ -2,13 +2,21 @@
 #include "core/fourier/transform.h"
 
 #include <array>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <mutex>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <fftw3.h>
 #include <tbb/parallel_for.h>
 
+#include "core/files/atomic_file.h"
 #include "core/fourier/page_memory.h"
+#include "core/fourier/wisdom.h"
+#include "core/task/error.h"
 
 namespace pellucid::fourier {
 
@@ -102,19 +110,73 @@ void ForwardTransform3d::run() const {
     fftwf_execute(m_plan->plan);
 }
 
+namespace {
+
+std::filesystem::path &wisdomFile() {
+    static std::filesystem::path file;
+    return file;
+}
+
+// Call with the planner locked.
+std::string wisdom() {
+    char *const text = fftwf_export_wisdom_to_string();
+    std::string result = text != nullptr ? text : "";
+    std::free(text);
+    return result;
+}
+
+bool saveWisdom(const std::string &text) {
+    try {
+        files::AtomicFile file(wisdomFile());
+        file.write(std::as_bytes(std::span(text)));
+        file.commit();
+        return true;
+    } catch (const task::Error &) {
+        return false;
+    }
+}
+
+} // namespace
+
+void keepWisdomIn(const std::filesystem::path &file) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    const std::lock_guard lock(plannerMutex());
+    wisdomFile() = file;
+    Fftw<float>::useThreads(1); // wisdom is of an FFTW that knows the same solvers
+    fftwf_import_wisdom_from_string(text.c_str()); // refuses what it does not know
+}
+
 struct ForwardTransform1d::Plan {
     fftwf_plan plan;
 };
 
 ForwardTransform1d::ForwardTransform1d(int length) : m_plan(new Plan{}) {
-    // ESTIMATE does not touch the arrays, which only tell their alignment.
     const auto in = allocatePages(std::size_t(length) * sizeof(float), "a row");
     const auto out = allocatePages((std::size_t(length) / 2 + 1) * 2 * sizeof(float), "a row");
     const std::lock_guard lock(plannerMutex());
     Fftw<float>::useThreads(1);
-    m_plan->plan = fftwf_plan_dft_r2c_1d(length, reinterpret_cast<float *>(in.get()),
-                                         reinterpret_cast<fftwf_complex *>(out.get()),
-                                         FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
+    const auto plan = [&](unsigned how) {
+        return fftwf_plan_dft_r2c_1d(length, reinterpret_cast<float *>(in.get()),
+                                     reinterpret_cast<fftwf_complex *>(out.get()),
+                                     how | FFTW_PRESERVE_INPUT);
+    };
+    // MEASURE tries what is fastest, a few milliseconds, and may find something else the next time:
+    // only what is kept is used, so that two runs give the same bits.
+    if (!wisdomFile().empty()) {
+        m_plan->plan = plan(FFTW_WISDOM_ONLY | FFTW_MEASURE);
+        if (m_plan->plan != nullptr)
+            return;
+        const fftwf_plan measured = plan(FFTW_MEASURE);
+        if (saveWisdom(wisdom())) {
+            m_plan->plan = measured;
+            return;
+        }
+        fftwf_destroy_plan(measured);
+        fftwf_forget_wisdom();
+        wisdomFile().clear();
+    }
+    m_plan->plan = plan(FFTW_ESTIMATE);
 }
 
 ForwardTransform1d::~ForwardTransform1d() {

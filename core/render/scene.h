@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -42,6 +43,17 @@ struct Scene {
 
     bool operator==(const Scene &) const = default;
 };
+
+/// The tolerances that have a name; `reference` is as exact as double precision allows.
+struct NamedTolerance {
+    const char *name;
+    double tolerance;
+};
+inline constexpr std::array<NamedTolerance, 5> namedTolerances{{{"draft", 3e-2},
+                                                                {"interactive", 1e-2},
+                                                                {"standard", 1.1e-3},
+                                                                {"fine", 1e-4},
+                                                                {"reference", 1e-10}}};
 
 /// Throws Error{usage} if a value of the scene is out of its range; the message names it.
 void validate(const Scene &scene);

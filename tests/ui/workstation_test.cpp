@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include <QComboBox>
 #include <QDropEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QMimeData>
 #include <QPushButton>
@@ -203,6 +205,51 @@ private slots:
         find<QAction>("undoAction")->trigger();
         QVERIFY(m_window->document().scene().tone == render::Tone());
         QVERIFY(!find<QAction>("filmAction")->isChecked());
+    }
+
+    void qualityIsAnUndoableChoiceThatShowsItsPrice() {
+        open(headPath());
+        const auto predicted = [&] {
+            return find<QLabel>("predictedErrorLabel")->text().section(' ', 0, 0).toDouble();
+        };
+        const double standard = predicted();
+        QVERIFY(standard > 0.0 && standard <= 0.11);
+        QVERIFY(find<QLabel>("planLabel")->text().startsWith("LS4"));
+        QVERIFY(find<QLabel>("frameTimeLabel")->text().endsWith("ms"));
+        const QImage before = projection()->picture();
+
+        auto *quality = find<QComboBox>("qualityBox");
+        quality->setCurrentIndex(quality->findText("Fine"));
+        emit quality->activated(quality->currentIndex());
+        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() <= 0.01, patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        QVERIFY(!find<QLabel>("planLabel")->text().startsWith("LS4"));
+        QCOMPARE(find<QLineEdit>("toleranceEdit")->text(), QString("0.01 %"));
+        // A tenth of a percent is below what the eye sees in 256 greys.
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+
+        // A kernel of the user's own choice is used though it misses the tolerance, and says so.
+        auto *kernel = find<QComboBox>("kernelBox");
+        kernel->setCurrentIndex(kernel->findText("trilinear"));
+        emit kernel->activated(kernel->currentIndex());
+        QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("planLabel")->text().startsWith("trilinear") &&
+                                     !m_window->jobs().isRunning(),
+                                 patienceMs);
+        QVERIFY(predicted() > 1.0);
+        QVERIFY(find<QLabel>("planReasonLabel")->text().startsWith("More error than allowed"));
+        save("quality_trilinear");
+
+        auto *tolerance = find<QLineEdit>("toleranceEdit");
+        tolerance->setText("not a number");
+        QTest::keyClick(tolerance, Qt::Key_Return);
+        QCOMPARE(tolerance->text(), QString("0.01 %")); // refused, what holds is shown again
+
+        m_window->document().undoStack()->undo();
+        m_window->document().undoStack()->undo();
+        QCOMPARE(m_window->document().scene().tolerance, render::Scene().tolerance);
+        QCOMPARE(quality->currentText(), QString("Standard"));
+        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() == standard,
+                                 patienceMs);
     }
 
     void aPaneFillsTheWindowByDoubleClick() {

@@ -87,10 +87,10 @@ ProjectionView::~ProjectionView() {
     m_canvas.reset();
 }
 
-void ProjectionView::setEngine(const std::shared_ptr<render::ProjectionEngine> &engine,
-                               double predictedError, bool coarse) {
+void ProjectionView::setEngine(const render::PreparedEngine &prepared, bool coarse) {
+    const auto &engine = prepared.engine;
     m_engine = engine;
-    m_predictedError = predictedError;
+    m_predictedError = prepared.plan.predictedError;
     m_coarse = coarse;
     m_message.clear();
     m_fullFrameMs = 0.0;
@@ -182,6 +182,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     m_canvas->setImage(frame->image);
     updateTone();
     m_overlay->update();
+    emit frameShown(frame->times, frame->draft);
     if (showsFinalImage())
         emit finalImageShown();
 }

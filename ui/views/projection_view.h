@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <QWidget>
 
+#include "core/render/prepared_engine.h"
 #include "ui/commands.h"
 #include "ui/render_worker.h"
 #include "ui/views/projection_canvas.h"
@@ -23,8 +24,7 @@ public:
     explicit ProjectionView(Document &document, QWidget *parent = nullptr);
     ~ProjectionView() override;
 
-    void setEngine(const std::shared_ptr<render::ProjectionEngine> &engine, double predictedError,
-                   bool coarse);
+    void setEngine(const render::PreparedEngine &prepared, bool coarse);
     void setMessage(const QString &message);
     /// Looks the way another camera does, as far as the pane allows.
     void adoptCamera(const render::Camera &wanted);
@@ -42,6 +42,8 @@ signals:
     /// Engine and reason for the status bar.
     void engineDescribed(const QString &text);
     void finalImageShown();
+    /// A frame is on the screen; what it took to make.
+    void frameShown(const pellucid::render::FrameTimes &times, bool draft);
 
 protected:
     void resizeEvent(QResizeEvent *event) override;

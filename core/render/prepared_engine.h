@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/render/cpu_engine.h"
+
+namespace pellucid::render {
+
+/// A plan that fits the memory, if need be for a field of fewer samples.
+struct FittingPlan {
+    RenderPlan plan;
+    /// The field to render in place of the original: means of `reduction`^3 samples.
+    std::optional<classify::DensityField> reducedField;
+    int reduction = 1;
+};
+
+/// What fits is used; what does not is reduced in this order: storage, padding, resolution. The
+/// predicted error of a reduced field counts the detail that the means leave out, as its share of
+/// the field's energy: projections, which average too, lose less. *Throws* Error{outOfMemory} if
+/// 32 samples a side do not fit either.
+FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
+                       const FieldSummary &summary, const Budget &budget);
+
+/// An engine, ready to render.
+struct PreparedEngine {
+    std::shared_ptr<CpuEngine> engine;
+    RenderPlan plan;
+    int reduction = 1;
+};
+
+/// Plans within the budget and prepares the spectrum. *Throws* Error{outOfMemory}, Cancelled.
+PreparedEngine prepareEngine(const Scene &scene, const classify::DensityField &field,
+                             const Budget &budget, const task::Progress &progress = {});
+
+} // namespace pellucid::render

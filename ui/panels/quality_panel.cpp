@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/quality_panel.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include "ui/commands.h"
+#include "ui/document.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// The exact reference is not an engine: it takes seconds a picture.
+constexpr std::size_t qualityCount = 4;
+
+QString percent(double share) {
+    return QObject::tr("%1 %").arg(QString::number(100.0 * share, 'g', 2));
+}
+
+QComboBox *addBox(QFormLayout *form, const QString &text, const char *name, const QString &tip) {
+    auto *box = new QComboBox;
+    box->setObjectName(name);
+    box->setAccessibleName(text);
+    box->setToolTip(tip);
+    form->addRow(text, box);
+    return box;
+}
+
+QLabel *addFigure(QFormLayout *form, const QString &text, const char *name, const QString &tip) {
+    auto *label = new QLabel;
+    label->setObjectName(name);
+    label->setAccessibleName(text);
+    label->setToolTip(tip);
+    form->addRow(text, label);
+    return label;
+}
+
+} // namespace
+
+QualityPanel::QualityPanel(Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document) {
+    setObjectName("qualityPanel");
+    setAttribute(Qt::WA_StyledBackground);
+    auto *form = new QFormLayout(this);
+    form->setContentsMargins(14, 4, 14, 12);
+    form->setHorizontalSpacing(12);
+    form->setVerticalSpacing(6);
+    m_quality = addBox(form, tr("Quality"), "qualityBox", tr("The largest error that is allowed"));
+    const std::array<QString, qualityCount> names{tr("Draft"), tr("Interactive"), tr("Standard"),
+                                                  tr("Fine")};
+    for (std::size_t n = 0; n < qualityCount; ++n)
+        m_quality->addItem(names[n], render::namedTolerances[n].tolerance);
+    m_quality->addItem(tr("Own"));
+    m_tolerance = new QLineEdit;
+    m_tolerance->setObjectName("toleranceEdit");
+    m_tolerance->setAccessibleName(tr("Tolerance"));
+    m_tolerance->setToolTip(tr("Largest error of the picture, relative to it, in percent"));
+    form->addRow(tr("Tolerance"), m_tolerance);
+    m_reconstruction = addBox(form, tr("Between"), "reconstructionBox",
+                              tr("What lies between the samples of the volume"));
+    m_reconstruction->addItem(tr("Cubic"), int(render::Reconstruction::cubic));
+    m_reconstruction->addItem(tr("Linear"), int(render::Reconstruction::linear));
+    m_reconstruction->addItem(tr("Sharp (band-limited)"), int(render::Reconstruction::bandLimited));
+    m_kernel = addBox(form, tr("Kernel"), "kernelBox", tr("How the spectrum is interpolated"));
+    m_kernel->addItem(tr("As needed"), QString());
+    for (const char *name : {"LS3", "LS4", "LS5", "LS6", "LS7", "ES4", "ES5", "KB4", "KB5",
+                             "hamming-sinc", "b-spline", "catmull-rom", "trilinear", "nearest"})
+        m_kernel->addItem(name, QString(name));
+    m_storage =
+        addBox(form, tr("Storage"), "storageBox", tr("How a number of the spectrum is kept"));
+    m_storage->addItem(tr("As needed"), QString());
+    m_storage->addItem(tr("16 bit"), QString("f16"));
+    m_storage->addItem(tr("32 bit"), QString("f32"));
+    m_time = addFigure(form, tr("Frame"), "frameTimeLabel", tr("Time that the last frame took"));
+    m_error = addFigure(form, tr("Error"), "predictedErrorLabel",
+                        tr("Relative error of the picture, predicted"));
+    m_largest = addFigure(form, tr("Largest"), "predictedMaximumLabel",
+                          tr("Largest error of a pixel over the brightest pixel, predicted"));
+    m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
+    m_padding = addFigure(form, tr("Padding"), "paddingLabel",
+                          tr("Padded size over size, along columns, rows and slices"));
+    m_reason = new QLabel;
+    m_reason->setObjectName("planReasonLabel");
+    m_reason->setProperty("role", "muted");
+    m_reason->setWordWrap(true);
+    form->addRow(m_reason);
+
+    connect(m_quality, &QComboBox::activated, this, &QualityPanel::chooseTolerance);
+    connect(m_tolerance, &QLineEdit::editingFinished, this, &QualityPanel::typeTolerance);
+    connect(m_reconstruction, &QComboBox::activated, this, [this] {
+        change(tr("Reconstruction"), [this](render::Scene &scene) {
+            scene.image.reconstruction =
+                render::Reconstruction(m_reconstruction->currentData().toInt());
+        });
+    });
+    connect(m_kernel, &QComboBox::activated, this, [this] {
+        change(tr("Kernel"), [this](render::Scene &scene) {
+            const std::string name = m_kernel->currentData().toString().toStdString();
+            scene.interpolation.kernel.reset();
+            if (!name.empty())
+                scene.interpolation.kernel = fourier::kernelFromName(name);
+        });
+    });
+    connect(m_storage, &QComboBox::activated, this, [this] {
+        change(tr("Storage"), [this](render::Scene &scene) {
+            const std::string name = m_storage->currentData().toString().toStdString();
+            scene.interpolation.storage.reset();
+            if (!name.empty())
+                scene.interpolation.storage = fourier::storageFromName(name);
+        });
+    });
+    connect(&document, &Document::sceneChanged, this, &QualityPanel::showScene);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        showScene();
+        if (!m_document.isPreview())
+            clearPlan();
+    });
+    showScene();
+    clearPlan();
+}
+
+void QualityPanel::change(const QString &what, const std::function<void(render::Scene &)> &edit) {
+    render::Scene scene = m_document.scene();
+    edit(scene);
+    if (!(scene == m_document.scene()))
+        m_document.undoStack()->push(new EditScene(m_document, scene, what));
+}
+
+void QualityPanel::chooseTolerance(int index) {
+    const QVariant tolerance = m_quality->itemData(index);
+    if (!tolerance.isValid()) { // a tolerance of one's own is typed
+        m_tolerance->setFocus();
+        m_tolerance->selectAll();
+        return;
+    }
+    change(tr("Quality"), [&](render::Scene &scene) { scene.tolerance = tolerance.toDouble(); });
+}
+
+void QualityPanel::typeTolerance() {
+    bool isNumber = false;
+    const double typed = m_tolerance->text().remove('%').trimmed().toDouble(&isNumber) / 100.0;
+    // Below what single precision holds there is nothing to choose, above a third nothing to see.
+    if (isNumber && std::isfinite(typed) && typed >= 1e-6 && typed <= 0.3 &&
+        m_tolerance->text() != percent(m_document.scene().tolerance))
+        change(tr("Tolerance"), [&](render::Scene &scene) { scene.tolerance = typed; });
+    showScene();
+}
+
+void QualityPanel::showScene() {
+    const render::Scene &scene = m_document.scene();
+    const int own = m_quality->count() - 1;
+    int quality = own;
+    for (int n = 0; n < own; ++n)
+        if (m_quality->itemData(n).toDouble() == scene.tolerance)
+            quality = n;
+    m_quality->setCurrentIndex(quality);
+    m_tolerance->setText(percent(scene.tolerance));
+    m_reconstruction->setCurrentIndex(m_reconstruction->findData(int(scene.image.reconstruction)));
+    const auto show = [](QComboBox *box, const std::string &name) {
+        const QString text = QString::fromStdString(name);
+        if (box->findData(text) < 0) // from a scene file
+            box->addItem(text, text);
+        box->setCurrentIndex(box->findData(text));
+    };
+    const render::Interpolation &fixed = scene.interpolation;
+    show(m_kernel, fixed.kernel ? fourier::kernelName(*fixed.kernel) : std::string());
+    show(m_storage, fixed.storage ? fourier::storageName(*fixed.storage) : std::string());
+}
+
+void QualityPanel::clearPlan() {
+    for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padding})
+        label->setText(QString::fromUtf8("\xe2\x80\x93"));
+    m_reason->clear();
+}
+
+void QualityPanel::showPlan(const render::PreparedEngine &prepared, bool coarse) {
+    const render::RenderPlan &plan = prepared.plan;
+    const auto &spectrum = plan.spectrum;
+    const bool missed = plan.predictedError > m_document.scene().tolerance;
+    m_error->setText(percent(plan.predictedError));
+    m_largest->setText(percent(plan.predictedMaximum));
+    const volume::GridSize box = spectrum.box.size();
+    const auto padding = [&](int d) {
+        return QString::number(double(spectrum.padded[d]) / box[d], 'f', 2);
+    };
+    m_padding->setText(tr("%1 x %2 x %3").arg(padding(0), padding(1), padding(2)));
+    m_plan->setText(tr("%1, %2 bit, %3 MB")
+                        .arg(QString::fromStdString(spectrum.kernels[0].name()))
+                        .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
+                        .arg(spectrum.bytes() >> 20));
+    const QString reason = QString::fromStdString(plan.reason);
+    m_reason->setText(coarse   ? tr("A first, coarse picture; the full one follows")
+                      : missed ? tr("More error than allowed: %1").arg(reason)
+                               : tr("It is %1").arg(reason));
+}
+
+void QualityPanel::showFrame(const render::FrameTimes &times, bool draft) {
+    const QString text = tr("%1 ms").arg(times.totalMs(), 0, 'f', 1);
+    m_time->setText(draft ? tr("%1, draft").arg(text) : text);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <QWidget>
+
+#include "core/render/prepared_engine.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+
+namespace pellucid::ui {
+
+class Document;
+
+/// How exact and how fast the projection is: what the user asks for, and what came of it.
+class QualityPanel : public QWidget {
+    Q_OBJECT
+public:
+    explicit QualityPanel(Document &document, QWidget *parent = nullptr);
+
+    void showPlan(const render::PreparedEngine &prepared, bool coarse);
+    void showFrame(const render::FrameTimes &times, bool draft);
+
+private:
+    void showScene();
+    void clearPlan();
+    void chooseTolerance(int index);
+    void typeTolerance();
+    void change(const QString &what, const std::function<void(render::Scene &)> &edit);
+
+    Document &m_document;
+    QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_storage;
+    QLineEdit *m_tolerance;
+    QLabel *m_time, *m_error, *m_largest, *m_plan, *m_padding, *m_reason;
+};
+
+} // namespace pellucid::ui
