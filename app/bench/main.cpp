@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -9,6 +11,7 @@
 #include "app/bench/suites.h"
 #include "core/files/atomic_file.h"
 #include "core/task/error.h"
+#include "core/volume/nrrd.h"
 
 namespace {
 
@@ -27,7 +30,8 @@ int main(int argc, char **argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Speed and error, side by side", "pellucid-bench");
     std::string suite = "quick", json, csv, file;
-    app.add_option("--suite", suite, "What to measure")->check(CLI::IsMember({"quick", "scaling"}));
+    app.add_option("--suite", suite, "What to measure")
+        ->check(CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka"}));
     app.add_option("--volume", file, "An NRRD volume in place of the suite's own fields");
     app.add_option("--json", json, "Write the rows as JSON");
     app.add_option("--csv", csv, "Write the rows as CSV");
@@ -41,10 +45,29 @@ int main(int argc, char **argv) {
             std::fflush(stdout);
             rows.push_back(row);
         };
+        std::optional<bench::Subject> given;
+        if (!file.empty()) {
+            if (suite != "kernels" && suite != "scaling")
+                throw task::Error(task::ErrorCode::usage,
+                                  "--volume goes with --suite kernels or scaling");
+            const auto volume = volume::readNrrd(file);
+            given = bench::Subject{
+                std::filesystem::path(file).stem().string(),
+                classify::densityField(volume, classify::defaultFieldWindow(volume))};
+        }
+        const bench::Subject *const subject = given ? &*given : nullptr;
         if (suite == "quick")
             bench::runQuickSuite(report);
+        else if (suite == "kernels")
+            bench::runKernelsSuite(report, subject);
+        else if (suite == "hard")
+            bench::runHardSuite(report);
+        else if (suite == "scaling")
+            bench::runScalingSuite(report, subject);
+        else if (suite == "thesis")
+            bench::runThesisSuite(report);
         else
-            bench::runScalingSuite(report, nullptr);
+            bench::runTotsukaSuite(report);
         save(json, bench::jsonText(machine, rows));
         save(csv, bench::csvText(rows));
     } catch (const CLI::Success &success) {

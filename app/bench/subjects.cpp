@@ -44,9 +44,4 @@ Subject phantomSubject(const std::string &name, phantom::Kind kind,
     return {name, classify::densityField(volume, classify::defaultFieldWindow(volume))};
 }
 
-Subject fieldSubject(const std::string &name, const volume::Volume &values,
-                     const classify::FieldWindow &window) {
-    return {name, classify::densityField(values, window)};
-}
-
 } // namespace pellucid::bench

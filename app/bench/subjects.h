@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "core/classify/density_field.h"
 #include "core/phantom/phantom.h"
@@ -22,8 +24,13 @@ Subject noiseCube(int n);
 /// A phantom through the default window.
 Subject phantomSubject(const std::string &name, phantom::Kind kind,
                        const phantom::Sampling &sampling);
-/// Values as they are, NaN and infinities dropped or clamped as ever.
-Subject fieldSubject(const std::string &name, const volume::Volume &values,
-                     const classify::FieldWindow &window = {0.0, 1.0});
+/// The fields that break projectors (metal, faces and corners, odd sizes, tilt, thick slices, one
+/// voxel, nothing, NaN, 2^16 of range, cancelling weights, extreme spacings), small enough for the
+/// exact reference.
+struct HardSubject {
+    std::string name;
+    std::function<classify::DensityField()> make;
+};
+const std::vector<HardSubject> &hardSubjects();
 
 } // namespace pellucid::bench

@@ -82,10 +82,9 @@ struct Coefficients {
             result.push_back((2 * k == width - 1 ? 1 : 2) * sums[k][n]);
         return result;
     }
-    // The transform of every coefficient's part of the taps that a frequency on the grid reads,
-    // real and imaginary part. Of an even width the first tap lies on the edge and has no partner.
-    std::pair<Vector, Vector> transformsOnGrid(Real x) const {
-        const Real c = width % 2 == 0 ? Real(-0.5) : Real(0);
+    // The transform of every coefficient's part of the taps that a frequency at offset c reads,
+    // real and imaginary part. At c = -1/2 the first tap lies on the edge and has no partner.
+    std::pair<Vector, Vector> transformsAt(Real c, Real x) const {
         const Vector p = legendre(degree, c), mirrored = legendre(degree, -c);
         Vector real, imaginary;
         for (const auto &[k, n] : at) {
@@ -130,6 +129,7 @@ std::vector<double> monomials(const Vector &series) {
 // which a few rounds of solving for a with g and h of the round before reach.
 Vector leastGhostCoefficients(const Coefficients &kernel, double padding,
                               std::span<const double> energy) {
+    const int width = kernel.width;
     constexpr int positions = 32, farthest = 5, rounds = 16;
     const std::size_t count = kernel.at.size();
     Vector e(positions, 1 / Real(positions));
@@ -151,11 +151,13 @@ Vector leastGhostCoefficients(const Coefficients &kernel, double padding,
         for (int m = -farthest; m <= farthest; ++m)
             if (m != 0)
                 ghosts[i].push_back(kernel.transforms(x + m));
-        auto [real, imaginary] = kernel.transformsOnGrid(x);
-        for (std::size_t p = 0; p < count; ++p)
-            real[p] -= direct[std::size_t(i)][p];
-        ghosts[i].push_back(std::move(real));
-        ghosts[i].push_back(std::move(imaginary));
+        for (const Real c : width % 2 == 0 ? std::vector<Real>{-0.5} : std::vector<Real>{-0.5, 0}) {
+            auto [real, imaginary] = kernel.transformsAt(c, x);
+            for (std::size_t p = 0; p < count; ++p)
+                real[p] -= direct[std::size_t(i)][p];
+            ghosts[i].push_back(std::move(real));
+            ghosts[i].push_back(std::move(imaginary));
+        }
     }
     std::vector<std::vector<Vector>> squares(positions,
                                              std::vector<Vector>(count, Vector(count, 0)));

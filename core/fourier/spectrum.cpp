@@ -204,7 +204,7 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
     auto *const intermediate = reinterpret_cast<float *>(intermediateMemory.get());
     const ForwardTransform1d alongX(padded.i);
     const StripTransform alongY(padded.j), alongZ(padded.k);
-    std::vector<double> planeBounds(size.k), planeSums(size.k), planeMagnitudes(size.k);
+    std::vector<double> planeBounds(size.k), planeSums(size.k);
     const std::size_t rowCells = std::size_t(blocks) * stripLanes;
     Scratch<float> realRows(padded.i);
     Scratch<Complex> planes(size.j * rowCells);
@@ -215,7 +215,7 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
             float *const real = realRows.local();
             Complex *const plane = planes.local();
             std::fill(real, real + padded.i, 0.0F);
-            double planeBound = 0.0, planeSum = 0.0, planeMagnitude = 0.0;
+            double planeBound = 0.0, planeSum = 0.0;
             for (int j = 0; j < size.j; ++j) {
                 const auto *in =
                     samples.data() +
@@ -234,17 +234,14 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
                     sum += std::abs(real[i - middleI]);
                 }
                 planeBound += double(sum);
-                for (int i = 0; i < size.i; ++i) {
+                for (int i = 0; i < size.i; ++i)
                     planeSum += double(in[i]);
-                    planeMagnitude += std::abs(double(in[i]));
-                }
                 Complex *const row = plane + std::size_t(j) * rowCells;
                 alongX.run(real, row);
                 std::fill(row + padded.i / 2 + 1, row + rowCells, Complex());
             }
             planeBounds[k] = planeBound;
             planeSums[k] = planeSum;
-            planeMagnitudes[k] = planeMagnitude;
             float *const placed = strips.local();
             float *const column = placed + std::size_t(size.j) * stripFloats;
             float *const beside = column + std::size_t(padded.j) * stripFloats;
@@ -263,10 +260,8 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
     });
     progress.report(0.5);
 
-    for (int k = 0; k < size.k; ++k) {
-        spectrum.m_mass += planeSums[k] * field.lattice().cellVolumeMm3();
-        spectrum.m_absoluteMass += planeMagnitudes[k] * field.lattice().cellVolumeMm3();
-    }
+    for (const double plane : planeSums)
+        spectrum.m_mass += plane * field.lattice().cellVolumeMm3();
     // No cell can exceed the sum of the magnitudes; a power of two scales without rounding.
     double scale = 1.0;
     if (layout.storage == Storage::binary16) {

@@ -67,8 +67,6 @@ public:
     double unit() const { return m_unit; }
     /// dV * sum f: the value at frequency 0 before any rounding or interpolation.
     double mass() const { return m_mass; }
-    /// dV * sum |f|.
-    double absoluteMass() const { return m_absoluteMass; }
     /// The value at a grid index: p in -apron..padded/2 + apron, q and r within apron of
     /// +-padded/2.
     std::complex<double> value(int p, int q, int r) const;
@@ -82,7 +80,7 @@ private:
     CellLayout m_cellLayout;
     volume::PatientPoint m_wrapPoint;
     std::shared_ptr<std::byte[]> m_cells;
-    double m_unit = 1.0, m_mass = 0.0, m_absoluteMass = 0.0;
+    double m_unit = 1.0, m_mass = 0.0;
 };
 
 } // namespace pellucid::fourier

@@ -47,12 +47,10 @@ std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &cam
 }
 
 double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
-                   const render::ImageDefinition &image, double roughness) {
+                   const render::ImageDefinition &image, const volume::VoxelBox &box,
+                   const render::EnergyMarginals &energy) {
     const SliceSize size = sliceSize(lattice, camera, image);
-    const double room = 0.5 * (size.columns + size.rows - camera.width - camera.height);
-    const double share =
-        std::sqrt(double(camera.width) * camera.height / (double(size.columns) * size.rows));
-    return render::predictFoldedTails(image.rollOff, room, std::min(1.0, share), roughness);
+    return render::predictFoldedTails(image, camera, size.columns, size.rows, energy, lattice, box);
 }
 
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,

@@ -42,13 +42,6 @@ std::vector<std::complex<double>> rotations(int count, double turns) {
     return result;
 }
 
-// True if no part of the lattice can project outside the image, from any direction.
-bool coversLattice(const Camera &camera, const volume::Lattice &lattice) {
-    const glm::dvec2 half =
-        0.5 * camera.pixelMm * glm::dvec2(camera.width, camera.height) - glm::abs(camera.panMm);
-    return std::min(half.x, half.y) >= lattice.radiusMm() * (1.0 - 1e-9);
-}
-
 // What depends on the slice grid and the roll-off alone, and is kept from frame to frame.
 struct GridTables {
     GridTables(const SliceGrid &size, double rollOffShare)
@@ -121,7 +114,6 @@ struct CpuEngine::Workplace {
         lines = floats(groupsOf(grid.rows) * columns * stripFloats);
         columnPhase = floats(2 * columns);
         rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
-        columnSums.resize(stripCount * stripFloats);
         batches = fourier::allocatePages(
             scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch), "an image of this size");
         strips.clear();
@@ -145,7 +137,6 @@ struct CpuEngine::Workplace {
     std::shared_ptr<std::byte[]> lines, columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> strips;
     std::vector<Complex> rowPhase;
-    std::vector<double> columnSums;
 };
 
 namespace {
@@ -153,35 +144,7 @@ namespace {
 struct Frame {
     FrameJob job;
     FrameScratch *scratch;
-    bool conservesMass;
 };
-
-// An image that holds the whole projection sums to P(0), the field's own sum, for every view. The
-// kernel's ghosts sum to zero over a period, but not over the image: they shift its sum by 1e-5 to
-// 2e-4 from view to view, and binary16 rounds P(0) by as much. Scaling takes that part of the error
-// away; the sums of the columns tell the image's sum before the image is made.
-double scaleToMass(const FrameJob &job) {
-    // Over a whole period only the frequency 0 has a sum, its own at every pixel.
-    const double mass = job.zeroFrequency * job.columns * job.rows;
-    const auto turn = rotations(job.columns, 1.0 / job.columns);
-    double sum = 0.0;
-    for (int column = 0; column < std::min(job.columns / 2, job.stripCount * stripLanes);
-         ++column) {
-        const double *const at =
-            job.columnSums + std::size_t(column / stripLanes) * stripFloats + column % stripLanes;
-        if (column == 0) {
-            sum += at[0] * job.imageColumns;
-            continue;
-        }
-        // Sum over the image's columns of exp(+i 2 pi n column/columns).
-        const auto last = turn[std::size_t(std::int64_t(column) * job.imageColumns % job.columns)];
-        const std::complex<double> seen = (1.0 - last) / (1.0 - turn[column]);
-        sum += 2.0 * (at[0] * seen.real() - at[stripLanes] * seen.imag());
-    }
-    const double scale = mass / sum;
-    // Anything further from 1 is not a ghost: an empty field, or an image without a mean.
-    return std::abs(scale - 1.0) < 1e-3 ? scale : 1.0;
-}
 
 } // namespace
 
@@ -217,7 +180,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     const glm::dmat3 axes = camera.axes();
     const double du = 1.0 / (grid.columns * camera.pixelMm);
     const double dv = 1.0 / (grid.rows * camera.pixelMm);
-    Frame frame{{}, place.scratch.data(), false};
+    Frame frame{{}, place.scratch.data()};
     FrameJob &job = frame.job;
     job.spectrum = m_spectrum.get();
     job.image = image;
@@ -256,14 +219,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     job.untangle = tables.untangle.data();
     job.lines = reinterpret_cast<float *>(place.lines.get());
     job.samples = result.samples.data();
-    // A sharp band limit rings beyond the image: there the image's own sum is not P(0).
-    // Where dark and bright cancel, P(0) is small and what is scaled would not be a ghost.
-    frame.conservesMass = m_spectrum->mass() >= 0.5 * m_spectrum->absoluteMass() &&
-                          image.reconstruction != Reconstruction::bandLimited &&
-                          image.rollOff >= 0.03 && coversLattice(camera, lattice);
     job.zeroFrequency = m_spectrum->mass() * du * dv;
-    if (frame.conservesMass)
-        job.columnSums = place.columnSums.data();
     for (FrameScratch &scratch : place.scratch)
         scratch.sliceSeconds = scratch.stripSeconds = 0.0;
 
@@ -273,27 +229,22 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         double &rowsStart;
     } context{frame, rowsStart};
     using task::WorkerTeam;
-    const std::array<WorkerTeam::Phase, 3> phases{{{job.stripCount,
-                                                    [](void *c, int part, int slot) {
-                                                        Frame &f = static_cast<Context *>(c)->frame;
-                                                        sliceStrip(f.job, part, f.scratch[slot]);
-                                                    },
-                                                    &context},
-                                                   {1,
-                                                    [](void *c, int, int) {
-                                                        auto &[f, begun] =
-                                                            *static_cast<Context *>(c);
-                                                        begun = frameClockSeconds();
-                                                        if (f.conservesMass)
-                                                            f.job.scale = float(scaleToMass(f.job));
-                                                    },
-                                                    &context},
-                                                   {groupsOf(std::min(camera.height, grid.rows)),
-                                                    [](void *c, int part, int slot) {
-                                                        Frame &f = static_cast<Context *>(c)->frame;
-                                                        finishRows(f.job, part, f.scratch[slot]);
-                                                    },
-                                                    &context}}};
+    const WorkerTeam::Phase slicing{job.stripCount,
+                                    [](void *c, int part, int slot) {
+                                        Frame &f = static_cast<Context *>(c)->frame;
+                                        sliceStrip(f.job, part, f.scratch[slot]);
+                                    },
+                                    &context};
+    const WorkerTeam::Phase between{
+        1, [](void *c, int, int) { static_cast<Context *>(c)->rowsStart = frameClockSeconds(); },
+        &context};
+    const WorkerTeam::Phase finishing{groupsOf(std::min(camera.height, grid.rows)),
+                                      [](void *c, int part, int slot) {
+                                          Frame &f = static_cast<Context *>(c)->frame;
+                                          finishRows(f.job, part, f.scratch[slot]);
+                                      },
+                                      &context};
+    const std::array<WorkerTeam::Phase, 3> phases{slicing, between, finishing};
     place.team.run(phases);
 
     if (times != nullptr) {

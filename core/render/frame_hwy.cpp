@@ -383,6 +383,11 @@ void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
         finishBatch(job, batch, sums, column, row,
                     scratch.strips + std::size_t(row < 0 ? row + job.rows : row) * stripFloats);
     }
+    // The field's sum is known before any rounding, and decides the brightness of the whole image.
+    if (strip == 0) {
+        scratch.strips[0] = float(job.zeroFrequency);
+        scratch.strips[stripLanes] = 0.0F;
+    }
 }
 
 template <class Cell> void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
@@ -427,32 +432,6 @@ HWY_INLINE void transpose(const float *from, std::size_t fromGap, float *to, std
         }
 }
 
-// How often a row of the periodic image is seen in the image.
-HWY_INLINE int timesSeen(int row, int period, int image) {
-    return row < image ? (image - 1 - row) / period + 1 : 0;
-}
-
-void sumColumns(const FrameJob &job, int strip, const float *result) {
-    const StripTag d;
-    const int imageRows = std::min(job.imageRows, job.rows);
-    double *const sums = job.columnSums + std::size_t(strip) * stripFloats;
-    std::fill(sums, sums + stripFloats, 0.0);
-    // Floats for sixteen rows at a time, so that their rounding does not add up.
-    for (int first = 0; first < imageRows; first += stripLanes) {
-        const int last = std::min(first + stripLanes, imageRows);
-        for (std::size_t lane = 0; lane < stripFloats; lane += hn::Lanes(d)) {
-            auto sum = hn::Zero(d);
-            for (int row = first; row < last; ++row)
-                sum = hn::MulAdd(hn::Load(d, result + std::size_t(row) * stripFloats + lane),
-                                 hn::Set(d, float(timesSeen(row, job.rows, job.imageRows))), sum);
-            HWY_ALIGN float partial[stripLanes];
-            hn::Store(sum, d, partial);
-            for (std::size_t n = 0; n < hn::Lanes(d); ++n)
-                sums[lane + n] += double(partial[n]);
-        }
-    }
-}
-
 void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     const StripBounds &bounds = job.strips[strip];
     const double start = frameClockSeconds();
@@ -477,8 +456,6 @@ void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
         transpose(from, stripFloats, to, stripFloats);
         transpose(from + stripLanes, stripFloats, to + stripLanes, stripFloats);
     }
-    if (job.columnSums != nullptr)
-        sumColumns(job, strip, result);
     scratch.stripSeconds += frameClockSeconds() - start;
 }
 
@@ -489,7 +466,6 @@ void finishSixteenRows(const FrameJob &job, int group, FrameScratch &scratch) {
     const int half = job.columns / 2, known = std::min(half, job.stripCount * stripLanes);
     const float *const lines =
         job.lines + std::size_t(group) * job.stripCount * stripLanes * stripFloats;
-    const auto scale = hn::Set(d, job.scale);
     for (int k = 0; k <= half / 2; ++k) {
         const int other = half - k;
         for (std::size_t lane = 0; lane < stripLanes; lane += hn::Lanes(d)) {
@@ -498,8 +474,7 @@ void finishSixteenRows(const FrameJob &job, int group, FrameScratch &scratch) {
                     return {hn::Zero(d), hn::Zero(d)};
                 const float *at = lines + std::size_t(column) * stripFloats + lane;
                 // The mean is real; what its imaginary part holds is rounding.
-                return {hn::Mul(scale, hn::Load(d, at)),
-                        column == 0 ? hn::Zero(d) : hn::Mul(scale, hn::Load(d, at + stripLanes))};
+                return {hn::Load(d, at), column == 0 ? hn::Zero(d) : hn::Load(d, at + stripLanes)};
             };
             const StripComplex a = load(k), b = load(other);
             // sum = A + conj B, difference = w (A - conj B); the pair (h-k, k) gives

@@ -57,9 +57,6 @@ struct FrameJob {
 
     /// After the transform along image rows' direction: [group of 16 image rows][column][strip].
     float *lines = nullptr;
-    /// Sums over the image rows of each column, real and imaginary; filled if not null.
-    double *columnSums = nullptr;
-    float scale = 1.0F;         ///< what the image is multiplied by
     double zeroFrequency = 0.0; ///< what the slice is at frequency 0, exactly
     float *samples = nullptr;   ///< imageRows x imageColumns
 };

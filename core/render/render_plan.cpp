@@ -132,7 +132,7 @@ std::size_t frameBytes(const SliceGrid &grid) {
     return std::size_t(grid.columns) * grid.rows * 3 * sizeof(float);
 }
 
-ImageShare imageShare(const Camera &camera, const SliceGrid &grid, const FieldSummary &field) {
+double wrappedShare(const Camera &camera, const SliceGrid &grid, const FieldSummary &field) {
     const double image = double(camera.width) * camera.height;
     const double period = double(grid.columns) * grid.rows;
     // A convex body's shadow has on average a quarter of its surface.
@@ -140,7 +140,7 @@ ImageShare imageShare(const Camera &camera, const SliceGrid &grid, const FieldSu
     const double a = size.i * field.lattice.spacingMm(0), b = size.j * field.lattice.spacingMm(1),
                  c = size.k * field.lattice.spacingMm(2);
     const double shadow = 0.5 * (a * b + b * c + c * a) / (camera.pixelMm * camera.pixelMm);
-    return {std::min(1.0, image / period) / std::min(1.0, image / shadow)};
+    return std::min(1.0, image / period) / std::min(1.0, image / shadow);
 }
 
 // The slice grid with the least room for the roll-off's tails that leaves the kernel most of the
@@ -154,11 +154,9 @@ struct PlannedGrid {
 PlannedGrid planGrid(const Scene &scene, const FieldSummary &field) {
     const Camera &camera = scene.camera;
     SliceRoom room{field.energy.radiusMm, 1.0};
-    const double reach = reachPixels(camera, room, field.lattice, scene.image);
-    const double image = double(camera.width) * camera.height;
     std::optional<PlannedGrid> best;
     SliceGrid least;
-    for (const double tails : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0}) {
+    for (const double tails : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0}) {
         room.tails = tails;
         SliceGrid grid;
         try {
@@ -170,18 +168,16 @@ PlannedGrid planGrid(const Scene &scene, const FieldSummary &field) {
         }
         if (!best)
             least = grid;
-        // Four times the work is the most that tails are worth.
-        if (double(grid.columns) * grid.rows > 4.0 * double(least.columns) * double(least.rows))
+        // Four times the work is the most that tails are worth, unless that is little.
+        constexpr double littleWork = 512.0 * 512.0;
+        if (double(grid.columns) * grid.rows >
+            std::max(littleWork, 4.0 * double(least.columns) * double(least.rows)))
             break;
-        // The tails have the room between the image's edge and the next copy of the projection.
-        const double pixels =
-            0.5 * (grid.columns + grid.rows - 0.5 * (camera.width + camera.height)) - reach;
-        const double side = std::sqrt(image / (double(grid.columns) * grid.rows));
-        const double folded = predictFoldedTails(scene.image.rollOff, pixels, std::min(1.0, side),
-                                                 field.energy.roughness);
+        const double folded = predictFoldedTails(scene.image, camera, grid.columns, grid.rows,
+                                                 field.energy, field.lattice, field.support);
         if (!best || folded < best->folded)
             best = PlannedGrid{grid, room, folded};
-        if (folded <= 0.4 * scene.tolerance)
+        if (folded <= 0.3 * scene.tolerance)
             break;
     }
     return *best;
@@ -228,7 +224,7 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                                        AxisCandidates(size.k, field.energy.axis[2])};
     // The slice grid depends on box and camera alone.
     const PlannedGrid planned = planGrid(scene, field);
-    const ImageShare share = imageShare(scene.camera, planned.grid, field);
+    const double wrapped = wrappedShare(scene.camera, planned.grid, field);
 
     std::optional<RenderPlan> best;
     double bestTime = 0.0;
@@ -248,6 +244,15 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                                                      field.support,
                                                      {at[0]->padded, at[1]->padded, at[2]->padded},
                                                      storage};
+                // A ghost lies a padded period away; what does not fall into the image at once may
+                // still wrap into it.
+                ImageShare share;
+                for (int d = 0; d < 3; ++d) {
+                    const double away = at[d]->padded * field.lattice.spacingMm(d);
+                    const double half =
+                        0.25 * (scene.camera.width + scene.camera.height) * scene.camera.pixelMm;
+                    share.inImage[d] = std::max(wrapped, std::min(1.0, half / away));
+                }
                 const double predicted =
                     std::hypot(predictRelativeError(errors, storage, share), planned.folded);
                 const std::size_t bytes = layout.peakBytes() + frameBytes(planned.grid);
@@ -268,7 +273,7 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                                       scene.image,
                                       planned.room,
                                       predicted,
-                                      predictMaximum(errors, storage, share),
+                                      predictMaximum(errors, storage),
                                       bytes,
                                       {}};
                     bestTime = time;

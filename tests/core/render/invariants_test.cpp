@@ -20,12 +20,19 @@ struct Subject {
     render::CpuEngine engine;
     render::Camera camera;
 
-    explicit Subject(classify::DensityField f)
-        : Subject(f, render::planRender({}, render::summarise(f)).spectrum) {}
+    explicit Subject(classify::DensityField f, double tolerance = render::Scene().tolerance)
+        : Subject(f, plan(f, tolerance).spectrum) {}
     Subject(classify::DensityField f, const fourier::SpectrumLayout &layout)
         : field(std::move(f)), engine(std::make_shared<const fourier::Spectrum>(
                                    fourier::Spectrum::prepare(field.values, layout))),
           camera(render::defaultCamera(field.values.lattice())) {}
+
+    static render::RenderPlan plan(const classify::DensityField &f, double tolerance) {
+        render::Scene scene;
+        scene.camera = render::defaultCamera(f.values.lattice());
+        scene.tolerance = tolerance;
+        return render::planRender(scene, render::summarise(f));
+    }
 };
 
 // Linear to rounding: cells in float, and one kernel whatever the field.
@@ -38,13 +45,13 @@ fourier::SpectrumLayout linearLayout(const volume::Lattice &lattice) {
             fourier::Storage::float32};
 }
 
-Subject headSubject() {
+Subject headSubject(double tolerance = render::Scene().tolerance) {
     const auto lattice =
         phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{72, 70, 40},
                                                       .spacingMm = glm::dvec3(3.2, 3.3, 6.0),
                                                       .tiltRad = 0.3});
     const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
-    return Subject(classify::densityField(volume, classify::defaultFieldWindow(volume)));
+    return Subject(classify::densityField(volume, classify::defaultFieldWindow(volume)), tolerance);
 }
 
 double sum(const render::ProjectionImage &image) {
@@ -52,30 +59,23 @@ double sum(const render::ProjectionImage &image) {
            image.pixelMm;
 }
 
-TEST(Invariants, TheMeanIsTheSameForEveryView) {
-    // The sum of the exact image varies by 4e-7 here, with the tails that leave the image. The
-    // engine scales away what ghosts and binary16 add (4e-5); PhantomsAgainstTheExactReference
-    // checks that the scaled image is still the exact one.
-    Subject head = headSubject();
-    std::mt19937 random(3);
-    double low = 1e300, high = -1e300;
-    for (int view = 0; view < 50; ++view) {
-        head.camera.orientation = test::randomOrientation(random);
-        const double mass = sum(head.engine.render(head.camera, {}));
-        low = std::min(low, mass);
-        high = std::max(high, mass);
+// Over a period the image sums to the field's own sum, exactly. What of it lies outside the image
+// are ghosts, which the tolerance limits and which change sign, so that at most a fifth of it
+// remains, and tails of the exact image, which are 4e-7 here.
+TEST(Invariants, TheMeanIsTheFieldsSumForEveryView) {
+    for (const double tolerance : {1.1e-3, 1e-4, 1e-5}) {
+        Subject head = headSubject(tolerance);
+        double mass = 0.0;
+        head.field.values.visit(
+            [&](auto samples) { mass = std::accumulate(samples.begin(), samples.end(), 0.0); });
+        mass *= head.field.values.lattice().cellVolumeMm3();
+        std::mt19937 random(3);
+        for (int view = 0; view < 50; ++view) {
+            head.camera.orientation = test::randomOrientation(random);
+            EXPECT_NEAR(sum(head.engine.render(head.camera, {})) / mass, 1.0,
+                        0.2 * tolerance + 2e-6);
+        }
     }
-    EXPECT_LT((high - low) / high, 1e-5);
-}
-
-TEST(Invariants, TheMeanIsTheFieldsSum) {
-    Subject head = headSubject();
-    head.camera.orientation = render::viewOrientation(render::StandardView::front, {30, 20, 0});
-    double mass = 0.0;
-    head.field.values.visit(
-        [&](auto samples) { mass = std::accumulate(samples.begin(), samples.end(), 0.0); });
-    mass *= head.field.values.lattice().cellVolumeMm3();
-    EXPECT_NEAR(sum(head.engine.render(head.camera, {})) / mass, 1.0, 1e-5);
 }
 
 TEST(Invariants, OppositeViewsMirror) {

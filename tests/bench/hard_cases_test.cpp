@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "app/bench/measure.h"
+
+namespace pellucid {
+
+namespace {
+
+std::string nameOf(const testing::TestParamInfo<std::size_t> &info) {
+    std::string name = bench::hardSubjects()[info.param].name;
+    for (char &c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0)
+            c = '_';
+    return name;
+}
+
+class HardCase : public testing::TestWithParam<std::size_t> {};
+
+// A plan that accepts a tolerance keeps it, on fields that break projectors. What it predicts is an
+// estimate of the worst view: never too low by more than a quarter where that breaks no promise. It
+// may be high by up to ten for fields of a few voxels and below the rounding of binary16, or it
+// would be no better than fear.
+TEST_P(HardCase, KeepsTheToleranceItAccepts) {
+    const auto &hard = bench::hardSubjects()[GetParam()];
+    const bench::Subject subject{hard.name, hard.make()};
+    bench::Measurement how;
+    how.scene.camera = render::defaultCamera(subject.field.values.lattice());
+    how.views = 1;
+    how.transform = false;
+    bench::Truth truth(subject, how.scene.camera, 4);
+    for (const double tolerance : {1e-2, 1.1e-3, 1e-4, 1e-5}) {
+        how.scene.tolerance = tolerance;
+        const bench::Row row = bench::measure("test", subject.name, subject, truth, how);
+        SCOPED_TRACE(tolerance);
+        if (*row.predictedError <= tolerance) {
+            EXPECT_LE(*row.relativeL2, tolerance);
+        }
+        EXPECT_LE(*row.relativeL2, 1.25 * *row.predictedError);
+        if (*row.relativeL2 > 0.0) { // an empty field's image is empty
+            EXPECT_LE(*row.predictedError, 10.0 * *row.relativeL2 + 2e-4);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fields, HardCase,
+                         testing::Range(std::size_t(0), bench::hardSubjects().size()), nameOf);
+
+} // namespace
+} // namespace pellucid
