@@ -23,18 +23,39 @@ void save(const std::string &path, const std::string &text) {
     file.commit();
 }
 
+void run(const std::string &suite, const pellucid::bench::Report &report,
+         const pellucid::bench::Subject *subject) {
+    using namespace pellucid::bench;
+    if (suite == "quick")
+        runQuickSuite(report);
+    else if (suite == "kernels")
+        runKernelsSuite(report, subject);
+    else if (suite == "hard")
+        runHardSuite(report);
+    else if (suite == "scaling")
+        runScalingSuite(report, subject);
+    else if (suite == "thesis")
+        runThesisSuite(report);
+    else
+        runTotsukaSuite(report);
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
     using namespace pellucid;
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Speed and error, side by side", "pellucid-bench");
-    std::string suite = "quick", json, csv, file;
-    app.add_option("--suite", suite, "What to measure")
+    std::vector<std::string> suites{"quick"};
+    std::string json, csv, file, reportFolder;
+    app.add_option("--suite", suites, "What to measure; several with commas between")
+        ->delimiter(',')
         ->check(CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka"}));
     app.add_option("--volume", file, "An NRRD volume in place of the suite's own fields");
     app.add_option("--json", json, "Write the rows as JSON");
     app.add_option("--csv", csv, "Write the rows as CSV");
+    app.add_option("--report", reportFolder,
+                   "Write an HTML report into a folder, and the gnuplot script of its plots");
     try {
         app.parse(argc, argv);
         const auto machine = bench::thisMachine();
@@ -47,29 +68,22 @@ int main(int argc, char **argv) {
         };
         std::optional<bench::Subject> given;
         if (!file.empty()) {
-            if (suite != "kernels" && suite != "scaling")
-                throw task::Error(task::ErrorCode::usage,
-                                  "--volume goes with --suite kernels or scaling");
+            for (const std::string &suite : suites)
+                if (suite != "kernels" && suite != "scaling")
+                    throw task::Error(task::ErrorCode::usage,
+                                      "--volume goes with --suite kernels or scaling");
             const auto volume = volume::readNrrd(file);
             given = bench::Subject{
                 std::filesystem::path(file).stem().string(),
                 classify::densityField(volume, classify::defaultFieldWindow(volume))};
         }
         const bench::Subject *const subject = given ? &*given : nullptr;
-        if (suite == "quick")
-            bench::runQuickSuite(report);
-        else if (suite == "kernels")
-            bench::runKernelsSuite(report, subject);
-        else if (suite == "hard")
-            bench::runHardSuite(report);
-        else if (suite == "scaling")
-            bench::runScalingSuite(report, subject);
-        else if (suite == "thesis")
-            bench::runThesisSuite(report);
-        else
-            bench::runTotsukaSuite(report);
+        for (const std::string &suite : suites)
+            run(suite, report, subject);
         save(json, bench::jsonText(machine, rows));
         save(csv, bench::csvText(rows));
+        if (!reportFolder.empty())
+            bench::writeHtmlReport(reportFolder, machine, rows);
     } catch (const CLI::Success &success) {
         return app.exit(success);
     } catch (const CLI::ParseError &error) {

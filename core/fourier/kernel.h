@@ -39,10 +39,11 @@ public:
     /// w = 2..7. *Source*: Beatty, Nishimura, Pauly 2005.
     static Kernel kaiserBessel(int width, double padding);
     /// LS: the piecewise polynomial of degree max(3, w) with the least energy in the ghosts of a
-    /// field, w = 2..7: two to three times less error than ES or KB at the same taps, and fewer
-    /// multiplications. `energy` says how f^2 is spread from the middle of the axis (first) to its
-    /// ends (last), at 1/(2 padding) of the period; half of the weight is spread evenly, so that
-    /// what is faint near the ends is kept too. Empty: all of it evenly.
+    /// field, one by one and in phase (REFERENCES.md), w = 2..7: from width 3 on about half the
+    /// error of ES or KB at the same taps, and fewer multiplications. `energy` says how f^2 is
+    /// spread from the middle of the axis (first) to its ends (last), at 1/(2 padding) of the
+    /// period; half of the weight is spread evenly, so that what is faint near the ends is kept
+    /// too. Empty: all of it evenly.
     static Kernel leastGhosts(int width, double padding, std::span<const double> energy = {});
 
     const std::string &name() const { return m_name; }
