@@ -117,6 +117,8 @@ void StudyOpener::openSource(int index) {
             job.deliver([this, loaded, window] {
                 m_document.addProblems(loaded.skipped);
                 m_document.setVolume(loaded.volume, window, false);
+                // The quality may have been changed while the volume came.
+                followScene();
             });
             if (!volume.notes().placed) {
                 job.deliver([this, volume] {

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "app/bench/spatial_work.h"
+#include "core/task/error.h"
 
 namespace pellucid::bench {
 
@@ -36,11 +37,14 @@ SpatialVolume::SpatialVolume(const volume::Volume &field) : m_lattice(field.latt
         row = i + gap;
         plane = row * (j + 1);
         first = plane + row + gap;
-        return std::size_t(plane * (k + 3) + row + 2 * gap);
+        return std::size_t(plane * (k + 3) + 2 * row + 2 * gap);
     };
     m_samples.assign(layOut(n.i, n.j, n.k, m_rowStride, m_planeStride, m_first), 0);
     m_exchanged.assign(
         layOut(n.k, n.j, n.i, m_exchangedRowStride, m_exchangedPlaneStride, m_exchangedFirst), 0);
+    // The ray sum's vectors hold byte offsets of 32 bits.
+    if (std::max(m_samples.size(), m_exchanged.size()) > std::size_t(1) << 30)
+        throw task::Error(task::ErrorCode::usage, "the ray sum takes at most 2^30 samples");
     field.visit([&](auto values) {
         tbb::parallel_for(0, n.j, [&](int j) {
             for (int k = 0; k < n.k; ++k)

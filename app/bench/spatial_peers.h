@@ -22,7 +22,7 @@ public:
 
     const volume::Lattice &lattice() const { return m_lattice; }
     /// The sample (0,0,0); a row ends in `gap` zeros, a plane in one row of them, and the first row
-    /// has a plane, a row and a gap of zeros before it, the last one two planes after it.
+    /// has a plane, a row and a gap of zeros before it, the last one two planes and a row after it.
     const std::int16_t *samples() const { return m_samples.data() + m_first; }
     std::ptrdiff_t rowStride() const { return m_rowStride; }
     std::ptrdiff_t planeStride() const { return m_planeStride; }

@@ -211,9 +211,10 @@ class Renderer {
 public:
     Renderer(const render::Scene &scene, const classify::DensityField &field,
              const render::Budget &budget, const Context &context)
-        : m_scene(scene), m_field(field), m_summary(render::summarise(field)) {
+        : m_scene(scene), m_summary(render::summarise(field)) {
         auto fitting = render::planWithin(scene, field, m_summary, budget);
         m_plan = std::move(fitting.plan);
+        m_reduction = fitting.reduction;
         const task::Progress progress(context.stop);
         // The engine's error is known in advance; what it cannot meet the exact reference does,
         // unless the memory is short or the user wants to see what a kernel does.
@@ -221,7 +222,8 @@ public:
             reference::WideKernel::bytes(field.support) +
             reference::sliceBytes(field.values.lattice(), scene.camera, scene.image);
         const bool engine = m_plan->predictedError <= scene.tolerance ||
-                            scene.interpolation != render::Interpolation() || fitting.reduction > 1;
+                            scene.interpolation != render::Interpolation() ||
+                            fitting.reduction > 1 || exactBytes > budget.bytes;
         if (engine) {
             const auto &source = fitting.reducedField ? *fitting.reducedField : field;
             m_engine = std::make_unique<render::CpuEngine>(
@@ -231,11 +233,6 @@ public:
             m_lattice = source.values.lattice();
             m_bytes = m_plan->bytes;
         } else {
-            if (exactBytes > budget.bytes)
-                throw Error(ErrorCode::outOfMemory,
-                            fmt::format("a tolerance of {} needs {} MB, {} MB are allowed",
-                                        scene.tolerance, (exactBytes >> 20) + 1,
-                                        budget.bytes >> 20));
             m_reference =
                 std::make_unique<reference::WideKernel>(field.values, field.support, progress);
             m_bytes = exactBytes;
@@ -274,6 +271,8 @@ public:
                 {"reason", m_plan->reason}};
     }
     std::size_t bytes() const { return m_bytes; }
+    bool isReduced() const { return m_reduction > 1; }
+    const std::string &reason() const { return m_plan->reason; }
     // The reference's largest error is not predicted: it lies below what a float image holds.
     std::optional<double> predictedMaximum() const {
         return m_engine ? std::optional(m_plan->predictedMaximum) : std::nullopt;
@@ -289,11 +288,11 @@ public:
 
 private:
     const render::Scene &m_scene;
-    const classify::DensityField &m_field;
     render::FieldSummary m_summary;
     std::optional<render::RenderPlan> m_plan;
     std::optional<volume::Lattice> m_lattice; ///< of what the engine renders
     std::size_t m_bytes = 0;
+    int m_reduction = 1;
     std::unique_ptr<render::CpuEngine> m_engine;
     std::unique_ptr<reference::WideKernel> m_reference;
 };
@@ -317,17 +316,16 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const classify::FieldWindow window =
         scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
     const std::size_t held = volume.bytes() + volume.lattice().size().count() * sizeof(float);
+    if (command.count("--memory") > 0 && o.memory < held)
+        throw Error(ErrorCode::outOfMemory,
+                    fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
+                                o.memory >> 20),
+                    o.path);
+    const auto field = classify::densityField(volume, window, task::Progress(context.stop));
     // Asking for more than there is would end in the system killing the program.
     render::Budget budget{task::availableMemoryBytes()};
-    if (command.count("--memory") > 0) {
-        if (o.memory < held)
-            throw Error(ErrorCode::outOfMemory,
-                        fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
-                                    o.memory >> 20),
-                        o.path);
-        budget.bytes = o.memory - held;
-    }
-    const auto field = classify::densityField(volume, window, task::Progress(context.stop));
+    if (command.count("--memory") > 0)
+        budget.bytes = std::min(budget.bytes, std::size_t(o.memory - held));
     const double fieldMs = watch.lapMs();
     Renderer renderer(scene, field, budget, context);
     const double prepareMs = watch.lapMs();
@@ -336,6 +334,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         warnings.push_back(text);
         std::fprintf(stderr, "pellucid-cli: warning: %s\n", text.c_str());
     };
+    if (renderer.isReduced())
+        warn(renderer.reason());
     if (renderer.predictedError() > scene.tolerance && scene.tolerance > 1e-9)
         warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
                          renderer.predictedError()));

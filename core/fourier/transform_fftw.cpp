@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <mutex>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -140,7 +140,9 @@ bool saveWisdom(const std::string &text) {
 
 void keepWisdomIn(const std::filesystem::path &file) {
     std::ifstream in(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    std::ostringstream read;
+    read << in.rdbuf(); // what cannot be read, a folder for instance, leaves it empty
+    const std::string text = read.str();
     const std::lock_guard lock(plannerMutex());
     wisdomFile() = file;
     Fftw<float>::useThreads(1); // wisdom is of an FFTW that knows the same solvers

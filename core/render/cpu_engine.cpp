@@ -88,7 +88,7 @@ struct CpuEngine::Workplace {
                 std::swap(tables, kept);
         if (!tables || tables->grid != grid || tables->share != image.rollOff) {
             auto made = std::make_unique<GridTables>(grid, image.rollOff);
-            // The one unused for longest goes.
+            // One that was used before goes.
             others.back() = std::move(others.front());
             others.front() = std::move(tables);
             tables = std::move(made);

@@ -435,7 +435,7 @@ HWY_INLINE void transpose(const float *from, std::size_t fromGap, float *to, std
 void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     const StripBounds &bounds = job.strips[strip];
     const double start = frameClockSeconds();
-    // Rows beyond the disc are zero; so are the rows that fill the last group.
+    // Rows beyond the disc are zero.
     float *const empty = scratch.strips + std::size_t(bounds.outerRow + 1) * stripFloats;
     std::memset(empty, 0,
                 std::size_t(job.rows - 2 * bounds.outerRow - 1) * stripFloats * sizeof(float));

@@ -22,6 +22,11 @@ namespace {
 constexpr std::array<double, 8> sampleTime{0.0, 0.4, 0.5, 0.7, 1.0, 1.7, 2.2, 2.9};
 constexpr double floatCells = 1.4;
 
+double leastTime(int width, fourier::Storage storage) {
+    return sampleTime[std::size_t(width)] *
+           (storage == fourier::Storage::float32 ? floatCells : 1.0);
+}
+
 // Larger slices take more memory than any image is worth.
 constexpr int largestSliceGrid = 65536;
 
@@ -111,7 +116,9 @@ public:
         if (!slot) {
             const int padded = fourier::paddedSize(m_samples, wanted);
             // Small axes are padded to more than they need: the kernel may know.
-            const double padding = std::min(std::max(2.5, wanted), double(padded) / m_samples);
+            // Least ghosts are sought for a field that leaves some room.
+            const double padding =
+                std::clamp(double(padded) / m_samples, 1.05, std::max(2.5, wanted));
             auto kernel = fourier::makeKernel(choice, padding, m_folded);
             const AxisError error = axisError(kernel, padded, m_energy);
             slot = std::make_unique<Candidate>(Candidate{std::move(kernel), padded, error});
@@ -126,10 +133,11 @@ private:
     std::map<std::pair<std::string, double>, std::unique_ptr<Candidate>> m_made;
 };
 
-// What the frames of a camera take beside the spectrum: the lines between the two transforms and
-// the image, both of the slice's size or less.
-std::size_t frameBytes(const SliceGrid &grid) {
-    return std::size_t(grid.columns) * grid.rows * 3 * sizeof(float);
+// What the frames of a camera take beside the spectrum: the lines between the two transforms, and
+// the image.
+std::size_t frameBytes(const SliceGrid &grid, const Camera &camera) {
+    return (std::size_t(grid.columns) * grid.rows * 2 + std::size_t(camera.width) * camera.height) *
+           sizeof(float);
 }
 
 double wrappedShare(const Camera &camera, const SliceGrid &grid, const FieldSummary &field) {
@@ -232,6 +240,10 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
     std::size_t leastBytes = std::numeric_limits<std::size_t>::max();
     for (const auto storage : storages) {
         for (const auto &choice : kernels) {
+            // More taps and wider cells cost time, whatever they save in padding.
+            if (best && best->predictedError <= scene.tolerance &&
+                leastTime(choice.width, storage) >= bestTime)
+                continue;
             std::array<std::size_t, 3> level{};
             for (;;) {
                 std::array<const AxisCandidates::Candidate *, 3> at;
@@ -255,7 +267,8 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                 }
                 const double predicted =
                     std::hypot(predictRelativeError(errors, storage, share), planned.folded);
-                const std::size_t bytes = layout.peakBytes() + frameBytes(planned.grid);
+                const std::size_t bytes =
+                    layout.peakBytes() + frameBytes(planned.grid, scene.camera);
                 leastBytes = std::min(leastBytes, bytes);
                 if (bytes > budget.bytes) {
                     overBudget = true;
@@ -263,9 +276,9 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                 }
                 const bool meets = predicted <= scene.tolerance;
                 // A larger spectrum is slower to read and to prepare: a tenth for each doubling.
-                const double time = sampleTime[std::size_t(layout.width())] *
-                                    (storage == fourier::Storage::float32 ? floatCells : 1.0) *
-                                    (1.0 + 0.1 * std::log2(double(bytes)));
+                const double time =
+                    leastTime(layout.width(), storage) *
+                    (1.0 + 0.1 * std::max(0.0, std::log2(double(bytes) / double(1 << 20))));
                 const bool bestMeets = best && best->predictedError <= scene.tolerance;
                 if (!best || (meets && (!bestMeets || time < bestTime)) ||
                     (!meets && !bestMeets && predicted < best->predictedError)) {
@@ -273,7 +286,7 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                                       scene.image,
                                       planned.room,
                                       predicted,
-                                      predictMaximum(errors, storage),
+                                      predictMaximum(errors, storage) + planned.folded,
                                       bytes,
                                       {}};
                     bestTime = time;
@@ -290,13 +303,7 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                     break;
                 ++level[std::size_t(worst)];
             }
-            // A wider kernel with less padding may fit where this one does not meet; one that is
-            // met is not made faster by more taps.
-            if (best && best->predictedError <= scene.tolerance)
-                break;
         }
-        if (best && best->predictedError <= scene.tolerance)
-            break; // float cells only cost more
     }
     if (!best)
         throw task::Error(task::ErrorCode::outOfMemory,

@@ -9,8 +9,6 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
-#include <QSignalBlocker>
-#include <QVBoxLayout>
 
 #include "ui/commands.h"
 #include "ui/document.h"
@@ -63,7 +61,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_tolerance = new QLineEdit;
     m_tolerance->setObjectName("toleranceEdit");
     m_tolerance->setAccessibleName(tr("Tolerance"));
-    m_tolerance->setToolTip(tr("Largest error of the picture, relative to it, in percent"));
+    m_tolerance->setToolTip(tr("Largest error of the picture, relative to it: 0.0001 to 30 percent"));
     form->addRow(tr("Tolerance"), m_tolerance);
     m_reconstruction = addBox(form, tr("Between"), "reconstructionBox",
                               tr("What lies between the samples of the volume"));

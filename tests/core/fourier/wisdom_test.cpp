@@ -66,6 +66,7 @@ TEST(Wisdom, BrokenForeignAndUnwritableFilesAreIgnored) {
         EXPECT_NE(contents(file), bad); // replaced by what was measured
     }
     EXPECT_TRUE(planInAnotherProcess(folder / "no such folder" / "wisdom"));
+    EXPECT_TRUE(planInAnotherProcess(folder.path())); // a folder where the file should be
 }
 
 } // namespace
