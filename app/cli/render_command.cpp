@@ -281,9 +281,8 @@ public:
     double predictedError() const {
         if (m_engine)
             return m_plan->predictedError;
-        return std::hypot(1e-10,
-                          reference::foldedTails(m_summary.lattice, m_scene.camera, m_scene.image,
-                                                 m_summary.support, m_summary.energy));
+        return std::hypot(1e-10, reference::foldedTails(m_summary.lattice, m_scene.camera,
+                                                        m_scene.image, *m_summary.energy.spread));
     }
 
 private:

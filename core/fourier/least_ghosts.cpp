@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "core/fourier/kernel.h"
 #include "core/fourier/quadrature.h"
 
@@ -19,6 +21,20 @@ using Real = long double;
 constexpr Real pi = std::numbers::pi_v<Real>;
 using Vector = std::vector<Real>;
 
+// cos(2 pi turns); beyond an eighth of a turn the library's own reduction takes most of the time.
+Real cosOfTurns(Real turns) {
+    turns = std::abs(turns - std::round(turns));
+    const bool negative = turns > 0.25L;
+    if (negative)
+        turns = 0.5L - turns;
+    const Real value =
+        turns > 0.125L ? std::sin(2 * pi * (0.25L - turns)) : std::cos(2 * pi * turns);
+    return negative ? -value : value;
+}
+Real sinOfTurns(Real turns) {
+    return cosOfTurns(turns - 0.25L);
+}
+
 // Legendre polynomials on [-1/2, 1/2] keep the system well conditioned.
 Vector legendre(int degree, Real c) {
     Vector p(std::size_t(degree) + 1, 1);
@@ -29,13 +45,14 @@ Vector legendre(int degree, Real c) {
     return p;
 }
 
-// Gaussian elimination; the matrix is symmetric and positive, so no pivoting is needed.
+// Gaussian elimination of a symmetric positive matrix, of which the upper half is given: it needs
+// no pivoting and stays symmetric.
 Vector solve(std::vector<Vector> a, Vector right) {
     const std::size_t n = right.size();
     for (std::size_t p = 0; p < n; ++p)
         for (std::size_t q = p + 1; q < n; ++q) {
-            const Real factor = a[q][p] / a[p][p];
-            for (std::size_t s = p; s < n; ++s)
+            const Real factor = a[p][q] / a[p][p];
+            for (std::size_t s = q; s < n; ++s)
                 a[q][s] -= factor * a[p][s];
             right[q] -= factor * right[p];
         }
@@ -67,12 +84,18 @@ struct Coefficients {
     // The transform of every coefficient's part of the kernel at x (in periods).
     Vector transforms(Real x) const {
         static const GaussLegendre<Real> quadrature(20);
+        static const std::vector<Vector> polynomials = [] {
+            std::vector<Vector> values;
+            for (const Real c : quadrature.at)
+                values.push_back(legendre(Kernel::largestWidth, c));
+            return values;
+        }();
         std::vector<Vector> sums((width + 1) / 2, Vector(std::size_t(degree) + 1, 0));
         for (std::size_t g = 0; g < quadrature.at.size(); ++g) {
-            const Vector p = legendre(degree, quadrature.at[g]);
+            const Vector &p = polynomials[g];
             for (std::size_t k = 0; k < sums.size(); ++k) {
                 const Real t = Real(k) - Real(width - 1) / 2 + quadrature.at[g];
-                const Real wave = quadrature.weight[g] * std::cos(2 * pi * t * x);
+                const Real wave = quadrature.weight[g] * cosOfTurns(t * x);
                 for (int n = 0; n <= degree; ++n)
                     sums[k][n] += wave * p[n];
             }
@@ -90,12 +113,12 @@ struct Coefficients {
         for (const auto &[k, n] : at) {
             const Real t = c + Real(k) - Real(width - 1) / 2;
             const Real other = c + Real(width - 1 - k) - Real(width - 1) / 2;
-            real.push_back(p[n] * std::cos(2 * pi * t * x));
-            imaginary.push_back(p[n] * std::sin(2 * pi * t * x));
+            real.push_back(p[n] * cosOfTurns(t * x));
+            imaginary.push_back(p[n] * sinOfTurns(t * x));
             if (2 * k == width - 1)
                 continue;
-            real.back() += mirrored[n] * std::cos(2 * pi * other * x);
-            imaginary.back() += mirrored[n] * std::sin(2 * pi * other * x);
+            real.back() += mirrored[n] * cosOfTurns(other * x);
+            imaginary.back() += mirrored[n] * sinOfTurns(other * x);
         }
         return {real, imaginary};
     }
@@ -131,6 +154,7 @@ Vector leastGhostCoefficients(const Coefficients &kernel, double padding,
                               std::span<const double> energy) {
     const int width = kernel.width;
     constexpr int positions = 32, farthest = 5, rounds = 16;
+    constexpr Real settled = 1e-8; // of coefficients up to 1: the ghosts change by its square
     const std::size_t count = kernel.at.size();
     Vector e(positions, 1 / Real(positions));
     if (!energy.empty()) {
@@ -143,29 +167,28 @@ Vector leastGhostCoefficients(const Coefficients &kernel, double padding,
         for (int i = 0; i < positions && total > 0; ++i)
             e[i] = (e[i] + spread[i] / total) / 2;
     }
-    std::vector<Vector> direct;
+    std::vector<Vector> direct(positions);
     std::vector<std::vector<Vector>> ghosts(positions);
-    for (int i = 0; i < positions; ++i) {
+    std::vector<std::vector<Vector>> squares(positions,
+                                             std::vector<Vector>(count, Vector(count, 0)));
+    tbb::parallel_for(0, positions, [&](int i) {
         const Real x = (i + Real(0.5)) / positions / (2 * Real(padding));
-        direct.push_back(kernel.transforms(x));
+        direct[i] = kernel.transforms(x);
         for (int m = -farthest; m <= farthest; ++m)
             if (m != 0)
                 ghosts[i].push_back(kernel.transforms(x + m));
         for (const Real c : width % 2 == 0 ? std::vector<Real>{-0.5} : std::vector<Real>{-0.5, 0}) {
             auto [real, imaginary] = kernel.transformsAt(c, x);
             for (std::size_t p = 0; p < count; ++p)
-                real[p] -= direct[std::size_t(i)][p];
+                real[p] -= direct[i][p];
             ghosts[i].push_back(std::move(real));
             ghosts[i].push_back(std::move(imaginary));
         }
-    }
-    std::vector<std::vector<Vector>> squares(positions,
-                                             std::vector<Vector>(count, Vector(count, 0)));
-    for (int i = 0; i < positions; ++i)
         for (const Vector &b : ghosts[i])
             for (std::size_t p = 0; p < count; ++p)
-                for (std::size_t q = 0; q < count; ++q)
+                for (std::size_t q = p; q < count; ++q)
                     squares[i][p][q] += b[p] * b[q];
+    });
     Vector a(count, 0), h(positions, 1), g(positions, 1);
     const Vector middle = kernel.transforms(0);
     for (int round = 0; round < rounds; ++round) {
@@ -174,17 +197,22 @@ Vector leastGhostCoefficients(const Coefficients &kernel, double padding,
         for (int i = 0; i < positions; ++i) {
             const Real weight = e[i] / (h[i] * h[i]);
             for (std::size_t p = 0; p < count; ++p) {
-                for (std::size_t q = 0; q < count; ++q)
+                for (std::size_t q = p; q < count; ++q)
                     matrix[p][q] += weight * squares[i][p][q];
                 right[p] += weight * g[i] / h[i] * direct[i][p];
             }
         }
         for (std::size_t p = 0; p < count; ++p)
             matrix[p][p] += Real(1e-19); // far below the ghosts of any width
-        a = solve(std::move(matrix), std::move(right));
+        const Vector before = std::exchange(a, solve(std::move(matrix), std::move(right)));
         const Real scale = 1 / dot(a, middle);
         for (Real &value : a)
             value *= scale;
+        Real change = 0;
+        for (std::size_t p = 0; p < count; ++p)
+            change = std::max(change, std::abs(a[p] - before[p]));
+        if (change < settled)
+            break;
         for (int i = 0; i < positions; ++i) {
             h[i] = dot(a, direct[i]);
             g[i] = 0;

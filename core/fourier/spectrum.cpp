@@ -140,8 +140,7 @@ private:
             for (int column = 0; column < m_cells.columns; ++column)
                 for (int plane = 0; plane < m_cells.planes; ++plane) {
                     const int z = modulo(plane + m_cells.firstZ, m_layout.padded.k);
-                    const std::size_t line =
-                        (std::size_t(column) * m_cells.planes + plane) * m_cells.rows + row;
+                    const std::size_t line = m_cells.line(column, plane, row);
                     streamLine(rows + std::size_t(z) * m_rowCells +
                                    std::size_t(column) * m_cells.step,
                                m_out + line * lineBytes, lineBytes);
@@ -165,8 +164,13 @@ private:
 CellLayout::CellLayout(const SpectrumLayout &layout)
     : apron(layout.width() / 2 + 1), step(columnCells + 1 - layout.width()),
       columns((layout.padded.i / 2 + 1 + 2 * apron - layout.width()) / step + 1),
-      rows(layout.padded.j + 1 + 2 * apron), planes(layout.padded.k + 1 + 2 * apron),
+      rows(layout.padded.j + 1 + 2 * apron),
+      planes((layout.padded.k + 2 * apron + planesTogether) / planesTogether * planesTogether),
       firstX(-apron), firstY(-layout.padded.j / 2 - apron), firstZ(-layout.padded.k / 2 - apron) {}
+
+bool SpectrumLayout::addressable() const {
+    return CellLayout(*this).lines() < (std::size_t(1) << 32) / CellLayout::columnCells;
+}
 
 std::size_t SpectrumLayout::bytes() const {
     return CellLayout(*this).lines() * CellLayout::columnCells * bytesPerCell(storage) + 64;
@@ -188,7 +192,7 @@ Spectrum::Spectrum(const volume::Volume &field, const SpectrumLayout &layout)
 
 Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &layout,
                            const task::Progress &progress) {
-    assert(field.isFloat());
+    assert(field.isFloat() && layout.addressable());
     Spectrum spectrum(field, layout);
     const GridSize lattice = field.lattice().size(), size = layout.box.size();
     const GridSize padded = layout.padded;
@@ -292,8 +296,7 @@ std::complex<double> Spectrum::value(int p, int q, int r) const {
     const CellLayout &c = m_cellLayout;
     const int x = p - c.firstX;
     const int column = std::min(x / c.step, c.columns - 1);
-    const std::size_t line =
-        (std::size_t(column) * c.planes + (r - c.firstZ)) * c.rows + (q - c.firstY);
+    const std::size_t line = c.line(column, r - c.firstZ, q - c.firstY);
     const std::size_t at = line * CellLayout::columnCells + std::size_t(x - column * c.step);
     if (m_layout.storage == Storage::float32)
         return std::complex<double>(reinterpret_cast<const Complex *>(m_cells.get())[at]);

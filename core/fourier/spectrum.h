@@ -21,27 +21,38 @@ struct SpectrumLayout {
     Storage storage = Storage::binary16;
 
     int width() const { return kernels[0].width(); }
+    /// Whether 32 bits count its cells; engines read no larger one.
+    bool addressable() const;
     /// Bytes of the prepared spectrum.
     std::size_t bytes() const;
     /// Bytes held at once while it is prepared, the result included.
     std::size_t peakBytes() const;
 };
 
-/// Where the cells of a half spectrum lie: [x column][z][y][16 cells]. Column c holds the x cells
-/// step c .. step c + 15, so neighbouring columns share width - 1 cells and every run of `width`
-/// neighbours lies inside one column: with binary16 storage inside one 64-byte cache line.
-/// Beyond the half, and around the period, an apron of cells is repeated, so that interpolation
-/// needs neither wrap nor branch. Indices y and z run from -padded/2.
+/// Where the cells of a half spectrum lie: [x column][z / 8][y][z % 8][16 cells]. Column c holds
+/// the x cells step c .. step c + 15, so neighbouring columns share width - 1 cells and every run
+/// of `width` neighbours lies inside one column: with binary16 storage inside one 64-byte cache
+/// line. A page of 4 KiB is a block of about 13 x 8 x 8 cells, so an oblique slice touches half as
+/// many pages as with whole planes one after the other, where a page is 13 x 64 x 1. Beyond the
+/// half, and around the period, an apron of cells is repeated, so that interpolation needs neither
+/// wrap nor branch. Indices y and z run from -padded/2.
 struct CellLayout {
     static constexpr int columnCells = 16;
+    static constexpr int planesTogether = 8;
 
     explicit CellLayout(const SpectrumLayout &layout);
-    int apron;   ///< cells around the stored half
-    int step;    ///< cells between the beginnings of columns
-    int columns; ///< *Shape*: columns x planes x rows lines of columnCells cells
-    int rows, planes;
+    int apron;                  ///< cells around the stored half
+    int step;                   ///< cells between the beginnings of columns
+    int columns;                ///< *Shape*: columns x planes x rows lines of columnCells cells
+    int rows, planes;           ///< planes: whole groups of planesTogether
     int firstX, firstY, firstZ; ///< the indices of the first cell, row and plane
     std::size_t lines() const { return std::size_t(columns) * planes * rows; }
+    /// Which line that is, counted from the first.
+    std::size_t line(int column, int plane, int row) const {
+        const int group = plane / planesTogether, inGroup = plane % planesTogether;
+        return std::size_t(column) * planes * rows +
+               (std::size_t(group) * rows + row) * planesTogether + inGroup;
+    }
 };
 
 /// The half spectrum of a field, divided by the kernel's apodisation, on a periodic padded grid.

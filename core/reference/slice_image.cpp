@@ -9,7 +9,7 @@
 
 #include "core/fourier/padded_size.h"
 #include "core/fourier/transform.h"
-#include "core/render/error_prediction.h"
+#include "core/render/slice_grid.h"
 
 namespace pellucid::reference {
 
@@ -47,10 +47,9 @@ std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &cam
 }
 
 double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
-                   const render::ImageDefinition &image, const volume::VoxelBox &box,
-                   const render::EnergyMarginals &energy) {
+                   const render::ImageDefinition &image, const render::EnergySpread &spread) {
     const SliceSize size = sliceSize(lattice, camera, image);
-    return render::predictFoldedTails(image, camera, size.columns, size.rows, energy, lattice, box);
+    return render::predictFoldedTails(image, camera, size.columns, size.rows, spread);
 }
 
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/render/camera.h"
-#include "core/render/error_prediction.h"
+#include "core/render/folded_tails.h"
 #include "core/render/image_definition.h"
 #include "core/volume/lattice.h"
 
@@ -30,7 +30,6 @@ std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &cam
 
 /// What is left of the roll-off's tails, relative L2; see render::predictFoldedTails.
 double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
-                   const render::ImageDefinition &image, const volume::VoxelBox &box,
-                   const render::EnergyMarginals &energy);
+                   const render::ImageDefinition &image, const render::EnergySpread &spread);
 
 } // namespace pellucid::reference

@@ -81,6 +81,17 @@ struct GridTables {
 struct CpuEngine::Workplace {
     explicit Workplace(int threads) : team(threads), scratch(team.slots()) {}
 
+    // A grid is sought, in a fraction of a millisecond, for each new framing only, not for each
+    // direction.
+    const SliceGrid &gridFor(const Camera &camera, const SliceRoom &around,
+                             const volume::Lattice &lattice, const ImageDefinition &image) {
+        Camera framing = camera;
+        framing.orientation = Camera().orientation;
+        if (!framed || framed->camera != framing || framed->image != image)
+            framed = Framed{framing, image, sliceGrid(camera, around, lattice, image)};
+        return framed->grid;
+    }
+
     // Makes ready for frames of a grid.
     void fit(const SliceGrid &grid, const ImageDefinition &image) {
         for (auto &kept : others)
@@ -128,8 +139,15 @@ struct CpuEngine::Workplace {
         room = grid;
     }
 
+    struct Framed {
+        Camera camera; // but its orientation
+        ImageDefinition image;
+        SliceGrid grid;
+    };
+
     task::WorkerTeam team;
     std::vector<FrameScratch> scratch;
+    std::optional<Framed> framed;
     // A draft and a full frame take turns while the hand moves: their tables are kept, and a third.
     std::unique_ptr<GridTables> tables;
     std::array<std::unique_ptr<GridTables>, 2> others;
@@ -165,7 +183,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     const double start = frameClockSeconds();
     const fourier::SpectrumLayout &layout = m_spectrum->layout();
     const volume::Lattice &lattice = m_spectrum->lattice();
-    const SliceGrid grid = sliceGrid(camera, m_room, lattice, image);
+    const SliceGrid grid = m_workplace->gridFor(camera, m_room, lattice, image);
     ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}};
     try {
         m_workplace->fit(grid, image);

@@ -5,24 +5,8 @@
 #include <vector>
 
 #include "core/fourier/spectrum.h"
-#include "core/render/camera.h"
-#include "core/render/image_definition.h"
 
 namespace pellucid::render {
-
-/// How a field's energy f^2 is spread along each axis of its box; sums to 1 on each axis.
-struct EnergyMarginals {
-    std::array<std::vector<double>, 3> axis;
-    /// How rough its projections along x, y and z are, the roughest of them: the mean square of the
-    /// differences of neighbours over twice the mean square. 1 for a point or noise without a mean,
-    /// far less for anatomy.
-    double roughness = 1.0;
-    /// How far from the centre of the lattice a sample is not zero, mm.
-    double radiusMm = 0.0;
-};
-
-/// *Shape*: one entry per sample of the box on every axis.
-EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box);
 
 /// What one axis of a layout leaves, relative to the energy of the field.
 struct AxisError {
@@ -60,20 +44,5 @@ double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Stora
 /// axes, and the rounding at 4.5 standard deviations of an image whose mean square is a fifth of
 /// its peak's. Beside metal it says what the relative L2 error hides.
 double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage);
-
-/// How far the response of a raised-cosine edge over a share F of the band is followed, in pixels:
-/// 4/F, and never further than 256.
-double ringingPixels(double rollOff);
-
-/// The relative L2 error that the tails of the roll-off leave when they fold back into the image
-/// of a camera, from copies of the projection `columns` and `rows` pixels away.
-///
-/// A sharp disc leaves sqrt(2/(pi^2 r)) of a point's response beyond r pixels; a roll-off F lowers
-/// that by (0.3/(F r))^2 (both measured on one voxel). What lies at x from the centre of rotation
-/// has r = period - image/2 - x. A point has all frequencies alike; of a smooth projection only
-/// what lies at the edge of the band has tails, the roughness of its energy.
-double predictFoldedTails(const ImageDefinition &image, const Camera &camera, int columns, int rows,
-                          const EnergyMarginals &energy, const volume::Lattice &lattice,
-                          const volume::VoxelBox &box);
 
 } // namespace pellucid::render

@@ -153,6 +153,7 @@ void prepareBatch(const FrameJob &job, int column, int row, const float *rollOff
                   FrequencyBatch &batch) {
     const StripTag d;
     const IntTag di;
+    const hn::RebindToUnsigned<StripTag> du;
     const fourier::CellLayout &cells = job.spectrum->cellLayout();
     const fourier::SpectrumLayout &layout = job.spectrum->layout();
     const int first[3] = {cells.firstX, cells.firstY, cells.firstZ};
@@ -201,11 +202,25 @@ void prepareBatch(const FrameJob &job, int column, int row, const float *rollOff
         }
         const auto x = hn::ConvertTo(d, index[0]);
         const auto line = hn::ConvertTo(di, hn::Mul(hn::Add(x, hn::Set(d, 0.5F)), inverseStep));
-        hn::Store(hn::Sub(index[0], hn::Mul(line, hn::Set(di, cells.step))), di,
-                  batch.offset.data() + lane);
-        const auto plane = hn::Add(hn::Mul(line, hn::Set(di, cells.planes)), index[2]);
-        hn::Store(hn::Add(hn::Mul(plane, hn::Set(di, cells.rows)), index[1]), di,
-                  batch.line.data() + lane);
+        // CellLayout::line, then cells; counts of cells need all 32 bits. The taps reach into the
+        // next group of planes at most.
+        constexpr int together = fourier::CellLayout::planesTogether;
+        static_assert(together == 8 && fourier::CellLayout::columnCells == 16 && W <= together);
+        const auto inGroup = hn::And(index[2], hn::Set(di, together - 1));
+        const auto inLine = hn::Sub(index[0], hn::Mul(line, hn::Set(di, cells.step)));
+        const auto group =
+            hn::Add(hn::Mul(line, hn::Set(di, cells.planes)), hn::Sub(index[2], inGroup));
+        const auto firstLine = hn::Add(
+            hn::Add(hn::Mul(group, hn::Set(di, cells.rows)), hn::ShiftLeft<3>(index[1])), inGroup);
+        const auto firstCell = hn::Add(hn::ShiftLeft<4>(firstLine), inLine);
+        const auto toNextGroup =
+            hn::Set(di, (cells.rows - 1) * together * fourier::CellLayout::columnCells);
+        for (int k = 0; k < W; ++k) {
+            const auto same = hn::Add(firstCell, hn::Set(di, k * fourier::CellLayout::columnCells));
+            const auto beyond = hn::Gt(inGroup, hn::Set(di, together - 1 - k));
+            const auto cell = hn::Add(same, hn::IfThenElseZero(beyond, toNextGroup));
+            hn::Store(hn::BitCast(du, cell), du, batch.cell.data() + k * stripLanes + lane);
+        }
         auto factor = factorFor(job, q);
         if (rollOff != nullptr)
             factor = hn::Mul(factor, hn::Load(d, rollOff + lane));
@@ -238,20 +253,28 @@ template <class D> HWY_INLINE hn::Vec<D> loadCells(D d, const Half *cells) {
 #endif
 }
 
+// Cells between neighbouring rows.
+constexpr std::ptrdiff_t rowGap =
+    fourier::CellLayout::columnCells * fourier::CellLayout::planesTogether;
+
+HWY_INLINE std::size_t firstCell(const FrequencyBatch &batch, std::size_t lane, int plane) {
+    return batch.cell[std::size_t(plane) * stripLanes + lane];
+}
+
 // Sums over the W rows and planes, times the x weights: one complex number a pair of lanes.
 template <int W, class Cell>
-HWY_INLINE auto sumRows(const FrequencyBatch &batch, const Cell *cells, std::size_t lane,
-                        std::ptrdiff_t planeCells) {
+HWY_INLINE auto sumRows(const FrequencyBatch &batch, const Cell *cells, std::size_t lane) {
     constexpr int slots = W <= 4 ? 4 : 8;
     const RowTag<slots> d;
     constexpr std::size_t lanes = hn::MaxLanes(RowTag<slots>());
     constexpr std::size_t vectors = 2 * slots / lanes;
     hn::Vec<RowTag<slots>> total[vectors];
-    for (int z = 0; z < W; ++z, cells += planeCells) {
+    for (int z = 0; z < W; ++z) {
+        const Cell *const first = cells + firstCell(batch, lane, z);
         hn::Vec<RowTag<slots>> plane[vectors];
         for (int y = 0; y < W; ++y) {
             const auto weight = hn::Set(d, batch.y[std::size_t(y) * stripLanes + lane]);
-            const Cell *row = cells + y * fourier::CellLayout::columnCells;
+            const Cell *row = first + y * rowGap;
             for (std::size_t v = 0; v < vectors; ++v) {
                 const auto value = loadCells(d, row + v * lanes / 2);
                 plane[v] = y == 0 ? hn::Mul(value, weight) : hn::MulAdd(value, weight, plane[v]);
@@ -282,14 +305,8 @@ HWY_INLINE auto sumRows(const FrequencyBatch &batch, const Cell *cells, std::siz
 
 // The 16 sums of a batch, real and imaginary interleaved.
 template <int W, class Cell>
-HWY_INLINE void sumBatch(const FrequencyBatch &batch, const Cell *cells, std::ptrdiff_t planeCells,
-                         float *sums) {
-    const auto at = [&](std::size_t lane) {
-        const Cell *from = cells +
-                           std::size_t(batch.line[lane]) * fourier::CellLayout::columnCells +
-                           batch.offset[lane];
-        return sumRows<W>(batch, from, lane, planeCells);
-    };
+HWY_INLINE void sumBatch(const FrequencyBatch &batch, const Cell *cells, float *sums) {
+    const auto at = [&](std::size_t lane) { return sumRows<W>(batch, cells, lane); };
     using V = decltype(at(0));
     using D = hn::DFromV<V>;
     const D d;
@@ -317,18 +334,16 @@ HWY_INLINE void sumBatch(const FrequencyBatch &batch, const Cell *cells, std::pt
 }
 
 template <int W, class Cell>
-HWY_INLINE void prefetchBatch(const FrequencyBatch &batch, const Cell *cells,
-                              std::ptrdiff_t planeCells) {
+HWY_INLINE void prefetchBatch(const FrequencyBatch &batch, const Cell *cells) {
     // Neighbouring frequencies share lines: every third brings nearly all of them. Every row is
     // asked for, and into the second level: slices of 256^3 then took 46 ns a sample, with the
     // first and the last row only and into the first level 50.
-    for (std::size_t lane = 0; lane < stripLanes; lane += 3) {
-        const Cell *at = cells + std::size_t(batch.line[lane]) * fourier::CellLayout::columnCells +
-                         batch.offset[lane];
-        for (int z = 0; z < W; ++z, at += planeCells)
+    for (std::size_t lane = 0; lane < stripLanes; lane += 3)
+        for (int z = 0; z < W; ++z) {
+            const Cell *at = cells + firstCell(batch, lane, z);
             for (int y = 0; y < W; ++y)
-                __builtin_prefetch(at + y * fourier::CellLayout::columnCells, 0, 2);
-    }
+                __builtin_prefetch(at + y * rowGap, 0, 2);
+        }
 }
 
 // A batch's sums times reconstruction, roll-off and phase, into a strip.
@@ -360,8 +375,6 @@ void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     const StripBounds &bounds = job.strips[strip];
     const int column = strip * stripLanes;
     const auto *cells = reinterpret_cast<const Cell *>(job.spectrum->cells());
-    const std::ptrdiff_t planeCells =
-        std::ptrdiff_t(job.spectrum->cellLayout().rows) * fourier::CellLayout::columnCells;
     const auto prepare = [&](int row) {
         FrequencyBatch &batch = scratch.batches[(row + job.rows) % (batchesAhead + 1)];
         const int ring = std::abs(row) - bounds.innerRow - 1;
@@ -369,7 +382,7 @@ void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
                         ring < 0 ? nullptr
                                  : job.rollOff + bounds.rollOff + std::size_t(ring) * stripLanes,
                         batch);
-        prefetchBatch<W>(batch, cells, planeCells);
+        prefetchBatch<W>(batch, cells);
     };
     for (int row = -bounds.outerRow; row < -bounds.outerRow + batchesAhead; ++row)
         if (row <= bounds.outerRow)
@@ -379,7 +392,7 @@ void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
         if (row + batchesAhead <= bounds.outerRow)
             prepare(row + batchesAhead);
         const FrequencyBatch &batch = scratch.batches[(row + job.rows) % (batchesAhead + 1)];
-        sumBatch<W>(batch, cells, planeCells, sums);
+        sumBatch<W>(batch, cells, sums);
         finishBatch(job, batch, sums, column, row,
                     scratch.strips + std::size_t(row < 0 ? row + job.rows : row) * stripFloats);
     }

@@ -26,7 +26,8 @@ struct alignas(64) FrequencyBatch {
     static constexpr int lanes = fourier::stripLanes;
     std::array<float, std::size_t(lanes) * 8 + 16> x;
     std::array<float, std::size_t(lanes) * fourier::Kernel::largestWidth> y, z;
-    std::array<std::int32_t, lanes> line, offset;
+    /// The first cell to read in the plane of each tap, [tap][lane].
+    std::array<std::uint32_t, std::size_t(lanes) * fourier::Kernel::largestWidth> cell;
     std::array<float, lanes> factor; ///< reconstruction and roll-off
     std::array<float, lanes> sign;   ///< -1: the conjugate is meant
 };

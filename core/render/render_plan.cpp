@@ -18,79 +18,41 @@ namespace pellucid::render {
 
 namespace {
 
-// Relative times of a frequency sample by kernel width, with binary16 and with float cells.
+// Relative times of a frequency sample by kernel width when its cells lie in the cache, with
+// binary16 and with float cells, and of its part in the transforms.
 constexpr std::array<double, 8> sampleTime{0.0, 0.4, 0.5, 0.7, 1.0, 1.7, 2.2, 2.9};
 constexpr double floatCells = 1.4;
+constexpr double transformTime = 0.2;
+// The time to bring in what a cell of the slice's area adds for a width of 4: 6 ns beside the 24 of
+// a sample.
+constexpr double cellTime = 0.25;
 
-double leastTime(int width, fourier::Storage storage) {
-    return sampleTime[std::size_t(width)] *
-           (storage == fourier::Storage::float32 ? floatCells : 1.0);
+double timeInCache(int width, fourier::Storage storage) {
+    return transformTime + sampleTime[std::size_t(width)] *
+                               (storage == fourier::Storage::float32 ? floatCells : 1.0);
 }
 
-// Larger slices take more memory than any image is worth.
-constexpr int largestSliceGrid = 65536;
-
-// How far a sample's footprint reaches, in samples: the tent ends after one; the cardinal B-spline
-// has fallen to 4e-4 after six; the tapered sinc rings.
-double footprint(const ImageDefinition &image) {
-    switch (image.reconstruction) {
-    case Reconstruction::linear:
-        return 1.0;
-    case Reconstruction::bandLimited:
-        return 0.5 * ringingPixels(image.rollOff);
-    case Reconstruction::cubic:
-        break;
-    }
-    return 6.0;
-}
-
-// How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
-double reachPixels(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
-                   const ImageDefinition &image) {
-    const double longest =
-        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
-    return (room.radiusMm + footprint(image) * longest) / camera.pixelMm;
+// The time of the frames of a slice grid, its frequencies being the unit.
+double frameTime(const SliceGrid &grid, const Camera &camera, const volume::Lattice &lattice,
+                 const fourier::SpectrumLayout &layout) {
+    // In cells, the slice of a view along an axis is as large as the other two axes are padded.
+    const double i = layout.padded.i * lattice.spacingMm(0) / camera.pixelMm,
+                 j = layout.padded.j * lattice.spacingMm(1) / camera.pixelMm,
+                 k = layout.padded.k * lattice.spacingMm(2) / camera.pixelMm;
+    const double area = (i * j + j * k + k * i) / 3.0;
+    const double frequencies = double(grid.columns) * grid.rows;
+    const double inCells =
+        cellTime * (0.25 * layout.width()) * (double(bytesPerCell(layout.storage)) / 4.0) * area;
+    // What is larger takes longer to prepare too: a twentieth for each doubling.
+    const double doublings = std::max(0.0, std::log2(double(layout.bytes()) / double(1 << 20)));
+    return (frequencies * timeInCache(layout.width(), layout.storage) + inCells) *
+           (1.0 + 0.05 * doublings);
 }
 
 } // namespace
 
-SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box) {
-    const glm::dvec3 center = lattice.center().mm;
-    const auto &[lo, hi] = box;
-    SliceRoom room;
-    for (int corner = 0; corner < 8; ++corner) {
-        const volume::VoxelPoint p{{(corner & 1) != 0 ? hi.i - 1 : lo.i,
-                                    (corner & 2) != 0 ? hi.j - 1 : lo.j,
-                                    (corner & 4) != 0 ? hi.k - 1 : lo.k}};
-        room.radiusMm = std::max(room.radiusMm, glm::distance(center, lattice.patient(p).mm));
-    }
-    return room;
-}
-
 FieldSummary summarise(const classify::DensityField &field) {
     return {field.values.lattice(), field.support, energyMarginals(field.values, field.support)};
-}
-
-SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
-                    const ImageDefinition &image) {
-    const double projection = reachPixels(camera, room, lattice, image);
-    // A copy of the projection, a period away, must stay outside the image: its near edge lies at
-    // period - radius, the image's far edge at half its size plus the pan.
-    const auto cells = [&](int size, double pan) {
-        const double reach = projection + 0.5 * size + std::abs(pan) / camera.pixelMm;
-        // The tails of the roll-off fold in along the border only, so their share of the image's
-        // energy falls with its size, and so does the room they are given.
-        const double tails =
-            room.tails * ringingPixels(image.rollOff) * std::min(1.0, 64.0 / reach);
-        if (!(reach + tails < largestSliceGrid))
-            throw task::Error(
-                task::ErrorCode::outOfMemory,
-                fmt::format("pixels of {:.3g} mm need a slice of more than {} frequencies "
-                            "a side",
-                            camera.pixelMm, largestSliceGrid));
-        return fourier::smoothEvenSize(int(std::ceil(reach + tails)));
-    };
-    return {cells(camera.width, camera.panMm.x), cells(camera.height, camera.panMm.y)};
 }
 
 namespace {
@@ -151,44 +113,43 @@ double wrappedShare(const Camera &camera, const SliceGrid &grid, const FieldSumm
     return std::min(1.0, image / period) / std::min(1.0, image / shadow);
 }
 
-// The slice grid with the least room for the roll-off's tails that leaves the kernel most of the
-// tolerance, and what these tails leave.
+// A slice grid and what the tails that fold back into it leave.
 struct PlannedGrid {
     SliceGrid grid;
     SliceRoom room;
     double folded = 0.0;
+    double wrappedShare = 0.0;
+    double cells() const { return double(grid.columns) * grid.rows; }
 };
 
-PlannedGrid planGrid(const Scene &scene, const FieldSummary &field) {
+// The slice grids worth their time, smallest first.
+std::vector<PlannedGrid> planGrids(const Scene &scene, const FieldSummary &field) {
     const Camera &camera = scene.camera;
-    SliceRoom room{field.energy.radiusMm, 1.0};
-    std::optional<PlannedGrid> best;
-    SliceGrid least;
-    for (const double tails : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0}) {
-        room.tails = tails;
-        SliceGrid grid;
-        try {
-            grid = sliceGrid(camera, room, field.lattice, scene.image);
-        } catch (const task::Error &) {
-            if (best)
-                break;
-            throw;
-        }
-        if (!best)
-            least = grid;
-        // Four times the work is the most that tails are worth, unless that is little.
-        constexpr double littleWork = 512.0 * 512.0;
-        if (double(grid.columns) * grid.rows >
-            std::max(littleWork, 4.0 * double(least.columns) * double(least.rows)))
-            break;
-        const double folded = predictFoldedTails(scene.image, camera, grid.columns, grid.rows,
-                                                 field.energy, field.lattice, field.support);
-        if (!best || folded < best->folded)
-            best = PlannedGrid{grid, room, folded};
-        if (folded <= 0.3 * scene.tolerance)
-            break;
+    std::vector<PlannedGrid> grids;
+    // A fifth stays in reserve: regular patterns have their lines at the edge of some view's band.
+    for (const double share : {0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
+        const SliceRoom room{field.energy.spread, share * scene.tolerance};
+        const SliceGrid grid = sliceGrid(camera, room, field.lattice, scene.image);
+        if (!grids.empty() && grid == grids.back().grid)
+            continue;
+        const double folded =
+            predictFoldedTails(scene.image, camera, grid.columns, grid.rows, *field.energy.spread);
+        grids.push_back({grid, room, folded, wrappedShare(camera, grid, field)});
     }
-    return *best;
+    return grids;
+}
+
+// A ghost lies a padded period away; what does not fall into the image at once may still wrap into
+// it.
+ImageShare imageShare(const Camera &camera, const FieldSummary &field,
+                      const fourier::SpectrumLayout &layout, const PlannedGrid &planned) {
+    const std::array<int, 3> padded{layout.padded.i, layout.padded.j, layout.padded.k};
+    const double half = 0.25 * (camera.width + camera.height) * camera.pixelMm;
+    ImageShare share;
+    for (int d = 0; d < 3; ++d)
+        share.inImage[d] = std::max(planned.wrappedShare,
+                                    std::min(1.0, half / (padded[d] * field.lattice.spacingMm(d))));
+    return share;
 }
 
 template <class T>
@@ -230,58 +191,62 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
     std::array<AxisCandidates, 3> axes{AxisCandidates(size.i, field.energy.axis[0]),
                                        AxisCandidates(size.j, field.energy.axis[1]),
                                        AxisCandidates(size.k, field.energy.axis[2])};
-    // The slice grid depends on box and camera alone.
-    const PlannedGrid planned = planGrid(scene, field);
-    const double wrapped = wrappedShare(scene.camera, planned.grid, field);
+    const std::vector<PlannedGrid> grids = planGrids(scene, field);
+
+    const double leastFolded =
+        std::min_element(grids.begin(), grids.end(), [](const auto &a, const auto &b) {
+            return a.folded < b.folded;
+        })->folded;
 
     std::optional<RenderPlan> best;
-    double bestTime = 0.0;
+    double bestTime = std::numeric_limits<double>::infinity(); // of those within the tolerance
     bool overBudget = false;
     std::size_t leastBytes = std::numeric_limits<std::size_t>::max();
-    for (const auto storage : storages) {
-        for (const auto &choice : kernels) {
-            // More taps and wider cells cost time, whatever they save in padding.
-            if (best && best->predictedError <= scene.tolerance &&
-                leastTime(choice.width, storage) >= bestTime)
-                continue;
-            std::array<std::size_t, 3> level{};
-            for (;;) {
-                std::array<const AxisCandidates::Candidate *, 3> at;
-                std::array<AxisError, 3> errors;
-                for (int d = 0; d < 3; ++d) {
-                    at[d] = &axes[d].at(choice, paddings[level[d]]);
-                    errors[d] = at[d]->error;
-                }
-                const fourier::SpectrumLayout layout{{at[0]->kernel, at[1]->kernel, at[2]->kernel},
-                                                     field.support,
-                                                     {at[0]->padded, at[1]->padded, at[2]->padded},
-                                                     storage};
-                // A ghost lies a padded period away; what does not fall into the image at once may
-                // still wrap into it.
-                ImageShare share;
-                for (int d = 0; d < 3; ++d) {
-                    const double away = at[d]->padded * field.lattice.spacingMm(d);
-                    const double half =
-                        0.25 * (scene.camera.width + scene.camera.height) * scene.camera.pixelMm;
-                    share.inImage[d] = std::max(wrapped, std::min(1.0, half / away));
-                }
-                const double predicted =
-                    std::hypot(predictRelativeError(errors, storage, share), planned.folded);
-                const std::size_t bytes =
-                    layout.peakBytes() + frameBytes(planned.grid, scene.camera);
+    using Levels = std::array<std::size_t, 3>; // of padding, by axis
+    const auto layoutAt = [&](const fourier::KernelChoice &choice, fourier::Storage storage,
+                              const Levels &level, std::array<AxisError, 3> &errors) {
+        const auto &i = axes[0].at(choice, paddings[level[0]]);
+        const auto &j = axes[1].at(choice, paddings[level[1]]);
+        const auto &k = axes[2].at(choice, paddings[level[2]]);
+        errors = {i.error, j.error, k.error};
+        return fourier::SpectrumLayout{
+            {i.kernel, j.kernel, k.kernel}, field.support, {i.padded, j.padded, k.padded}, storage};
+    };
+    const auto predict = [&](const fourier::SpectrumLayout &layout,
+                             const std::array<AxisError, 3> &errors, const PlannedGrid &grid) {
+        return predictRelativeError(errors, layout.storage,
+                                    imageShare(scene.camera, field, layout, grid));
+    };
+    // Kernels that no padding makes good enough are left out at first: making one takes
+    // milliseconds.
+    const auto hopeless = [&](const fourier::KernelChoice &choice, fourier::Storage storage) {
+        std::array<AxisError, 3> errors;
+        const std::size_t most = paddings.size() - 1;
+        const auto layout = layoutAt(choice, storage, {most, most, most}, errors);
+        return std::hypot(predict(layout, errors, grids.back()), leastFolded) > scene.tolerance;
+    };
+    const auto consider = [&](const fourier::KernelChoice &choice, fourier::Storage storage) {
+        Levels level{};
+        for (;;) {
+            std::array<AxisError, 3> errors;
+            const auto layout = layoutAt(choice, storage, level, errors);
+            const std::size_t spectrumBytes = layout.addressable()
+                                                  ? layout.peakBytes()
+                                                  : std::numeric_limits<std::size_t>::max() / 2;
+            bool fits = false;
+            for (const PlannedGrid &planned : grids) {
+                const std::size_t bytes = spectrumBytes + frameBytes(planned.grid, scene.camera);
                 leastBytes = std::min(leastBytes, bytes);
-                if (bytes > budget.bytes) {
-                    overBudget = true;
-                    break; // more padding takes more
-                }
+                if (bytes > budget.bytes)
+                    break; // wider grids take more
+                fits = true;
+                const double predicted =
+                    std::hypot(predict(layout, errors, planned), planned.folded);
+                const double time = frameTime(planned.grid, scene.camera, field.lattice, layout);
                 const bool meets = predicted <= scene.tolerance;
-                // A larger spectrum is slower to read and to prepare: a tenth for each doubling.
-                const double time =
-                    leastTime(layout.width(), storage) *
-                    (1.0 + 0.1 * std::max(0.0, std::log2(double(bytes) / double(1 << 20))));
-                const bool bestMeets = best && best->predictedError <= scene.tolerance;
-                if (!best || (meets && (!bestMeets || time < bestTime)) ||
-                    (!meets && !bestMeets && predicted < best->predictedError)) {
+                const bool unmet = std::isinf(bestTime);
+                if (meets ? time < bestTime
+                          : unmet && (!best || predicted < best->predictedError)) {
                     best = RenderPlan{layout,
                                       scene.image,
                                       planned.room,
@@ -289,21 +254,39 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                                       predictMaximum(errors, storage) + planned.folded,
                                       bytes,
                                       {}};
-                    bestTime = time;
+                    if (meets)
+                        bestTime = time;
                 }
+                if (meets && &planned == &grids.front())
+                    return; // more padding takes more
                 if (meets)
-                    break;
-                // More padding where the ghosts are strongest.
-                int worst = -1;
-                for (int d = 0; d < 3; ++d)
-                    if (level[d] + 1 < paddings.size() &&
-                        (worst < 0 || errors[d].ghosts > errors[worst].ghosts))
-                        worst = d;
-                if (worst < 0)
-                    break;
-                ++level[std::size_t(worst)];
+                    break; // wider grids take longer
             }
+            overBudget = overBudget || !fits;
+            if (!fits)
+                return;
+            // More padding where the ghosts are strongest.
+            int worst = -1;
+            for (int d = 0; d < 3; ++d)
+                if (level[d] + 1 < paddings.size() &&
+                    (worst < 0 || errors[d].ghosts > errors[worst].ghosts))
+                    worst = d;
+            if (worst < 0)
+                return;
+            ++level[std::size_t(worst)];
         }
+    };
+    // More taps and wider cells cost time, whatever they save elsewhere.
+    const auto faster = [&](const fourier::KernelChoice &choice, fourier::Storage storage) {
+        return grids.front().cells() * timeInCache(choice.width, storage) < bestTime;
+    };
+    for (const bool thorough : {false, true}) {
+        if (thorough && !std::isinf(bestTime))
+            break;
+        for (const auto storage : storages)
+            for (const auto &choice : kernels)
+                if (faster(choice, storage) && (thorough || !hopeless(choice, storage)))
+                    consider(choice, storage);
     }
     if (!best)
         throw task::Error(task::ErrorCode::outOfMemory,

@@ -8,6 +8,7 @@
 #include "core/fourier/spectrum.h"
 #include "core/render/error_prediction.h"
 #include "core/render/scene.h"
+#include "core/render/slice_grid.h"
 
 namespace pellucid::render {
 
@@ -24,24 +25,6 @@ FieldSummary summarise(const classify::DensityField &field);
 struct Budget {
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
 };
-
-/// The frequency grid of one image: columns x rows frequencies, 1/(columns pixel) apart, so that
-/// the periodic image they make holds the whole projection beside the asked-for part.
-struct SliceGrid {
-    int columns = 2, rows = 2;
-    bool operator==(const SliceGrid &) const = default;
-};
-
-/// What the slice grid makes room for.
-struct SliceRoom {
-    /// How far the field reaches from the centre of the lattice: what lies beyond is zero.
-    double radiusMm = 0.0;
-    /// Room for the tails of the roll-off, in units of what a tolerance of 1e-3 needs.
-    double tails = 1.0;
-};
-
-/// The room that any field within a box needs.
-SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box);
 
 /// Says how an image of a scene is computed, what it costs and how far from the exact integral it
 /// will be. Pure: made and tested without rendering.
@@ -65,10 +48,5 @@ struct RenderPlan {
 /// that fits. What the scene's `interpolation` fixes stays fixed.
 /// *Throws* Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budget &budget = {});
-
-/// The slice grid for a camera: wide enough that no part of the projection, seen from any
-/// direction, wraps into the image.
-SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
-                    const ImageDefinition &image);
 
 } // namespace pellucid::render

@@ -61,7 +61,8 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_tolerance = new QLineEdit;
     m_tolerance->setObjectName("toleranceEdit");
     m_tolerance->setAccessibleName(tr("Tolerance"));
-    m_tolerance->setToolTip(tr("Largest error of the picture, relative to it: 0.0001 to 30 percent"));
+    m_tolerance->setToolTip(
+        tr("Largest error of the picture, relative to it: 0.0001 to 30 percent"));
     form->addRow(tr("Tolerance"), m_tolerance);
     m_reconstruction = addBox(form, tr("Between"), "reconstructionBox",
                               tr("What lies between the samples of the volume"));

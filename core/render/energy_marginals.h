@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/volume/volume.h"
+
+namespace pellucid::render {
+
+/// How far out a field's energy f^2 lies, and how it varies.
+struct EnergySpread {
+    /// Shares of the energy by the distance from the centre of the lattice along 13 directions (the
+    /// edges, the diagonals of the faces and of the body of a cube in patient space). Entry n is
+    /// for distances from n to n + 1 times `distanceStepMm`.
+    std::vector<std::vector<double>> byDistance;
+    double distanceStepMm = 1.0;
+    /// The sum of the squared shares of blocks of samples: 1 for a point, one over their number for
+    /// an even field.
+    double concentration = 1.0;
+    /// How rough its projections along x, y and z are, the roughest of them: the mean square of the
+    /// differences of neighbours over twice the mean square. 1 for a point or noise without a mean,
+    /// far less for anatomy.
+    double roughness = 1.0;
+    /// How far from the centre of the lattice a sample is not zero, mm.
+    double radiusMm = 0.0;
+};
+
+/// The spread of noise that fills a box.
+EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &box);
+
+/// All that the error of a field's images is predicted from.
+struct EnergyMarginals {
+    /// Along each axis of its box; sums to 1. *Shape*: one entry per sample of the box.
+    std::array<std::vector<double>, 3> axis;
+    std::shared_ptr<const EnergySpread> spread;
+};
+
+EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box);
+
+} // namespace pellucid::render

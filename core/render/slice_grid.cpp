@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/render/slice_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/fourier/padded_size.h"
+#include "core/task/error.h"
+
+namespace pellucid::render {
+
+namespace {
+
+// Larger slices take more memory than any image is worth.
+constexpr int largestSliceGrid = 65536;
+
+// How far a sample's footprint reaches, in samples: the tent ends after one; the cardinal B-spline
+// has fallen to 4e-4 after six; the tapered sinc rings.
+double footprint(const ImageDefinition &image) {
+    switch (image.reconstruction) {
+    case Reconstruction::linear:
+        return 1.0;
+    case Reconstruction::bandLimited:
+        return 0.5 * ringingPixels(image.rollOff);
+    case Reconstruction::cubic:
+        break;
+    }
+    return 6.0;
+}
+
+// How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
+double reachPixels(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
+                   const ImageDefinition &image) {
+    const double longest =
+        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
+    return (room.spread->radiusMm + footprint(image) * longest) / camera.pixelMm;
+}
+
+} // namespace
+
+SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box) {
+    return {std::make_shared<const EnergySpread>(evenSpread(lattice, box))};
+}
+
+SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
+                    const ImageDefinition &image) {
+    const double projection = reachPixels(camera, room, lattice, image);
+    const double allowed = 0.5 * room.foldedTails * room.foldedTails; // of each axis
+    const auto cells = [&](int side, double panMm) {
+        const double pan = std::abs(panMm) / camera.pixelMm;
+        // A copy of the projection, a period away, must stay outside the image: its near edge lies
+        // at period - radius, the image's far edge at half its size plus the pan.
+        const double reach = projection + 0.5 * side + pan;
+        if (!(reach < largestSliceGrid))
+            throw task::Error(
+                task::ErrorCode::outOfMemory,
+                fmt::format("pixels of {:.3g} mm need a slice of more than {} frequencies "
+                            "a side",
+                            camera.pixelMm, largestSliceGrid));
+        const auto keeps = [&](int period) {
+            return foldedTailEnergy(*room.spread, image.rollOff, camera.pixelMm, period, side,
+                                    pan) <= allowed;
+        };
+        const int least = fourier::smoothEvenSize(int(std::ceil(reach)));
+        const int most = std::max(512, 2 * least);
+        if (keeps(least))
+            return least;
+        if (!keeps(most))
+            return fourier::smoothEvenSize(most);
+        int tooFew = least, enough = most; // tails fall with the period
+        while (enough - tooFew > 1) {
+            const int between = (tooFew + enough) / 2;
+            (keeps(between) ? enough : tooFew) = between;
+        }
+        return fourier::smoothEvenSize(enough);
+    };
+    return {cells(camera.width, camera.panMm.x), cells(camera.height, camera.panMm.y)};
+}
+
+} // namespace pellucid::render

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "core/render/folded_tails.h"
+
+namespace pellucid::render {
+
+/// The frequency grid of one image: columns x rows frequencies, 1/(columns pixel) apart, so that
+/// the periodic image they make holds the whole projection beside the asked-for part.
+struct SliceGrid {
+    int columns = 2, rows = 2;
+    bool operator==(const SliceGrid &) const = default;
+};
+
+/// What the slice grid makes room for.
+struct SliceRoom {
+    /// Where the field is: what lies beyond its radius is zero.
+    std::shared_ptr<const EnergySpread> spread;
+    /// What the tails of the roll-off may leave when they fold back, relative L2.
+    double foldedTails = 3e-4;
+};
+
+/// The room that any field within a box needs.
+SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box);
+
+/// The smallest smooth slice grid for a camera that no part of the projection, seen from any
+/// direction, wraps into, and whose folded tails are as asked for; where that takes more than twice
+/// the cells along an axis, and more than 512, those.
+/// *Throws* Error{outOfMemory} for more than 65536 frequencies a side.
+SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
+                    const ImageDefinition &image);
+
+} // namespace pellucid::render
