@@ -7,16 +7,11 @@
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QDockWidget>
-#include <QFile>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
-#include <QProgressBar>
-#include <QPushButton>
-#include <QSaveFile>
 #include <QScreen>
 #include <QSettings>
 #include <QStackedWidget>
@@ -26,29 +21,18 @@
 
 #include "core/task/error.h"
 #include "ui/commands.h"
+#include "ui/panels/job_strip.h"
 #include "ui/panels/quality_panel.h"
 #include "ui/panels/series_panel.h"
 #include "ui/panels/start_page.h"
+#include "ui/recent_paths.h"
+#include "ui/scene_files.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
-#include "ui/window_presets.h"
+#include "ui/window_chooser.h"
 
 namespace pellucid::ui {
-
-namespace {
-
-constexpr int recentCount = 8;
-constexpr const char *recentKey = "recentPaths";
-
-QString windowLabel(const volume::ValueWindow &w) {
-    return QString("%1  %2 / %3")
-        .arg(QString::fromStdString(w.name.empty() ? "Custom" : w.name))
-        .arg(w.width, 0, 'g', 5)
-        .arg(w.center, 0, 'g', 5);
-}
-
-} // namespace
 
 MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     : QMainWindow(parent), m_theme(theme), m_opener(m_document, m_jobs) {
@@ -100,7 +84,7 @@ void MainWindow::createPanes() {
     connect(m_start, &StartPage::phantomRequested, this, &MainWindow::openPhantom);
     connect(m_start, &StartPage::pathRequested, this,
             [this](const QString &path) { openPaths({path}); });
-    m_start->setRecentPaths(QSettings().value(recentKey).toStringList());
+    m_start->setRecentPaths(recentPaths());
     m_stack = new QStackedWidget;
     m_stack->addWidget(m_start);
     m_stack->addWidget(m_panes);
@@ -121,6 +105,7 @@ void MainWindow::createStudyDock() {
 void MainWindow::createQualityDock() {
     auto *panel = new QualityPanel(m_document);
     connect(&m_opener, &StudyOpener::engineReady, panel, &QualityPanel::showPlan);
+    connect(panel, &QualityPanel::chosenAgain, &m_opener, &StudyOpener::followScene);
     connect(m_projection, &ProjectionView::frameShown, panel, &QualityPanel::showFrame);
     auto *dock = new QDockWidget(tr("QUALITY"), this);
     dock->setObjectName("qualityDock");
@@ -158,7 +143,7 @@ void MainWindow::createFileMenu() {
     })->setIconText(tr("Picture"));
     menu->addSeparator();
     addCommand(menu, tr("&Forget recent studies"), "forgetRecentAction", {}, [this] {
-        QSettings().remove(recentKey);
+        forgetRecentPaths();
         m_start->setRecentPaths({});
     });
     addCommand(menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { close(); });
@@ -312,62 +297,26 @@ void MainWindow::createToolBar() {
     auto *space = new QWidget;
     space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
     bar->addWidget(space);
-    m_windowBox = new QComboBox;
-    m_windowBox->setObjectName("windowBox");
-    m_windowBox->setAccessibleName(tr("Window of the planes"));
-    m_windowBox->setToolTip(tr("Window of the planes: width / center (keys 0 to 5)"));
-    m_windowBox->setMinimumWidth(230);
-    bar->addWidget(m_windowBox);
-    connect(m_windowBox, &QComboBox::activated, this, [this](int index) {
-        const auto actions = m_windowMenu->actions();
-        if (index >= 0 && index < actions.size())
-            actions[index]->trigger();
-    });
-    connect(&m_document, &Document::displayWindowChanged, this, &MainWindow::showDisplayWindow);
+    auto *windowBox = new QComboBox;
+    windowBox->setObjectName("windowBox");
+    windowBox->setAccessibleName(tr("Window of the planes"));
+    windowBox->setToolTip(tr("Window of the planes: width / center (keys 0 to 5)"));
+    windowBox->setMinimumWidth(230);
+    bar->addWidget(windowBox);
+    new WindowChooser(m_document, *m_windowMenu, *windowBox);
 }
 
 void MainWindow::createStatusBar() {
     m_readout = new QLabel;
     m_readout->setObjectName("cursorReadout");
     m_readout->setMinimumWidth(280);
-    m_progress = new QProgressBar;
-    m_progress->setObjectName("jobProgress");
-    m_progress->setTextVisible(false);
-    m_progress->setRange(0, 1000);
-    m_progress->setFixedWidth(220);
-    m_jobTitle = new QLabel;
-    m_jobTitle->setObjectName("jobTitle");
-    m_cancel = new QPushButton(tr("Cancel"));
-    m_cancel->setObjectName("cancelButton");
-    m_cancel->setProperty("role", "link");
-    m_cancel->setToolTip(tr("Stop what runs (Esc)"));
     m_engine = new QLabel;
     m_engine->setObjectName("engineLabel");
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_readout);
-    statusBar()->addWidget(m_progress);
-    statusBar()->addWidget(m_jobTitle);
-    statusBar()->addWidget(m_cancel);
+    statusBar()->addWidget(new JobStrip(m_jobs));
     statusBar()->addPermanentWidget(m_engine);
-    const auto idle = [this] {
-        m_progress->hide();
-        m_cancel->hide();
-        m_jobTitle->clear();
-        m_start->setEnabled(true);
-    };
-    idle();
-    connect(m_cancel, &QPushButton::clicked, &m_jobs, &JobRunner::cancel);
-    connect(&m_jobs, &JobRunner::started, this, [this](const QString &title) {
-        if (!m_progress->isVisible())
-            m_progress->setValue(0);
-        m_progress->show();
-        m_cancel->show();
-        m_jobTitle->setText(title);
-    });
-    connect(&m_jobs, &JobRunner::progressed, this,
-            [this](double fraction) { m_progress->setValue(int(1000 * fraction)); });
-    connect(&m_jobs, &JobRunner::finished, this, [this, idle] {
-        idle();
+    connect(&m_jobs, &JobRunner::finished, this, [this] {
         m_projection->jobEnded();
         // A load that was cancelled leaves nothing selected.
         if (!m_document.volume())
@@ -384,47 +333,6 @@ void MainWindow::showVolumeState() {
     m_stack->setCurrentWidget(m_document.volume() || m_document.currentSource() >= 0
                                   ? static_cast<QWidget *>(m_panes)
                                   : m_start);
-    showWindowPresets();
-}
-
-void MainWindow::showWindowPresets() {
-    m_windowMenu->clear();
-    const auto &volume = m_document.volume();
-    m_windowBox->setEnabled(volume.has_value());
-    const QSignalBlocker quiet(m_windowBox);
-    m_windowBox->clear();
-    if (!volume)
-        return;
-    const auto add = [&](const volume::ValueWindow &window, const QKeySequence &key) {
-        QAction *action = m_windowMenu->addAction(windowLabel(window));
-        action->setShortcut(key);
-        connect(action, &QAction::triggered, this, [this, window] { applyWindow(window); });
-        m_windowBox->addItem(windowLabel(window));
-    };
-    add(m_document.initialWindow(), QKeySequence("0"));
-    for (const WindowPreset &preset : windowPresets(*volume))
-        add(preset.window, QKeySequence(QString::number(preset.key)));
-    for (std::size_t n = 1; n < volume->notes().windows.size(); ++n)
-        add(volume->notes().windows[n], {});
-    showDisplayWindow();
-}
-
-void MainWindow::showDisplayWindow() {
-    if (!m_document.volume())
-        return;
-    const QSignalBlocker quiet(m_windowBox);
-    // The presets come first; a window that is none of them has the last row.
-    while (m_windowBox->count() > m_windowMenu->actions().size())
-        m_windowBox->removeItem(m_windowBox->count() - 1);
-    const QString text = windowLabel(m_document.displayWindow());
-    if (m_windowBox->findText(text) < 0)
-        m_windowBox->addItem(text);
-    m_windowBox->setCurrentIndex(m_windowBox->findText(text));
-}
-
-void MainWindow::applyWindow(const volume::ValueWindow &window) {
-    if (m_document.volume() && !(m_document.displayWindow() == window))
-        m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
 }
 
 void MainWindow::openPaths(const QStringList &paths) {
@@ -436,15 +344,8 @@ void MainWindow::openPhantom(const QString &kind) {
 }
 
 void MainWindow::remember(const QStringList &paths) {
-    QSettings settings;
-    QStringList recent = settings.value(recentKey).toStringList();
-    for (const QString &path : paths) {
-        recent.removeAll(path);
-        recent.prepend(path);
-    }
-    recent = recent.mid(0, recentCount);
-    settings.setValue(recentKey, recent);
-    m_start->setRecentPaths(recent);
+    addRecentPaths(paths);
+    m_start->setRecentPaths(recentPaths());
 }
 
 void MainWindow::report(const QString &what, const QString &path) {
@@ -455,6 +356,15 @@ void MainWindow::report(const QString &what, const QString &path) {
     else
         m_projection->setMessage(what);
     statusBar()->showMessage(what, 8000);
+}
+
+void MainWindow::attempt(const std::function<void()> &what) {
+    try {
+        what();
+    } catch (const task::Error &error) {
+        report(QString::fromStdString(error.reason()),
+               QString::fromStdString(error.path().string()));
+    }
 }
 
 void MainWindow::chooseFiles() {
@@ -477,9 +387,7 @@ void MainWindow::savePicture() {
                                                       tr("PNG image (*.png)"));
     if (path.isEmpty())
         return;
-    QSaveFile file(path);
-    if (!file.open(QIODevice::WriteOnly) || !picture.save(&file, "PNG") || !file.commit())
-        report(tr("cannot be written: %1").arg(file.errorString()), path);
+    attempt([&] { writePictureFile(path, picture); });
 }
 
 void MainWindow::saveScene() {
@@ -487,10 +395,7 @@ void MainWindow::saveScene() {
         QFileDialog::getSaveFileName(this, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
-    QSaveFile file(path);
-    const QByteArray text = QByteArray::fromStdString(render::toJson(m_document.scene()));
-    if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
-        report(tr("cannot be written: %1").arg(file.errorString()), path);
+    attempt([&] { writeSceneFile(path, m_document.scene()); });
 }
 
 void MainWindow::openScene() {
@@ -498,18 +403,11 @@ void MainWindow::openScene() {
         QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
-    QFile file(path);
-    if (!file.open(QIODevice::ReadOnly)) {
-        report(file.errorString(), path);
-        return;
-    }
-    try {
-        const render::Scene scene = render::sceneFromJson(file.readAll().toStdString());
+    attempt([&] {
+        const render::Scene scene = readSceneFile(path);
         m_document.undoStack()->push(new EditScene(m_document, scene, tr("Open scene")));
         m_projection->adoptCamera(scene.camera);
-    } catch (const task::Error &error) {
-        report(QString::fromStdString(error.reason()), path);
-    }
+    });
 }
 
 void MainWindow::showManual() {

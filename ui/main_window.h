@@ -13,10 +13,7 @@
 #include "ui/tools.h"
 
 class QActionGroup;
-class QComboBox;
 class QLabel;
-class QProgressBar;
-class QPushButton;
 class QStackedWidget;
 
 namespace pellucid::ui {
@@ -59,9 +56,6 @@ private:
     void createToolBar();
     void createStatusBar();
     void showVolumeState();
-    void showWindowPresets();
-    void showDisplayWindow();
-    void applyWindow(const volume::ValueWindow &window);
     void chooseFiles();
     void chooseFolder();
     void savePicture();
@@ -71,6 +65,8 @@ private:
     void showAbout();
     void remember(const QStringList &paths);
     void report(const QString &what, const QString &path);
+    /// Runs it and reports what it throws.
+    void attempt(const std::function<void()> &what);
     QAction *addCommand(QMenu *menu, const QString &text, const char *name, const QKeySequence &key,
                         const std::function<void()> &run);
 
@@ -86,10 +82,7 @@ private:
     QActionGroup *m_tools = nullptr, *m_reconstructions = nullptr, *m_layouts = nullptr;
     QAction *m_film = nullptr;
     QMenu *m_windowMenu = nullptr;
-    QComboBox *m_windowBox = nullptr;
-    QLabel *m_readout = nullptr, *m_jobTitle = nullptr, *m_engine = nullptr;
-    QProgressBar *m_progress = nullptr;
-    QPushButton *m_cancel = nullptr;
+    QLabel *m_readout = nullptr, *m_engine = nullptr;
 };
 
 } // namespace pellucid::ui

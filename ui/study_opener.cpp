@@ -25,20 +25,24 @@ constexpr int coarseSide = 96;
 StudyOpener::StudyOpener(Document &document, JobRunner &jobs, QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs) {
     connect(&document, &Document::sceneChanged, this, &StudyOpener::followScene);
+    // Done or cancelled: what was not delivered is not there.
+    connect(&jobs, &JobRunner::finished, this, [this] { m_underway.reset(); });
 }
 
 void StudyOpener::followScene() {
     const Prepared wanted(m_document.scene());
     const auto &volume = m_document.volume();
-    if (!volume || m_document.isPreview() || !volume->notes().placed || wanted == m_prepared)
+    if (!volume || m_document.isPreview() || !volume->notes().placed ||
+        wanted == (m_underway ? m_underway : m_prepared))
         return;
     // The picture of another field is wrong, that of another quality is still a picture.
-    const bool coarseFirst = !(wanted.window == m_prepared.window);
-    m_prepared = wanted;
+    const bool coarseFirst = !m_prepared || !(wanted.window == m_prepared->window);
     m_jobs.start(tr("Preparing the projection"),
                  [this, volume = *volume, wanted, coarseFirst](const Job &job) {
                      prepare(job, volume, wanted, 0.0, coarseFirst);
                  });
+    // Now that the end of the former job has been told.
+    m_underway = wanted;
 }
 
 void StudyOpener::prepare(const Job &job, const volume::Volume &volume, const Prepared &wanted,
@@ -57,7 +61,12 @@ void StudyOpener::prepare(const Job &job, const volume::Volume &volume, const Pr
     const auto announce = [&](const classify::DensityField &f, bool coarse,
                               const task::Progress &p) {
         const auto prepared = render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p);
-        job.deliver([this, prepared, coarse] { emit engineReady(prepared, coarse); });
+        job.deliver([this, prepared, coarse, wanted] {
+            // A coarse picture leaves the full one wanted.
+            if (!coarse)
+                m_prepared = wanted;
+            emit engineReady(prepared, coarse);
+        });
     };
     const volume::GridSize n = volume.lattice().size();
     if (coarseFirst && (n.i > coarseSide || n.j > coarseSide || n.k > coarseSide))
@@ -100,37 +109,38 @@ void StudyOpener::openSource(int index) {
     const StudySource source = m_document.sources().at(std::size_t(index));
     // First, because the end of the former job tidies up after it.
     m_jobs.cancel();
-    m_prepared = Prepared(m_document.scene());
-    m_prepared.window.reset();
+    m_prepared.reset();
+    Prepared wanted(m_document.scene());
+    wanted.window.reset(); // a new volume has its own
     m_document.setCurrentSource(index);
     m_document.closeVolume();
-    m_jobs.start(
-        tr("Loading %1").arg(source.series), [this, source, wanted = m_prepared](const Job &job) {
-            dicom::LoadObserver observer;
-            observer.preview = [&](const volume::Volume &soFar) {
-                const volume::ValueWindow window = initialWindow(soFar);
-                job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, true); });
-            };
-            const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
-            const volume::Volume volume = loaded.volume;
-            const volume::ValueWindow window = initialWindow(volume);
-            job.deliver([this, loaded, window] {
-                m_document.addProblems(loaded.skipped);
-                m_document.setVolume(loaded.volume, window, false);
-                // The quality may have been changed while the volume came.
-                followScene();
-            });
-            if (!volume.notes().placed) {
-                job.deliver([this, volume] {
-                    const auto &warnings = volume.notes().warnings;
-                    emit notProjectable(warnings.empty() ? tr("images only")
-                                                         : QString::fromStdString(warnings.back()));
-                });
-                return;
-            }
-            job.stage(tr("Preparing the projection"));
-            prepare(job, volume, wanted, 0.6, true);
+    m_jobs.start(tr("Loading %1").arg(source.series), [this, source, wanted](const Job &job) {
+        dicom::LoadObserver observer;
+        observer.preview = [&](const volume::Volume &soFar) {
+            const volume::ValueWindow window = initialWindow(soFar);
+            job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, true); });
+        };
+        const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
+        const volume::Volume volume = loaded.volume;
+        const volume::ValueWindow window = initialWindow(volume);
+        job.deliver([this, loaded, window] {
+            m_document.addProblems(loaded.skipped);
+            m_document.setVolume(loaded.volume, window, false);
+            // The quality may have been changed while the volume came.
+            followScene();
         });
+        if (!volume.notes().placed) {
+            job.deliver([this, volume] {
+                const auto &warnings = volume.notes().warnings;
+                emit notProjectable(warnings.empty() ? tr("images only")
+                                                     : QString::fromStdString(warnings.back()));
+            });
+            return;
+        }
+        job.stage(tr("Preparing the projection"));
+        prepare(job, volume, wanted, 0.6, true);
+    });
+    m_underway = wanted;
 }
 
 } // namespace pellucid::ui

@@ -24,6 +24,9 @@ public:
     void openPaths(const QStringList &paths);
     void openPhantom(const QString &kind);
     void openSource(int index);
+    /// Prepares the projection that the document's scene asks for, unless it is there or on its
+    /// way.
+    void followScene();
 
 signals:
     /// The paths held something.
@@ -44,14 +47,13 @@ private:
         render::Interpolation interpolation;
         bool operator==(const Prepared &) const = default;
     };
-    void followScene();
     void prepare(const class Job &job, const volume::Volume &volume, const Prepared &wanted,
                  double from, bool coarseFirst);
 
     Document &m_document;
     JobRunner &m_jobs;
-    /// What the last engine was, or is being, made for.
-    Prepared m_prepared{render::Scene()};
+    /// What the last engine was made for, and what the next one is being made for.
+    std::optional<Prepared> m_prepared, m_underway;
 };
 
 } // namespace pellucid::ui

@@ -5,11 +5,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/volume/lattice.h"
+
 namespace pellucid::cli {
 
 /// Indented JSON; bytes of a header that are no UTF-8 are replaced instead of refused.
 inline std::string jsonText(const nlohmann::json &value) {
     return value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+inline nlohmann::json sizeJson(const volume::GridSize &size) {
+    return {size.i, size.j, size.k};
 }
 
 } // namespace pellucid::cli

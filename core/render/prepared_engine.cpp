@@ -27,7 +27,10 @@ double energy(const volume::Volume &field) {
 } // namespace
 
 FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
-                       const FieldSummary &summary, const Budget &budget) {
+                       const FieldSummary &summary, const Budget &budget,
+                       const task::Progress &progress) {
+    // A slice too large for any memory stays so, however coarse the field.
+    sliceGrid(scene.camera, {summary.energy.spread}, summary.lattice, scene.image);
     try {
         return {planRender(scene, summary, budget), std::nullopt, 1};
     } catch (const task::Error &error) {
@@ -36,6 +39,7 @@ FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
         const volume::GridSize n = field.values.lattice().size();
         const int longest = std::max({n.i, n.j, n.k});
         for (int reduction = 2; longest / reduction >= fewestSamples; ++reduction) {
+            progress.check();
             auto coarse = classify::coarseField(field, (longest + reduction - 1) / reduction);
             // Samples need memory too.
             const std::size_t held = coarse.values.bytes();
@@ -54,8 +58,8 @@ FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
                 plan.predictedMaximum = std::max(plan.predictedMaximum, lost);
                 plan.bytes += held;
                 plan.reason = fmt::format("means of {0} x {0} x {0} samples: more does not fit the "
-                                          "memory",
-                                          reduction);
+                                          "memory; of them {1}",
+                                          reduction, plan.reason);
                 fitting.reducedField = std::move(coarse);
                 return fitting;
             } catch (const task::Error &smaller) {
@@ -69,12 +73,12 @@ FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
 
 PreparedEngine prepareEngine(const Scene &scene, const classify::DensityField &field,
                              const Budget &budget, const task::Progress &progress) {
-    FittingPlan fitting = planWithin(scene, field, summarise(field), budget);
+    FittingPlan fitting = planWithin(scene, field, summarise(field), budget, progress);
     const auto &source = fitting.reducedField ? *fitting.reducedField : field;
     auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(source.values, fitting.plan.spectrum, progress));
     return {std::make_shared<CpuEngine>(std::move(spectrum), fitting.plan.room),
-            std::move(fitting.plan), fitting.reduction};
+            std::move(fitting.plan)};
 }
 
 } // namespace pellucid::render

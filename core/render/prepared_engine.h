@@ -19,15 +19,15 @@ struct FittingPlan {
 /// What fits is used; what does not is reduced in this order: storage, padding, resolution. The
 /// predicted error of a reduced field counts the detail that the means leave out, as its share of
 /// the field's energy: projections, which average too, lose less. *Throws* Error{outOfMemory} if
-/// 32 samples a side do not fit either.
+/// 32 samples a side do not fit either, or if it is the image that is too large; Cancelled.
 FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
-                       const FieldSummary &summary, const Budget &budget);
+                       const FieldSummary &summary, const Budget &budget,
+                       const task::Progress &progress = {});
 
 /// An engine, ready to render.
 struct PreparedEngine {
     std::shared_ptr<CpuEngine> engine;
     RenderPlan plan;
-    int reduction = 1;
 };
 
 /// Plans within the budget and prepares the spectrum. *Throws* Error{outOfMemory}, Cancelled.

@@ -243,6 +243,19 @@ private slots:
         tolerance->setText("not a number");
         QTest::keyClick(tolerance, Qt::Key_Return);
         QCOMPARE(tolerance->text(), QString("0.01 %")); // refused, what holds is shown again
+        QVERIFY(find<QLabel>("planReasonLabel")->text().contains("not a number"));
+
+        // A cancelled preparation leaves the former plan; choosing the same again makes up for it.
+        auto *padding = find<QComboBox>("paddingBox");
+        padding->setCurrentIndex(padding->findText("1.25"));
+        emit padding->activated(padding->currentIndex());
+        m_window->jobs().cancel();
+        QVERIFY(find<QLabel>("paddingLabel")->text().startsWith("2."));
+        emit padding->activated(padding->currentIndex());
+        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() &&
+                                     find<QLabel>("paddingLabel")->text().startsWith("1."),
+                                 patienceMs);
+        m_window->document().undoStack()->undo();
 
         m_window->document().undoStack()->undo();
         m_window->document().undoStack()->undo();

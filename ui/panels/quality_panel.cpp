@@ -74,6 +74,11 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     for (const char *name : {"LS3", "LS4", "LS5", "LS6", "LS7", "ES4", "ES5", "KB4", "KB5",
                              "hamming-sinc", "b-spline", "catmull-rom", "trilinear", "nearest"})
         m_kernel->addItem(name, QString(name));
+    m_padding = addBox(form, tr("Padding"), "paddingBox",
+                       tr("Padded size over the field's, at least, along each axis"));
+    m_padding->addItem(tr("As needed"), 0.0);
+    for (const double padding : {1.25, 1.5, 2.0})
+        m_padding->addItem(QString::number(padding), padding);
     m_storage =
         addBox(form, tr("Storage"), "storageBox", tr("How a number of the spectrum is kept"));
     m_storage->addItem(tr("As needed"), QString());
@@ -85,8 +90,8 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_largest = addFigure(form, tr("Largest"), "predictedMaximumLabel",
                           tr("Largest error of a pixel over the brightest pixel, predicted"));
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
-    m_padding = addFigure(form, tr("Padding"), "paddingLabel",
-                          tr("Padded size over size, along columns, rows and slices"));
+    m_padded = addFigure(form, tr("Padded"), "paddingLabel",
+                         tr("Padded size over size, along columns, rows and slices"));
     m_reason = new QLabel;
     m_reason->setObjectName("planReasonLabel");
     m_reason->setProperty("role", "muted");
@@ -107,6 +112,14 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
             scene.interpolation.kernel.reset();
             if (!name.empty())
                 scene.interpolation.kernel = fourier::kernelFromName(name);
+        });
+    });
+    connect(m_padding, &QComboBox::activated, this, [this] {
+        change(tr("Padding"), [this](render::Scene &scene) {
+            const double padding = m_padding->currentData().toDouble();
+            scene.interpolation.padding.reset();
+            if (padding > 0.0)
+                scene.interpolation.padding = padding;
         });
     });
     connect(m_storage, &QComboBox::activated, this, [this] {
@@ -130,7 +143,9 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
 void QualityPanel::change(const QString &what, const std::function<void(render::Scene &)> &edit) {
     render::Scene scene = m_document.scene();
     edit(scene);
-    if (!(scene == m_document.scene()))
+    if (scene == m_document.scene())
+        emit chosenAgain();
+    else
         m_document.undoStack()->push(new EditScene(m_document, scene, what));
 }
 
@@ -145,12 +160,18 @@ void QualityPanel::chooseTolerance(int index) {
 }
 
 void QualityPanel::typeTolerance() {
+    if (m_tolerance->text() == percent(m_document.scene().tolerance))
+        return;
     bool isNumber = false;
-    const double typed = m_tolerance->text().remove('%').trimmed().toDouble(&isNumber) / 100.0;
+    // Both decimal signs are typed, whatever the machine's language.
+    const QString text = m_tolerance->text().remove('%').replace(',', '.').trimmed();
+    const double typed = text.toDouble(&isNumber) / 100.0;
     // Below what single precision holds there is nothing to choose, above a third nothing to see.
-    if (isNumber && std::isfinite(typed) && typed >= 1e-6 && typed <= 0.3 &&
-        m_tolerance->text() != percent(m_document.scene().tolerance))
+    const bool good = isNumber && std::isfinite(typed) && typed >= 1e-6 && typed <= 0.3;
+    if (good)
         change(tr("Tolerance"), [&](render::Scene &scene) { scene.tolerance = typed; });
+    else
+        m_reason->setText(tr("'%1' is no tolerance: 0.0001 to 30 percent").arg(text));
     showScene();
 }
 
@@ -172,11 +193,15 @@ void QualityPanel::showScene() {
     };
     const render::Interpolation &fixed = scene.interpolation;
     show(m_kernel, fixed.kernel ? fourier::kernelName(*fixed.kernel) : std::string());
+    const double padding = fixed.padding.value_or(0.0);
+    if (m_padding->findData(padding) < 0)
+        m_padding->addItem(QString::number(padding), padding);
+    m_padding->setCurrentIndex(m_padding->findData(padding));
     show(m_storage, fixed.storage ? fourier::storageName(*fixed.storage) : std::string());
 }
 
 void QualityPanel::clearPlan() {
-    for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padding})
+    for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padded})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
 }
@@ -191,7 +216,7 @@ void QualityPanel::showPlan(const render::PreparedEngine &prepared, bool coarse)
     const auto padding = [&](int d) {
         return QString::number(double(spectrum.padded[d]) / box[d], 'f', 2);
     };
-    m_padding->setText(tr("%1 x %2 x %3").arg(padding(0), padding(1), padding(2)));
+    m_padded->setText(tr("%1 x %2 x %3").arg(padding(0), padding(1), padding(2)));
     m_plan->setText(tr("%1, %2 bit, %3 MB")
                         .arg(QString::fromStdString(spectrum.kernels[0].name()))
                         .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)

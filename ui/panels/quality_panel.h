@@ -24,6 +24,10 @@ public:
     void showPlan(const render::PreparedEngine &prepared, bool coarse);
     void showFrame(const render::FrameTimes &times, bool draft);
 
+signals:
+    /// What the scene asks for already was chosen once more, as after a cancelled preparation.
+    void chosenAgain();
+
 private:
     void showScene();
     void clearPlan();
@@ -32,9 +36,9 @@ private:
     void change(const QString &what, const std::function<void(render::Scene &)> &edit);
 
     Document &m_document;
-    QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_storage;
+    QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_padding, *m_storage;
     QLineEdit *m_tolerance;
-    QLabel *m_time, *m_error, *m_largest, *m_plan, *m_padding, *m_reason;
+    QLabel *m_time, *m_error, *m_largest, *m_plan, *m_padded, *m_reason;
 };
 
 } // namespace pellucid::ui

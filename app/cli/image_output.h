@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "core/render/projection_image.h"
+#include "core/render/scene.h"
+
+namespace pellucid::cli {
+
+/// *Throws* Error{usage} unless the path ends in .png, .npy or .nrrd.
+void checkOutput(const std::filesystem::path &out);
+
+/// Writes a projection: as a picture through the scene's tone (.png), or its values (.npy, .nrrd).
+/// *Throws* Error{unusable}.
+void writeImage(const std::filesystem::path &path, const render::ProjectionImage &image,
+                const render::Scene &scene, const volume::Lattice &patient);
+
+/// OUT_0007.png for frame 7.
+std::filesystem::path framePath(const std::filesystem::path &out, int frame);
+
+} // namespace pellucid::cli

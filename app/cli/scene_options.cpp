@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/scene_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/input.h"
+#include "core/task/error.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using task::Error;
+using task::ErrorCode;
+
+const std::map<std::string, render::StandardView> views{
+    {"front", render::StandardView::front}, {"back", render::StandardView::back},
+    {"left", render::StandardView::left},   {"right", render::StandardView::right},
+    {"top", render::StandardView::top},     {"bottom", render::StandardView::bottom}};
+
+const std::map<std::string, render::Reconstruction> reconstructions{
+    {"cubic", render::Reconstruction::cubic},
+    {"linear", render::Reconstruction::linear},
+    {"band-limited", render::Reconstruction::bandLimited}};
+
+render::Scene readScene(const fs::path &path) {
+    std::ifstream in(path);
+    if (!in)
+        throw Error(ErrorCode::unusable, "cannot be read", path);
+    std::ostringstream text;
+    text << in.rdbuf();
+    try {
+        return render::sceneFromJson(text.str());
+    } catch (const Error &error) {
+        throw Error(error.code(), error.reason(), path);
+    }
+}
+
+} // namespace
+
+void addSceneOptions(CLI::App &command, SceneOptions &options) {
+    const CLI::Validator positive(
+        [](std::string &text) {
+            char *end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            const bool good =
+                end != text.c_str() && *end == '\0' && std::isfinite(value) && value > 0.0;
+            return good ? std::string() : "'" + text + "' is not a positive number";
+        },
+        "", "positive");
+    const auto names = [](const auto &map) {
+        std::vector<std::string> keys;
+        for (const auto &[key, value] : map)
+            keys.push_back(key);
+        return keys;
+    };
+    command.add_option("--view", options.view, "Standard view, default front")
+        ->check(CLI::IsMember(names(views)));
+    command.add_option("--azimuth", options.azimuthDeg,
+                       "Degrees about the patient's long axis, added to the view");
+    command.add_option("--elevation", options.elevationDeg,
+                       "Degrees up from the horizon, added to the view");
+    command.add_option("--roll", options.rollDeg,
+                       "Degrees about the line of sight, added to the view");
+    command.add_option("--orientation", options.orientation,
+                       "Rotation [U V W] as a quaternion w,x,y,z");
+    command.add_option("--size", options.size,
+                       "Image size WxH in pixels; default: holds every view");
+    command
+        .add_option("--pixel-mm", options.pixelMm,
+                    "Pixel size in mm; default: the shortest voxel step")
+        ->check(positive);
+    command.add_option("--window", options.window, "The field's window LO,HI in value units");
+    command.add_option("--reconstruction", options.reconstruction, "What lies between the samples")
+        ->check(CLI::IsMember(names(reconstructions)));
+    command
+        .add_option("--roll-off", options.rollOff,
+                    "Share of the band that is rolled off, default 0.05")
+        ->check(CLI::Range(0.0, 1.0));
+    CLI::Option *quality =
+        command.add_option("--quality", options.quality, "Named tolerance, default standard")
+            ->check(CLI::IsMember(names(render::namedTolerances)));
+    command.add_option("--tolerance", options.tolerance, "Largest relative L2 error")
+        ->check(positive)
+        ->excludes(quality);
+    command.add_option("--kernel", options.kernel,
+                       "Interpolation kernel; default: the cheapest that keeps the tolerance");
+    command
+        .add_option("--padding", options.padding, "Padded size over field size, default as needed")
+        ->check(CLI::Range(1.0, 4.0));
+    command.add_option("--storage", options.storage, "Cells of the spectrum, default as needed")
+        ->check(CLI::IsMember({"f16", "f32"}));
+    command.add_option("--scene", options.scene, "Start from a scene saved as JSON");
+}
+
+render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
+                       const volume::Lattice &lattice) {
+    const auto given = [&](const char *name) { return command.count(name) > 0; };
+    render::Scene scene;
+    if (!o.scene.empty()) {
+        scene = readScene(o.scene);
+    } else {
+        // A large volume may have no default image; naming a size or a pixel gives it one.
+        if (!given("--size") && !given("--pixel-mm"))
+            scene.camera = render::defaultCamera(lattice);
+        scene.camera.orientation = render::viewOrientation(render::StandardView::front);
+        scene.camera.pixelMm = lattice.shortestStepMm();
+    }
+    for (const auto &[name, value] : {std::pair{"--azimuth", o.azimuthDeg},
+                                      {"--elevation", o.elevationDeg},
+                                      {"--roll", o.rollDeg},
+                                      {"--roll-off", std::max(o.rollOff, 0.0)}})
+        if (!std::isfinite(value))
+            throw Error(ErrorCode::usage, std::string(name) + ": the number must be finite");
+    if (given("--orientation")) {
+        if (given("--view") || given("--azimuth") || given("--elevation") || given("--roll"))
+            throw Error(ErrorCode::usage,
+                        "--orientation excludes --view, --azimuth, --elevation and --roll");
+        const auto q = parseNumbers("--orientation", o.orientation, ',', 4);
+        // Scaled first, so that huge and tiny quaternions can be normalised too.
+        const double largest =
+            std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3]), 1e-300});
+        const glm::dquat rotation(q[0] / largest, q[1] / largest, q[2] / largest, q[3] / largest);
+        if (!(glm::length(rotation) > 0.0))
+            throw Error(ErrorCode::usage, "--orientation: the quaternion must not be zero");
+        scene.camera.orientation = glm::normalize(rotation);
+    } else if (o.scene.empty() || given("--view") || given("--azimuth") || given("--elevation") ||
+               given("--roll")) {
+        scene.camera.orientation =
+            render::viewOrientation(o.view.empty() ? render::StandardView::front : views.at(o.view),
+                                    {o.azimuthDeg, o.elevationDeg, o.rollDeg});
+    }
+    if (given("--pixel-mm")) {
+        scene.camera.pixelMm = o.pixelMm;
+        if (o.scene.empty() && !given("--size")) { // the whole volume at that pixel
+            const double side = 2.0 * lattice.radiusMm() / o.pixelMm;
+            if (!(o.pixelMm > 0.0) || side > render::largestImageSize)
+                throw Error(
+                    ErrorCode::usage,
+                    fmt::format(
+                        "--pixel-mm: an image of the whole volume would have {:.0f} pixels a side",
+                        side));
+            const int n = int(std::ceil(side - 1e-6));
+            scene.camera.width = scene.camera.height = std::max(2, n + n % 2);
+        }
+    }
+    if (given("--size")) {
+        if (o.size.find_first_not_of("0123456789x") != std::string::npos)
+            throw Error(ErrorCode::usage,
+                        "--size: '" + o.size + "' is not whole numbers with 'x' between them");
+        const auto n = parseNumbers("--size", o.size, 'x', 2);
+        if (n[0] != std::round(n[0]) || n[1] != std::round(n[1]) || std::min(n[0], n[1]) < 1 ||
+            std::max(n[0], n[1]) > render::largestImageSize)
+            throw Error(ErrorCode::usage,
+                        fmt::format("--size: '{}' is not WIDTHxHEIGHT of 1 to {} pixels", o.size,
+                                    render::largestImageSize));
+        scene.camera.width = int(n[0]);
+        scene.camera.height = int(n[1]);
+    }
+    if (given("--window"))
+        scene.fieldWindow = parseWindow(o.window);
+    if (given("--reconstruction"))
+        scene.image.reconstruction = reconstructions.at(o.reconstruction);
+    if (given("--roll-off"))
+        scene.image.rollOff = o.rollOff;
+    if (given("--quality"))
+        for (const auto &[name, tolerance] : render::namedTolerances)
+            if (o.quality == name)
+                scene.tolerance = tolerance;
+    if (given("--tolerance"))
+        scene.tolerance = o.tolerance;
+    if (given("--kernel"))
+        scene.interpolation.kernel = fourier::kernelFromName(o.kernel);
+    if (given("--padding"))
+        scene.interpolation.padding = o.padding;
+    if (given("--storage"))
+        scene.interpolation.storage = fourier::storageFromName(o.storage);
+    render::validate(scene);
+    return scene;
+}
+
+} // namespace pellucid::cli

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/render/frame_strips_hwy.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target comes first.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <hwy/highway.h>
+#include <type_traits>
+#include <utility>
+
+#include "core/render/frame_job.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pellucid::render::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using fourier::stripFloats;
+using fourier::stripLanes;
+using fourier::StripStage;
+using fourier::StripTransform;
+#include "core/fourier/strip_transform_hwy.inc"
+#include "core/fourier/transpose_hwy.inc"
+#include "core/render/frame_sums_hwy.inc"
+#include "core/render/frame_weights_hwy.inc"
+
+template <int W, class Cell>
+void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
+    const StripBounds &bounds = job.strips[strip];
+    const int column = strip * stripLanes;
+    const auto *cells = reinterpret_cast<const Cell *>(job.spectrum->cells());
+    const auto prepare = [&](int row) {
+        FrequencyBatch &batch = scratch.batches[(row + job.rows) % (batchesAhead + 1)];
+        const int ring = std::abs(row) - bounds.innerRow - 1;
+        prepareBatch<W>(job, column, row,
+                        ring < 0 ? nullptr
+                                 : job.rollOff + bounds.rollOff + std::size_t(ring) * stripLanes,
+                        batch);
+        prefetchBatch<W>(batch, cells);
+    };
+    for (int row = -bounds.outerRow; row < -bounds.outerRow + batchesAhead; ++row)
+        if (row <= bounds.outerRow)
+            prepare(row);
+    HWY_ALIGN float sums[stripFloats];
+    for (int row = -bounds.outerRow; row <= bounds.outerRow; ++row) {
+        if (row + batchesAhead <= bounds.outerRow)
+            prepare(row + batchesAhead);
+        const FrequencyBatch &batch = scratch.batches[(row + job.rows) % (batchesAhead + 1)];
+        sumBatch<W>(batch, cells, sums);
+        finishBatch(job, batch, sums, column, row,
+                    scratch.strips + std::size_t(row < 0 ? row + job.rows : row) * stripFloats);
+    }
+    // The field's sum is known before any rounding, and decides the brightness of the whole image.
+    if (strip == 0) {
+        scratch.strips[0] = float(job.zeroFrequency);
+        scratch.strips[stripLanes] = 0.0F;
+    }
+}
+
+template <class Cell> void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
+    switch (job.spectrum->layout().width()) {
+    case 1:
+        return interpolateStrip<1, Cell>(job, strip, scratch);
+    case 2:
+        return interpolateStrip<2, Cell>(job, strip, scratch);
+    case 3:
+        return interpolateStrip<3, Cell>(job, strip, scratch);
+    case 4:
+        return interpolateStrip<4, Cell>(job, strip, scratch);
+    case 5:
+        return interpolateStrip<5, Cell>(job, strip, scratch);
+    case 6:
+        return interpolateStrip<6, Cell>(job, strip, scratch);
+    default:
+        return interpolateStrip<7, Cell>(job, strip, scratch);
+    }
+}
+
+void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
+    const StripBounds &bounds = job.strips[strip];
+    const double start = frameClockSeconds();
+    // Rows beyond the disc are zero.
+    float *const empty = scratch.strips + std::size_t(bounds.outerRow + 1) * stripFloats;
+    std::memset(empty, 0,
+                std::size_t(job.rows - 2 * bounds.outerRow - 1) * stripFloats * sizeof(float));
+    if (job.spectrum->layout().storage == fourier::Storage::binary16)
+        interpolateStrip<Half>(job, strip, scratch);
+    else
+        interpolateStrip<std::complex<float>>(job, strip, scratch);
+    scratch.sliceSeconds += frameClockSeconds() - start;
+
+    const float *const result = runTransform(*job.alongRows, scratch.strips, scratch.beside);
+    const int imageRows = std::min(job.imageRows, job.rows);
+    const std::size_t columns = std::size_t(job.stripCount) * stripLanes;
+    for (int row = 0; row < imageRows; row += stripLanes) {
+        const float *const from = result + std::size_t(row) * stripFloats;
+        float *const to =
+            job.lines +
+            ((std::size_t(row) / stripLanes) * columns + std::size_t(strip) * 16) * stripFloats;
+        transpose(from, stripFloats, to, stripFloats);
+        transpose(from + stripLanes, stripFloats, to + stripLanes, stripFloats);
+    }
+    scratch.stripSeconds += frameClockSeconds() - start;
+}
+
+const char *targetName() {
+    return hwy::TargetName(HWY_TARGET);
+}
+
+} // namespace pellucid::render::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pellucid::render {
+
+HWY_EXPORT(sliceOneStrip);
+HWY_EXPORT(targetName);
+
+void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
+    HWY_DYNAMIC_DISPATCH(sliceOneStrip)(job, strip, scratch);
+}
+
+const char *instructionSet() {
+    return HWY_DYNAMIC_DISPATCH(targetName)();
+}
+
+double frameClockSeconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+} // namespace pellucid::render
+#endif

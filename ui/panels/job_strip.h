@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace pellucid::ui {
+
+class JobRunner;
+
+/// What runs, how far it is, and the way to stop it: a part of the status bar, empty when nothing
+/// runs.
+class JobStrip : public QWidget {
+    Q_OBJECT
+public:
+    explicit JobStrip(JobRunner &jobs, QWidget *parent = nullptr);
+
+private:
+    void showStarted(const QString &title);
+
+    QProgressBar *m_progress;
+    QLabel *m_title;
+    QPushButton *m_cancel;
+};
+
+} // namespace pellucid::ui
