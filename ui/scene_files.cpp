@@ -18,7 +18,7 @@ using task::ErrorCode;
 template <class Write> void save(const QString &path, const Write &write) {
     QSaveFile file(path);
     if (!file.open(QIODevice::WriteOnly) || !write(file) || !file.commit())
-        throw Error(ErrorCode::unusable,
+        throw Error(ErrorCode::output,
                     QCoreApplication::translate("SceneFiles", "cannot be written: %1")
                         .arg(file.errorString())
                         .toStdString(),

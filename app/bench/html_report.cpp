@@ -8,6 +8,7 @@
 
 #include "app/bench/report.h"
 #include "core/files/atomic_file.h"
+#include "core/task/error.h"
 
 namespace pellucid::bench {
 
@@ -123,9 +124,16 @@ std::string growthPlot(const std::filesystem::path &folder, const std::vector<Ro
 
 } // namespace
 
+void makeReportFolder(const std::filesystem::path &folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw task::Error(task::ErrorCode::output, error.message(), folder);
+}
+
 void writeHtmlReport(const std::filesystem::path &folder, const Machine &machine,
                      const std::vector<Row> &rows) {
-    std::filesystem::create_directories(folder);
+    makeReportFolder(folder);
     std::map<std::string, std::vector<Row>> suites;
     for (const Row &r : rows)
         suites[r.suite].push_back(r);

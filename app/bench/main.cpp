@@ -7,20 +7,49 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "app/bench/suites.h"
 #include "core/files/atomic_file.h"
+#include "core/reference/wide_kernel.h"
 #include "core/task/error.h"
+#include "core/task/memory.h"
 #include "core/volume/nrrd.h"
 
 namespace {
 
-void save(const std::string &path, const std::string &text) {
-    if (path.empty())
-        return;
-    pellucid::files::AtomicFile file(path);
-    file.write(std::as_bytes(std::span(text)));
-    file.commit();
+// A file to write at the end, opened before the long work.
+class Output {
+public:
+    explicit Output(const std::string &path) {
+        if (!path.empty())
+            m_file.emplace(path);
+    }
+    void save(const std::string &text) {
+        if (!m_file)
+            return;
+        m_file->write(std::as_bytes(std::span(text)));
+        m_file->commit();
+    }
+
+private:
+    std::optional<pellucid::files::AtomicFile> m_file;
+};
+
+pellucid::bench::Subject readSubject(const std::string &path) {
+    using namespace pellucid;
+    const auto volume = volume::readNrrd(path);
+    bench::Subject subject{std::filesystem::path(path).stem().string(),
+                           classify::densityField(volume, classify::defaultFieldWindow(volume))};
+    // The exact reference that errors are taken against is the largest thing by far.
+    const std::size_t needed = reference::WideKernel::bytes(subject.field.support);
+    const std::size_t available = task::availableMemoryBytes();
+    if (needed > available)
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          fmt::format("its exact projection needs {} MB, {} MB are available",
+                                      (needed >> 20) + 1, available >> 20),
+                          path);
+    return subject;
 }
 
 void run(const std::string &suite, const pellucid::bench::Report &report,
@@ -58,6 +87,17 @@ int main(int argc, char **argv) {
                    "Write an HTML report into a folder, and the gnuplot script of its plots");
     try {
         app.parse(argc, argv);
+        Output jsonFile(json), csvFile(csv);
+        if (!reportFolder.empty())
+            bench::makeReportFolder(reportFolder);
+        std::optional<bench::Subject> given;
+        if (!file.empty()) {
+            for (const std::string &suite : suites)
+                if (suite != "kernels" && suite != "scaling")
+                    throw task::Error(task::ErrorCode::usage,
+                                      "--volume goes with --suite kernels or scaling");
+            given = readSubject(file);
+        }
         const auto machine = bench::thisMachine();
         std::fputs(bench::tableHead(machine).c_str(), stdout);
         std::vector<bench::Row> rows;
@@ -66,22 +106,11 @@ int main(int argc, char **argv) {
             std::fflush(stdout);
             rows.push_back(row);
         };
-        std::optional<bench::Subject> given;
-        if (!file.empty()) {
-            for (const std::string &suite : suites)
-                if (suite != "kernels" && suite != "scaling")
-                    throw task::Error(task::ErrorCode::usage,
-                                      "--volume goes with --suite kernels or scaling");
-            const auto volume = volume::readNrrd(file);
-            given = bench::Subject{
-                std::filesystem::path(file).stem().string(),
-                classify::densityField(volume, classify::defaultFieldWindow(volume))};
-        }
         const bench::Subject *const subject = given ? &*given : nullptr;
         for (const std::string &suite : suites)
             run(suite, report, subject);
-        save(json, bench::jsonText(machine, rows));
-        save(csv, bench::csvText(rows));
+        jsonFile.save(bench::jsonText(machine, rows));
+        csvFile.save(bench::csvText(rows));
         if (!reportFolder.empty())
             bench::writeHtmlReport(reportFolder, machine, rows);
     } catch (const CLI::Success &success) {

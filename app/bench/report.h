@@ -43,6 +43,8 @@ std::string tableLine(const Row &row);
 /// {"machine": ..., "rows": [...]}; a figure that was not measured is null.
 std::string jsonText(const Machine &machine, const std::vector<Row> &rows);
 std::string csvText(const std::vector<Row> &rows);
+/// Makes the folder of a report where there is none. *Throws* Error{output}.
+void makeReportFolder(const std::filesystem::path &folder);
 /// report.html, the data of its plots, and plots.gp, which gnuplot turns into them.
 /// *Throws* Error{output}.
 void writeHtmlReport(const std::filesystem::path &folder, const Machine &machine,

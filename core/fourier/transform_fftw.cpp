@@ -125,7 +125,19 @@ std::string wisdom() {
     return result;
 }
 
-bool saveWisdom(const std::string &text) {
+// Takes in what a file knows. What cannot be read, a folder for instance, or is not understood is
+// ignored. Call with the planner locked.
+void readWisdom(const std::filesystem::path &path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream read;
+    read << in.rdbuf();
+    fftwf_import_wisdom_from_string(read.str().c_str());
+}
+
+bool saveWisdom() {
+    // Another process may have learnt something meanwhile.
+    readWisdom(wisdomFile());
+    const std::string text = wisdom();
     try {
         files::AtomicFile file(wisdomFile());
         file.write(std::as_bytes(std::span(text)));
@@ -139,14 +151,10 @@ bool saveWisdom(const std::string &text) {
 } // namespace
 
 void keepWisdomIn(const std::filesystem::path &file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream read;
-    read << in.rdbuf(); // what cannot be read, a folder for instance, leaves it empty
-    const std::string text = read.str();
     const std::lock_guard lock(plannerMutex());
     wisdomFile() = file;
     Fftw<float>::useThreads(1); // wisdom is of an FFTW that knows the same solvers
-    fftwf_import_wisdom_from_string(text.c_str()); // refuses what it does not know
+    readWisdom(file);
 }
 
 struct ForwardTransform1d::Plan {
@@ -170,7 +178,7 @@ ForwardTransform1d::ForwardTransform1d(int length) : m_plan(new Plan{}) {
         if (m_plan->plan != nullptr)
             return;
         const fftwf_plan measured = plan(FFTW_MEASURE);
-        if (saveWisdom(wisdom())) {
+        if (saveWisdom()) {
             m_plan->plan = measured;
             return;
         }

@@ -30,25 +30,28 @@ void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     const StripBounds &bounds = job.strips[strip];
     const int column = strip * stripLanes;
     const auto *cells = reinterpret_cast<const Cell *>(job.spectrum->cells());
+    const auto batchOf = [&](int row) -> FrequencyBatch & {
+        return scratch.batches[(row + job.rows) % (batchesAhead + 1)];
+    };
     const auto prepare = [&](int row) {
-        FrequencyBatch &batch = scratch.batches[(row + job.rows) % (batchesAhead + 1)];
         const int ring = std::abs(row) - bounds.innerRow - 1;
         prepareBatch<W>(job, column, row,
                         ring < 0 ? nullptr
                                  : job.rollOff + bounds.rollOff + std::size_t(ring) * stripLanes,
-                        batch);
-        prefetchBatch<W>(batch, cells);
+                        batchOf(row));
     };
-    for (int row = -bounds.outerRow; row < -bounds.outerRow + batchesAhead; ++row)
-        if (row <= bounds.outerRow)
-            prepare(row);
+    const int first = -bounds.outerRow, last = bounds.outerRow;
+    for (int row = first; row < first + batchesAhead && row <= last; ++row) {
+        prepare(row);
+        prefetchPart<W>(batchOf(row), cells, 0, 1);
+    }
     HWY_ALIGN float sums[stripFloats];
-    for (int row = -bounds.outerRow; row <= bounds.outerRow; ++row) {
-        if (row + batchesAhead <= bounds.outerRow)
-            prepare(row + batchesAhead);
-        const FrequencyBatch &batch = scratch.batches[(row + job.rows) % (batchesAhead + 1)];
-        sumBatch<W>(batch, cells, sums);
-        finishBatch(job, batch, sums, column, row,
+    for (int row = first; row <= last; ++row) {
+        const int ahead = std::min(row + batchesAhead, last);
+        if (ahead == row + batchesAhead)
+            prepare(ahead);
+        sumBatch<W>(batchOf(row), batchOf(ahead), cells, sums);
+        finishBatch(job, batchOf(row), sums, column, row,
                     scratch.strips + std::size_t(row < 0 ? row + job.rows : row) * stripFloats);
     }
     // The field's sum is known before any rounding, and decides the brightness of the whole image.

@@ -96,6 +96,9 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_reason->setObjectName("planReasonLabel");
     m_reason->setProperty("role", "muted");
     m_reason->setWordWrap(true);
+    m_reason->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    // Room for the longest reason: a dock does not grow with the text of its panel.
+    m_reason->setMinimumHeight(4 * m_reason->fontMetrics().lineSpacing());
     form->addRow(m_reason);
 
     connect(m_quality, &QComboBox::activated, this, &QualityPanel::chooseTolerance);
