@@ -105,7 +105,7 @@ void MainWindow::createStudyDock() {
 void MainWindow::createQualityDock() {
     auto *panel = new QualityPanel(m_document);
     connect(&m_opener, &StudyOpener::engineReady, panel, &QualityPanel::showPlan);
-    connect(panel, &QualityPanel::chosenAgain, &m_opener, &StudyOpener::followScene);
+    connect(panel, &QualityPanel::chosenAgain, &m_opener, &StudyOpener::prepareAgain);
     connect(m_projection, &ProjectionView::frameShown, panel, &QualityPanel::showFrame);
     auto *dock = new QDockWidget(tr("QUALITY"), this);
     dock->setObjectName("qualityDock");
@@ -316,6 +316,7 @@ void MainWindow::createStatusBar() {
     statusBar()->addWidget(m_readout);
     statusBar()->addWidget(new JobStrip(m_jobs));
     statusBar()->addPermanentWidget(m_engine);
+    connect(&m_jobs, &JobRunner::started, m_projection, &ProjectionView::jobStarted);
     connect(&m_jobs, &JobRunner::finished, this, [this] {
         m_projection->jobEnded();
         // A load that was cancelled leaves nothing selected.
@@ -405,6 +406,10 @@ void MainWindow::openScene() {
         return;
     attempt([&] {
         const render::Scene scene = readSceneFile(path);
+        if (classify::mixesColors(scene.look))
+            throw task::Error(task::ErrorCode::unusable,
+                              "its coloured classes are not shown by the window in this version",
+                              path.toStdString());
         m_document.undoStack()->push(new EditScene(m_document, scene, tr("Open scene")));
         m_projection->adoptCamera(scene.camera);
     });

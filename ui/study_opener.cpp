@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "core/classify/coarse_field.h"
-#include "core/classify/density_field.h"
+#include "core/classify/shown_fields.h"
 #include "core/dicom/scan.h"
 #include "core/task/memory.h"
 #include "ui/document.h"
@@ -26,23 +27,45 @@ StudyOpener::StudyOpener(Document &document, JobRunner &jobs, QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs) {
     connect(&document, &Document::sceneChanged, this, &StudyOpener::followScene);
     // Done or cancelled: what was not delivered is not there.
-    connect(&jobs, &JobRunner::finished, this, [this] { m_underway.reset(); });
+    connect(&jobs, &JobRunner::finished, this, [this] {
+        m_scanning = false;
+        if (m_underway)
+            m_givenUp = std::exchange(m_underway, std::nullopt);
+    });
+}
+
+void StudyOpener::prepareAgain() {
+    m_givenUp.reset();
+    followScene();
 }
 
 void StudyOpener::followScene() {
     const Prepared wanted(m_document.scene());
     const auto &volume = m_document.volume();
-    if (!volume || m_document.isPreview() || !volume->notes().placed ||
-        wanted == (m_underway ? m_underway : m_prepared))
+    if (!volume || m_document.isPreview() || !volume->notes().placed || m_scanning ||
+        wanted == m_underway || wanted == m_givenUp)
         return;
+    if (wanted == m_prepared) {
+        // Back to what is shown: nothing else is wanted any more.
+        if (m_underway)
+            m_jobs.cancel();
+        return;
+    }
+    startPreparing();
+}
+
+void StudyOpener::startPreparing() {
+    const Prepared wanted(m_document.scene());
     // The picture of another field is wrong, that of another quality is still a picture.
-    const bool coarseFirst = !m_prepared || !(wanted.window == m_prepared->window);
+    const bool coarseFirst =
+        !m_prepared || !(wanted.window == m_prepared->window) || !(wanted.look == m_prepared->look);
     m_jobs.start(tr("Preparing the projection"),
-                 [this, volume = *volume, wanted, coarseFirst](const Job &job) {
+                 [this, volume = *m_document.volume(), wanted, coarseFirst](const Job &job) {
                      prepare(job, volume, wanted, 0.0, coarseFirst);
                  });
     // Now that the end of the former job has been told.
     m_underway = wanted;
+    m_givenUp.reset();
 }
 
 void StudyOpener::prepare(const Job &job, const volume::Volume &volume, const Prepared &wanted,
@@ -55,16 +78,20 @@ void StudyOpener::prepare(const Job &job, const volume::Volume &volume, const Pr
     scene.camera.pixelMm = volume.lattice().shortestStepMm();
     scene.camera.width = scene.camera.height =
         int(std::clamp(2.0 * volume.lattice().radiusMm() / scene.camera.pixelMm, 2.0, 4096.0));
-    const auto field =
-        classify::densityField(volume, wanted.window.value_or(classify::defaultFieldWindow(volume)),
-                               progress.part(0.0, 0.1));
+    const auto fields =
+        classify::shownFields(volume, wanted.window.value_or(classify::defaultFieldWindow(volume)),
+                              wanted.look, progress.part(0.0, 0.1));
+    const classify::DensityField &field = fields.channels.front(); // one: see MainWindow::openScene
     const auto announce = [&](const classify::DensityField &f, bool coarse,
                               const task::Progress &p) {
         const auto prepared = render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p);
         job.deliver([this, prepared, coarse, wanted] {
             // A coarse picture leaves the full one wanted.
-            if (!coarse)
+            if (!coarse) {
                 m_prepared = wanted;
+                m_underway.reset();
+                m_givenUp.reset();
+            }
             emit engineReady(prepared, coarse);
         });
     };
@@ -89,13 +116,17 @@ void StudyOpener::openPaths(const QStringList &paths) {
             if (catalogue->empty()) {
                 if (catalogue->skipped.empty())
                     m_document.addProblems({{files.front(), "holds no images"}});
+                m_scanning = false;
+                prepareAgain(); // what the scan stopped
                 return;
             }
             const auto indices = m_document.addSources(sourcesFrom(catalogue));
             emit pathsOpened(paths);
+            m_scanning = false;
             openSource(indices[defaultSource(*catalogue)]);
         });
     });
+    m_scanning = true;
 }
 
 void StudyOpener::openPhantom(const QString &kind) {
@@ -104,12 +135,16 @@ void StudyOpener::openPhantom(const QString &kind) {
 
 void StudyOpener::openSource(int index) {
     // What is shown or on its way already need not come again.
-    if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning()))
+    if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning())) {
+        if (m_document.volume())
+            prepareAgain(); // what a scan stopped
         return;
+    }
     const StudySource source = m_document.sources().at(std::size_t(index));
     // First, because the end of the former job tidies up after it.
     m_jobs.cancel();
     m_prepared.reset();
+    m_givenUp.reset();
     Prepared wanted(m_document.scene());
     wanted.window.reset(); // a new volume has its own
     m_document.setCurrentSource(index);

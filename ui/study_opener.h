@@ -25,8 +25,8 @@ public:
     void openPhantom(const QString &kind);
     void openSource(int index);
     /// Prepares the projection that the document's scene asks for, unless it is there or on its
-    /// way.
-    void followScene();
+    /// way, even if that was cancelled or failed before.
+    void prepareAgain();
 
 signals:
     /// The paths held something.
@@ -40,20 +40,26 @@ private:
     /// What of a scene an engine is made for; the rest changes from frame to frame.
     struct Prepared {
         explicit Prepared(const render::Scene &scene)
-            : window(scene.fieldWindow), tolerance(scene.tolerance),
+            : window(scene.fieldWindow), look(scene.look), tolerance(scene.tolerance),
               interpolation(scene.interpolation) {}
         std::optional<classify::FieldWindow> window;
+        classify::Look look;
         double tolerance;
         render::Interpolation interpolation;
         bool operator==(const Prepared &) const = default;
     };
+    /// The same, but what was given up stays so.
+    void followScene();
+    void startPreparing();
     void prepare(const class Job &job, const volume::Volume &volume, const Prepared &wanted,
                  double from, bool coarseFirst);
 
     Document &m_document;
     JobRunner &m_jobs;
-    /// What the last engine was made for, and what the next one is being made for.
-    std::optional<Prepared> m_prepared, m_underway;
+    /// What the last engine was made for, what the next one is being made for, and what was
+    /// cancelled or failed.
+    std::optional<Prepared> m_prepared, m_underway, m_givenUp;
+    bool m_scanning = false;
 };
 
 } // namespace pellucid::ui

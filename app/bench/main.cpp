@@ -18,23 +18,19 @@
 
 namespace {
 
-// A file to write at the end, opened before the long work.
-class Output {
-public:
-    explicit Output(const std::string &path) {
-        if (!path.empty())
-            m_file.emplace(path);
-    }
-    void save(const std::string &text) {
-        if (!m_file)
-            return;
-        m_file->write(std::as_bytes(std::span(text)));
-        m_file->commit();
-    }
+// Refuses at once what could only be said after minutes of measuring.
+void checkWritable(const std::filesystem::path &path) {
+    if (!path.empty())
+        pellucid::files::AtomicFile{path};
+}
 
-private:
-    std::optional<pellucid::files::AtomicFile> m_file;
-};
+void save(const std::string &path, const std::string &text) {
+    if (path.empty())
+        return;
+    pellucid::files::AtomicFile file(path);
+    file.write(std::as_bytes(std::span(text)));
+    file.commit();
+}
 
 pellucid::bench::Subject readSubject(const std::string &path) {
     using namespace pellucid;
@@ -87,9 +83,12 @@ int main(int argc, char **argv) {
                    "Write an HTML report into a folder, and the gnuplot script of its plots");
     try {
         app.parse(argc, argv);
-        Output jsonFile(json), csvFile(csv);
-        if (!reportFolder.empty())
+        checkWritable(json);
+        checkWritable(csv);
+        if (!reportFolder.empty()) {
             bench::makeReportFolder(reportFolder);
+            checkWritable(std::filesystem::path(reportFolder) / "report.html");
+        }
         std::optional<bench::Subject> given;
         if (!file.empty()) {
             for (const std::string &suite : suites)
@@ -109,8 +108,8 @@ int main(int argc, char **argv) {
         const bench::Subject *const subject = given ? &*given : nullptr;
         for (const std::string &suite : suites)
             run(suite, report, subject);
-        jsonFile.save(bench::jsonText(machine, rows));
-        csvFile.save(bench::csvText(rows));
+        save(json, bench::jsonText(machine, rows));
+        save(csv, bench::csvText(rows));
         if (!reportFolder.empty())
             bench::writeHtmlReport(reportFolder, machine, rows);
     } catch (const CLI::Success &success) {

@@ -34,10 +34,6 @@ Subject noiseSphere(int n) {
             })};
 }
 
-Subject noiseCube(int n) {
-    return {fmt::format("noise cube {}", n), noise(n, [](int, int, int) { return true; })};
-}
-
 Subject phantomSubject(const std::string &name, phantom::Kind kind,
                        const phantom::Sampling &sampling) {
     const auto volume = phantom::makePhantom(kind, phantom::phantomLattice(kind, sampling));

@@ -19,8 +19,6 @@ struct Subject {
 /// White noise without a mean in the inscribed sphere: a flat spectrum, so that no frequency is
 /// favoured. *Units*: field values -1..1.
 Subject noiseSphere(int n);
-/// The same over the whole lattice, to its corners.
-Subject noiseCube(int n);
 /// A phantom through the default window.
 Subject phantomSubject(const std::string &name, phantom::Kind kind,
                        const phantom::Sampling &sampling);

@@ -17,7 +17,7 @@ void runQuickSuite(const Report &report);
 /// Every kernel at every padding and storage on one field: error against time. 64^3 noise in a
 /// sphere and a head; or the given volume.
 void runKernelsSuite(const Report &report, const Subject *given);
-/// The default quality from 64^3 to 512^3 beside the ray sum and the shear-warp sum, with the
+/// The default quality from 128^3 to 512^3 beside the ray sum and the shear-warp sum, with the
 /// exponents of their growth.
 void runScalingSuite(const Report &report, const Subject *given);
 /// The fields that break projectors, at four tolerances.

@@ -59,9 +59,11 @@ void writeImage(const fs::path &path, const render::ProjectionImage &image,
         files::writePng(path, render::compose(image, scene.tone), image.height, image.width);
         break;
     case OutputKind::npy:
-        files::writeNpy(path, image.samples, image.height, image.width);
+        files::writeNpy(path, image.samples, image.height, image.width, image.channels);
         break;
     case OutputKind::nrrd:
+        if (image.channels > 1)
+            throw Error(ErrorCode::usage, "-o: coloured pictures are written as .png or .npy");
         writeImageNrrd(path, image, scene.camera, patient);
         break;
     }

@@ -12,7 +12,7 @@ namespace pellucid::cli {
 void checkOutput(const std::filesystem::path &out);
 
 /// Writes a projection: as a picture through the scene's tone (.png), or its values (.npy, .nrrd).
-/// *Throws* Error{unusable}.
+/// *Throws* Error{output}, Error{usage} for a kind that cannot hold it.
 void writeImage(const std::filesystem::path &path, const render::ProjectionImage &image,
                 const render::Scene &scene, const volume::Lattice &patient);
 

@@ -35,9 +35,15 @@ struct Options {
     bool turntable = false, json = false;
 };
 
+bool isEmpty(const classify::DensityField &field) {
+    return field.support.size().count() == 1 && field.values.value(field.support.lo) == 0.0;
+}
+
 void run(const Options &o, const CLI::App &command, const Context &context) {
     const fs::path out(o.out);
-    checkOutput(out); // refused before any work is done
+    // Refused before any work is done.
+    checkOutput(out);
+    lookFor(o.scene);
     if (o.engine == "gpu")
         throw Error(ErrorCode::noSuchDevice,
                     "--engine gpu: the GPU engine is not available in this version");
@@ -53,19 +59,21 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     Stopwatch watch;
     const classify::FieldWindow window =
         scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
-    const std::size_t held = volume.bytes() + volume.lattice().size().count() * sizeof(float);
+    const std::size_t held =
+        volume.bytes() + classify::peakBytes(scene.look, volume.lattice().size().count());
     if (command.count("--memory") > 0 && o.memory < held)
         throw Error(ErrorCode::outOfMemory,
                     fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
                                 o.memory >> 20),
                     o.path);
-    const auto field = classify::densityField(volume, window, task::Progress(context.stop));
+    const auto fields =
+        classify::shownFields(volume, window, scene.look, task::Progress(context.stop));
     // Asking for more than there is would end in the system killing the program.
     render::Budget budget{task::availableMemoryBytes()};
     if (command.count("--memory") > 0)
         budget.bytes = std::min(budget.bytes, std::size_t(o.memory - held));
     const double fieldMs = watch.lapMs();
-    Renderer renderer(scene, field, budget, context);
+    Renderer renderer(scene, fields, budget, context);
     const double prepareMs = watch.lapMs();
     std::vector<std::string> warnings = volume.notes().warnings;
     const auto warn = [&](const std::string &text) {
@@ -77,9 +85,12 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (renderer.predictedError() > scene.tolerance && scene.tolerance > 1e-9)
         warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
                          renderer.predictedError()));
-    if (field.support.size().count() == 1 && field.values.value(field.support.lo) == 0.0)
-        warn(fmt::format("the field is empty: no value lies above {} within a window of {} to {}",
-                         window.low, window.low, window.high));
+    if (std::all_of(fields.channels.begin(), fields.channels.end(), isEmpty))
+        warn(scene.look.classes.empty()
+                 ? fmt::format("the field is empty: no value lies above {} within a window of {} "
+                               "to {}",
+                               window.low, window.low, window.high)
+                 : std::string("the field is empty: no value belongs to a class that is shown"));
 
     render::FrameTimes times;
     double writeMs = 0.0;
@@ -108,6 +119,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                   {"size", {scene.camera.width, scene.camera.height}},
                   {"pixel_mm", scene.camera.pixelMm},
                   {"frames", frames},
+                  {"channels", renderer.channelCount()},
                   {"volume",
                    {{"size", sizeJson(l.size())},
                     {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},

@@ -46,7 +46,50 @@ render::Scene readScene(const fs::path &path) {
     }
 }
 
+std::vector<double> weightsFromText(const std::string &text) {
+    const auto count = std::size_t(std::count(text.begin(), text.end(), ',')) + 1;
+    return parseNumbers("--bezier", text, ',', count);
+}
+
+classify::TissueClass classFromText(const std::string &text) {
+    const auto equals = text.find('=');
+    const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
+    if (equals == std::string::npos)
+        throw Error(ErrorCode::usage, "--class: '" + text + "' is not NAME=WEIGHT[:#rrggbb]");
+    classify::TissueClass tissue = classNamed(text.substr(0, equals));
+    // Grey unless a colour is named: so is the picture then.
+    tissue.color = colon == std::string::npos ? classify::Color{}
+                                              : classify::colorFromText(text.substr(colon + 1));
+    tissue.weight =
+        parseNumbers("--class",
+                     text.substr(equals + 1, colon == std::string::npos ? std::string::npos
+                                                                        : colon - equals - 1),
+                     ',', 1)
+            .front();
+    return tissue;
+}
+
 } // namespace
+
+const classify::TissueClass &classNamed(const std::string &name) {
+    std::string names;
+    for (const classify::TissueClass &tissue : classify::standardClasses()) {
+        if (tissue.name == name)
+            return tissue;
+        names += (names.empty() ? "" : ", ") + tissue.name;
+    }
+    throw Error(ErrorCode::usage, "--class: '" + name + "' is none of " + names);
+}
+
+classify::Look lookFor(const SceneOptions &options) {
+    classify::Look look;
+    if (!options.bezier.empty())
+        look.transferFunction.weights = weightsFromText(options.bezier);
+    for (const std::string &text : options.classes)
+        look.classes.push_back(classFromText(text));
+    classify::validate(look);
+    return look;
+}
 
 void addSceneOptions(CLI::App &command, SceneOptions &options) {
     const CLI::Validator positive(
@@ -81,6 +124,12 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
                     "Pixel size in mm; default: the shortest voxel step")
         ->check(positive);
     command.add_option("--window", options.window, "The field's window LO,HI in value units");
+    command.add_option("--bezier", options.bezier,
+                       "Weights w0,w1,... of the transfer function, 2 to 16 of 0 to 2");
+    command
+        .add_option("--class", options.classes,
+                    "NAME=WEIGHT[:#rrggbb]: show the classes named, by weight 0 to 2; repeat it")
+        ->allow_extra_args(false);
     command.add_option("--reconstruction", options.reconstruction, "What lies between the samples")
         ->check(CLI::IsMember(names(reconstructions)));
     command
@@ -169,6 +218,11 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
     }
     if (given("--window"))
         scene.fieldWindow = parseWindow(o.window);
+    const classify::Look look = lookFor(o);
+    if (given("--bezier"))
+        scene.look.transferFunction = look.transferFunction;
+    if (given("--class"))
+        scene.look.classes = look.classes;
     if (given("--reconstruction"))
         scene.image.reconstruction = reconstructions.at(o.reconstruction);
     if (given("--roll-off"))

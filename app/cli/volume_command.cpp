@@ -5,6 +5,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
+#include "app/cli/scene_options.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -13,28 +14,30 @@ namespace pellucid::cli {
 namespace {
 
 struct Options {
-    std::string path, out, series, window;
+    std::string path, out, series, window, tissue;
     bool field = false, gzip = false;
 };
 
 void run(const Options &o, const CLI::App &command, const Context &context) {
     if (std::filesystem::path(o.out).extension() != ".nrrd")
         throw task::Error(task::ErrorCode::usage, "-o: '" + o.out + "' must end in .nrrd");
-    if (command.count("--window") > 0 && !o.field)
-        throw task::Error(task::ErrorCode::usage, "--window needs --field");
+    if (command.count("--window") > 0 && !o.field && o.tissue.empty())
+        throw task::Error(task::ErrorCode::usage, "--window needs --field or --class");
+    const classify::TissueClass *const tissue = o.tissue.empty() ? nullptr : &classNamed(o.tissue);
     std::optional<classify::FieldWindow> window;
     if (command.count("--window") > 0)
         window = parseWindow(o.window);
     const Input input = openInput(o.path, o.series, context);
     const volume::Volume &volume = input.loaded.volume;
     const auto encoding = o.gzip ? volume::NrrdEncoding::gzip : volume::NrrdEncoding::raw;
-    if (!o.field) {
+    if (!o.field && tissue == nullptr) {
         volume::writeNrrd(o.out, volume, encoding, task::Progress(context.stop));
         return;
     }
-    const auto field =
-        classify::densityField(volume, window.value_or(classify::defaultFieldWindow(volume)),
-                               task::Progress(context.stop));
+    const task::Progress progress(context.stop);
+    const auto wanted = window.value_or(classify::defaultFieldWindow(volume));
+    const auto field = tissue != nullptr ? classify::classField(volume, wanted, *tissue, progress)
+                                         : classify::densityField(volume, wanted, progress);
     volume::writeNrrd(o.out, field.values, encoding, task::Progress(context.stop));
 }
 
@@ -48,7 +51,10 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
     c->add_option("-o,--output", o->out, "The NRRD file")->required();
     c->add_option("--series", o->series,
                   "Series number or UID; default: the volume with most voxels");
-    c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
+    CLI::Option *field =
+        c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
+    c->add_option("--class", o->tissue, "Write the field of a standard class, as --field otherwise")
+        ->excludes(field);
     c->add_option("--window", o->window, "The field's window LO,HI in value units");
     c->add_flag("--gzip", o->gzip, "Compress the samples");
     c->callback([o, c, context] { run(*o, *c, context); });

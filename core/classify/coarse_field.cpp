@@ -52,8 +52,8 @@ DensityField coarseField(const DensityField &field, int side) {
                     float(sums[n] / (double(block[0]) * block[1] * block[2]));
         });
     });
-    return densityField(volume::Volume(lattice, std::move(means), volume::ValueUnit::none),
-                        {0.0, 1.0});
+    const volume::Volume like(lattice, means, volume::ValueUnit::none);
+    return fieldOf(like, std::move(means));
 }
 
 } // namespace pellucid::classify

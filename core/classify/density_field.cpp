@@ -2,6 +2,7 @@
 #include "core/classify/density_field.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 
 #include <fmt/format.h>
@@ -35,6 +36,13 @@ struct Mapping {
         return f >= 1.0F ? 1.0F : f > 0.0F ? f : 0.0F;
     }
 };
+
+// An empty box becomes the middle sample.
+VoxelBox orMiddle(const VoxelBox &box, volume::GridSize size) {
+    if (box.hi.i > box.lo.i)
+        return box;
+    return {{size.i / 2, size.j / 2, size.k / 2}, {size.i / 2 + 1, size.j / 2 + 1, size.k / 2 + 1}};
+}
 
 template <class T>
 VoxelBox mapSlices(std::span<const T> in, std::vector<float> &out, volume::GridSize size,
@@ -80,22 +88,46 @@ DensityField densityField(const volume::Volume &volume, const FieldWindow &windo
     const Mapping map{float(window.low), width > 0.0 ? float(1.0 / width) : 0.0F};
     try {
         std::vector<float> values(size.count());
-        VoxelBox box = volume.visit([&](auto samples) {
+        const VoxelBox box = volume.visit([&](auto samples) {
             using T = std::remove_const_t<typename decltype(samples)::element_type>;
             return mapSlices<T>(samples, values, size, map, progress);
         });
-        if (box.hi.i <= box.lo.i)
-            box = {{size.i / 2, size.j / 2, size.k / 2},
-                   {size.i / 2 + 1, size.j / 2 + 1, size.k / 2 + 1}};
         progress.report(1.0);
         return {volume::Volume(volume.lattice(), std::move(values), volume::ValueUnit::none,
                                volume.notes()),
-                box};
+                orMiddle(box, size)};
     } catch (const std::bad_alloc &) {
         throw task::Error(
             task::ErrorCode::outOfMemory,
             fmt::format("not enough memory for a field of {} x {} x {}", size.i, size.j, size.k));
     }
+}
+
+DensityField fieldOf(const volume::Volume &like, std::vector<float> samples) {
+    const volume::GridSize size = like.lattice().size();
+    const VoxelBox box = tbb::parallel_reduce(
+        tbb::blocked_range<int>(0, size.k), VoxelBox{},
+        [&](const tbb::blocked_range<int> &range, VoxelBox sum) {
+            for (int k = range.begin(); k != range.end(); ++k)
+                for (int j = 0; j < size.j; ++j) {
+                    const float *const row =
+                        samples.data() + (std::size_t(k) * size.j + j) * size.i;
+                    const float *const end = row + size.i;
+                    const auto isSet = [](float f) { return f != 0.0F; };
+                    const float *const first = std::find_if(row, end, isSet);
+                    if (first == end)
+                        continue;
+                    const auto last = std::find_if(std::make_reverse_iterator(end),
+                                                   std::make_reverse_iterator(first), isSet)
+                                          .base();
+                    sum = united(sum, {{int(first - row), j, k}, {int(last - row), j + 1, k + 1}});
+                }
+            return sum;
+        },
+        united);
+    return {
+        volume::Volume(like.lattice(), std::move(samples), volume::ValueUnit::none, like.notes()),
+        orMiddle(box, size)};
 }
 
 } // namespace pellucid::classify

@@ -17,7 +17,7 @@ struct FieldWindow {
 /// quantiles of the finite samples.
 FieldWindow defaultFieldWindow(const volume::Volume &volume);
 
-/// What is projected: f in 0..1 on the volume's own lattice.
+/// What is projected, on the volume's own lattice: a density f in 0..1, or a weighted one.
 struct DensityField {
     volume::Volume values; ///< float32, the whole lattice
     volume::VoxelBox
@@ -28,5 +28,8 @@ struct DensityField {
 /// without width gives 0 everywhere. *Throws* Error{outOfMemory}, Cancelled.
 DensityField densityField(const volume::Volume &volume, const FieldWindow &window,
                           const task::Progress &progress = {});
+
+/// Samples on the lattice of a volume as a field. *Shape*: as many samples as the lattice has.
+DensityField fieldOf(const volume::Volume &like, std::vector<float> samples);
 
 } // namespace pellucid::classify

@@ -178,11 +178,13 @@ ForwardTransform1d::ForwardTransform1d(int length) : m_plan(new Plan{}) {
         if (m_plan->plan != nullptr)
             return;
         const fftwf_plan measured = plan(FFTW_MEASURE);
-        if (saveWisdom()) {
-            m_plan->plan = measured;
-            return;
-        }
+        const bool saved = saveWisdom();
         fftwf_destroy_plan(measured);
+        // Another process's plan for this length may have come in.
+        if (saved)
+            m_plan->plan = plan(FFTW_WISDOM_ONLY | FFTW_MEASURE);
+        if (m_plan->plan != nullptr)
+            return;
         fftwf_forget_wisdom();
         wisdomFile().clear();
     }

@@ -9,7 +9,6 @@
 
 #include "core/fourier/padded_size.h"
 #include "core/fourier/transform.h"
-#include "core/render/slice_grid.h"
 
 namespace pellucid::reference {
 
@@ -22,13 +21,14 @@ struct SliceSize {
 SliceSize sliceSize(const volume::Lattice &lattice, const render::Camera &camera,
                     const render::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
-    // Four times the ringing that an engine follows, or twice that of the lattice's own band where
-    // that is tapered too.
+    // Four times the length that the roll-off's response fades over, or twice that of the lattice's
+    // own band where that is tapered too and longer.
     double ringing = 4.0 * render::ringingPixels(image.rollOff);
     if (image.reconstruction == render::Reconstruction::bandLimited)
-        ringing *= 0.5 *
-                   std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) /
-                   camera.pixelMm;
+        ringing *= std::max(
+            1.0, 0.5 *
+                     std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) /
+                     camera.pixelMm);
     const auto cells = [&](int size, double panMm) {
         const double needed =
             std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);

@@ -6,15 +6,29 @@
 
 namespace pellucid::render {
 
-ToneRange toneRange(const ProjectionImage &image, const Tone &tone) {
+namespace {
+
+// The brightest channel of each pixel.
+std::vector<float> brightness(const ProjectionImage &image) {
+    if (image.channels == 1)
+        return image.samples;
+    std::vector<float> most(image.samples.size() / std::size_t(image.channels));
+    for (std::size_t n = 0; n < most.size(); ++n) {
+        const float *const pixel = image.samples.data() + n * std::size_t(image.channels);
+        most[n] = *std::max_element(pixel, pixel + image.channels);
+    }
+    return most;
+}
+
+ToneRange rangeOf(const std::vector<float> &pixels, const Tone &tone) {
     ToneRange range{tone.low.value_or(0.0), tone.high.value_or(0.0)};
     if (!tone.high) {
         // Pixels outside the patient say nothing about the patient's brightness.
         float brightest = 0.0F;
-        for (const float p : image.samples)
+        for (const float p : pixels)
             brightest = std::max(brightest, p);
         std::vector<float> inside;
-        for (const float p : image.samples)
+        for (const float p : pixels)
             if (p > 1e-3F * brightest)
                 inside.push_back(p);
         if (!inside.empty()) {
@@ -28,15 +42,27 @@ ToneRange toneRange(const ProjectionImage &image, const Tone &tone) {
     return range;
 }
 
+} // namespace
+
+ToneRange toneRange(const ProjectionImage &image, const Tone &tone) {
+    return rangeOf(brightness(image), tone);
+}
+
 std::vector<std::uint8_t> compose(const ProjectionImage &image, const Tone &tone) {
-    const ToneRange range = toneRange(image, tone);
+    const std::vector<float> pixels = brightness(image);
+    const ToneRange range = rangeOf(pixels, tone);
     const auto low = float(range.low), scale = float(1.0 / (range.high - range.low));
-    std::vector<std::uint8_t> rgba(image.samples.size() * 4, 255);
-    for (std::size_t n = 0; n < image.samples.size(); ++n) {
-        float x = std::clamp((image.samples[n] - low) * scale, 0.0F, 1.0F);
-        x = std::pow(x, float(toneExponent));
-        const auto grey = std::uint8_t(std::lround(255.0F * (tone.inverted ? 1.0F - x : x)));
-        rgba[4 * n] = rgba[4 * n + 1] = rgba[4 * n + 2] = grey;
+    std::vector<std::uint8_t> rgba(pixels.size() * 4, 255);
+    for (std::size_t n = 0; n < pixels.size(); ++n) {
+        const float most =
+            std::pow(std::clamp((pixels[n] - low) * scale, 0.0F, 1.0F), float(toneExponent));
+        for (int c = 0; c < 3; ++c) {
+            float x = most;
+            if (image.channels == 3 && pixels[n] > 0.0F)
+                x *= std::max(0.0F, image.samples[3 * n + std::size_t(c)]) / pixels[n];
+            rgba[4 * n + std::size_t(c)] =
+                std::uint8_t(std::lround(255.0F * (tone.inverted ? 1.0F - x : x)));
+        }
     }
     return rgba;
 }

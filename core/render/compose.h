@@ -14,15 +14,17 @@ struct ToneRange {
     double low = 0.0, high = 1.0;
 };
 
-/// The tone's ends where they are given, else 0 and the 99.8 % quantile of the image, so that a
-/// few bright pixels do not darken the rest.
+/// The tone's ends where they are given, else 0 and the 99.8 % quantile of the pixels' brightest
+/// channels, so that a few bright pixels do not darken the rest.
 ToneRange toneRange(const ProjectionImage &image, const Tone &tone);
 
 /// The display curve: 0..1 within the range, x^(1/1.4), which lifts soft tissue beside bone.
 /// The GLSL tone pass computes the same.
 inline constexpr double toneExponent = 1.0 / 1.4;
 
-/// Window, inversion, grey. *Shape*: height x width x 4, opaque.
+/// Window, inversion, grey or colour. The brightest channel of a pixel takes the display curve and
+/// the others keep their ratio to it, so that bright colours stay what they are; a film of colours
+/// is their negative. *Shape*: height x width x 4, opaque.
 std::vector<std::uint8_t> compose(const ProjectionImage &image, const Tone &tone);
 
 } // namespace pellucid::render

@@ -17,21 +17,50 @@ constexpr int blocksAlong = 64;
 // Distances from the centre are told apart to the radius over this.
 constexpr int distanceSteps = 64;
 
-double roughness(const std::vector<double> &image, int columns, int rows) {
-    const auto at = [&](int column, int row) {
-        return column < 0 || row < 0 || column >= columns || row >= rows
-                   ? 0.0
-                   : image[std::size_t(row) * columns + column];
-    };
-    double differences = 0.0, energy = 0.0;
-    for (int row = 0; row <= rows; ++row)
-        for (int column = 0; column <= columns; ++column) {
-            const double here = at(column, row), across = here - at(column - 1, row),
-                         down = here - at(column, row - 1);
-            energy += here * here;
-            differences += across * across + down * down;
-        }
-    return energy > 0.0 ? std::min(1.0, differences / (4.0 * energy)) : 1.0;
+// A projection along an axis of the lattice.
+struct AxisProjection {
+    std::vector<double> sums;
+    int columns, rows;
+    double columnMm, rowMm;
+
+    // Its means over pixels of a size, or the samples where those are larger.
+    AxisProjection inPixels(double pixelMm) const {
+        const int across = std::max(1, int(std::lround(pixelMm / columnMm)));
+        const int down = std::max(1, int(std::lround(pixelMm / rowMm)));
+        if (across == 1 && down == 1)
+            return *this;
+        AxisProjection coarse{{}, (columns + across - 1) / across, (rows + down - 1) / down, 1, 1};
+        coarse.sums.resize(std::size_t(coarse.columns) * coarse.rows);
+        for (int row = 0; row < rows; ++row)
+            for (int column = 0; column < columns; ++column)
+                coarse.sums[std::size_t(row / down) * coarse.columns + column / across] +=
+                    sums[std::size_t(row) * columns + column];
+        return coarse;
+    }
+
+    double roughness() const {
+        const auto at = [&](int column, int row) {
+            return column < 0 || row < 0 || column >= columns || row >= rows
+                       ? 0.0
+                       : sums[std::size_t(row) * columns + column];
+        };
+        double differences = 0.0, energy = 0.0;
+        for (int row = 0; row <= rows; ++row)
+            for (int column = 0; column <= columns; ++column) {
+                const double here = at(column, row), across = here - at(column - 1, row),
+                             down = here - at(column, row - 1);
+                energy += here * here;
+                differences += across * across + down * down;
+            }
+        return energy > 0.0 ? std::min(1.0, differences / (4.0 * energy)) : 1.0;
+    }
+};
+
+double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box) {
+    const volume::GridSize size = box.size();
+    const double i = size.i * lattice.spacingMm(0), j = size.j * lattice.spacingMm(1),
+                 k = size.k * lattice.spacingMm(2);
+    return 0.5 * (i * j + j * k + k * i);
 }
 
 // What the samples of one layer of blocks, a few planes k, add up to.
@@ -77,6 +106,13 @@ private:
 
 } // namespace
 
+double EnergySpread::roughnessAt(double pixelMm) const {
+    const double scale =
+        std::clamp(std::log2(pixelMm / shortestStepMm), 0.0, double(roughness.size() - 1));
+    return std::max(roughness[std::size_t(std::floor(scale))],
+                    roughness[std::size_t(std::ceil(scale))]);
+}
+
 EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &box) {
     const glm::dvec3 center = lattice.center().mm;
     const volume::GridSize size = box.size();
@@ -89,6 +125,8 @@ EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &
                center;
     };
     EnergySpread spread;
+    spread.shortestStepMm = lattice.shortestStepMm();
+    spread.shadowMm2 = shadowOf(lattice, box);
     for (const double i : {0.0, 1.0})
         for (const double j : {0.0, 1.0})
             for (const double k : {0.0, 1.0})
@@ -165,9 +203,20 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
                     alongZ[std::size_t(j) * size.i + i] += double(samples[rowStart(j, k) + i]);
         });
     });
-    spread.roughness =
-        std::max({roughness(alongX, size.j, size.k), roughness(alongY, size.i, size.k),
-                  roughness(alongZ, size.i, size.j)});
+    spread.shortestStepMm = places.shortestStepMm();
+    spread.shadowMm2 = shadowOf(places, box);
+    const double i = places.spacingMm(0), j = places.spacingMm(1), k = places.spacingMm(2);
+    const std::array<AxisProjection, 3> projections{
+        AxisProjection{std::move(alongX), size.j, size.k, j, k},
+        AxisProjection{std::move(alongY), size.i, size.k, i, k},
+        AxisProjection{std::move(alongZ), size.i, size.j, i, j}};
+    for (std::size_t scale = 0; scale < spread.roughness.size(); ++scale) {
+        spread.roughness[scale] = 0.0;
+        for (const AxisProjection &projection : projections)
+            spread.roughness[scale] = std::max(
+                spread.roughness[scale],
+                projection.inPixels(std::ldexp(spread.shortestStepMm, int(scale))).roughness());
+    }
 
     // Layers are added in their order: the same sums for any number of threads.
     double total = 0.0;

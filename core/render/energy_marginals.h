@@ -19,12 +19,18 @@ struct EnergySpread {
     /// The sum of the squared shares of blocks of samples: 1 for a point, one over their number for
     /// an even field.
     double concentration = 1.0;
-    /// How rough its projections along x, y and z are, the roughest of them: the mean square of the
-    /// differences of neighbours over twice the mean square. 1 for a point or noise without a mean,
-    /// far less for anatomy.
-    double roughness = 1.0;
+    /// How rough its projections along x, y and z are, the roughest of them, seen in pixels of 1,
+    /// 2, 4 and 8 times the shortest step: the mean square of the differences of neighbours over
+    /// twice the mean square. 1 for a point or noise without a mean, far less for anatomy.
+    std::array<double, 4> roughness{1.0, 1.0, 1.0, 1.0};
+    double shortestStepMm = 1.0;
     /// How far from the centre of the lattice a sample is not zero, mm.
     double radiusMm = 0.0;
+    /// The mean area of its box's shadow over all directions, mm^2: a quarter of the surface.
+    double shadowMm2 = 0.0;
+
+    /// The roughness in pixels of a size: the larger of the two sizes about it.
+    double roughnessAt(double pixelMm) const;
 };
 
 /// The spread of noise that fills a box.

@@ -45,15 +45,21 @@ double foldedTailEnergy(const EnergySpread &spread, double rollOff, double pixel
         most = std::max(most, sum);
     }
     const double margin = viewMargin + (pointMargin - viewMargin) * spread.concentration;
-    return margin * spread.roughness * most;
+    return margin * spread.roughnessAt(pixelMm) * most;
+}
+
+double shareInImage(const Camera &camera, const EnergySpread &spread) {
+    const double area = double(camera.width) * camera.height * camera.pixelMm * camera.pixelMm;
+    return spread.shadowMm2 > area ? area / spread.shadowMm2 : 1.0;
 }
 
 double predictFoldedTails(const ImageDefinition &image, const Camera &camera, int columns, int rows,
                           const EnergySpread &spread) {
     const glm::dvec2 pan = camera.panMm / camera.pixelMm;
-    return std::sqrt(
+    const double folded =
         foldedTailEnergy(spread, image.rollOff, camera.pixelMm, columns, camera.width, pan.x) +
-        foldedTailEnergy(spread, image.rollOff, camera.pixelMm, rows, camera.height, pan.y));
+        foldedTailEnergy(spread, image.rollOff, camera.pixelMm, rows, camera.height, pan.y);
+    return std::sqrt(folded / shareInImage(camera, spread));
 }
 
 double ringingPixels(double rollOff) {

@@ -7,9 +7,10 @@
 
 namespace pellucid::render {
 
-/// The energy, relative to the image's, that the tails of the roll-off leave when they fold back
-/// along one axis of an image of `side` pixels, panned by `pan` pixels, from copies of the
-/// projection `period` pixels away. It is what the worst direction leaves on average, and a margin.
+/// The energy, relative to the whole projection's, that the tails of the roll-off leave when they
+/// fold back along one axis of an image of `side` pixels, panned by `pan` pixels, from copies of
+/// the projection `period` pixels away. It is what the worst direction leaves on average, and a
+/// margin.
 ///
 /// What lies at x from the centre of rotation has copies at r = period - side/2 -+ x. A sharp
 /// disc's response to a point falls as r^-3/2; a roll-off over the share F of the band multiplies
@@ -18,12 +19,15 @@ namespace pellucid::render {
 double foldedTailEnergy(const EnergySpread &spread, double rollOff, double pixelMm, int period,
                         int side, double pan);
 
+/// The part of a projection's energy that the image of a camera holds, by its area.
+double shareInImage(const Camera &camera, const EnergySpread &spread);
+
 /// The relative L2 error that the tails of both axes leave in the image of a camera.
 double predictFoldedTails(const ImageDefinition &image, const Camera &camera, int columns, int rows,
                           const EnergySpread &spread);
 
-/// How far the response of a raised-cosine edge over a share F of the band is followed, in pixels:
-/// 4/F, and never further than 256.
+/// A length that the response of a raised-cosine edge over a share F of the band has faded after,
+/// in samples of that band: 4/F, and never more than 256.
 double ringingPixels(double rollOff);
 
 } // namespace pellucid::render

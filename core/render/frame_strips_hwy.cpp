@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <hwy/highway.h>
-#include <type_traits>
 #include <utility>
 
 #include "core/render/frame_job.h"

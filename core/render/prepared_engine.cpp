@@ -29,8 +29,16 @@ double energy(const volume::Volume &field) {
 FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
                        const FieldSummary &summary, const Budget &budget,
                        const task::Progress &progress) {
-    // A slice too large for any memory stays so, however coarse the field.
-    sliceGrid(scene.camera, {summary.energy.spread}, summary.lattice, scene.image);
+    validate(scene);
+    // An image too large for the memory stays so, however coarse the field.
+    const SliceGrid least =
+        sliceGrid(scene.camera, {summary.energy.spread, 1.0}, summary.lattice, scene.image);
+    const std::size_t frame = frameBytes(least, scene.camera);
+    if (frame > budget.bytes)
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          fmt::format("an image of {} x {} pixels needs {} MB, {} MB are allowed",
+                                      scene.camera.width, scene.camera.height, (frame >> 20) + 1,
+                                      budget.bytes >> 20));
     try {
         return {planRender(scene, summary, budget), std::nullopt, 1};
     } catch (const task::Error &error) {
@@ -57,9 +65,10 @@ FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
                 plan.predictedError = std::hypot(plan.predictedError, lost);
                 plan.predictedMaximum = std::max(plan.predictedMaximum, lost);
                 plan.bytes += held;
-                plan.reason = fmt::format("means of {0} x {0} x {0} samples: more does not fit the "
-                                          "memory; of them {1}",
-                                          reduction, plan.reason);
+                const volume::GridSize size = coarse.values.lattice().size();
+                plan.reason = fmt::format("means, {} x {} x {} in place of {} x {} x {}: more does "
+                                          "not fit the memory; of them {}",
+                                          size.i, size.j, size.k, n.i, n.j, n.k, plan.reason);
                 fitting.reducedField = std::move(coarse);
                 return fitting;
             } catch (const task::Error &smaller) {

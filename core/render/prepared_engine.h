@@ -11,7 +11,7 @@ namespace pellucid::render {
 /// A plan that fits the memory, if need be for a field of fewer samples.
 struct FittingPlan {
     RenderPlan plan;
-    /// The field to render in place of the original: means of `reduction`^3 samples.
+    /// The field to render in place of the original: means of up to `reduction` samples an axis.
     std::optional<classify::DensityField> reducedField;
     int reduction = 1;
 };

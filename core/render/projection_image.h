@@ -5,11 +5,13 @@
 
 namespace pellucid::render {
 
-/// A projection: signed, *Units*: field times mm. *Shape*: height x width, rows from the top.
+/// A projection: signed, *Units*: field times mm. *Shape*: height x width, rows from the top, or
+/// height x width x 3 in linear red, green and blue.
 struct ProjectionImage {
     int width = 0, height = 0;
     double pixelMm = 1.0;
     std::vector<float> samples;
+    int channels = 1;
 };
 
 /// Where the time of a frame went, milliseconds.

@@ -95,22 +95,10 @@ private:
     std::map<std::pair<std::string, double>, std::unique_ptr<Candidate>> m_made;
 };
 
-// What the frames of a camera take beside the spectrum: the lines between the two transforms, and
-// the image.
-std::size_t frameBytes(const SliceGrid &grid, const Camera &camera) {
-    return (std::size_t(grid.columns) * grid.rows * 2 + std::size_t(camera.width) * camera.height) *
-           sizeof(float);
-}
-
 double wrappedShare(const Camera &camera, const SliceGrid &grid, const FieldSummary &field) {
     const double image = double(camera.width) * camera.height;
     const double period = double(grid.columns) * grid.rows;
-    // A convex body's shadow has on average a quarter of its surface.
-    const volume::GridSize size = field.support.size();
-    const double a = size.i * field.lattice.spacingMm(0), b = size.j * field.lattice.spacingMm(1),
-                 c = size.k * field.lattice.spacingMm(2);
-    const double shadow = 0.5 * (a * b + b * c + c * a) / (camera.pixelMm * camera.pixelMm);
-    return std::min(1.0, image / period) / std::min(1.0, image / shadow);
+    return std::min(1.0, image / period) / shareInImage(camera, *field.energy.spread);
 }
 
 // A slice grid and what the tails that fold back into it leave.
@@ -230,15 +218,19 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
         for (;;) {
             std::array<AxisError, 3> errors;
             const auto layout = layoutAt(choice, storage, level, errors);
-            const std::size_t spectrumBytes = layout.addressable()
-                                                  ? layout.peakBytes()
-                                                  : std::numeric_limits<std::size_t>::max() / 2;
+            if (!layout.addressable()) {
+                overBudget = true;
+                return;
+            }
+            const std::size_t spectrumBytes = layout.peakBytes();
             bool fits = false;
             for (const PlannedGrid &planned : grids) {
                 const std::size_t bytes = spectrumBytes + frameBytes(planned.grid, scene.camera);
                 leastBytes = std::min(leastBytes, bytes);
-                if (bytes > budget.bytes)
+                if (bytes > budget.bytes) {
+                    overBudget = true;
                     break; // wider grids take more
+                }
                 fits = true;
                 const double predicted =
                     std::hypot(predict(layout, errors, planned), planned.folded);
@@ -247,13 +239,9 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                 const bool unmet = std::isinf(bestTime);
                 if (meets ? time < bestTime
                           : unmet && (!best || predicted < best->predictedError)) {
-                    best = RenderPlan{layout,
-                                      scene.image,
-                                      planned.room,
-                                      predicted,
-                                      predictMaximum(errors, storage) + planned.folded,
-                                      bytes,
-                                      {}};
+                    best = RenderPlan{layout,    planned.room,
+                                      predicted, predictMaximum(errors, storage) + planned.folded,
+                                      bytes,     {}};
                     if (meets)
                         bestTime = time;
                 }
@@ -262,7 +250,6 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                 if (meets)
                     break; // wider grids take longer
             }
-            overBudget = overBudget || !fits;
             if (!fits)
                 return;
             // More padding where the ghosts are strongest.
@@ -288,6 +275,9 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                 if (faster(choice, storage) && (thorough || !hopeless(choice, storage)))
                     consider(choice, storage);
     }
+    if (!best && leastBytes == std::numeric_limits<std::size_t>::max())
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          "the projection needs more cells than an engine can count");
     if (!best)
         throw task::Error(task::ErrorCode::outOfMemory,
                           fmt::format("the projection needs {} MB, {} MB are allowed",

@@ -30,7 +30,6 @@ struct Budget {
 /// will be. Pure: made and tested without rendering.
 struct RenderPlan {
     fourier::SpectrumLayout spectrum;
-    ImageDefinition image;
     SliceRoom room;
     /// Relative L2 error of the image, predicted from the field.
     double predictedError = 0.0;

@@ -39,6 +39,7 @@ void validate(const Scene &scene) {
         require(std::isfinite(scene.fieldWindow->low) && std::isfinite(scene.fieldWindow->high) &&
                     scene.fieldWindow->low < scene.fieldWindow->high,
                 "the window's low end must lie below its high end");
+    classify::validate(scene.look);
 }
 
 } // namespace pellucid::render

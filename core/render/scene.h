@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/classify/density_field.h"
+#include "core/classify/shown_fields.h"
 #include "core/fourier/kernel.h"
 #include "core/fourier/storage.h"
 #include "core/render/camera.h"
@@ -35,6 +35,7 @@ struct Scene {
     Camera camera;
     /// The field's window; the volume's default if absent.
     std::optional<classify::FieldWindow> fieldWindow;
+    classify::Look look;
     ImageDefinition image;
     /// Largest relative L2 error of the float image.
     double tolerance = 1.1e-3;

@@ -41,6 +41,11 @@ double reachPixels(const Camera &camera, const SliceRoom &room, const volume::La
 
 } // namespace
 
+std::size_t frameBytes(const SliceGrid &grid, const Camera &camera) {
+    return (std::size_t(grid.columns) * grid.rows * 2 + std::size_t(camera.width) * camera.height) *
+           sizeof(float);
+}
+
 SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box) {
     return {std::make_shared<const EnergySpread>(evenSpread(lattice, box))};
 }
@@ -48,7 +53,9 @@ SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box)
 SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
                     const ImageDefinition &image) {
     const double projection = reachPixels(camera, room, lattice, image);
-    const double allowed = 0.5 * room.foldedTails * room.foldedTails; // of each axis
+    // Of each axis, and of the whole projection.
+    const double allowed =
+        0.5 * room.foldedTails * room.foldedTails * shareInImage(camera, *room.spread);
     const auto cells = [&](int side, double panMm) {
         const double pan = std::abs(panMm) / camera.pixelMm;
         // A copy of the projection, a period away, must stay outside the image: its near edge lies
@@ -57,15 +64,15 @@ SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::L
         if (!(reach < largestSliceGrid))
             throw task::Error(
                 task::ErrorCode::outOfMemory,
-                fmt::format("pixels of {:.3g} mm need a slice of more than {} frequencies "
-                            "a side",
-                            camera.pixelMm, largestSliceGrid));
+                fmt::format("pixels of {:.3g} mm, {:.3g} mm off the centre, need a slice of more "
+                            "than {} frequencies a side",
+                            camera.pixelMm, std::abs(panMm), largestSliceGrid));
         const auto keeps = [&](int period) {
             return foldedTailEnergy(*room.spread, image.rollOff, camera.pixelMm, period, side,
                                     pan) <= allowed;
         };
         const int least = fourier::smoothEvenSize(int(std::ceil(reach)));
-        const int most = std::max(512, 2 * least);
+        const int most = std::min(largestSliceGrid, std::max(512, 2 * least));
         if (keeps(least))
             return least;
         if (!keeps(most))

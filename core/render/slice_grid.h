@@ -22,13 +22,17 @@ struct SliceRoom {
     double foldedTails = 3e-4;
 };
 
+/// What the frames of a camera take beside the spectrum: the lines between the two transforms, and
+/// the image.
+std::size_t frameBytes(const SliceGrid &grid, const Camera &camera);
+
 /// The room that any field within a box needs.
 SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box);
 
-/// The smallest smooth slice grid for a camera that no part of the projection, seen from any
-/// direction, wraps into, and whose folded tails are as asked for; where that takes more than twice
-/// the cells along an axis, and more than 512, those.
-/// *Throws* Error{outOfMemory} for more than 65536 frequencies a side.
+/// The smallest smooth slice grid for a camera that no sample of the projection with its footprint
+/// along an axis, seen from any direction, wraps into, and whose folded tails are as asked for;
+/// where that takes more than twice the cells along an axis, and more than 512, those. *Throws*
+/// Error{outOfMemory} for more than 65536 frequencies a side.
 SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
                     const ImageDefinition &image);
 

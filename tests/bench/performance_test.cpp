@@ -8,8 +8,8 @@ namespace pellucid {
 namespace {
 
 // The default frame is worth its trouble: a floor that a slow machine does not reach by being slow,
-// for both sides run on it, and in turns. Measured: 15 to 19 times the ray sum at 128^3 on two
-// threads of AVX-512; half of the lower is the floor.
+// for both sides run on it, and in turns. Measured: 15 to 22 times the ray sum at 128^3 on two
+// threads of AVX-512; the floor leaves a neighbour on the machine half of that, and a fifth.
 TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
     const bench::Subject subject = bench::noiseSphere(128);
     const volume::Lattice &lattice = subject.field.values.lattice();

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/classify/density_field.h"
+#include "core/classify/shown_fields.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/reference/wide_kernel.h"
@@ -35,7 +35,7 @@ std::string quoted(const fs::path &path) {
     return "'" + path.string() + "'";
 }
 
-std::vector<float> readNpy(const fs::path &path, int &height, int &width) {
+std::vector<float> readNpy(const fs::path &path, int &height, int &width, int channels = 1) {
     std::ostringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
     const std::string bytes = text.str();
@@ -43,7 +43,7 @@ std::vector<float> readNpy(const fs::path &path, int &height, int &width) {
     if (shape == std::string::npos ||
         std::sscanf(bytes.c_str() + shape, "'shape': (%d, %d)", &height, &width) != 2)
         return {};
-    std::vector<float> samples(std::size_t(height) * std::size_t(width));
+    std::vector<float> samples(std::size_t(height) * std::size_t(width) * std::size_t(channels));
     std::memcpy(samples.data(), bytes.data() + bytes.size() - samples.size() * 4,
                 samples.size() * 4);
     return samples;
@@ -208,6 +208,62 @@ TEST_F(Cli, VolumeWritesValuesAndField) {
                     std::clamp(values.value({i, 15, 4}) / 1000.0, 0.0, 1.0), 1e-6);
 }
 
+// A look against the exact projection of its own fields, in grey and in colour.
+TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
+    const fs::path series = phantomFolder("--kind chest --size 56x48x40"),
+                   out = folder / "image.npy";
+    const auto catalogue = dicom::scan({series});
+    const auto volume = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
+    const auto window = classify::defaultFieldWindow(volume);
+    auto camera = render::defaultCamera(volume.lattice());
+    camera.orientation = render::viewOrientation(render::StandardView::front, {30, 0, 0});
+    const auto standard = [](const std::string &name, double weight, const char *color) {
+        for (classify::TissueClass tissue : classify::standardClasses())
+            if (tissue.name == name) {
+                tissue.weight = weight;
+                tissue.color = classify::colorFromText(color);
+                return tissue;
+            }
+        throw std::runtime_error(name);
+    };
+    const struct {
+        std::string options;
+        classify::Look look;
+    } cases[] = {{"--bezier 0,0.5,2,2", {{{0.0, 0.5, 2.0, 2.0}}, {}}},
+                 {"--bezier 0,2,0,2,0,2,0,2,0,2,0,2,0,2,0,2",
+                  {{{0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2}}, {}}},
+                 {"--class bone=1.5", {{}, {standard("bone", 1.5, "#ffffff")}}},
+                 {"--class bone=1:#ff8000 --class lung=2:#0040ff --class fat=0",
+                  {{}, {standard("bone", 1.0, "#ff8000"), standard("lung", 2.0, "#0040ff")}}}};
+    for (const auto &c : cases) {
+        const auto r = cli("render " + quoted(series) + " -o " + quoted(out) +
+                           " --azimuth 30 --json " + c.options);
+        ASSERT_EQ(r.exitCode, 0) << r.error;
+        const auto fields = classify::shownFields(volume, window, c.look);
+        const int channels = fields.isGrey() ? 1 : 3;
+        int height = 0, width = 0;
+        const auto image = readNpy(out, height, width, channels);
+        std::vector<double> truth(image.size());
+        for (std::size_t n = 0; n < fields.channels.size(); ++n) {
+            const auto &field = fields.channels[n];
+            const auto plane = reference::WideKernel(field.values, field.support).image(camera, {});
+            for (std::size_t p = 0; p < plane.size(); ++p)
+                truth[p * std::size_t(channels) + n] = plane[p];
+        }
+        const double error = test::relativeL2(image, truth);
+        EXPECT_LE(error, 1.1e-3) << c.options;
+        EXPECT_LE(error, json::parse(r.out)["predicted_error"]["relative_l2"].get<double>());
+    }
+    const fs::path nrrd = folder / "class.nrrd";
+    EXPECT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --class bone").exitCode,
+              0);
+    const auto written = volume::readNrrd(nrrd);
+    const auto expected =
+        classify::classField(volume, window, standard("bone", 1.0, "#ffffff")).values;
+    for (const volume::VoxelIndex at : {volume::VoxelIndex{28, 40, 20}, {3, 3, 3}, {28, 36, 10}})
+        EXPECT_EQ(written.value(at), expected.value(at));
+}
+
 TEST_F(Cli, ScenesTurntablesAndFormats) {
     const fs::path series = phantomFolder("--kind ellipsoids --size 32x32x32");
     ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(folder / "turn.png") +
@@ -259,7 +315,10 @@ TEST_F(Cli, UsageErrorsNameTheOption) {
     expectOneLine(cli(""), 2, "subcommand");
     expectOneLine(cli("render"), 2, "PATH");
     expectOneLine(cli("render /tmp" + out + " --depth-cue linear:0.5"), 2, "--depth-cue");
-    expectOneLine(cli("render /tmp" + out + " --class Bone=1"), 2, "--class");
+    for (const char *bad : {"Bone=1", "bone", "bone=x", "bone=3", "bone=1:red", "bone=1:#12345"})
+        expectOneLine(cli("render /tmp" + out + " --class " + bad), 2, "");
+    for (const char *bad : {"1", "1,x", "1,3", "1,1,", "1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1"})
+        expectOneLine(cli("render /tmp" + out + " --bezier " + bad), 2, "");
     expectOneLine(cli("render /tmp" + out + " --view sideways"), 2, "--view");
     expectOneLine(cli("render /tmp -o /tmp/x.dcm"), 2, ".dcm");
     expectOneLine(cli("render /tmp -o /tmp/x.bmp"), 2, "x.bmp");

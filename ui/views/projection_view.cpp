@@ -107,6 +107,11 @@ void ProjectionView::jobEnded() {
         setMessage(tr("Cancelled: there is no projection"));
 }
 
+void ProjectionView::jobStarted() {
+    if (m_document.volume() && !m_engine && m_message == tr("Cancelled: there is no projection"))
+        setMessage(tr("Preparing the projection"));
+}
+
 void ProjectionView::adoptCamera(const render::Camera &wanted) {
     render::Camera camera = m_document.scene().camera;
     camera.orientation = wanted.orientation;

@@ -30,6 +30,7 @@ public:
     void adoptCamera(const render::Camera &wanted);
     /// A job is over; whatever it should have delivered is there or will not come.
     void jobEnded();
+    void jobStarted();
     void showStandardView(render::StandardView view);
     void resetView();
     /// The picture as it is seen, without annotations.

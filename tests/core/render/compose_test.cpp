@@ -31,5 +31,28 @@ TEST(Compose, TheAutomaticRangeIgnoresTheBackground) {
     EXPECT_EQ(render::toneRange({2, 1, 1.0, {0.0F, 0.0F}}, {}).high, 1.0);
 }
 
+// Bright colours stay what they are: the channels keep their ratio up to and beyond the range.
+TEST(Compose, ColorsKeepTheirHue) {
+    const render::ProjectionImage image{
+        4,
+        1,
+        1.0,
+        {10.0F, 5.0F, 0.0F, 40.0F, 20.0F, 0.0F, 2.0F, 2.0F, 2.0F, -1.0F, -2.0F, -3.0F},
+        3};
+    const auto bright = render::compose(image, {0.0, 10.0, false});
+    EXPECT_EQ(bright[0], 255);
+    EXPECT_NEAR(bright[1], 127.5, 0.5);
+    EXPECT_EQ(bright[2], 0);
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(bright[4 + c], bright[c]); // four times as bright: the same colour
+    EXPECT_EQ(bright[8], bright[10]);        // grey stays grey, on the curve of grey images
+    EXPECT_EQ(bright[8], std::lround(255 * std::pow(0.2, render::toneExponent)));
+    EXPECT_EQ(bright[12] + bright[13] + bright[14], 0);
+    const auto film = render::compose(image, {0.0, 10.0, true});
+    for (int n = 0; n < 16; ++n)
+        EXPECT_NEAR(int(bright[n]) + film[n], n % 4 == 3 ? 510 : 255, 1);
+    EXPECT_NEAR(render::toneRange(image, {}).high, 10.0, 1e-6); // of 40, 10 and 2: rank 1.996
+}
+
 } // namespace
 } // namespace pellucid

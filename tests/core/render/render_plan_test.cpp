@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "core/reference/wide_kernel.h"
@@ -43,7 +44,7 @@ TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
     scene.camera.width = 40;
     const auto narrow = render::sliceGrid(scene.camera, plan.room, lattice, scene.image);
     EXPECT_LT(narrow.columns, grid.columns);
-    EXPECT_EQ(narrow.rows, grid.rows);
+    EXPECT_GE(narrow.rows, grid.rows); // a crop holds less than its copies bring
     EXPECT_GE(narrow.columns, 20 + 86);
 }
 
@@ -81,29 +82,47 @@ TEST(RenderPlan, TighterTolerancesTakeMoreTapsAndThenFloatCells) {
     }
 }
 
-// The prediction counts ghosts outside the image too, so it may be up to three times too high; too
-// low by more than a third would be a wrong promise.
-TEST(RenderPlan, PredictsTheMeasuredError) {
-    for (const auto size : {volume::GridSize{32, 32, 32}, {40, 24, 12}}) {
-        const auto lattice = test::tiltedLattice(size, {1, 1, 2}, 10);
-        const auto field = test::noiseField(lattice);
-        auto scene = sceneFor(lattice);
-        const auto plan = render::planRender(scene, render::summarise(field));
-        render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
-                                     fourier::Spectrum::prepare(field.values, plan.spectrum)),
-                                 plan.room);
-        const reference::WideKernel wide(field.values, field.support);
-        double measured = 0.0;
-        for (const double azimuth : {0.0, 30.0, 60.0, 90.0}) {
-            scene.camera.orientation =
-                render::viewOrientation(render::StandardView::front, {azimuth, 0.5 * azimuth, 0});
-            const double e = test::relativeL2(engine.render(scene.camera, scene.image).samples,
-                                              wide.image(scene.camera, scene.image));
-            measured = std::max(measured, e);
+// How a picture is framed: the pixel in shortest steps, its size in pixels (0: the default), the
+// pan in pixels.
+struct Framing {
+    double pixel;
+    int side;
+    double pan;
+};
+
+// The prediction is of the worst view, with margins, of a field whose mean it does not know to
+// cancel along the view: it may be four times too high, of crops, which differ, six. Too low by
+// more than a third would be a wrong promise. Crops have their copies' tails from the whole
+// projection, coarse pixels see what is rough as noise.
+TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
+    for (const auto size : {volume::GridSize{32, 32, 32}, {40, 24, 12}})
+        for (const Framing &framing :
+             {Framing{1, 0, 0}, {1, 12, 0}, {1, 12, 9}, {1, 12, -9}, {4, 0, 0}, {0.5, 0, 0}}) {
+            const auto lattice = test::tiltedLattice(size, {1, 1, 2}, 10);
+            const auto field = test::noiseField(lattice);
+            auto scene = sceneFor(lattice);
+            scene.camera.pixelMm *= framing.pixel;
+            const int whole = int(std::ceil(scene.camera.width / framing.pixel / 2.0)) * 2;
+            scene.camera.width = scene.camera.height = framing.side > 0 ? framing.side : whole;
+            scene.camera.panMm = {framing.pan, -0.5 * framing.pan};
+            const auto plan = render::planRender(scene, render::summarise(field));
+            render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
+                                         fourier::Spectrum::prepare(field.values, plan.spectrum)),
+                                     plan.room);
+            const reference::WideKernel wide(field.values, field.support);
+            double measured = 0.0;
+            for (const double azimuth : {0.0, 40.0}) {
+                scene.camera.orientation = render::viewOrientation(render::StandardView::front,
+                                                                   {azimuth, 0.5 * azimuth, 0});
+                const double e = test::relativeL2(engine.render(scene.camera, scene.image).samples,
+                                                  wide.image(scene.camera, scene.image));
+                measured = std::max(measured, e);
+            }
+            SCOPED_TRACE(testing::Message() << framing.pixel << " " << framing.side << " "
+                                            << framing.pan << ": " << measured);
+            EXPECT_LT(plan.predictedError / measured, framing.side > 0 ? 6.0 : 4.0);
+            EXPECT_GT(plan.predictedError / measured, 0.67);
         }
-        EXPECT_LT(plan.predictedError / measured, 3.0);
-        EXPECT_GT(plan.predictedError / measured, 0.67);
-    }
 }
 
 } // namespace

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/classify/tissue_class.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::classify {
+
+namespace {
+
+// 0 below -1/2, 1 above 1/2.
+double raisedCosine(double x) {
+    return x <= -0.5 ? 0.0 : x >= 0.5 ? 1.0 : 0.5 * (1.0 + std::sin(std::numbers::pi * x));
+}
+
+double component(const std::string &text, std::size_t at) {
+    return std::stoi(text.substr(at, 2), nullptr, 16) / 255.0;
+}
+
+} // namespace
+
+Color colorFromText(const std::string &text) {
+    if (text.size() != 7 || text[0] != '#' ||
+        text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+        throw task::Error(task::ErrorCode::usage, "'" + text + "' is not a colour #rrggbb");
+    return {component(text, 1), component(text, 3), component(text, 5)};
+}
+
+std::string colorText(const Color &color) {
+    const auto byte = [](double c) { return int(std::lround(255.0 * std::clamp(c, 0.0, 1.0))); };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(color.red), byte(color.green), byte(color.blue));
+}
+
+double TissueClass::membership(double value) const {
+    if (softness <= 0.0)
+        return value >= low && value <= high ? 1.0 : 0.0;
+    return raisedCosine((value - low) / softness) * raisedCosine((high - value) / softness);
+}
+
+void validate(const TissueClass &tissue) {
+    const auto refuse = [&](const std::string &what) {
+        throw task::Error(task::ErrorCode::usage, fmt::format("class '{}': {}", tissue.name, what));
+    };
+    if (tissue.name.empty())
+        throw task::Error(task::ErrorCode::usage, "a class has no name");
+    if (!std::isfinite(tissue.low) || !std::isfinite(tissue.high) || tissue.low > tissue.high)
+        refuse(fmt::format("the range {:g} to {:g} is empty", tissue.low, tissue.high));
+    if (!(tissue.softness >= 0.0 && std::isfinite(tissue.softness)))
+        refuse("the softness must be 0 or more");
+    if (!(tissue.weight >= 0.0 && tissue.weight <= TransferFunction::largestWeight))
+        refuse(fmt::format("the weight {:g} is not within 0 and {:g}", tissue.weight,
+                           TransferFunction::largestWeight));
+    for (const double c : {tissue.color.red, tissue.color.green, tissue.color.blue})
+        if (!(c >= 0.0 && c <= 1.0))
+            refuse("the colour is not within 0 and 1");
+    if (tissue.transferFunction)
+        validate(*tissue.transferFunction);
+}
+
+const std::vector<TissueClass> &standardClasses() {
+    static const std::vector<TissueClass> classes{
+        {"air", -1200, -950, 50, 1.0, {0.35, 0.45, 0.6}},
+        {"lung", -950, -400, 100, 1.0, {0.45, 0.7, 1.0}},
+        {"fat", -150, -40, 30, 1.0, {1.0, 0.8, 0.35}},
+        {"fluid", -10, 25, 20, 1.0, {0.3, 0.6, 1.0}},
+        {"muscle", 10, 90, 30, 1.0, {0.9, 0.3, 0.25}},
+        {"organ", 20, 130, 30, 1.0, {0.8, 0.45, 0.4}},
+        {"contrast", 150, 500, 60, 1.0, {1.0, 0.35, 0.3}},
+        {"bone", 250, 2500, 150, 1.0, {1.0, 0.95, 0.85}},
+        {"metal", 2500, 32767, 300, 1.0, {0.7, 0.9, 1.0}}};
+    return classes;
+}
+
+DensityField classField(const volume::Volume &volume, const FieldWindow &window,
+                        const TissueClass &tissue, const task::Progress &progress) {
+    const DensityField density = densityField(volume, window, progress.part(0.0, 0.5));
+    const DensityField shown = tissue.transferFunction ? weighted(density, *tissue.transferFunction,
+                                                                  progress.part(0.5, 0.8))
+                                                       : density;
+    const volume::GridSize size = volume.lattice().size();
+    const std::size_t plane = std::size_t(size.i) * size.j;
+    try {
+        std::vector<float> samples(size.count());
+        volume.visit([&](auto values) {
+            shown.values.visit([&](auto fields) {
+                tbb::parallel_for(0, size.k, [&](int k) {
+                    progress.check();
+                    for (std::size_t n = k * plane; n < (k + 1) * plane; ++n)
+                        // Where nothing is shown the value may be no number.
+                        samples[n] =
+                            fields[n] > 0
+                                ? float(double(fields[n]) * tissue.membership(double(values[n])))
+                                : 0.0F;
+                });
+            });
+        });
+        progress.report(1.0);
+        return fieldOf(volume, std::move(samples));
+    } catch (const std::bad_alloc &) {
+        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for a class field");
+    }
+}
+
+} // namespace pellucid::classify

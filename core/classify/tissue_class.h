@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/classify/transfer_function.h"
+
+namespace pellucid::classify {
+
+/// Linear light, each 0..1.
+struct Color {
+    double red = 1.0, green = 1.0, blue = 1.0;
+    bool operator==(const Color &) const = default;
+};
+
+/// "#rrggbb" as linear light, each over 255. *Throws* Error{usage}.
+Color colorFromText(const std::string &text);
+std::string colorText(const Color &color);
+
+/// Samples that belong together by their value, and how they are shown. *Source*: Cheng 2007,
+/// eq. 32, with soft edges in place of a threshold, which rings.
+struct TissueClass {
+    std::string name;
+    double low = 0.0, high = 1.0; ///< the range, value units
+    /// The width over which membership rises from 0 to 1 about `low` and falls about `high`.
+    double softness = 0.0;
+    double weight = 1.0;
+    Color color;
+    std::optional<TransferFunction> transferFunction;
+    bool operator==(const TissueClass &) const = default;
+
+    /// 0 to 1: a raised cosine about each end of the range.
+    double membership(double value) const;
+};
+
+/// *Throws* Error{usage} naming the class and what is out of its range.
+void validate(const TissueClass &tissue);
+
+/// The classes that go by a name for CT: air, lung, fat, fluid, muscle, organ, contrast, bone,
+/// metal.
+const std::vector<TissueClass> &standardClasses();
+
+/// g = f m(value) B(f): the density of what belongs to a class. Its weight and colour are not
+/// applied: they change without it. *Throws* Error{outOfMemory}, Cancelled.
+DensityField classField(const volume::Volume &volume, const FieldWindow &window,
+                        const TissueClass &tissue, const task::Progress &progress = {});
+
+} // namespace pellucid::classify
