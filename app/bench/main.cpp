@@ -20,8 +20,11 @@ namespace {
 
 // Refuses at once what could only be said after minutes of measuring.
 void checkWritable(const std::filesystem::path &path) {
-    if (!path.empty())
-        pellucid::files::AtomicFile{path};
+    if (path.empty())
+        return;
+    if (std::filesystem::is_directory(path))
+        throw pellucid::task::Error(pellucid::task::ErrorCode::output, "is a folder", path);
+    pellucid::files::AtomicFile{path};
 }
 
 void save(const std::string &path, const std::string &text) {
@@ -76,7 +79,8 @@ int main(int argc, char **argv) {
     app.add_option("--suite", suites, "What to measure; several with commas between")
         ->delimiter(',')
         ->check(CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka"}));
-    app.add_option("--volume", file, "An NRRD volume in place of the suite's own fields");
+    app.add_option("--volume", file,
+                   "An NRRD volume in place of the fields of the suites kernels and scaling");
     app.add_option("--json", json, "Write the rows as JSON");
     app.add_option("--csv", csv, "Write the rows as CSV");
     app.add_option("--report", reportFolder,

@@ -79,6 +79,31 @@ const std::vector<double> &Truth::image(int view, const render::ImageDefinition 
     return slot;
 }
 
+const Truth::Peers &Truth::peers() {
+    if (m_peers)
+        return *m_peers;
+    const SpatialVolume volume(m_subject.field.values);
+    const double step = m_subject.field.values.lattice().shortestStepMm();
+    Peers peers;
+    std::vector<double> cast, rate, warp;
+    for (int n = 0; n < views(); ++n) {
+        double start = millisecondsNow();
+        const SpatialImage rays = raySum(volume, camera(n), step);
+        cast.push_back(millisecondsNow() - start);
+        rate.push_back(1e-3 * double(rays.sampleCount) / cast.back());
+        start = millisecondsNow();
+        shearWarpSum(volume, camera(n));
+        warp.push_back(millisecondsNow() - start);
+        peers.raySumRelativeL2 = std::max(
+            peers.raySumRelativeL2,
+            compare(rays.samples, image(n, {render::Reconstruction::linear, 0.05})).relativeL2);
+    }
+    peers.raySumMs = median(cast);
+    peers.raySumMsamplesPerSecond = median(rate);
+    peers.shearWarpMs = median(warp);
+    return m_peers.emplace(peers);
+}
+
 namespace {
 
 // FFTW's own transform of the padded size, in place, its plan at hand.
@@ -119,7 +144,8 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
     row.bytes = double(spectrum->bytes());
     row.predictedError = plan.predictedError;
     row.predictedMax = plan.predictedMaximum;
-    row.tolerance = how.scene.tolerance;
+    if (how.scene.interpolation == render::Interpolation()) // else nothing is promised
+        row.tolerance = how.scene.tolerance;
 
     render::CpuEngine engine(spectrum, plan.room, how.threads);
     render::Camera camera = how.scene.camera;
@@ -148,6 +174,13 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
         row.relativeL2 = worst.relativeL2;
         row.maxError = worst.maximum;
         row.psnrDb = worst.psnrDb;
+        if (how.peers) {
+            const Truth::Peers &peers = truth.peers();
+            row.raySumMs = peers.raySumMs;
+            row.raySumMsamplesPerSecond = peers.raySumMsamplesPerSecond;
+            row.raySumRelativeL2 = peers.raySumRelativeL2;
+            row.shearWarpMs = peers.shearWarpMs;
+        }
     }
     return row;
 }

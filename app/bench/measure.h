@@ -36,10 +36,18 @@ public:
     int views() const { return int(m_cameras.size()); }
     const render::Camera &camera(int view) const { return m_cameras[std::size_t(view)]; }
     const std::vector<double> &image(int view, const render::ImageDefinition &definition);
+    /// What the two peers in space take for this subject, and the ray sum's error against the
+    /// `linear` truth; measured when first asked for.
+    struct Peers {
+        double raySumMs = 0.0, raySumMsamplesPerSecond = 0.0, raySumRelativeL2 = 0.0,
+               shearWarpMs = 0.0;
+    };
+    const Peers &peers();
 
 private:
     const Subject &m_subject;
     std::vector<render::Camera> m_cameras;
+    std::optional<Peers> m_peers;
     std::unique_ptr<reference::WideKernel> m_reference;
     std::map<std::pair<int, int>, std::vector<double>> m_images;
     double m_rollOff = -1.0;
@@ -51,6 +59,7 @@ struct Measurement {
     int views = 64;
     int threads = 0;       ///< 0: all
     bool transform = true; ///< time FFTW's own transform of the padded size too
+    bool peers = false;    ///< put the spatial peers' figures for the subject into the row
 };
 
 /// Plans, prepares and times one case; the error is the worst of the truth's views.

@@ -110,6 +110,7 @@ void runThesisSuite(const Report &report) {
         Measurement how;
         how.scene.camera = squareCamera(head.field.values.lattice(), published.size.i);
         how.transform = false;
+        how.peers = true;
         Truth truth(head, how.scene.camera, published.size.i > 128 ? 1 : 3);
         how.scene.interpolation.kernel = fourier::kernelFromName(published.kernel);
         how.scene.interpolation.padding = published.padding;

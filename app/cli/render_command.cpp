@@ -73,7 +73,19 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (command.count("--memory") > 0)
         budget.bytes = std::min(budget.bytes, std::size_t(o.memory - held));
     const double fieldMs = watch.lapMs();
-    Renderer renderer(scene, fields, budget, context);
+    const auto prepared = [&] {
+        try {
+            return Renderer(scene, fields, budget, context);
+        } catch (const Error &error) {
+            if (error.code() != ErrorCode::outOfMemory || command.count("--memory") == 0)
+                throw;
+            throw Error(error.code(),
+                        fmt::format("{}; {} of {} MB are the volume and its fields", error.reason(),
+                                    held >> 20, o.memory >> 20),
+                        o.path);
+        }
+    };
+    Renderer renderer = prepared();
     const double prepareMs = watch.lapMs();
     std::vector<std::string> warnings = volume.notes().warnings;
     const auto warn = [&](const std::string &text) {

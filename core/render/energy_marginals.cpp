@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -56,11 +57,15 @@ struct AxisProjection {
     }
 };
 
-double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box) {
+// A quarter of the surface of the box, or of the sphere where that is smaller.
+double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, double radiusMm) {
     const volume::GridSize size = box.size();
     const double i = size.i * lattice.spacingMm(0), j = size.j * lattice.spacingMm(1),
                  k = size.k * lattice.spacingMm(2);
-    return 0.5 * (i * j + j * k + k * i);
+    // A sample is as wide as a step.
+    const double reach = radiusMm + 0.5 * std::max({lattice.spacingMm(0), lattice.spacingMm(1),
+                                                    lattice.spacingMm(2)});
+    return std::min(0.5 * (i * j + j * k + k * i), std::numbers::pi * reach * reach);
 }
 
 // What the samples of one layer of blocks, a few planes k, add up to.
@@ -126,11 +131,11 @@ EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &
     };
     EnergySpread spread;
     spread.shortestStepMm = lattice.shortestStepMm();
-    spread.shadowMm2 = shadowOf(lattice, box);
     for (const double i : {0.0, 1.0})
         for (const double j : {0.0, 1.0})
             for (const double k : {0.0, 1.0})
                 spread.radiusMm = std::max(spread.radiusMm, glm::length(at(i, j, k)));
+    spread.shadowMm2 = shadowOf(lattice, box, spread.radiusMm);
     constexpr int parts = 16;
     DistanceProfiles profiles(spread);
     for (int i = 0; i < parts; ++i)
@@ -204,7 +209,6 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
         });
     });
     spread.shortestStepMm = places.shortestStepMm();
-    spread.shadowMm2 = shadowOf(places, box);
     const double i = places.spacingMm(0), j = places.spacingMm(1), k = places.spacingMm(2);
     const std::array<AxisProjection, 3> projections{
         AxisProjection{std::move(alongX), size.j, size.k, j, k},
@@ -231,6 +235,7 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
             total += e;
         spread.radiusMm = std::max(spread.radiusMm, layer.radiusMm);
     }
+    spread.shadowMm2 = shadowOf(places, box, spread.radiusMm);
     DistanceProfiles profiles(spread);
     if (total > 0.0)
         for (auto &axis : result.axis)

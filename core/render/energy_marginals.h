@@ -26,7 +26,8 @@ struct EnergySpread {
     double shortestStepMm = 1.0;
     /// How far from the centre of the lattice a sample is not zero, mm.
     double radiusMm = 0.0;
-    /// The mean area of its box's shadow over all directions, mm^2: a quarter of the surface.
+    /// The mean area of its shadow over all directions, mm^2, at most: a quarter of the surface of
+    /// its box, or of the sphere it lies in.
     double shadowMm2 = 0.0;
 
     /// The roughness in pixels of a size: the larger of the two sizes about it.

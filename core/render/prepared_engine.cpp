@@ -67,8 +67,8 @@ FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
                 plan.bytes += held;
                 const volume::GridSize size = coarse.values.lattice().size();
                 plan.reason = fmt::format("means, {} x {} x {} in place of {} x {} x {}: more does "
-                                          "not fit the memory; of them {}",
-                                          size.i, size.j, size.k, n.i, n.j, n.k, plan.reason);
+                                          "not fit the memory",
+                                          size.i, size.j, size.k, n.i, n.j, n.k);
                 fitting.reducedField = std::move(coarse);
                 return fitting;
             } catch (const task::Error &smaller) {

@@ -9,6 +9,7 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QStyle>
 
 #include "ui/commands.h"
 #include "ui/document.h"
@@ -171,10 +172,13 @@ void QualityPanel::typeTolerance() {
     const double typed = text.toDouble(&isNumber) / 100.0;
     // Below what single precision holds there is nothing to choose, above a third nothing to see.
     const bool good = isNumber && std::isfinite(typed) && typed >= 1e-6 && typed <= 0.3;
-    if (good)
+    if (good) {
+        // The box would take the undo keys for itself.
+        m_tolerance->clearFocus();
         change(tr("Tolerance"), [&](render::Scene &scene) { scene.tolerance = typed; });
-    else
-        m_reason->setText(tr("'%1' is no tolerance: 0.0001 to 30 percent").arg(text));
+    } else {
+        say(tr("'%1' is no tolerance: 0.0001 to 30 percent").arg(text), true);
+    }
     showScene();
 }
 
@@ -225,9 +229,16 @@ void QualityPanel::showPlan(const render::PreparedEngine &prepared, bool coarse)
                         .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
                         .arg(spectrum.bytes() >> 20));
     const QString reason = QString::fromStdString(plan.reason);
-    m_reason->setText(coarse   ? tr("A first, coarse picture; the full one follows")
-                      : missed ? tr("More error than allowed: %1").arg(reason)
-                               : tr("It is %1").arg(reason));
+    say(coarse   ? tr("A first, coarse picture; the full one follows")
+        : missed ? tr("More error than allowed: %1").arg(reason)
+                 : tr("It is %1").arg(reason),
+        missed && !coarse);
+}
+
+void QualityPanel::say(const QString &text, bool isWarning) {
+    m_reason->setText(text);
+    m_reason->setProperty("role", isWarning ? "warning" : "muted");
+    m_reason->style()->polish(m_reason); // the style sheet asks for the role
 }
 
 void QualityPanel::showFrame(const render::FrameTimes &times, bool draft) {

@@ -31,6 +31,7 @@ signals:
 private:
     void showScene();
     void clearPlan();
+    void say(const QString &text, bool isWarning);
     void chooseTolerance(int index);
     void typeTolerance();
     void change(const QString &what, const std::function<void(render::Scene &)> &edit);
