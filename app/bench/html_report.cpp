@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <map>
 #include <span>
@@ -56,12 +57,18 @@ std::string tableOf(const std::vector<Row> &rows) {
     return html + "</table>\n";
 }
 
+// The field of a row: its case without what is measured on it.
+std::string fieldOf(const Row &row) {
+    std::string name = row.name;
+    if (name.rfind("default ", 0) == 0)
+        name.erase(0, std::string("default ").size());
+    const auto comma = name.rfind(", "); // a tolerance, or "one thread"
+    return comma == std::string::npos ? name : name.substr(0, comma);
+}
+
 // The rows that no other row beats in both time and error.
-std::vector<const Row *> paretoFront(const std::vector<Row> &rows) {
-    std::vector<const Row *> measured;
-    for (const Row &r : rows)
-        if (r.frameMs && r.relativeL2 && *r.relativeL2 > 0.0)
-            measured.push_back(&r);
+std::vector<const Row *> paretoFront(const std::vector<const Row *> &rows) {
+    std::vector<const Row *> measured = rows;
     std::sort(measured.begin(), measured.end(),
               [](const Row *a, const Row *b) { return *a->frameMs < *b->frameMs; });
     std::vector<const Row *> front;
@@ -74,24 +81,60 @@ std::vector<const Row *> paretoFront(const std::vector<Row> &rows) {
     return front;
 }
 
-// Plots one suite's error against its time.
-std::string errorPlot(const std::filesystem::path &folder, const std::string &suite,
-                      const std::vector<Row> &rows) {
-    std::string points, front;
+// A point of a plot: time, error, and what makes it.
+std::string point(const Row &row) {
+    return fmt::format("{} {} \"{} {:.3g} {}\"\n", *row.frameMs, *row.relativeL2, row.kernel,
+                       row.padding, row.storage);
+}
+
+// Plots one suite's error against its time, one plot a field where a field has many rows, else one
+// of all fields; a front is of one field.
+std::vector<std::string> errorPlots(const std::filesystem::path &folder, const std::string &suite,
+                                    const std::vector<Row> &rows, std::string &script) {
+    constexpr std::size_t manyRows = 12;
+    std::map<std::string, std::vector<const Row *>> fields;
     for (const Row &r : rows)
         if (r.frameMs && r.relativeL2 && *r.relativeL2 > 0.0)
-            points += fmt::format("{} {}\n", *r.frameMs, *r.relativeL2);
-    if (points.empty())
-        return {};
-    for (const Row *r : paretoFront(rows))
-        front += fmt::format("{} {}\n", *r->frameMs, *r->relativeL2);
-    save(folder / (suite + "_points.dat"), points);
-    save(folder / (suite + "_front.dat"), front);
-    return fmt::format("set output '{0}_error.svg'\nset logscale xy\n"
-                       "set xlabel 'frame, ms'\nset ylabel 'relative L2 error'\n"
-                       "plot '{0}_points.dat' title 'measured' pt 7 ps 0.5 lc rgb '#4FB6C2', "
-                       "'{0}_front.dat' title 'Pareto front' with linespoints lc rgb '#E0A33A'\n",
-                       suite);
+            fields[fieldOf(r)].push_back(&r);
+    std::vector<std::string> pictures;
+    std::string together;
+    int number = 0;
+    for (const auto &[field, list] : fields) {
+        const std::string base = fmt::format("{}_{}", suite, number++);
+        std::map<std::string, std::string> families;
+        std::string front;
+        for (const Row *r : list) {
+            std::string family = r->kernel;
+            while (family.size() > 1 && std::isdigit(static_cast<unsigned char>(family.back())))
+                family.pop_back();
+            families[family] += point(*r);
+        }
+        for (const Row *r : paretoFront(list))
+            front += point(*r);
+        save(folder / (base + "_front.dat"), front);
+        if (list.size() < manyRows) {
+            together += fmt::format("{}'{}_front.dat' title \"{}\" with linespoints pt 7 ps 0.5",
+                                    together.empty() ? "" : ", ", base, field);
+            continue;
+        }
+        script += fmt::format("set output '{}.svg'\nset title \"{}: {}\"\n", base, suite, field);
+        std::string plot;
+        for (const auto &[family, points] : families) {
+            save(folder / (base + "_" + family + ".dat"), points);
+            plot += fmt::format("'{0}_{1}.dat' title '{1}' pt 7 ps 0.5, ", base, family);
+        }
+        script += "plot " + plot +
+                  fmt::format("'{0}_front.dat' title 'Pareto front' with lines lc rgb 'black', "
+                              "'{0}_front.dat' using 1:2:3 notitle with labels left offset 0.6,0.6 "
+                              "font ',9'\n",
+                              base);
+        pictures.push_back(base);
+    }
+    if (!together.empty()) {
+        script += fmt::format("set output '{0}.svg'\nset title '{0}'\nplot {1}\n", suite, together);
+        pictures.push_back(suite);
+    }
+    return pictures;
 }
 
 // Plots time against size, each series with the power of the size that fits it best.
@@ -99,14 +142,16 @@ std::string growthPlot(const std::filesystem::path &folder, const std::vector<Ro
     std::string data;
     int sizes = 0;
     for (const Row &r : rows)
-        if (r.frameMs && r.raySumMs && r.shearWarpMs && r.name.find("noise") != std::string::npos) {
+        if (r.suite == "scaling" && r.frameMs && r.raySumMs && r.shearWarpMs &&
+            r.name.find("noise") != std::string::npos) {
             data += fmt::format("{} {} {} {}\n", r.size.i, *r.frameMs, *r.raySumMs, *r.shearWarpMs);
             ++sizes;
         }
     if (sizes < 2)
         return {};
     save(folder / "growth.dat", data);
-    std::string script = "set output 'growth.svg'\nset logscale xy\nset xlabel 'side, voxels'\n"
+    std::string script = "set output 'growth.svg'\nset title 'time against size'\nset logscale "
+                         "xy\nset xlabel 'side, voxels'\n"
                          "set ylabel 'ms'\nset fit quiet\nset fit nolog\n";
     const char *const names[] = {"frame", "ray sum", "shear-warp sum"};
     for (int n = 0; n < 3; ++n)
@@ -145,16 +190,17 @@ void writeHtmlReport(const std::filesystem::path &folder, const Machine &machine
         "text-align:right}}td:first-child,td.note{{text-align:left}}td.note{{max-width:40em}}"
         "</style></head><body><h1>Speed and error</h1><p>{}, {} threads, {:.0f} GiB, {}</p>\n",
         escaped(machine.processor), machine.threads, machine.memoryGiB, escaped(machine.system));
-    std::string script = "set terminal svg size 820,520\nset grid\nset format y '%.0e'\n";
+    std::string script = "set terminal svg size 980,620 background rgb 'white'\nset grid\n"
+                         "set key outside right\nset format y '%.0e'\n";
     for (const auto &[suite, list] : suites) {
         html += "<h2>" + escaped(suite) + "</h2>\n";
-        const std::string error = errorPlot(folder, suite, list);
-        if (!error.empty())
-            html += "<p><img src=\"" + suite + "_error.svg\" alt=\"error against time\"></p>\n";
+        script += "set logscale xy\nset xlabel 'frame, ms'\nset ylabel 'relative L2 error'\n";
+        for (const std::string &picture : errorPlots(folder, suite, list, script))
+            html += "<p><img src=\"" + picture + ".svg\" alt=\"error against time\"></p>\n";
         const std::string growth = growthPlot(folder, list);
         if (!growth.empty())
             html += "<p><img src=\"growth.svg\" alt=\"time against size\"></p>\n";
-        script += error + growth;
+        script += growth;
         html += tableOf(list);
     }
     save(folder / "plots.gp", script);
