@@ -147,6 +147,7 @@ void StudyOpener::openSource(int index) {
     m_givenUp.reset();
     Prepared wanted(m_document.scene());
     wanted.window.reset(); // a new volume has its own
+    wanted.look = {};
     m_document.setCurrentSource(index);
     m_document.closeVolume();
     m_jobs.start(tr("Loading %1").arg(source.series), [this, source, wanted](const Job &job) {

@@ -48,8 +48,9 @@ void writeImageNrrd(const fs::path &path, const render::ProjectionImage &image,
 
 } // namespace
 
-void checkOutput(const fs::path &out) {
-    outputKind(out);
+void checkOutput(const fs::path &out, bool isGrey) {
+    if (outputKind(out) == OutputKind::nrrd && !isGrey)
+        throw Error(ErrorCode::usage, "-o: coloured pictures are written as .png or .npy");
 }
 
 void writeImage(const fs::path &path, const render::ProjectionImage &image,
@@ -62,8 +63,6 @@ void writeImage(const fs::path &path, const render::ProjectionImage &image,
         files::writeNpy(path, image.samples, image.height, image.width, image.channels);
         break;
     case OutputKind::nrrd:
-        if (image.channels > 1)
-            throw Error(ErrorCode::usage, "-o: coloured pictures are written as .png or .npy");
         writeImageNrrd(path, image, scene.camera, patient);
         break;
     }

@@ -8,8 +8,9 @@
 
 namespace pellucid::cli {
 
-/// *Throws* Error{usage} unless the path ends in .png, .npy or .nrrd.
-void checkOutput(const std::filesystem::path &out);
+/// *Throws* Error{usage} unless the path ends in .png or .npy, or in .nrrd for a picture without
+/// colour.
+void checkOutput(const std::filesystem::path &out, bool isGrey);
 
 /// Writes a projection: as a picture through the scene's tone (.png), or its values (.npy, .nrrd).
 /// *Throws* Error{output}, Error{usage} for a kind that cannot hold it.

@@ -42,8 +42,7 @@ bool isEmpty(const classify::DensityField &field) {
 void run(const Options &o, const CLI::App &command, const Context &context) {
     const fs::path out(o.out);
     // Refused before any work is done.
-    checkOutput(out);
-    lookFor(o.scene);
+    checkOutput(out, classify::isGrey(lookFor(o.scene)));
     if (o.engine == "gpu")
         throw Error(ErrorCode::noSuchDevice,
                     "--engine gpu: the GPU engine is not available in this version");
@@ -56,6 +55,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const Input input = openInput(o.path, o.series, context);
     const volume::Volume &volume = input.loaded.volume;
     render::Scene scene = sceneFor(o.scene, command, volume.lattice());
+    checkOutput(out, classify::isGrey(scene.look)); // the scene file may have brought colours
     Stopwatch watch;
     const classify::FieldWindow window =
         scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));

@@ -36,8 +36,10 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     }
     const task::Progress progress(context.stop);
     const auto wanted = window.value_or(classify::defaultFieldWindow(volume));
-    const auto field = tissue != nullptr ? classify::classField(volume, wanted, *tissue, progress)
-                                         : classify::densityField(volume, wanted, progress);
+    const auto density = classify::densityField(volume, wanted, progress.part(0.0, 0.4));
+    const auto field =
+        tissue == nullptr ? density
+                          : classify::classField(volume, density, *tissue, progress.part(0.4, 1.0));
     volume::writeNrrd(o.out, field.values, encoding, task::Progress(context.stop));
 }
 

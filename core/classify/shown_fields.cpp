@@ -46,6 +46,11 @@ bool mixesColors(const Look &look) {
     return !haveOneColor(visible(look));
 }
 
+bool isGrey(const Look &look) {
+    const std::vector<TissueClass> shown = visible(look);
+    return shown.empty() || (haveOneColor(shown) && shown.front().color == Color{});
+}
+
 std::size_t peakBytes(const Look &look, std::size_t samples) {
     // A class is made of its density, that weighted, and itself.
     const std::size_t fields = look.classes.empty() ? look.transferFunction.isPlain() ? 1 : 2
@@ -62,14 +67,15 @@ void validate(const Look &look) {
 
 ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window, const Look &look,
                         const task::Progress &progress) {
+    const DensityField density = densityField(volume, window, progress.part(0.0, 0.3));
     if (look.classes.empty()) {
-        const DensityField density = densityField(volume, window, progress.part(0.0, 0.5));
         if (look.transferFunction.isPlain())
             return {{density}, {}};
-        return {{weighted(density, look.transferFunction, progress.part(0.5, 1.0))}, {}};
+        return {{weighted(density, look.transferFunction, progress.part(0.3, 1.0))}, {}};
     }
     const std::vector<TissueClass> shown = visible(look);
     const bool oneColor = haveOneColor(shown);
+    const task::Progress ofClasses = progress.part(0.3, 1.0);
     ShownFields result;
     try {
         const std::size_t count = volume.lattice().size().count();
@@ -77,8 +83,8 @@ ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window,
         for (std::size_t c = 0; c < shown.size(); ++c) {
             const TissueClass &tissue = shown[c];
             const DensityField field =
-                classField(volume, window, tissue,
-                           progress.part(double(c) / shown.size(), double(c + 1) / shown.size()));
+                classField(volume, density, tissue,
+                           ofClasses.part(double(c) / shown.size(), double(c + 1) / shown.size()));
             const std::array<double, 3> parts{tissue.color.red, tissue.color.green,
                                               tissue.color.blue};
             for (std::size_t channel = 0; channel < sums.size(); ++channel)

@@ -28,8 +28,9 @@ struct ShownFields {
     bool isGrey() const { return channels.size() == 1 && color == Color{}; }
 };
 
-/// Whether the picture of a look needs three channels.
+/// Whether the picture of a look needs three channels, and whether it has no colour at all.
 bool mixesColors(const Look &look);
+bool isGrey(const Look &look);
 
 /// Bytes held at once while the fields of a look of so many samples are made, the result included.
 std::size_t peakBytes(const Look &look, std::size_t samples);

@@ -78,11 +78,10 @@ const std::vector<TissueClass> &standardClasses() {
     return classes;
 }
 
-DensityField classField(const volume::Volume &volume, const FieldWindow &window,
+DensityField classField(const volume::Volume &volume, const DensityField &density,
                         const TissueClass &tissue, const task::Progress &progress) {
-    const DensityField density = densityField(volume, window, progress.part(0.0, 0.5));
     const DensityField shown = tissue.transferFunction ? weighted(density, *tissue.transferFunction,
-                                                                  progress.part(0.5, 0.8))
+                                                                  progress.part(0.0, 0.5))
                                                        : density;
     const volume::GridSize size = volume.lattice().size();
     const std::size_t plane = std::size_t(size.i) * size.j;

@@ -42,9 +42,10 @@ void validate(const TissueClass &tissue);
 /// metal.
 const std::vector<TissueClass> &standardClasses();
 
-/// g = f m(value) B(f): the density of what belongs to a class. Its weight and colour are not
-/// applied: they change without it. *Throws* Error{outOfMemory}, Cancelled.
-DensityField classField(const volume::Volume &volume, const FieldWindow &window,
+/// g = f m(value) B(f): the density of what belongs to a class, from a volume and its density. Its
+/// weight and colour are not applied: they change without it. *Throws* Error{outOfMemory},
+/// Cancelled.
+DensityField classField(const volume::Volume &volume, const DensityField &density,
                         const TissueClass &tissue, const task::Progress &progress = {});
 
 } // namespace pellucid::classify

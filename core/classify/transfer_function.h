@@ -42,8 +42,8 @@ FittedTransferFunction fitTransferFunction(const std::function<double(double)> &
 /// The same curve held by more control points, exactly; or the nearest one held by fewer.
 TransferFunction withPoints(const TransferFunction &function, int points);
 
-/// The field f B(f). The product has an n-fold band and the samples alias it: these samples are
-/// what the field is. *Throws* Error{outOfMemory}, Cancelled.
+/// The field f B(f) of a density f in 0..1. The product has an n-fold band and the samples alias
+/// it: these samples are what the field is. *Throws* Error{outOfMemory}, Cancelled.
 DensityField weighted(const DensityField &field, const TransferFunction &function,
                       const task::Progress &progress = {});
 

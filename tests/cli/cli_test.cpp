@@ -255,11 +255,17 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
         EXPECT_LE(error, json::parse(r.out)["predicted_error"]["relative_l2"].get<double>());
     }
     const fs::path nrrd = folder / "class.nrrd";
+    const auto refused =
+        cli("render " + quoted(series) + " -o " + quoted(nrrd) + " --class bone=1:#ff0000");
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.error.find("coloured"), std::string::npos);
+    EXPECT_FALSE(fs::exists(nrrd));
     EXPECT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --class bone").exitCode,
               0);
     const auto written = volume::readNrrd(nrrd);
-    const auto expected =
-        classify::classField(volume, window, standard("bone", 1.0, "#ffffff")).values;
+    const auto expected = classify::classField(volume, classify::densityField(volume, window),
+                                               standard("bone", 1.0, "#ffffff"))
+                              .values;
     for (const volume::VoxelIndex at : {volume::VoxelIndex{28, 40, 20}, {3, 3, 3}, {28, 36, 10}})
         EXPECT_EQ(written.value(at), expected.value(at));
 }

@@ -40,7 +40,7 @@ TEST(TissueClass, MembershipRisesAndFallsAboutTheEnds) {
 
 TEST(TissueClass, ClassFieldsAreDensityTimesMembership) {
     const TissueClass tissue{"t", 0.0, 600.0, 400.0};
-    const auto field = classify::classField(ramp(), window, tissue);
+    const auto field = classify::classField(ramp(), classify::densityField(ramp(), window), tissue);
     for (int i = 0; i < 30; ++i) {
         const double value = -1000.0 + 100.0 * i;
         EXPECT_NEAR(field.values.value({i, 1, 0}),
@@ -56,7 +56,8 @@ TEST(TissueClass, ValuesThatAreNoNumbersBelongToNothing) {
     const volume::Volume values(volume::Lattice::centred({4, 1, 1}, {1, 1, 1}),
                                 std::vector<float>{nan, infinity, -infinity, 50.0F},
                                 volume::ValueUnit::none);
-    const auto field = classify::classField(values, {0.0, 100.0}, {"t", 0.0, 60.0, 10.0});
+    const auto field = classify::classField(values, classify::densityField(values, {0.0, 100.0}),
+                                            {"t", 0.0, 60.0, 10.0});
     EXPECT_EQ(field.values.value({0, 0, 0}), 0.0);
     EXPECT_EQ(field.values.value({1, 0, 0}), 0.0);
     EXPECT_EQ(field.values.value({2, 0, 0}), 0.0);
@@ -73,10 +74,17 @@ TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
     ASSERT_EQ(one.channels.size(), 1U);
     EXPECT_EQ(one.color, low.color);
     EXPECT_FALSE(one.isGrey());
+    EXPECT_FALSE(classify::isGrey({{}, {low, alike}}));
+    EXPECT_FALSE(classify::isGrey({{}, {low, high}}));
+    TissueClass white = low;
+    white.color = {};
+    EXPECT_TRUE(classify::isGrey({{}, {white}}));
+    EXPECT_TRUE(classify::isGrey({}));
     const auto mixed = classify::shownFields(volume, window, {{}, {low, high}});
     ASSERT_EQ(mixed.channels.size(), 3U);
-    const auto a = classify::classField(volume, window, low);
-    const auto b = classify::classField(volume, window, high);
+    const auto density = classify::densityField(volume, window);
+    const auto a = classify::classField(volume, density, low);
+    const auto b = classify::classField(volume, density, high);
     for (int i = 0; i < 30; ++i) {
         const volume::VoxelIndex at{i, 0, 0};
         const double la = 0.5 * a.values.value(at), lb = 2.0 * b.values.value(at);
