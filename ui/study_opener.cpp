@@ -80,7 +80,7 @@ void StudyOpener::prepare(const Job &job, const volume::Volume &volume, const Pr
         int(std::clamp(2.0 * volume.lattice().radiusMm() / scene.camera.pixelMm, 2.0, 4096.0));
     const auto fields =
         classify::shownFields(volume, wanted.window.value_or(classify::defaultFieldWindow(volume)),
-                              wanted.look, progress.part(0.0, 0.1));
+                              wanted.look, nullptr, progress.part(0.0, 0.1));
     const classify::DensityField &field = fields.channels.front(); // one: see MainWindow::openScene
     const auto announce = [&](const classify::DensityField &f, bool coarse,
                               const task::Progress &p) {

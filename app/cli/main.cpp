@@ -65,6 +65,7 @@ int main(int argc, char **argv) {
     cli::addInfoCommand(app, context);
     cli::addRenderCommand(app, context);
     cli::addVolumeCommand(app, context);
+    cli::addPresetCommand(app, context);
     cli::addPhantomCommand(app, context);
     // CLI11 would say no more than that a subcommand is missing.
     const auto commands = app.get_subcommands([](const CLI::App *) { return true; });
@@ -75,7 +76,7 @@ int main(int argc, char **argv) {
     };
     if (argc > 1 && !known(argv[1]))
         return report(std::string("unknown command '") + argv[1] +
-                          "'; there are info, render, volume and phantom",
+                          "'; there are info, render, volume, preset and phantom",
                       usageExit);
     try {
         app.parse(argc, argv);

@@ -15,6 +15,7 @@
 #include "app/cli/json_text.h"
 #include "app/cli/renderer.h"
 #include "app/cli/scene_options.h"
+#include "core/preprocess/step_cache.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
 
@@ -35,6 +36,9 @@ struct Options {
     bool turntable = false, json = false;
 };
 
+// A picture asks for each step once; two classes may share one.
+constexpr std::size_t budgetOfSteps = std::size_t(1) << 30;
+
 bool isEmpty(const classify::DensityField &field) {
     return field.support.size().count() == 1 && field.values.value(field.support.lo) == 0.0;
 }
@@ -54,7 +58,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 
     const Input input = openInput(o.path, o.series, context);
     const volume::Volume &volume = input.loaded.volume;
-    render::Scene scene = sceneFor(o.scene, command, volume.lattice());
+    render::Scene scene = sceneFor(o.scene, command, volume);
     checkOutput(out, classify::isGrey(scene.look)); // the scene file may have brought colours
     Stopwatch watch;
     const classify::FieldWindow window =
@@ -66,8 +70,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                     fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
                                 o.memory >> 20),
                     o.path);
+    preprocess::StepCache steps(budgetOfSteps);
     const auto fields =
-        classify::shownFields(volume, window, scene.look, task::Progress(context.stop));
+        classify::shownFields(volume, window, scene.look, &steps, task::Progress(context.stop));
     // Asking for more than there is would end in the system killing the program.
     render::Budget budget{task::availableMemoryBytes()};
     if (command.count("--memory") > 0)
@@ -94,6 +99,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     };
     if (renderer.isReduced())
         warn(renderer.reason());
+    if (const auto preset = presetFor(o.scene))
+        if (const std::string why = presets::mismatch(*preset, volume); !why.empty())
+            warn(why);
     if (renderer.predictedError() > scene.tolerance && scene.tolerance > 1e-9)
         warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
                          renderer.predictedError()));

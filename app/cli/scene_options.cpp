@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/input.h"
+#include "core/presets/preset_library.h"
 #include "core/task/error.h"
 
 namespace pellucid::cli {
@@ -69,6 +70,19 @@ classify::TissueClass classFromText(const std::string &text) {
     return tissue;
 }
 
+// A curve asked for by name shows the whole volume through it, classes show themselves.
+void change(classify::Look &look, const SceneOptions &options) {
+    if (!options.bezier.empty()) {
+        look.transferFunction.weights = weightsFromText(options.bezier);
+        look.classes.clear();
+    }
+    if (!options.classes.empty())
+        look.classes.clear();
+    for (const std::string &text : options.classes)
+        look.classes.push_back(classFromText(text));
+    classify::validate(look);
+}
+
 } // namespace
 
 const classify::TissueClass &classNamed(const std::string &name) {
@@ -81,13 +95,19 @@ const classify::TissueClass &classNamed(const std::string &name) {
     throw Error(ErrorCode::usage, "--class: '" + name + "' is none of " + names);
 }
 
+std::optional<presets::Preset> presetFor(const SceneOptions &options) {
+    if (options.preset.empty())
+        return std::nullopt;
+    const fs::path path(options.preset);
+    if (path.extension() == ".json" || path.has_parent_path())
+        return presets::readPreset(path);
+    return presets::PresetLibrary::ofUser().get(options.preset).preset;
+}
+
 classify::Look lookFor(const SceneOptions &options) {
-    classify::Look look;
-    if (!options.bezier.empty())
-        look.transferFunction.weights = weightsFromText(options.bezier);
-    for (const std::string &text : options.classes)
-        look.classes.push_back(classFromText(text));
-    classify::validate(look);
+    const auto preset = presetFor(options);
+    classify::Look look = preset ? preset->look : classify::Look();
+    change(look, options);
     return look;
 }
 
@@ -123,6 +143,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         .add_option("--pixel-mm", options.pixelMm,
                     "Pixel size in mm; default: the shortest voxel step")
         ->check(positive);
+    command.add_option("--preset", options.preset, "A look of the library, or its file");
     command.add_option("--window", options.window, "The field's window LO,HI in value units");
     command.add_option("--bezier", options.bezier,
                        "Weights w0,w1,... of the transfer function, 2 to 16 of 0 to 2");
@@ -153,7 +174,8 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
 }
 
 render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
-                       const volume::Lattice &lattice) {
+                       const volume::Volume &volume) {
+    const volume::Lattice &lattice = volume.lattice();
     const auto given = [&](const char *name) { return command.count(name) > 0; };
     render::Scene scene;
     if (!o.scene.empty()) {
@@ -216,13 +238,15 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
         scene.camera.width = int(n[0]);
         scene.camera.height = int(n[1]);
     }
+    const auto preset = presetFor(o);
+    if (preset)
+        scene.fieldWindow = preset->window;
     if (given("--window"))
         scene.fieldWindow = parseWindow(o.window);
-    const classify::Look look = lookFor(o);
-    if (given("--bezier"))
-        scene.look.transferFunction = look.transferFunction;
-    if (given("--class"))
-        scene.look.classes = look.classes;
+    if (preset)
+        scene.look = presets::lookFor(
+            *preset, scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)));
+    change(scene.look, o);
     if (given("--reconstruction"))
         scene.image.reconstruction = reconstructions.at(o.reconstruction);
     if (given("--roll-off"))

@@ -6,6 +6,8 @@
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
 #include "app/cli/scene_options.h"
+#include "core/classify/shown_fields.h"
+#include "core/preprocess/step_cache.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -15,31 +17,32 @@ namespace {
 
 struct Options {
     std::string path, out, series, window, tissue;
-    bool field = false, gzip = false;
+    bool field = false, edges = false, gzip = false;
 };
 
 void run(const Options &o, const CLI::App &command, const Context &context) {
     if (std::filesystem::path(o.out).extension() != ".nrrd")
         throw task::Error(task::ErrorCode::usage, "-o: '" + o.out + "' must end in .nrrd");
-    if (command.count("--window") > 0 && !o.field && o.tissue.empty())
+    if (command.count("--window") > 0 && !o.field && o.tissue.empty() && !o.edges)
         throw task::Error(task::ErrorCode::usage, "--window needs --field or --class");
-    const classify::TissueClass *const tissue = o.tissue.empty() ? nullptr : &classNamed(o.tissue);
+    std::optional<classify::TissueClass> tissue;
+    if (!o.tissue.empty() || o.edges)
+        tissue = classNamed(o.edges ? "edges" : o.tissue);
     std::optional<classify::FieldWindow> window;
     if (command.count("--window") > 0)
         window = parseWindow(o.window);
     const Input input = openInput(o.path, o.series, context);
     const volume::Volume &volume = input.loaded.volume;
     const auto encoding = o.gzip ? volume::NrrdEncoding::gzip : volume::NrrdEncoding::raw;
-    if (!o.field && tissue == nullptr) {
+    if (!o.field && !tissue) {
         volume::writeNrrd(o.out, volume, encoding, task::Progress(context.stop));
         return;
     }
     const task::Progress progress(context.stop);
     const auto wanted = window.value_or(classify::defaultFieldWindow(volume));
-    const auto density = classify::densityField(volume, wanted, progress.part(0.0, 0.4));
-    const auto field =
-        tissue == nullptr ? density
-                          : classify::classField(volume, density, *tissue, progress.part(0.4, 1.0));
+    preprocess::StepCache steps(0); // nothing is asked for twice
+    const auto field = tissue ? classify::classField(volume, wanted, *tissue, &steps, progress)
+                              : classify::densityField(volume, wanted, progress);
     volume::writeNrrd(o.out, field.values, encoding, task::Progress(context.stop));
 }
 
@@ -56,6 +59,8 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
     CLI::Option *field =
         c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
     c->add_option("--class", o->tissue, "Write the field of a standard class, as --field otherwise")
+        ->excludes(field);
+    c->add_flag("--edges", o->edges, "Write the Canny edges, the standard class 'edges'")
         ->excludes(field);
     c->add_option("--window", o->window, "The field's window LO,HI in value units");
     c->add_flag("--gzip", o->gzip, "Compress the samples");

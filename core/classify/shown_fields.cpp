@@ -1,94 +1,93 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/classify/shown_fields.h"
 
-#include <algorithm>
 #include <array>
-#include <iterator>
 #include <new>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
+#include "core/classify/value_curve.h"
 #include "core/task/error.h"
 
 namespace pellucid::classify {
 
 namespace {
 
-// sums += factor * field, sample by sample.
-void add(std::vector<float> &sums, const DensityField &field, double factor) {
-    field.values.visit([&](auto samples) {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sums.size(), 1 << 16),
-                          [&](const tbb::blocked_range<std::size_t> &range) {
-                              for (std::size_t n = range.begin(); n != range.end(); ++n)
-                                  sums[n] += float(factor) * float(samples[n]);
-                          });
-    });
+// What running steps takes at most, in floats a sample: edges hold the smoothed values, their
+// second derivative and its zero crossings beside what smoothing itself needs.
+constexpr std::size_t floatsOfSteps = 6;
+
+std::function<double(double)> shapeOf(const std::optional<TransferFunction> &function) {
+    if (!function || function->isPlain())
+        return {};
+    return [f = *function](double density) { return f.at(density); };
 }
 
-// A class without weight is not computed.
-std::vector<TissueClass> visible(const Look &look) {
-    std::vector<TissueClass> shown;
-    std::copy_if(look.classes.begin(), look.classes.end(), std::back_inserter(shown),
-                 [](const TissueClass &tissue) { return tissue.weight > 0.0; });
-    return shown;
+WeightedCurve curveOf(const TissueClass &tissue, const FieldWindow &window, DensityKind density,
+                      bool oneColor) {
+    const double w = tissue.weight;
+    const Color &c = tissue.color;
+    return {ValueCurve(window, density, tissue, shapeOf(tissue.transferFunction)),
+            oneColor ? std::array{w, w, w} : std::array{w * c.red, w * c.green, w * c.blue}};
 }
 
-bool haveOneColor(const std::vector<TissueClass> &classes) {
-    return std::all_of(classes.begin(), classes.end(), [&](const TissueClass &tissue) {
-        return tissue.color == classes.front().color;
-    });
+// The sums of the classes, all that have no steps in one pass over the volume.
+void addClasses(const volume::Volume &volume, const FieldWindow &window,
+                const std::vector<TissueClass> &shown, bool oneColor, StepRunner *runner,
+                std::vector<std::vector<float>> &sums, const task::Progress &progress) {
+    std::vector<WeightedCurve> together;
+    double done = 0.0;
+    for (const TissueClass &tissue : shown) {
+        if (tissue.steps.empty()) {
+            together.push_back(curveOf(tissue, window, DensityKind::window, oneColor));
+            continue;
+        }
+        const double next = done + 0.9 / double(shown.size());
+        const ClassSamples samples = samplesOf(volume, tissue, runner, progress.part(done, next));
+        const WeightedCurve curve = curveOf(tissue, window, samples.density, oneColor);
+        addCurves(samples.values, samples.regions.get(), {&curve, 1}, sums);
+        done = next;
+    }
+    if (!together.empty())
+        addCurves(volume, nullptr, together, sums, progress.part(done, 1.0));
 }
 
 } // namespace
 
-bool mixesColors(const Look &look) {
-    return !haveOneColor(visible(look));
-}
-
-bool isGrey(const Look &look) {
-    const std::vector<TissueClass> shown = visible(look);
-    return shown.empty() || (haveOneColor(shown) && shown.front().color == Color{});
+ClassSamples samplesOf(const volume::Volume &volume, const TissueClass &tissue, StepRunner *runner,
+                       const task::Progress &progress) {
+    if (tissue.steps.empty())
+        return {volume, DensityKind::window, nullptr};
+    if (runner == nullptr)
+        throw task::Error(task::ErrorCode::usage,
+                          "the steps of the class '" + tissue.name + "' cannot be run here");
+    return runner->run(volume, tissue, progress);
 }
 
 std::size_t peakBytes(const Look &look, std::size_t samples) {
-    // A class is made of its density, that weighted, and itself.
-    const std::size_t fields = look.classes.empty() ? look.transferFunction.isPlain() ? 1 : 2
-                               : haveOneColor(visible(look)) ? 4
-                                                             : 6;
-    return fields * samples * sizeof(float);
-}
-
-void validate(const Look &look) {
-    validate(look.transferFunction);
-    for (const TissueClass &tissue : look.classes)
-        validate(tissue);
+    const auto shown = visibleClasses(look);
+    const bool hasSteps = std::any_of(shown.begin(), shown.end(), [](const TissueClass &tissue) {
+        return !tissue.steps.empty();
+    });
+    const std::size_t floats =
+        (mixesColors(look) ? 3 : 1) + (hasSteps ? floatsOfSteps : std::size_t(0));
+    return floats * samples * sizeof(float);
 }
 
 ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window, const Look &look,
-                        const task::Progress &progress) {
-    const DensityField density = densityField(volume, window, progress.part(0.0, 0.3));
-    if (look.classes.empty()) {
-        if (look.transferFunction.isPlain())
-            return {{density}, {}};
-        return {{weighted(density, look.transferFunction, progress.part(0.3, 1.0))}, {}};
-    }
-    const std::vector<TissueClass> shown = visible(look);
-    const bool oneColor = haveOneColor(shown);
-    const task::Progress ofClasses = progress.part(0.3, 1.0);
+                        StepRunner *runner, const task::Progress &progress) {
+    if (look.classes.empty() && look.transferFunction.isPlain())
+        return {{densityField(volume, window, progress)}, {}};
+    const std::vector<TissueClass> shown = visibleClasses(look);
+    const bool oneColor = !mixesColors(look);
     ShownFields result;
     try {
-        const std::size_t count = volume.lattice().size().count();
-        std::vector<std::vector<float>> sums(oneColor ? 1 : 3, std::vector<float>(count, 0.0F));
-        for (std::size_t c = 0; c < shown.size(); ++c) {
-            const TissueClass &tissue = shown[c];
-            const DensityField field =
-                classField(volume, density, tissue,
-                           ofClasses.part(double(c) / shown.size(), double(c + 1) / shown.size()));
-            const std::array<double, 3> parts{tissue.color.red, tissue.color.green,
-                                              tissue.color.blue};
-            for (std::size_t channel = 0; channel < sums.size(); ++channel)
-                add(sums[channel], field, tissue.weight * (oneColor ? 1.0 : parts[channel]));
+        std::vector<std::vector<float>> sums(
+            oneColor ? 1 : 3, std::vector<float>(volume.lattice().size().count(), 0.0F));
+        if (look.classes.empty()) {
+            const WeightedCurve curve{ValueCurve(window, DensityKind::window, std::nullopt,
+                                                 shapeOf(look.transferFunction))};
+            addCurves(volume, nullptr, {&curve, 1}, sums, progress);
+        } else {
+            addClasses(volume, window, shown, oneColor, runner, sums, progress);
         }
         for (auto &samples : sums)
             result.channels.push_back(fieldOf(volume, std::move(samples)));
@@ -98,6 +97,14 @@ ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window,
     if (oneColor && !shown.empty())
         result.color = shown.front().color;
     return result;
+}
+
+DensityField classField(const volume::Volume &volume, const FieldWindow &window,
+                        const TissueClass &tissue, StepRunner *runner,
+                        const task::Progress &progress) {
+    TissueClass plain = tissue;
+    plain.weight = 1.0;
+    return shownFields(volume, window, {{}, {plain}}, runner, progress).channels.front();
 }
 
 } // namespace pellucid::classify

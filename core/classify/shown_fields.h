@@ -3,20 +3,11 @@
 
 #include <vector>
 
-#include "core/classify/tissue_class.h"
+#include "core/classify/class_samples.h"
+#include "core/classify/density_field.h"
+#include "core/classify/look.h"
 
 namespace pellucid::classify {
-
-/// What of a volume is shown: its density through the transfer function, or, with any class, the
-/// sum of the classes' fields by their weights, in their colours.
-struct Look {
-    TransferFunction transferFunction;
-    std::vector<TissueClass> classes;
-    bool operator==(const Look &) const = default;
-};
-
-/// *Throws* Error{usage} naming what is out of its range.
-void validate(const Look &look);
 
 /// The fields whose projections make the picture of a look: one, times a colour, or one each for
 /// red, green and blue where colours mix. Projecting is linear: the sum of the fields is projected
@@ -28,15 +19,16 @@ struct ShownFields {
     bool isGrey() const { return channels.size() == 1 && color == Color{}; }
 };
 
-/// Whether the picture of a look needs three channels, and whether it has no colour at all.
-bool mixesColors(const Look &look);
-bool isGrey(const Look &look);
-
 /// Bytes held at once while the fields of a look of so many samples are made, the result included.
 std::size_t peakBytes(const Look &look, std::size_t samples);
 
-/// *Throws* Error{outOfMemory}, Cancelled.
+/// `runner`: may be null if no class has steps. *Throws* Error{outOfMemory}, Cancelled.
 ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window, const Look &look,
+                        StepRunner *runner, const task::Progress &progress = {});
+
+/// The field of one class, its weight and colour left out. *Throws* Error{outOfMemory}, Cancelled.
+DensityField classField(const volume::Volume &volume, const FieldWindow &window,
+                        const TissueClass &tissue, StepRunner *runner,
                         const task::Progress &progress = {});
 
 } // namespace pellucid::classify

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <numbers>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "core/task/error.h"
 
@@ -60,8 +58,21 @@ void validate(const TissueClass &tissue) {
     for (const double c : {tissue.color.red, tissue.color.green, tissue.color.blue})
         if (!(c >= 0.0 && c <= 1.0))
             refuse("the colour is not within 0 and 1");
-    if (tissue.transferFunction)
-        validate(*tissue.transferFunction);
+    try {
+        if (tissue.transferFunction)
+            validate(*tissue.transferFunction);
+        for (const Step &step : tissue.steps)
+            validate(step);
+    } catch (const task::Error &error) {
+        refuse(error.reason());
+    }
+    const auto isRegion = [](const Step &step) {
+        return stepKind(step.kind).effect == StepEffect::region;
+    };
+    const auto firstRegion = std::find_if(tissue.steps.begin(), tissue.steps.end(), isRegion);
+    const auto late = std::find_if_not(firstRegion, tissue.steps.end(), isRegion);
+    if (late != tissue.steps.end())
+        refuse(fmt::format("the step '{}' must come before '{}'", late->kind, firstRegion->kind));
 }
 
 const std::vector<TissueClass> &standardClasses() {
@@ -74,37 +85,10 @@ const std::vector<TissueClass> &standardClasses() {
         {"organ", 20, 130, 30, 1.0, {0.8, 0.45, 0.4}},
         {"contrast", 150, 500, 60, 1.0, {1.0, 0.35, 0.3}},
         {"bone", 250, 2500, 150, 1.0, {1.0, 0.95, 0.85}},
-        {"metal", 2500, 32767, 300, 1.0, {0.7, 0.9, 1.0}}};
+        {"metal", 2500, 32767, 300, 1.0, {0.7, 0.9, 1.0}},
+        {"body", -900, 32767, 50, 1.0, {0.85, 0.85, 0.85}, {}, {{"body", {}}}},
+        {"edges", -600, 32767, 100, 1.0, {0.9, 0.95, 1.0}, {}, {{"edges", {}}}}};
     return classes;
-}
-
-DensityField classField(const volume::Volume &volume, const DensityField &density,
-                        const TissueClass &tissue, const task::Progress &progress) {
-    const DensityField shown = tissue.transferFunction ? weighted(density, *tissue.transferFunction,
-                                                                  progress.part(0.0, 0.5))
-                                                       : density;
-    const volume::GridSize size = volume.lattice().size();
-    const std::size_t plane = std::size_t(size.i) * size.j;
-    try {
-        std::vector<float> samples(size.count());
-        volume.visit([&](auto values) {
-            shown.values.visit([&](auto fields) {
-                tbb::parallel_for(0, size.k, [&](int k) {
-                    progress.check();
-                    for (std::size_t n = k * plane; n < (k + 1) * plane; ++n)
-                        // Where nothing is shown the value may be no number.
-                        samples[n] =
-                            fields[n] > 0
-                                ? float(double(fields[n]) * tissue.membership(double(values[n])))
-                                : 0.0F;
-                });
-            });
-        });
-        progress.report(1.0);
-        return fieldOf(volume, std::move(samples));
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for a class field");
-    }
 }
 
 } // namespace pellucid::classify

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/classify/step.h"
 #include "core/classify/transfer_function.h"
 
 namespace pellucid::classify {
@@ -29,6 +30,8 @@ struct TissueClass {
     double weight = 1.0;
     Color color;
     std::optional<TransferFunction> transferFunction;
+    /// What is done before, in this order: those that change values come first.
+    std::vector<Step> steps;
     bool operator==(const TissueClass &) const = default;
 
     /// 0 to 1: a raised cosine about each end of the range.
@@ -39,13 +42,7 @@ struct TissueClass {
 void validate(const TissueClass &tissue);
 
 /// The classes that go by a name for CT: air, lung, fat, fluid, muscle, organ, contrast, bone,
-/// metal.
+/// metal, body, edges.
 const std::vector<TissueClass> &standardClasses();
-
-/// g = f m(value) B(f): the density of what belongs to a class, from a volume and its density. Its
-/// weight and colour are not applied: they change without it. *Throws* Error{outOfMemory},
-/// Cancelled.
-DensityField classField(const volume::Volume &volume, const DensityField &density,
-                        const TissueClass &tissue, const task::Progress &progress = {});
 
 } // namespace pellucid::classify

@@ -3,20 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "core/task/error.h"
 
 namespace pellucid::classify {
 
 namespace {
-
-// f B(f) between steps of this size differs from its chord by h^2/8 times its second derivative:
-// 1e-6 for sixteen points that alternate between 0 and 2, the steepest there are.
-constexpr int tableSteps = 16384;
 
 // The least squares problem in the Bernstein basis within a box, by descent along one coordinate
 // after the other. The matrix is positive definite: what the descent tends to is the minimum.
@@ -76,19 +70,21 @@ void validate(const TransferFunction &function) {
                                           weight, TransferFunction::largestWeight));
 }
 
-FittedTransferFunction fitTransferFunction(const std::function<double(double)> &curve, int points) {
+FittedTransferFunction fitTransferFunction(const std::function<double(double)> &curve, int points,
+                                           const std::function<double(double)> &importance) {
     const auto n = std::size_t(points);
     constexpr int samples = 1024;
     std::vector<std::vector<double>> matrix(n, std::vector<double>(n, 0.0));
     std::vector<double> right(n, 0.0), basis(n);
     for (int s = 0; s <= samples; ++s) {
         const double f = double(s) / samples, value = curve(f);
+        const double share = importance ? importance(f) : 1.0;
         for (std::size_t i = 0; i < n; ++i)
             basis[i] = bernstein(int(i), points - 1, f);
         for (std::size_t i = 0; i < n; ++i) {
-            right[i] += basis[i] * value;
+            right[i] += share * basis[i] * value;
             for (std::size_t j = 0; j < n; ++j)
-                matrix[i][j] += basis[i] * basis[j];
+                matrix[i][j] += share * basis[i] * basis[j];
         }
     }
     FittedTransferFunction fitted{
@@ -117,35 +113,6 @@ TransferFunction withPoints(const TransferFunction &function, int points) {
         weights = std::move(raised);
     }
     return {weights};
-}
-
-DensityField weighted(const DensityField &field, const TransferFunction &function,
-                      const task::Progress &progress) {
-    std::vector<float> table(tableSteps + 2);
-    for (int n = 0; n <= tableSteps; ++n) {
-        const double f = double(n) / tableSteps;
-        table[std::size_t(n)] = float(f * function.at(f));
-    }
-    table.back() = table[tableSteps]; // the right neighbour of f = 1
-    try {
-        std::vector<float> samples(field.values.lattice().size().count());
-        const volume::GridSize size = field.values.lattice().size();
-        const std::size_t plane = std::size_t(size.i) * size.j;
-        field.values.visit([&](auto values) {
-            tbb::parallel_for(0, size.k, [&](int k) {
-                progress.check();
-                for (std::size_t n = k * plane; n < (k + 1) * plane; ++n) {
-                    const float at = float(values[n]) * tableSteps;
-                    const int left = int(at);
-                    const float *pair = table.data() + left;
-                    samples[n] = pair[0] + (at - float(left)) * (pair[1] - pair[0]);
-                }
-            });
-        });
-        return fieldOf(field.values, std::move(samples));
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for a weighted field");
-    }
 }
 
 } // namespace pellucid::classify

@@ -4,8 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "core/classify/density_field.h"
-
 namespace pellucid::classify {
 
 /// b_i(f) = C(degree, i) f^i (1 - f)^(degree - i), 0 <= i <= degree.
@@ -13,7 +11,8 @@ double bernstein(int index, int degree, double f);
 
 /// The weight that a density is shown with: B(f) = sum_i P_i b_i(f), a Bézier curve over f in 0..1
 /// whose n control points lie above i/(n - 1). It multiplies: what is projected is f B(f). All
-/// weights 1 leave the density as it is. *Source*: Cheng 2007, eq. 34 to 36.
+/// weights 1 leave the density as it is. The product has an n-fold band and the samples alias it:
+/// these samples are what the field is. *Source*: Cheng 2007, eq. 34 to 36.
 struct TransferFunction {
     static constexpr int fewestPoints = 2, mostPoints = 16;
     static constexpr double largestWeight = 2.0;
@@ -36,15 +35,12 @@ struct FittedTransferFunction {
     double largestError = 0.0; ///< of the weights over f in 0..1
 };
 
-/// The weights within 0..largestWeight with the least mean square distance from a curve over 0..1.
-FittedTransferFunction fitTransferFunction(const std::function<double(double)> &curve, int points);
+/// The weights within 0..largestWeight with the least mean square distance from a curve over 0..1,
+/// each part of the curve counting by its importance: the same everywhere if none is given.
+FittedTransferFunction fitTransferFunction(const std::function<double(double)> &curve, int points,
+                                           const std::function<double(double)> &importance = {});
 
 /// The same curve held by more control points, exactly; or the nearest one held by fewer.
 TransferFunction withPoints(const TransferFunction &function, int points);
-
-/// The field f B(f) of a density f in 0..1. The product has an n-fold band and the samples alias
-/// it: these samples are what the field is. *Throws* Error{outOfMemory}, Cancelled.
-DensityField weighted(const DensityField &field, const TransferFunction &function,
-                      const task::Progress &progress = {});
 
 } // namespace pellucid::classify

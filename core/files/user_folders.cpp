@@ -2,28 +2,48 @@
 #include "core/files/user_folders.h"
 
 #include <cstdlib>
+#include <initializer_list>
 #include <system_error>
 
 namespace pellucid::files {
 
-std::optional<std::filesystem::path> userCacheFolder() {
+namespace {
+
+struct Candidate {
+    const char *variable, *below;
+};
+
+// The folder below the first of the variables that is set.
+std::optional<std::filesystem::path> folderBelow(std::initializer_list<Candidate> candidates) {
     std::filesystem::path folder;
-    const auto take = [&](const char *variable, const char *below) {
+    for (const auto &[variable, below] : candidates) {
         const char *const value = std::getenv(variable);
         // Relative paths in these variables are to be ignored, says the standard that defines them.
         if (folder.empty() && value != nullptr && std::filesystem::path(value).is_absolute())
             folder = std::filesystem::path(value) / below;
-    };
-#ifdef _WIN32
-    take("LOCALAPPDATA", "pellucid/cache");
-#else
-    take("XDG_CACHE_HOME", "pellucid");
-    take("HOME", ".cache/pellucid");
-#endif
+    }
     std::error_code failed;
     if (folder.empty() || (std::filesystem::create_directories(folder, failed), failed))
         return std::nullopt;
     return folder;
 }
+
+} // namespace
+
+#ifdef _WIN32
+std::optional<std::filesystem::path> userCacheFolder() {
+    return folderBelow({{"LOCALAPPDATA", "pellucid/cache"}});
+}
+std::optional<std::filesystem::path> userDataFolder() {
+    return folderBelow({{"APPDATA", "pellucid"}});
+}
+#else
+std::optional<std::filesystem::path> userCacheFolder() {
+    return folderBelow({{"XDG_CACHE_HOME", "pellucid"}, {"HOME", ".cache/pellucid"}});
+}
+std::optional<std::filesystem::path> userDataFolder() {
+    return folderBelow({{"XDG_DATA_HOME", "pellucid"}, {"HOME", ".local/share/pellucid"}});
+}
+#endif
 
 } // namespace pellucid::files

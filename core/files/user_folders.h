@@ -10,4 +10,8 @@ namespace pellucid::files {
 /// it is not there; on Windows below %LOCALAPPDATA%. Empty if there is no such place.
 std::optional<std::filesystem::path> userCacheFolder();
 
+/// The user's folder for what must be kept: $XDG_DATA_HOME/pellucid or ~/.local/share/pellucid; on
+/// Windows below %APPDATA%. Made if it is not there. Empty if there is no such place.
+std::optional<std::filesystem::path> userDataFolder();
+
 } // namespace pellucid::files

@@ -5,7 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "core/classify/shown_fields.h"
+#include "core/classify/density_field.h"
+#include "core/classify/look.h"
 #include "core/fourier/kernel.h"
 #include "core/fourier/storage.h"
 #include "core/render/camera.h"

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/classify/look_json.h"
 #include "core/render/scene.h"
 #include "core/task/error.h"
 
@@ -36,32 +37,6 @@ std::string nameOf(Reconstruction value) {
     return {};
 }
 
-json classJson(const classify::TissueClass &tissue) {
-    json out = {{"name", tissue.name},
-                {"range", {tissue.low, tissue.high}},
-                {"softness", tissue.softness},
-                {"weight", tissue.weight},
-                {"color", classify::colorText(tissue.color)}};
-    if (tissue.transferFunction)
-        out["transfer_function"] = tissue.transferFunction->weights;
-    return out;
-}
-
-classify::TissueClass classFromJson(const json &in) {
-    classify::TissueClass tissue;
-    tissue.name = in.at("name");
-    const auto range = in.at("range").get<std::array<double, 2>>();
-    tissue.low = range[0];
-    tissue.high = range[1];
-    tissue.softness = in.value("softness", 0.0);
-    tissue.weight = in.value("weight", 1.0);
-    if (in.contains("color"))
-        tissue.color = classify::colorFromText(in.at("color"));
-    if (in.contains("transfer_function"))
-        tissue.transferFunction = classify::TransferFunction{in.at("transfer_function")};
-    return tissue;
-}
-
 } // namespace
 
 std::string toJson(const Scene &scene) {
@@ -78,10 +53,7 @@ std::string toJson(const Scene &scene) {
                 {"tone", {{"inverted", scene.tone.inverted}}}};
     if (scene.fieldWindow)
         out["window"] = {scene.fieldWindow->low, scene.fieldWindow->high};
-    if (!scene.look.transferFunction.isPlain())
-        out["transfer_function"] = scene.look.transferFunction.weights;
-    for (const classify::TissueClass &tissue : scene.look.classes)
-        out["classes"].push_back(classJson(tissue));
+    out.update(json::parse(classify::toJson(scene.look)));
     if (scene.tone.low)
         out["tone"]["low"] = *scene.tone.low;
     if (scene.tone.high)
@@ -116,12 +88,7 @@ Scene sceneFromJson(const std::string &text) {
             const auto window = in.at("window").get<std::array<double, 2>>();
             scene.fieldWindow = classify::FieldWindow{window[0], window[1]};
         }
-        if (in.contains("transfer_function"))
-            scene.look.transferFunction.weights =
-                in.at("transfer_function").get<std::vector<double>>();
-        if (in.contains("classes"))
-            for (const json &tissue : in.at("classes"))
-                scene.look.classes.push_back(classFromJson(tissue));
+        scene.look = classify::lookFromJson(text);
         const std::string reconstruction = in.value("reconstruction", "cubic");
         const auto it = reconstructionNames().find(reconstruction);
         if (it == reconstructionNames().end())

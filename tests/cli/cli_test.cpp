@@ -239,7 +239,7 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
         const auto r = cli("render " + quoted(series) + " -o " + quoted(out) +
                            " --azimuth 30 --json " + c.options);
         ASSERT_EQ(r.exitCode, 0) << r.error;
-        const auto fields = classify::shownFields(volume, window, c.look);
+        const auto fields = classify::shownFields(volume, window, c.look, nullptr);
         const int channels = fields.isGrey() ? 1 : 3;
         int height = 0, width = 0;
         const auto image = readNpy(out, height, width, channels);
@@ -263,9 +263,8 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
     EXPECT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --class bone").exitCode,
               0);
     const auto written = volume::readNrrd(nrrd);
-    const auto expected = classify::classField(volume, classify::densityField(volume, window),
-                                               standard("bone", 1.0, "#ffffff"))
-                              .values;
+    const auto expected =
+        classify::classField(volume, window, standard("bone", 1.0, "#ffffff"), nullptr).values;
     for (const volume::VoxelIndex at : {volume::VoxelIndex{28, 40, 20}, {3, 3, 3}, {28, 36, 10}})
         EXPECT_EQ(written.value(at), expected.value(at));
 }

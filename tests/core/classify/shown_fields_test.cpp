@@ -40,7 +40,7 @@ TEST(TissueClass, MembershipRisesAndFallsAboutTheEnds) {
 
 TEST(TissueClass, ClassFieldsAreDensityTimesMembership) {
     const TissueClass tissue{"t", 0.0, 600.0, 400.0};
-    const auto field = classify::classField(ramp(), classify::densityField(ramp(), window), tissue);
+    const auto field = classify::classField(ramp(), window, tissue, nullptr);
     for (int i = 0; i < 30; ++i) {
         const double value = -1000.0 + 100.0 * i;
         EXPECT_NEAR(field.values.value({i, 1, 0}),
@@ -56,8 +56,7 @@ TEST(TissueClass, ValuesThatAreNoNumbersBelongToNothing) {
     const volume::Volume values(volume::Lattice::centred({4, 1, 1}, {1, 1, 1}),
                                 std::vector<float>{nan, infinity, -infinity, 50.0F},
                                 volume::ValueUnit::none);
-    const auto field = classify::classField(values, classify::densityField(values, {0.0, 100.0}),
-                                            {"t", 0.0, 60.0, 10.0});
+    const auto field = classify::classField(values, {0.0, 100.0}, {"t", 0.0, 60.0, 10.0}, nullptr);
     EXPECT_EQ(field.values.value({0, 0, 0}), 0.0);
     EXPECT_EQ(field.values.value({1, 0, 0}), 0.0);
     EXPECT_EQ(field.values.value({2, 0, 0}), 0.0);
@@ -70,7 +69,7 @@ TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
     TissueClass alike = high;
     alike.color = low.color;
     const volume::Volume volume = ramp();
-    const auto one = classify::shownFields(volume, window, {{}, {low, alike}});
+    const auto one = classify::shownFields(volume, window, {{}, {low, alike}}, nullptr);
     ASSERT_EQ(one.channels.size(), 1U);
     EXPECT_EQ(one.color, low.color);
     EXPECT_FALSE(one.isGrey());
@@ -80,11 +79,10 @@ TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
     white.color = {};
     EXPECT_TRUE(classify::isGrey({{}, {white}}));
     EXPECT_TRUE(classify::isGrey({}));
-    const auto mixed = classify::shownFields(volume, window, {{}, {low, high}});
+    const auto mixed = classify::shownFields(volume, window, {{}, {low, high}}, nullptr);
     ASSERT_EQ(mixed.channels.size(), 3U);
-    const auto density = classify::densityField(volume, window);
-    const auto a = classify::classField(volume, density, low);
-    const auto b = classify::classField(volume, density, high);
+    const auto a = classify::classField(volume, window, low, nullptr);
+    const auto b = classify::classField(volume, window, high, nullptr);
     for (int i = 0; i < 30; ++i) {
         const volume::VoxelIndex at{i, 0, 0};
         const double la = 0.5 * a.values.value(at), lb = 2.0 * b.values.value(at);
@@ -97,10 +95,10 @@ TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
 
 TEST(ShownFields, WithoutClassesTheTransferFunctionShowsTheDensity) {
     const volume::Volume volume = ramp();
-    const auto plain = classify::shownFields(volume, window, {});
+    const auto plain = classify::shownFields(volume, window, {}, nullptr);
     EXPECT_TRUE(plain.isGrey());
     const classify::TransferFunction function{{0.0, 2.0, 1.0}};
-    const auto bent = classify::shownFields(volume, window, {function, {}});
+    const auto bent = classify::shownFields(volume, window, {function, {}}, nullptr);
     for (int i = 0; i < 30; ++i) {
         const double f = plain.channels[0].values.value({i, 0, 0});
         EXPECT_NEAR(bent.channels[0].values.value({i, 0, 0}), f * function.at(f), 1e-6);
@@ -108,7 +106,8 @@ TEST(ShownFields, WithoutClassesTheTransferFunctionShowsTheDensity) {
 }
 
 TEST(ShownFields, ClassesWithoutWeightShowNothing) {
-    const auto none = classify::shownFields(ramp(), window, {{}, {{"t", 0.0, 600.0, 0.0, 0.0}}});
+    const auto none =
+        classify::shownFields(ramp(), window, {{}, {{"t", 0.0, 600.0, 0.0, 0.0}}}, nullptr);
     ASSERT_EQ(none.channels.size(), 1U);
     EXPECT_EQ(none.channels[0].support.size().count(), 1U);
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/classify/shown_fields.h"
 #include "core/classify/transfer_function.h"
 #include "core/task/error.h"
 #include "tests/support/fields.h"
@@ -87,7 +88,9 @@ TEST(TransferFunction, WeightedFieldIsTheDensityTimesTheCurve) {
     const auto field = test::noiseField(test::tiltedLattice({13, 9, 7}, {1, 1, 2}, 20));
     for (const auto &function :
          {TransferFunction{}, alternating(6), alternating(16), TransferFunction{{0.0, 0.0}}}) {
-        const auto weighted = classify::weighted(field, function);
+        const auto weighted =
+            classify::shownFields(field.values, {0.0, 1.0}, {function, {}}, nullptr)
+                .channels.front();
         for (int n = 0; n < 13 * 9 * 7; ++n) {
             const volume::VoxelIndex at{n % 13, n / 13 % 9, n / 117};
             const double f = field.values.value(at);
@@ -95,7 +98,9 @@ TEST(TransferFunction, WeightedFieldIsTheDensityTimesTheCurve) {
             EXPECT_NEAR(weighted.values.value(at), f * function.at(f), 8e-7);
         }
     }
-    const auto nothing = classify::weighted(field, TransferFunction{{0.0, 0.0}});
+    const auto nothing =
+        classify::shownFields(field.values, {0.0, 1.0}, {TransferFunction{{0.0, 0.0}}, {}}, nullptr)
+            .channels.front();
     EXPECT_EQ(nothing.support.size().count(), 1U);
 }
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/commands.h"
+#include "core/presets/preset_library.h"
+#include "core/presets/slicer_preset.h"
+#include "core/task/error.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using presets::PresetEntry;
+using presets::PresetLibrary;
+
+struct Options {
+    std::string name, path, out;
+    int points = 8;
+    bool replace = false;
+};
+
+PresetLibrary openLibrary() {
+    PresetLibrary library = PresetLibrary::ofUser();
+    for (const auto &skipped : library.skipped())
+        std::fprintf(stderr, "pellucid-cli: warning: %s: %s\n", skipped.path.c_str(),
+                     skipped.reason.c_str());
+    return library;
+}
+
+void list() {
+    const PresetLibrary library = openLibrary();
+    for (const PresetEntry &entry : library.entries()) {
+        const auto &preset = entry.preset;
+        std::puts(fmt::format("{:<28}  {:<4}  {:<8}  {}", preset.name,
+                              preset.modality.empty() ? "any" : preset.modality,
+                              entry.isBuiltIn() ? "built in" : "own", preset.notes)
+                      .c_str());
+    }
+}
+
+void validate(const Options &o) {
+    const auto preset = presets::readPreset(o.path);
+    std::puts(fmt::format("{}: a preset named '{}'", o.path, preset.name).c_str());
+}
+
+void exportTo(const Options &o) {
+    presets::writePreset(o.out, openLibrary().get(o.name).preset);
+}
+
+bool isSlicers(const fs::path &path) {
+    return path.extension() == ".vp" ||
+           (path.extension() == ".json" && path.stem().extension() == ".vp");
+}
+
+void import(const Options &o) {
+    PresetLibrary library = openLibrary();
+    presets::Preset preset;
+    std::string fit;
+    if (isSlicers(o.path)) {
+        auto imported = presets::importSlicerPreset(o.path, o.points);
+        preset = std::move(imported.preset);
+        fit = fmt::format("; its opacity within {:.2g}", imported.largestError);
+    } else {
+        preset = presets::readPreset(o.path);
+    }
+    if (!o.name.empty())
+        preset.name = o.name;
+    if (const PresetEntry *former = library.find(preset.name);
+        former != nullptr && !former->isBuiltIn() && !o.replace)
+        throw task::Error(
+            task::ErrorCode::usage,
+            "there is a preset '" + preset.name +
+                "' already; --replace replaces it, --name gives this one another name");
+    library.save(preset);
+    std::puts(fmt::format("imported '{}'{}", preset.name, fit).c_str());
+}
+
+} // namespace
+
+void addPresetCommand(CLI::App &app, const Context &) {
+    auto o = std::make_shared<Options>();
+    CLI::App *c = app.add_subcommand("preset", "Looks that are kept: list, show, check, move them");
+    c->require_subcommand(1);
+    c->add_subcommand("list", "One line per preset")->callback([] { list(); });
+    CLI::App *show = c->add_subcommand("show", "Print a preset as JSON");
+    show->add_option("NAME", o->name, "A preset of the library")->required();
+    show->callback([o] { std::puts(presets::toJson(openLibrary().get(o->name).preset).c_str()); });
+    CLI::App *check = c->add_subcommand("validate", "Say whether a file is a preset");
+    check->add_option("FILE", o->path, "A preset file")->required();
+    check->callback([o] { validate(*o); });
+    CLI::App *out = c->add_subcommand("export", "Write a preset into a file");
+    out->add_option("NAME", o->name, "A preset of the library")->required();
+    out->add_option("-o,--output", o->out, "The file")->required();
+    out->callback([o] { exportTo(*o); });
+    CLI::App *in =
+        c->add_subcommand("import", "Keep a preset file, or a .vp or .vp.json of 3D Slicer");
+    in->add_option("FILE", o->path, "The file")->required();
+    in->add_option("--name", o->name, "Its name in the library");
+    in->add_option("--points", o->points, "Control points for an opacity of 3D Slicer, default 8")
+        ->check(CLI::Range(2, 16));
+    in->add_flag("--replace", o->replace, "Replace the user's preset of that name");
+    in->callback([o] { import(*o); });
+}
+
+} // namespace pellucid::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/classify/look.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::classify {
+
+std::vector<TissueClass> visibleClasses(const Look &look) {
+    std::vector<TissueClass> shown;
+    std::copy_if(look.classes.begin(), look.classes.end(), std::back_inserter(shown),
+                 [](const TissueClass &tissue) { return tissue.weight > 0.0; });
+    return shown;
+}
+
+bool mixesColors(const Look &look) {
+    const auto shown = visibleClasses(look);
+    return std::any_of(shown.begin(), shown.end(), [&](const TissueClass &tissue) {
+        return tissue.color != shown.front().color;
+    });
+}
+
+bool isGrey(const Look &look) {
+    const auto shown = visibleClasses(look);
+    return std::all_of(shown.begin(), shown.end(),
+                       [](const TissueClass &tissue) { return tissue.color == Color{}; });
+}
+
+void validate(const Look &look) {
+    validate(look.transferFunction);
+    if (look.classes.size() > mostClasses)
+        throw task::Error(
+            task::ErrorCode::usage,
+            fmt::format("there are {} classes, {} are allowed", look.classes.size(), mostClasses));
+    for (const TissueClass &tissue : look.classes)
+        validate(tissue);
+}
+
+} // namespace pellucid::classify

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/classify/step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::classify {
+
+namespace {
+
+using task::Error;
+using task::ErrorCode;
+
+const StepParameter *find(const StepKind &kind, const std::string &name) {
+    const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
+                                    [&](const StepParameter &p) { return p.name == name; });
+    return found == kind.parameters.end() ? nullptr : &*found;
+}
+
+const StepParameter &parameterOf(const StepKind &kind, const std::string &name) {
+    if (const StepParameter *found = find(kind, name))
+        return *found;
+    std::string names;
+    for (const StepParameter &p : kind.parameters)
+        names += (names.empty() ? "" : ", ") + p.name;
+    throw Error(ErrorCode::usage,
+                names.empty() ? fmt::format("the step '{}' has no parameters", kind.name)
+                              : fmt::format("'{}' is no parameter of the step '{}', which has {}",
+                                            name, kind.name, names));
+}
+
+} // namespace
+
+const std::vector<StepKind> &stepKinds() {
+    static const std::vector<StepKind> kinds{
+        {"gaussian",
+         StepEffect::values,
+         "Smooths with a Gaussian",
+         {{"sigma_mm", "mm", 0.1, 20.0, 1.0, false, "Standard deviation"}}},
+        {"median",
+         StepEffect::values,
+         "Median of the neighbourhood: removes specks, keeps edges",
+         {{"radius_mm", "mm", 0.1, 10.0, 1.0, false, "Half the side of the neighbourhood"}}},
+        {"diffusion",
+         StepEffect::values,
+         "Curvature anisotropic diffusion: smooths along edges, not across them",
+         {{"iterations", "", 1.0, 50.0, 5.0, true, "Number of iterations"},
+          {"conductance", "", 0.5, 10.0, 3.0, false, "The lower, the more edges are kept"}}},
+        {"gradient",
+         StepEffect::values,
+         "Magnitude of the gradient, value units per mm",
+         {{"sigma_mm", "mm", 0.0, 20.0, 1.0, false, "Smoothing beforehand"}}},
+        {"threshold",
+         StepEffect::region,
+         "Only where the value is within a hard range",
+         {{"low", "value units", -1e6, 1e6, -500.0, false, "Least value"},
+          {"high", "value units", -1e6, 1e6, 1e6, false, "Greatest value"}}},
+        {"edges",
+         StepEffect::region,
+         "Canny edges, shown with a density of one",
+         {{"sigma_mm", "mm", 0.0, 20.0, 1.0, false, "Smoothing beforehand"},
+          {"low", "value units per mm", 0.0, 1e6, 20.0, false, "An edge goes on above this"},
+          {"high", "value units per mm", 0.0, 1e6, 60.0, false, "An edge starts above this"}}},
+        {"opening",
+         StepEffect::region,
+         "Removes what is thinner than a ball",
+         {{"radius_mm", "mm", 0.1, 30.0, 2.0, false, "Radius of the ball"}}},
+        {"closing",
+         StepEffect::region,
+         "Fills what a ball does not fit into",
+         {{"radius_mm", "mm", 0.1, 30.0, 2.0, false, "Radius of the ball"}}},
+        {"largest", StepEffect::region, "Only the largest connected part", {}},
+        {"body",
+         StepEffect::region,
+         "Only the patient: without the couch and the air around",
+         {{"margin_mm", "mm", 0.0, 30.0, 2.0, false, "What is left around the skin"}}},
+        {"skin",
+         StepEffect::region,
+         "Only the surface of the patient",
+         {{"depth_mm", "mm", 0.5, 30.0, 4.0, false, "How far it reaches in"},
+          {"margin_mm", "mm", 0.0, 30.0, 2.0, false, "And out"}}}};
+    return kinds;
+}
+
+const StepKind &stepKind(const std::string &name) {
+    std::string names;
+    for (const StepKind &kind : stepKinds()) {
+        if (kind.name == name)
+            return kind;
+        names += (names.empty() ? "" : ", ") + kind.name;
+    }
+    throw Error(ErrorCode::usage, "the step '" + name + "' is none of " + names);
+}
+
+double Step::at(const std::string &parameter) const {
+    const auto given = parameters.find(parameter);
+    return given != parameters.end() ? given->second : parameterOf(stepKind(kind), parameter).usual;
+}
+
+void validate(const Step &step) {
+    const StepKind &kind = stepKind(step.kind);
+    for (const auto &[name, value] : step.parameters) {
+        const StepParameter &p = parameterOf(kind, name);
+        if (!(value >= p.low && value <= p.high))
+            throw Error(ErrorCode::usage, fmt::format("{} of the step '{}' is {:g}, not within "
+                                                      "{:g} and {:g}",
+                                                      name, kind.name, value, p.low, p.high));
+        if (p.isWhole && value != std::round(value))
+            throw Error(ErrorCode::usage, fmt::format("{} of the step '{}' is {:g}, not a whole "
+                                                      "number",
+                                                      name, kind.name, value));
+    }
+    if (find(kind, "low") != nullptr && step.at("low") > step.at("high"))
+        throw Error(ErrorCode::usage,
+                    fmt::format("low of the step '{}' lies above high", kind.name));
+}
+
+std::string stepText(const Step &step) {
+    std::string inside;
+    for (const auto &[name, value] : step.parameters)
+        if (value != parameterOf(stepKind(step.kind), name).usual)
+            inside += fmt::format("{}{}={}", inside.empty() ? "" : ",", name, value);
+    return inside.empty() ? step.kind : step.kind + "(" + inside + ")";
+}
+
+Step stepFromText(const std::string &text) {
+    const auto open = text.find('(');
+    Step step{text.substr(0, open), {}};
+    if (open != std::string::npos) {
+        if (text.back() != ')')
+            throw Error(ErrorCode::usage, "the step '" + text + "' has no closing bracket");
+        std::string rest = text.substr(open + 1, text.size() - open - 2);
+        while (!rest.empty()) {
+            const auto comma = rest.find(',');
+            const std::string item = rest.substr(0, comma);
+            rest = comma == std::string::npos ? std::string() : rest.substr(comma + 1);
+            const auto equals = item.find('=');
+            const std::string number =
+                equals == std::string::npos ? std::string() : item.substr(equals + 1);
+            char *end = nullptr;
+            const double value = std::strtod(number.c_str(), &end);
+            if (number.empty() || *end != '\0')
+                throw Error(ErrorCode::usage,
+                            "'" + item + "' in the step '" + text + "' is not NAME=NUMBER");
+            step.parameters[item.substr(0, equals)] = value;
+        }
+    }
+    validate(step);
+    return step;
+}
+
+} // namespace pellucid::classify

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/task/progress.h"
+#include "core/volume/volume.h"
+
+namespace pellucid::preprocess {
+
+// Every filter works on the volume's own lattice, in mm: a radius that is shorter than a step does
+// not reach the neighbour along it. On a tilted lattice distances are taken along the axes, except
+// for gradients and edges, which know the tilt. Beyond the border the outermost sample goes on.
+// Each *Throws* Error{outOfMemory}, Error{internal} naming the filter, Cancelled.
+
+/// Standard deviation in mm; the discrete Gaussian, exact for less than a sample too.
+volume::Volume gaussian(const volume::Volume &volume, double sigmaMm,
+                        const task::Progress &progress = {});
+/// Of the box that reaches radiusMm to all sides.
+volume::Volume median(const volume::Volume &volume, double radiusMm,
+                      const task::Progress &progress = {});
+/// Curvature anisotropic diffusion with the longest stable time step.
+volume::Volume diffusion(const volume::Volume &volume, int iterations, double conductance,
+                         const task::Progress &progress = {});
+
+/// A set of samples. *Shape*: one of each sample, 0 or 1.
+using Mask = std::vector<std::uint8_t>;
+
+/// What balls of a radius inside the mask cover, and what balls outside it leave.
+Mask opening(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+             const task::Progress &progress = {});
+Mask closing(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+             const task::Progress &progress = {});
+/// All samples within a distance of the mask.
+Mask dilated(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+             const task::Progress &progress = {});
+/// The part with most samples, connected by faces.
+Mask largestPart(const volume::Lattice &lattice, const Mask &mask,
+                 const task::Progress &progress = {});
+/// The patient: the largest part above air (-400 HU, or Otsu's threshold), without what is thinner
+/// than the couch's shell, with everything that a slice encloses, and a margin.
+Mask body(const volume::Volume &volume, double marginMm, const task::Progress &progress = {});
+/// What of the body with its margin is not deeper in the body than a depth.
+Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
+          const task::Progress &progress = {});
+
+} // namespace pellucid::preprocess

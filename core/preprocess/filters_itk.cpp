@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/preprocess/filters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <string>
+
+#include <itkBinaryFillholeImageFilter.h>
+#include <itkConnectedComponentImageFilter.h>
+#include <itkCurvatureAnisotropicDiffusionImageFilter.h>
+#include <itkDiscreteGaussianImageFilter.h>
+#include <itkImage.h>
+#include <itkMedianImageFilter.h>
+#include <itkSliceBySliceImageFilter.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include "core/task/error.h"
+#include "core/volume/statistics.h"
+
+namespace pellucid::preprocess {
+
+namespace {
+
+using task::Error;
+using task::ErrorCode;
+using FloatImage = itk::Image<float, 3>;
+using MaskImage = itk::Image<std::uint8_t, 3>;
+
+// Thinner than the arms of children, thicker than the shells of couches.
+constexpr double couchRadiusMm = 4.0;
+constexpr double airBelowHu = -400.0;
+
+// An image over samples that stay where they are and must outlive it.
+template <class Image, class T>
+typename Image::Pointer imageOver(const volume::Lattice &lattice, const T *samples) {
+    auto image = Image::New();
+    typename Image::SizeType size;
+    typename Image::SpacingType spacing;
+    for (unsigned d = 0; d < 3; ++d) {
+        size[d] = itk::SizeValueType(lattice.size()[int(d)]);
+        spacing[d] = lattice.spacingMm(int(d));
+    }
+    image->SetRegions(typename Image::RegionType(size));
+    image->SetSpacing(spacing);
+    image->GetPixelContainer()->SetImportPointer(const_cast<T *>(samples), lattice.size().count(),
+                                                 false);
+    return image;
+}
+
+// NaN and infinities would spread over their neighbourhoods: they become 0 and the largest numbers
+// that sums survive.
+std::vector<float> finiteSamples(const volume::Volume &volume) {
+    constexpr float largest = 1e15F;
+    std::vector<float> result(volume.lattice().size().count());
+    volume.visit([&](auto samples) {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, result.size(), 1 << 16), [&](const auto &range) {
+                for (std::size_t n = range.begin(); n != range.end(); ++n) {
+                    const float value = float(samples[n]);
+                    result[n] = std::isnan(value) ? 0.0F : std::clamp(value, -largest, largest);
+                }
+            });
+    });
+    return result;
+}
+
+// Runs a filter, with progress, cancel, and its exceptions as ours.
+template <class Filter>
+void runFilter(Filter &filter, const std::string &name, const task::Progress &progress) {
+    filter.SetNumberOfWorkUnits(static_cast<itk::ThreadIdType>(
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+    filter.AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
+        if (progress.stopRequested())
+            filter.AbortGenerateDataOn();
+        else
+            progress.report(std::clamp(double(filter.GetProgress()), 0.0, 1.0));
+    });
+    progress.check();
+    try {
+        filter.Update();
+    } catch (const itk::ProcessAborted &) {
+        throw task::Cancelled();
+    } catch (const itk::MemoryAllocationError &) {
+        throw Error(ErrorCode::outOfMemory, "not enough memory for the step '" + name + "'");
+    } catch (const itk::ExceptionObject &error) {
+        progress.check(); // some report an abort as a failure
+        throw Error(ErrorCode::internal,
+                    "the step '" + name + "' failed: " + error.GetDescription());
+    } catch (const std::bad_alloc &) {
+        throw Error(ErrorCode::outOfMemory, "not enough memory for the step '" + name + "'");
+    }
+    progress.check();
+}
+
+template <class Image> auto samplesOf(const Image &image) {
+    const auto *const first = image.GetBufferPointer();
+    return std::vector<std::remove_cv_t<std::remove_pointer_t<decltype(first)>>>(
+        first, first + image.GetBufferedRegion().GetNumberOfPixels());
+}
+
+template <class Filter>
+volume::Volume filtered(const volume::Volume &volume, Filter &filter, const std::string &name,
+                        const task::Progress &progress) {
+    const std::vector<float> input = finiteSamples(volume);
+    const auto image = imageOver<FloatImage>(volume.lattice(), input.data());
+    filter.SetInput(image);
+    runFilter(filter, name, progress);
+    return {volume.lattice(), samplesOf(*filter.GetOutput()), volume.unit(), volume.notes()};
+}
+
+bool isUniform(const Mask &mask) {
+    return std::all_of(mask.begin(), mask.end(), [&](std::uint8_t m) { return m == mask.front(); });
+}
+
+// Which samples lie within a distance of those that have a value in the mask: the square of the
+// distance axis by axis, each sample looking no farther than the distance. ITK's distance map, which
+// has no end, takes ten times as long for the radii of anatomy. *Shape*: the mask holds both values.
+Mask within(const volume::Lattice &lattice, const Mask &mask, std::uint8_t value, double radiusMm,
+            const task::Progress &progress) {
+    const volume::GridSize size = lattice.size();
+    // A distance that equals the radius counts, whatever its rounding.
+    const auto limit = float(radiusMm * radiusMm * (1.0 + 1e-5));
+    constexpr float far = 1e30F;
+    const auto row = [&](int j, int k) { return (std::size_t(k) * size.j + j) * size.i; };
+    std::vector<float> alongRows(mask.size()), inSlices(mask.size());
+    tbb::parallel_for(0, size.k, [&](int k) {
+        progress.check();
+        const auto step = float(lattice.spacingMm(0));
+        for (int j = 0; j < size.j; ++j) {
+            const std::uint8_t *const in = mask.data() + row(j, k);
+            float *const out = alongRows.data() + row(j, k);
+            float last = far;
+            for (int i = 0; i < size.i; ++i)
+                out[i] = last = in[i] == value ? 0.0F : last + step;
+            last = far;
+            for (int i = size.i - 1; i >= 0; --i) {
+                last = in[i] == value ? 0.0F : last + step;
+                const float least = std::min(out[i], last);
+                out[i] = least < far ? least * least : far;
+            }
+        }
+    });
+    progress.report(0.3);
+    const auto gather = [&](const std::vector<float> &from, float *to, int j, int k, int axis) {
+        const double step = lattice.spacingMm(axis);
+        const int reach = int(std::min(radiusMm / step * (1.0 + 1e-5), double(size[axis])));
+        const int at = axis == 1 ? j : k;
+        for (int d = std::max(-reach, -at); d <= std::min(reach, size[axis] - 1 - at); ++d) {
+            const float *const source =
+                from.data() + (axis == 1 ? row(j + d, k) : row(j, k + d));
+            const auto square = float(d * step * d * step);
+            for (int i = 0; i < size.i; ++i)
+                to[i] = std::min(to[i], source[i] + square);
+        }
+    };
+    tbb::parallel_for(0, size.k, [&](int k) {
+        progress.check();
+        for (int j = 0; j < size.j; ++j) {
+            std::fill_n(inSlices.data() + row(j, k), size.i, far);
+            gather(alongRows, inSlices.data() + row(j, k), j, k, 1);
+        }
+    });
+    progress.report(0.7);
+    Mask near(mask.size());
+    tbb::parallel_for(0, size.k, [&](int k) {
+        progress.check();
+        std::vector<float> squares(std::size_t(size.i));
+        for (int j = 0; j < size.j; ++j) {
+            std::fill(squares.begin(), squares.end(), far);
+            gather(inSlices, squares.data(), j, k, 2);
+            for (int i = 0; i < size.i; ++i)
+                near[row(j, k) + std::size_t(i)] = squares[std::size_t(i)] <= limit;
+        }
+    });
+    progress.report(1.0);
+    return near;
+}
+
+Mask inverted(Mask mask) {
+    for (std::uint8_t &m : mask)
+        m = std::uint8_t(1 - m);
+    return mask;
+}
+
+Mask eroded(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+            const task::Progress &progress) {
+    return isUniform(mask) ? mask : inverted(within(lattice, mask, 0, radiusMm, progress));
+}
+
+Mask grown(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+           const task::Progress &progress) {
+    return isUniform(mask) ? mask : within(lattice, mask, 1, radiusMm, progress);
+}
+
+double airThreshold(const volume::Volume &volume) {
+    if (volume.unit() == volume::ValueUnit::hounsfield)
+        return airBelowHu;
+    // Otsu's threshold of the histogram without its outermost quantiles, which spikes would
+    // stretch.
+    const auto ends = volume::quantiles(volume, {0.005, 0.995});
+    constexpr int bins = 256;
+    if (!(ends[1] > ends[0]))
+        return ends[0];
+    std::array<double, bins> counts{};
+    volume.visit([&](auto samples) {
+        for (const auto sample : samples) {
+            const double at = (double(sample) - ends[0]) / (ends[1] - ends[0]) * bins;
+            if (at >= 0.0 && at < bins) // not NaN
+                counts[std::size_t(at)] += 1.0;
+        }
+    });
+    double total = 0.0, moment = 0.0;
+    for (int b = 0; b < bins; ++b) {
+        total += counts[std::size_t(b)];
+        moment += b * counts[std::size_t(b)];
+    }
+    double below = 0.0, momentBelow = 0.0, best = -1.0;
+    int threshold = 0;
+    for (int b = 0; b < bins - 1; ++b) {
+        below += counts[std::size_t(b)];
+        momentBelow += b * counts[std::size_t(b)];
+        if (below == 0.0 || below == total)
+            continue;
+        const double apart = momentBelow / below - (moment - momentBelow) / (total - below);
+        const double between = below * (total - below) * apart * apart;
+        if (between > best) {
+            best = between;
+            threshold = b;
+        }
+    }
+    return ends[0] + (threshold + 1.0) / bins * (ends[1] - ends[0]);
+}
+
+// Everything that each slice encloses.
+Mask filledSlices(const volume::Lattice &lattice, const Mask &mask,
+                  const task::Progress &progress) {
+    using SliceFilter = itk::SliceBySliceImageFilter<MaskImage, MaskImage>;
+    using Fill = itk::BinaryFillholeImageFilter<SliceFilter::InternalInputImageType>;
+    auto fill = Fill::New();
+    fill->SetForegroundValue(1);
+    auto slices = SliceFilter::New();
+    slices->SetFilter(fill);
+    slices->SetInput(imageOver<MaskImage>(lattice, mask.data()));
+    runFilter(*slices, "body", progress);
+    return samplesOf(*slices->GetOutput());
+}
+
+} // namespace
+
+volume::Volume gaussian(const volume::Volume &volume, double sigmaMm,
+                        const task::Progress &progress) {
+    auto filter = itk::DiscreteGaussianImageFilter<FloatImage, FloatImage>::New();
+    filter->SetVariance(sigmaMm * sigmaMm);
+    filter->SetMaximumError(0.01);
+    filter->SetMaximumKernelWidth(128);
+    return filtered(volume, *filter, "gaussian", progress);
+}
+
+volume::Volume median(const volume::Volume &volume, double radiusMm,
+                      const task::Progress &progress) {
+    auto filter = itk::MedianImageFilter<FloatImage, FloatImage>::New();
+    FloatImage::SizeType radius;
+    for (unsigned d = 0; d < 3; ++d) {
+        const double samples = radiusMm / volume.lattice().spacingMm(int(d));
+        radius[d] = itk::SizeValueType(
+            std::min<double>(std::floor(samples + 1e-6), volume.lattice().size()[int(d)]));
+    }
+    filter->SetRadius(radius);
+    return filtered(volume, *filter, "median", progress);
+}
+
+volume::Volume diffusion(const volume::Volume &volume, int iterations, double conductance,
+                         const task::Progress &progress) {
+    auto filter = itk::CurvatureAnisotropicDiffusionImageFilter<FloatImage, FloatImage>::New();
+    filter->SetNumberOfIterations(itk::IdentifierType(iterations));
+    filter->SetConductanceParameter(conductance);
+    filter->SetUseImageSpacing(true);
+    filter->SetTimeStep(volume.lattice().shortestStepMm() / 16.0);
+    return filtered(volume, *filter, "diffusion", progress);
+}
+
+Mask opening(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+             const task::Progress &progress) {
+    const Mask core = eroded(lattice, mask, radiusMm, progress.part(0.0, 0.5));
+    return grown(lattice, core, radiusMm, progress.part(0.5, 1.0));
+}
+
+Mask closing(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+             const task::Progress &progress) {
+    const Mask wide = grown(lattice, mask, radiusMm, progress.part(0.0, 0.5));
+    return eroded(lattice, wide, radiusMm, progress.part(0.5, 1.0));
+}
+
+Mask dilated(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+             const task::Progress &progress) {
+    return radiusMm > 0.0 ? grown(lattice, mask, radiusMm, progress) : mask;
+}
+
+Mask largestPart(const volume::Lattice &lattice, const Mask &mask, const task::Progress &progress) {
+    using Labels = itk::Image<std::uint32_t, 3>;
+    auto filter = itk::ConnectedComponentImageFilter<MaskImage, Labels>::New();
+    filter->SetInput(imageOver<MaskImage>(lattice, mask.data()));
+    runFilter(*filter, "largest", progress);
+    const std::uint32_t *const labels = filter->GetOutput()->GetBufferPointer();
+    std::vector<std::size_t> counts(std::size_t(filter->GetObjectCount()) + 1, 0);
+    for (std::size_t n = 0; n < mask.size(); ++n)
+        ++counts[labels[n]];
+    if (counts.size() == 1)
+        return mask; // nothing
+    const auto largest =
+        std::uint32_t(std::max_element(counts.begin() + 1, counts.end()) - counts.begin());
+    Mask part(mask.size());
+    for (std::size_t n = 0; n < mask.size(); ++n)
+        part[n] = labels[n] == largest;
+    return part;
+}
+
+Mask body(const volume::Volume &volume, double marginMm, const task::Progress &progress) {
+    const volume::Lattice &lattice = volume.lattice();
+    const double threshold = airThreshold(volume);
+    Mask tissue(lattice.size().count());
+    volume.visit([&](auto samples) {
+        for (std::size_t n = 0; n < tissue.size(); ++n)
+            tissue[n] = double(samples[n]) > threshold;
+    });
+    // Lungs would be opened into the air around: what slices enclose belongs to the patient.
+    const Mask opened = opening(lattice, filledSlices(lattice, tissue, progress.part(0.0, 0.2)),
+                                couchRadiusMm, progress.part(0.2, 0.6));
+    const Mask patient = largestPart(lattice, opened, progress.part(0.6, 0.8));
+    return dilated(lattice, filledSlices(lattice, patient, progress.part(0.8, 0.9)), marginMm,
+                   progress.part(0.9, 1.0));
+}
+
+Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
+          const task::Progress &progress) {
+    const Mask patient = body(volume, 0.0, progress.part(0.0, 0.7));
+    const Mask deep = eroded(volume.lattice(), patient, depthMm, progress.part(0.7, 0.85));
+    Mask shell = dilated(volume.lattice(), patient, marginMm, progress.part(0.85, 1.0));
+    for (std::size_t n = 0; n < shell.size(); ++n)
+        shell[n] = std::uint8_t(shell[n] & ~deep[n] & 1);
+    return shell;
+}
+
+} // namespace pellucid::preprocess

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/presets/preset.h"
+
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "core/files/atomic_file.h"
+#include "core/task/error.h"
+
+namespace pellucid::presets {
+
+namespace {
+
+namespace fs = std::filesystem;
+using classify::FieldWindow;
+using classify::Look;
+using task::Error;
+using task::ErrorCode;
+
+constexpr std::uintmax_t largestFile = 1 << 20;
+
+// Ranges and thresholds with `offset` and `scale` applied to values, and `scale` to slopes.
+Look mapped(Look look, double offset, double scale) {
+    const auto value = [&](double v) { return offset + scale * v; };
+    for (classify::TissueClass &tissue : look.classes) {
+        bool isSlope = false;
+        for (classify::Step &step : tissue.steps) {
+            for (const char *name : {"low", "high"}) {
+                if (step.kind != "edges" && step.kind != "threshold")
+                    continue;
+                const double given = step.at(name);
+                step.parameters[name] = step.kind == "edges" ? scale * given : value(given);
+            }
+            isSlope = isSlope || step.kind == "gradient";
+        }
+        tissue.low = isSlope ? scale * tissue.low : value(tissue.low);
+        tissue.high = isSlope ? scale * tissue.high : value(tissue.high);
+        tissue.softness *= scale;
+    }
+    return look;
+}
+
+} // namespace
+
+Look lookFor(const Preset &preset, const FieldWindow &window) {
+    if (preset.unit == RangeUnit::value)
+        return preset.look;
+    return mapped(preset.look, window.low, window.high - window.low);
+}
+
+std::string mismatch(const Preset &preset, const volume::Volume &volume) {
+    const std::string &modality = volume.notes().modality;
+    if (!preset.modality.empty() && !modality.empty() && preset.modality != modality)
+        return "the preset '" + preset.name + "' is made for " + preset.modality + ", not for " +
+               modality;
+    if (preset.modality == "CT" && preset.unit == RangeUnit::value &&
+        volume.unit() != volume::ValueUnit::hounsfield)
+        return "the preset '" + preset.name + "' is made for Hounsfield units, which the values " +
+               "are not known to be";
+    return {};
+}
+
+Preset presetOf(const std::string &name, const Look &look, const FieldWindow &window,
+                const volume::Volume &volume) {
+    Preset preset;
+    preset.name = name;
+    preset.modality = volume.notes().modality;
+    preset.look = look;
+    const double width = window.high - window.low;
+    if (volume.unit() == volume::ValueUnit::hounsfield) {
+        preset.window = window;
+    } else if (width > 0.0) {
+        preset.unit = RangeUnit::window;
+        preset.look = mapped(look, -window.low / width, 1.0 / width);
+    }
+    return preset;
+}
+
+Preset readPreset(const fs::path &path) {
+    std::error_code failed;
+    if (!fs::is_regular_file(path, failed))
+        throw Error(ErrorCode::unusable, fs::exists(path, failed) ? "is no file" : "does not exist",
+                    path);
+    if (const auto size = fs::file_size(path, failed); failed || size > largestFile)
+        throw Error(ErrorCode::unusable,
+                    failed ? "cannot be read" : "is larger than a preset can be (1 MB)", path);
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (!in)
+        throw Error(ErrorCode::unusable, "cannot be read", path);
+    try {
+        return presetFromJson(text.str());
+    } catch (const Error &error) {
+        throw Error(error.code(), error.reason(), path);
+    }
+}
+
+void writePreset(const fs::path &path, const Preset &preset) {
+    const std::string text = toJson(preset) + "\n";
+    files::AtomicFile file(path);
+    file.write(std::as_bytes(std::span(text)));
+    file.commit();
+}
+
+} // namespace pellucid::presets

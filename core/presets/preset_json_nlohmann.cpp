@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/classify/look_json.h"
+#include "core/presets/preset.h"
+#include "core/task/error.h"
+
+namespace pellucid::presets {
+
+namespace {
+
+using nlohmann::json;
+using task::Error;
+using task::ErrorCode;
+
+constexpr const char *schema = "pellucid-preset/1";
+
+// Reads a text and knows the line of the last character read. The parser reads one character
+// beyond a number: a line ends where the first character of the next one is read.
+struct LineReader {
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char *;
+    using reference = const char &;
+
+    const char *at = nullptr, *begin = nullptr;
+    int *line = nullptr;
+
+    reference operator*() const { return *at; }
+    LineReader &operator++() {
+        if (at != begin && at[-1] == '\n')
+            ++*line;
+        ++at;
+        return *this;
+    }
+    LineReader operator++(int) {
+        LineReader before = *this;
+        ++*this;
+        return before;
+    }
+    bool operator==(const LineReader &other) const { return at == other.at; }
+};
+
+// The line of every value, by JSON pointer.
+class Lines : public json::json_sax_t {
+public:
+    explicit Lines(const std::string &text) {
+        const char *const first = text.data();
+        json::sax_parse(LineReader{first, first, &m_line},
+                        LineReader{first + text.size(), first, &m_line}, this);
+    }
+    // Of a value, or of the nearest one around it.
+    int of(std::string pointer) const {
+        for (;;) {
+            const auto found = m_lines.find(pointer);
+            if (found != m_lines.end())
+                return found->second;
+            const auto slash = pointer.rfind('/');
+            if (slash == std::string::npos)
+                return 1;
+            pointer.resize(slash);
+        }
+    }
+    // Where parsing stopped, and why; empty if it did not.
+    const std::string &failure() const { return m_failure; }
+
+    bool null() override { return value(); }
+    bool boolean(bool) override { return value(); }
+    bool number_integer(number_integer_t) override { return value(); }
+    bool number_unsigned(number_unsigned_t) override { return value(); }
+    bool number_float(number_float_t, const string_t &) override { return value(); }
+    bool string(string_t &) override { return value(); }
+    bool binary(binary_t &) override { return value(); }
+    bool start_object(std::size_t) override { return open(false); }
+    bool start_array(std::size_t) override { return open(true); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool key(string_t &name) override {
+        m_levels.back().key = name;
+        return true;
+    }
+    bool parse_error(std::size_t, const std::string &, const json::exception &error) override {
+        // "[tag] parse error at line 3, column 5: syntax error while ...: what"
+        const std::string text = error.what();
+        const auto reason = text.find(": ");
+        m_failure = reason == std::string::npos ? text : text.substr(reason + 2);
+        return false;
+    }
+    int line() const { return m_line; }
+
+private:
+    struct Level {
+        bool isArray = false;
+        std::size_t index = 0;
+        std::string key;
+    };
+    std::string pointer() const {
+        std::string text;
+        for (const Level &level : m_levels)
+            text += "/" + (level.isArray ? std::to_string(level.index) : level.key);
+        return text;
+    }
+    void next() {
+        if (!m_levels.empty() && m_levels.back().isArray)
+            ++m_levels.back().index;
+    }
+    bool value() {
+        m_lines[pointer()] = m_line;
+        next();
+        return true;
+    }
+    bool open(bool isArray) {
+        // Nothing in a preset lies deeper.
+        if (m_levels.size() >= 32) {
+            m_failure = "it is nested too deeply";
+            return false;
+        }
+        m_lines[pointer()] = m_line;
+        m_levels.push_back({isArray, 0, {}});
+        return true;
+    }
+    bool close() {
+        m_levels.pop_back();
+        next();
+        return true;
+    }
+
+    int m_line = 1;
+    std::vector<Level> m_levels;
+    std::map<std::string, int> m_lines;
+    std::string m_failure;
+};
+
+[[noreturn]] void refuse(const std::string &where, const std::string &what) {
+    throw Error(ErrorCode::usage, where + ": " + what);
+}
+
+std::string textAt(const json &in, const char *key) {
+    if (!in.contains(key))
+        return {};
+    if (!in[key].is_string())
+        refuse("/" + std::string(key), "must be a text");
+    return in[key].get<std::string>();
+}
+
+Preset parsed(const json &in, const std::string &source) {
+    if (!in.is_object())
+        refuse("", "must be an object");
+    if (textAt(in, "schema") != schema)
+        refuse("/schema", "is not " + std::string(schema));
+    Preset preset;
+    preset.name = textAt(in, "name");
+    if (preset.name.empty() || preset.name.size() > 80 ||
+        std::any_of(preset.name.begin(), preset.name.end(),
+                    [](char c) { return static_cast<unsigned char>(c) < 32; }))
+        refuse("/name", "must be a text of 1 to 80 characters on one line");
+    preset.modality = textAt(in, "modality");
+    preset.notes = textAt(in, "notes");
+    const std::string unit = textAt(in, "units");
+    if (!unit.empty() && unit != "value" && unit != "window")
+        refuse("/units", "must be value or window");
+    preset.unit = unit == "window" ? RangeUnit::window : RangeUnit::value;
+    if (in.contains("window")) {
+        const json &w = in["window"];
+        if (!w.is_array() || w.size() != 2 || !w[0].is_number() || !w[1].is_number())
+            refuse("/window", "must be two numbers");
+        preset.window = classify::FieldWindow{w[0].get<double>(), w[1].get<double>()};
+        if (!(preset.window->low < preset.window->high && std::abs(preset.window->low) <= 1e30 &&
+              std::abs(preset.window->high) <= 1e30))
+            refuse("/window", "must be two numbers, the lower first");
+    }
+    preset.look = classify::lookFromJson(source);
+    preset.source = source;
+    return preset;
+}
+
+// What is known of a class, over what its file said of it.
+json joined(const json &former, json known) {
+    if (!former.is_object())
+        return known;
+    json out = former;
+    for (const char *optional : {"transfer_function", "steps"})
+        out.erase(optional);
+    out.update(known);
+    return out;
+}
+
+} // namespace
+
+Preset presetFromJson(const std::string &text) {
+    const Lines lines(text);
+    if (!lines.failure().empty())
+        throw Error(ErrorCode::unusable, fmt::format("line {}: {}", lines.line(), lines.failure()));
+    try {
+        return parsed(json::parse(text), text);
+    } catch (const Error &error) {
+        const std::string &reason = error.reason();
+        const std::string pointer = reason.substr(0, reason.find(": "));
+        throw Error(ErrorCode::unusable, fmt::format("line {}: {}", lines.of(pointer),
+                                                     pointer.empty() ? reason.substr(2) : reason));
+    }
+}
+
+std::string toJson(const Preset &preset) {
+    json out = json::parse(preset.source, nullptr, false);
+    if (!out.is_object())
+        out = json::object();
+    json formerClasses = out.value("classes", json::array());
+    for (const char *known :
+         {"transfer_function", "classes", "window", "units", "modality", "notes"})
+        out.erase(known);
+    out["schema"] = schema;
+    out["name"] = preset.name;
+    if (!preset.modality.empty())
+        out["modality"] = preset.modality;
+    if (!preset.notes.empty())
+        out["notes"] = preset.notes;
+    if (preset.unit == RangeUnit::window)
+        out["units"] = "window";
+    if (preset.window)
+        out["window"] = {preset.window->low, preset.window->high};
+    out.update(json::parse(classify::toJson(preset.look)));
+    if (out.contains("classes"))
+        for (json &tissue : out["classes"]) {
+            const auto former =
+                std::find_if(formerClasses.begin(), formerClasses.end(), [&](const json &c) {
+                    return c.is_object() && c.value("name", json()) == tissue["name"];
+                });
+            if (former != formerClasses.end())
+                tissue = joined(*former, tissue);
+        }
+    return out.dump(2, ' ', false, json::error_handler_t::replace);
+}
+
+} // namespace pellucid::presets

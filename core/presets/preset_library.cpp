@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/presets/preset_library.h"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/files/user_folders.h"
+#include "core/presets/built_in.h"
+#include "core/task/error.h"
+
+namespace pellucid::presets {
+
+namespace {
+
+namespace fs = std::filesystem;
+using task::Error;
+using task::ErrorCode;
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+} // namespace
+
+std::string fileNameOf(const std::string &presetName) {
+    std::string name;
+    for (const char c : presetName) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool safe = std::isalnum(byte) != 0 || c == '-' || c == '_' || byte >= 128;
+        name += safe ? c : '_';
+    }
+    // Names that differ in what is not safe must not share a file.
+    if (name != presetName)
+        name += fmt::format("-{:08x}", std::uint32_t(std::hash<std::string>()(presetName)));
+    return name + ".json";
+}
+
+PresetLibrary::PresetLibrary(fs::path userFolder) : m_folder(std::move(userFolder)) {
+    read();
+}
+
+PresetLibrary PresetLibrary::ofUser() {
+    const auto data = files::userDataFolder();
+    return PresetLibrary(data ? *data / "presets" : fs::path());
+}
+
+void PresetLibrary::read() {
+    m_entries.clear();
+    m_skipped.clear();
+    for (const BuiltInFile &file : builtInFiles())
+        m_entries.push_back({presetFromJson(file.text), {}});
+    if (m_folder.empty())
+        return;
+    std::vector<fs::path> files;
+    std::error_code failed;
+    for (fs::directory_iterator it(m_folder, failed), end; !failed && it != end;
+         it.increment(failed))
+        // What begins with a dot is a file that was never finished.
+        if (it->path().extension() == ".json" && it->path().filename().string()[0] != '.')
+            files.push_back(it->path());
+    std::sort(files.begin(), files.end());
+    const auto builtInCount = std::ptrdiff_t(m_entries.size());
+    for (const fs::path &path : files) {
+        try {
+            Preset preset = readPreset(path);
+            if (find(preset.name) != nullptr)
+                m_skipped.push_back(
+                    {path, fmt::format("there is another preset named '{}'", preset.name)});
+            else
+                m_entries.push_back({std::move(preset), path});
+        } catch (const Error &error) {
+            m_skipped.push_back({path, error.reason()});
+        }
+    }
+    std::sort(m_entries.begin() + builtInCount, m_entries.end(), [](const auto &a, const auto &b) {
+        return lower(a.preset.name) < lower(b.preset.name);
+    });
+}
+
+const PresetEntry *PresetLibrary::find(const std::string &name) const {
+    const auto found = std::find_if(m_entries.begin(), m_entries.end(), [&](const PresetEntry &e) {
+        return lower(e.preset.name) == lower(name);
+    });
+    return found == m_entries.end() ? nullptr : &*found;
+}
+
+const PresetEntry &PresetLibrary::get(const std::string &name) const {
+    if (const PresetEntry *found = find(name))
+        return *found;
+    std::string close;
+    for (const PresetEntry &entry : m_entries)
+        if (lower(entry.preset.name).find(lower(name)) != std::string::npos)
+            close += (close.empty() ? "" : ", ") + entry.preset.name;
+    throw Error(ErrorCode::usage, "there is no preset '" + name + "'" +
+                                      (close.empty() ? "; 'pellucid-cli preset list' names them"
+                                                     : "; there is " + close));
+}
+
+void PresetLibrary::save(const Preset &preset) {
+    if (m_folder.empty())
+        throw Error(ErrorCode::output, "there is no folder for the user's presets");
+    const PresetEntry *const former = find(preset.name);
+    if (former != nullptr && former->isBuiltIn())
+        throw Error(ErrorCode::usage, "'" + former->preset.name +
+                                          "' comes with the program and stays as it is; choose "
+                                          "another name");
+    // What is not well formed would be lost at the next start.
+    presetFromJson(toJson(preset));
+    std::error_code failed;
+    fs::create_directories(m_folder, failed);
+    if (failed)
+        throw Error(ErrorCode::output, "cannot be made: " + failed.message(), m_folder);
+    writePreset(former != nullptr ? former->path : m_folder / fileNameOf(preset.name), preset);
+    read();
+}
+
+void PresetLibrary::remove(const std::string &name) {
+    const PresetEntry &entry = get(name);
+    if (entry.isBuiltIn())
+        throw Error(ErrorCode::usage,
+                    "'" + entry.preset.name + "' comes with the program and stays");
+    std::error_code failed;
+    fs::remove(entry.path, failed);
+    if (failed)
+        throw Error(ErrorCode::output, "cannot be removed: " + failed.message(), entry.path);
+    read();
+}
+
+} // namespace pellucid::presets

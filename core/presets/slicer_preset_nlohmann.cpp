@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/presets/slicer_preset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/task/error.h"
+
+namespace pellucid::presets {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using task::Error;
+using task::ErrorCode;
+
+struct Point {
+    double value, opacity;
+};
+using Points = std::vector<Point>;
+
+constexpr std::uintmax_t largestFile = 1 << 20;
+
+[[noreturn]] void refuse(const std::string &why) {
+    throw Error(ErrorCode::unusable, why);
+}
+
+// Line 7 of nine: twice the number of points, then value and opacity of each.
+Points pointsOfText(const std::string &text) {
+    constexpr int opacityLine = 7;
+    std::istringstream in(text);
+    std::string line;
+    for (int n = 0; n < opacityLine; ++n)
+        if (!std::getline(in, line))
+            refuse(fmt::format("line {}: the file ends before its scalar opacity", n + 1));
+    std::istringstream numbers(line);
+    int count = 0;
+    if (!(numbers >> count) || count < 2 || count % 2 != 0 || count > 20000)
+        refuse(fmt::format("line {}: the scalar opacity does not begin with the number of its "
+                           "values",
+                           opacityLine));
+    Points points;
+    for (int n = 0; n < count / 2; ++n) {
+        Point point{};
+        if (!(numbers >> point.value >> point.opacity))
+            refuse(fmt::format("line {}: {} values are announced, {} are there", opacityLine, count,
+                               2 * n));
+        points.push_back(point);
+    }
+    return points;
+}
+
+Points pointsOfJson(const std::string &text) {
+    try {
+        const json in = json::parse(text);
+        const json &component = in.at("volumeProperties").at(0).at("components").at(0);
+        Points points;
+        for (const json &point : component.at("scalarOpacity").at("points"))
+            points.push_back({point.at("x").get<double>(), point.at("y").get<double>()});
+        return points;
+    } catch (const json::exception &error) {
+        const std::string what = error.what();
+        const auto tag = what.find("] ");
+        refuse("is no volume property of 3D Slicer: " +
+               (tag == std::string::npos ? what : what.substr(tag + 2)));
+    }
+}
+
+double opacityAt(const Points &points, double value) {
+    if (value <= points.front().value)
+        return points.front().opacity;
+    for (std::size_t n = 1; n < points.size(); ++n)
+        if (value <= points[n].value) {
+            const Point &a = points[n - 1], &b = points[n];
+            const double width = b.value - a.value;
+            return width > 0.0 ? a.opacity + (b.opacity - a.opacity) * (value - a.value) / width
+                               : b.opacity;
+        }
+    return points.back().opacity;
+}
+
+// Opacity beyond the last change stays what it is: the window ends there, but for the values that
+// stand for "everything above".
+classify::FieldWindow windowOf(const Points &points) {
+    std::size_t first = 0, last = points.size() - 1;
+    while (first + 1 < points.size() && points[first + 1].opacity == 0.0)
+        ++first;
+    while (last > first + 1 && points[last - 1].opacity == points[last].opacity)
+        --last;
+    return {points[first].value, points[last].value};
+}
+
+} // namespace
+
+ImportedPreset importSlicerPreset(const fs::path &path, int points) {
+    try {
+        std::error_code failed;
+        if (!fs::is_regular_file(path, failed))
+            refuse(fs::exists(path, failed) ? "is no file" : "does not exist");
+        if (const auto size = fs::file_size(path, failed); failed || size > largestFile)
+            refuse(failed ? "cannot be read" : "is larger than a preset can be (1 MB)");
+        std::ifstream in(path, std::ios::binary);
+        std::ostringstream text;
+        text << in.rdbuf();
+        Points curve =
+            path.extension() == ".json" ? pointsOfJson(text.str()) : pointsOfText(text.str());
+        for (const Point &p : curve)
+            if (!(std::abs(p.value) <= 1e30 && p.opacity >= 0.0 && p.opacity <= 1.0))
+                refuse(fmt::format("the opacity {:g} at {:g} is not within 0 and 1", p.opacity,
+                                   p.value));
+        std::stable_sort(curve.begin(), curve.end(),
+                         [](const Point &a, const Point &b) { return a.value < b.value; });
+        if (curve.size() < 2 || std::none_of(curve.begin(), curve.end(),
+                                             [](const Point &p) { return p.opacity > 0.0; }))
+            refuse("its opacity is 0 everywhere");
+        const classify::FieldWindow window = windowOf(curve);
+        if (!(window.low < window.high))
+            refuse("its opacity does not change over any range of values");
+
+        ImportedPreset imported;
+        Preset &preset = imported.preset;
+        preset.name = path.stem().stem().string();
+        preset.window = window;
+        const auto opacity = [&](double f) {
+            return opacityAt(curve, window.low + f * (window.high - window.low));
+        };
+        // What is shown is f B(f): errors count where there is density.
+        const auto fitted =
+            classify::fitTransferFunction([&](double f) { return f > 0.0 ? opacity(f) / f : 0.0; },
+                                          points, [](double f) { return f * f; });
+        preset.look.transferFunction = fitted.function;
+        constexpr int samples = 1024;
+        for (int n = 0; n <= samples; ++n) {
+            const double f = double(n) / samples;
+            imported.largestError =
+                std::max(imported.largestError, std::abs(f * fitted.function.at(f) - opacity(f)));
+        }
+        preset.notes = fmt::format("Opacity of {}, within {:.2g}", path.filename().string(),
+                                   imported.largestError);
+        return imported;
+    } catch (const Error &error) {
+        throw Error(error.code(), error.reason(), path);
+    }
+}
+
+} // namespace pellucid::presets

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/preprocess/step_cache.h"
+
+#include <gtest/gtest.h>
+
+#include "core/classify/shown_fields.h"
+#include "core/phantom/phantom.h"
+#include "core/task/error.h"
+
+namespace pellucid {
+namespace {
+
+using classify::Region;
+using classify::TissueClass;
+
+volume::Volume head() {
+    return phantom::makePhantom(
+        phantom::Kind::head,
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{40, 40, 24}}));
+}
+
+TissueClass bone(std::vector<classify::Step> steps) {
+    TissueClass tissue{"bone", 250, 2500, 150};
+    tissue.steps = std::move(steps);
+    return tissue;
+}
+
+TEST(StepCache, ComputesByContentOnce) {
+    preprocess::StepCache cache(std::size_t(1) << 30);
+    const TissueClass smooth = bone({{"gaussian", {{"sigma_mm", 2.0}}}, {"largest", {}}});
+    const auto first = cache.run(head(), smooth, {});
+    EXPECT_EQ(cache.computedCount(), 2U);
+    // The same series, loaded again, and a class that differs in weight and colour.
+    TissueClass again = smooth;
+    again.weight = 0.3;
+    again.color = {1.0, 0.0, 0.0};
+    const auto second = cache.run(head(), again, {});
+    EXPECT_EQ(cache.computedCount(), 2U);
+    EXPECT_EQ(first.regions, second.regions);
+    // The range changes what is largest, not what is smooth.
+    again.low = 300.0;
+    cache.run(head(), again, {});
+    EXPECT_EQ(cache.computedCount(), 3U);
+    again.steps[0].parameters["sigma_mm"] = 2.5;
+    cache.run(head(), again, {});
+    EXPECT_EQ(cache.computedCount(), 5U);
+}
+
+TEST(StepCache, DropsWhatWasUsedLongestAgo) {
+    const std::size_t one = std::size_t(40) * 40 * 24 * 4; // smoothed values are floats
+    preprocess::StepCache cache(2 * one);
+    const auto with = [](double sigma) { return bone({{"gaussian", {{"sigma_mm", sigma}}}}); };
+    cache.run(head(), with(1.0), {});
+    cache.run(head(), with(2.0), {});
+    cache.run(head(), with(1.0), {});
+    cache.run(head(), with(3.0), {}); // 2 goes
+    EXPECT_LE(cache.bytes(), 2 * one);
+    cache.run(head(), with(1.0), {});
+    EXPECT_EQ(cache.computedCount(), 3U);
+    cache.run(head(), with(2.0), {});
+    EXPECT_EQ(cache.computedCount(), 4U);
+    cache.trim(0);
+    EXPECT_EQ(cache.bytes(), 0U);
+}
+
+TEST(StepCache, EdgesAreShownWithADensityOfOneWithinTheRange) {
+    preprocess::StepCache cache(0);
+    TissueClass edges{"edges", -600, 3000, 100};
+    edges.steps = {{"edges", {{"sigma_mm", 2.0}}}};
+    const auto volume = head();
+    const auto samples = cache.run(volume, edges, {});
+    EXPECT_EQ(samples.density, classify::DensityKind::one);
+    const auto field = classify::classField(volume, {-900, 2000}, edges, &cache);
+    int ones = 0;
+    for (int n = 0; n < 40 * 40 * 24; ++n) {
+        const volume::VoxelIndex at{n % 40, n / 40 % 40, n / 1600};
+        const double value = volume.value(at);
+        const double expected =
+            (*samples.regions)[std::size_t(n)] == Region::outside ? 0.0 : edges.membership(value);
+        EXPECT_NEAR(field.values.value(at), expected, 1e-6);
+        ones += expected == 1.0;
+    }
+    EXPECT_GT(ones, 500);
+}
+
+TEST(StepCache, OpeningKeepsTheSoftRimAndClosingFills) {
+    preprocess::StepCache cache(0);
+    const auto plain = classify::classField(head(), {-900, 2000}, bone({}), nullptr);
+    const auto opened = classify::classField(head(), {-900, 2000},
+                                             bone({{"opening", {{"radius_mm", 9.0}}}}), &cache);
+    const auto closed = classify::classField(head(), {-900, 2000},
+                                             bone({{"closing", {{"radius_mm", 12.0}}}}), &cache);
+    int removed = 0, filled = 0;
+    for (int n = 0; n < 40 * 40 * 24; ++n) {
+        const volume::VoxelIndex at{n % 40, n / 40 % 40, n / 1600};
+        const double p = plain.values.value(at), o = opened.values.value(at),
+                     c = closed.values.value(at);
+        EXPECT_TRUE(o == p || o == 0.0);
+        EXPECT_GE(c, p - 1e-6);
+        removed += o < p;
+        filled += c > p + 1e-6;
+    }
+    EXPECT_GT(removed, 0);
+    EXPECT_GT(filled, 0);
+}
+
+TEST(StepCache, RefusesWhatItDoesNotKnowAndWrongOrder) {
+    EXPECT_THROW(classify::validate(bone({{"sharpen", {}}})), task::Error);
+    EXPECT_THROW(classify::validate(bone({{"gaussian", {{"radius_mm", 1.0}}}})), task::Error);
+    EXPECT_THROW(classify::validate(bone({{"gaussian", {{"sigma_mm", 1e308}}}})), task::Error);
+    EXPECT_THROW(classify::validate(bone({{"diffusion", {{"iterations", 2.5}}}})), task::Error);
+    EXPECT_THROW(classify::validate(bone({{"largest", {}}, {"median", {}}})), task::Error);
+    EXPECT_THROW(classify::validate(bone({{"edges", {{"low", 90.0}}}})), task::Error);
+    classify::validate(bone({{"median", {}}, {"edges", {{"low", 90.0}, {"high", 95.0}}}}));
+    for (const char *text : {"largest", "edges(high=80,sigma_mm=1.5)", "median(radius_mm=2)"})
+        EXPECT_EQ(classify::stepText(classify::stepFromText(text)), text);
+    for (const char *text : {"edges(", "edges(low)", "edges(low=x)", "blur", ""})
+        EXPECT_THROW(classify::stepFromText(text), task::Error) << text;
+}
+
+} // namespace
+} // namespace pellucid
