@@ -81,8 +81,7 @@ void StudyOpener::prepare(const Job &job, const volume::Volume &volume, const Pr
     const auto fields =
         classify::shownFields(volume, wanted.window.value_or(classify::defaultFieldWindow(volume)),
                               wanted.look, nullptr, progress.part(0.0, 0.1));
-    const classify::DensityField &field = fields.channels.front(); // one: see MainWindow::openScene
-    const auto announce = [&](const classify::DensityField &f, bool coarse,
+    const auto announce = [&](const classify::ShownFields &f, bool coarse,
                               const task::Progress &p) {
         const auto prepared = render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p);
         job.deliver([this, prepared, coarse, wanted] {
@@ -96,9 +95,13 @@ void StudyOpener::prepare(const Job &job, const volume::Volume &volume, const Pr
         });
     };
     const volume::GridSize n = volume.lattice().size();
-    if (coarseFirst && (n.i > coarseSide || n.j > coarseSide || n.k > coarseSide))
-        announce(classify::coarseField(field, coarseSide), true, progress.part(0.1, 0.25));
-    announce(field, false, progress.part(0.25, 1.0));
+    if (coarseFirst && (n.i > coarseSide || n.j > coarseSide || n.k > coarseSide)) {
+        classify::ShownFields coarse{{}, fields.color};
+        for (const classify::DensityField &field : fields.channels)
+            coarse.channels.push_back(classify::coarseField(field, coarseSide));
+        announce(coarse, true, progress.part(0.1, 0.25));
+    }
+    announce(fields, false, progress.part(0.25, 1.0));
 }
 
 void StudyOpener::openPaths(const QStringList &paths) {

@@ -16,100 +16,79 @@ using nlohmann::json;
 
 Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
                    const render::Budget &budget, const Context &context)
-    : m_scene(scene), m_color(fields.color), m_isGrey(fields.isGrey()) {
+    : Renderer(scene, fields, render::summarise(fields.channels), budget, context) {}
+
+Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
+                   const std::vector<render::FieldSummary> &summaries, const render::Budget &budget,
+                   const Context &context)
+    : m_scene(scene), m_color(fields.color), m_channels(fields.channels.size()),
+      m_isGrey(fields.isGrey()),
+      m_fitting(render::planWithin(scene, fields.channels, summaries, budget,
+                                   task::Progress(context.stop))),
+      m_lattice(fields.channels.front().values.lattice()) {
     const task::Progress progress(context.stop);
-    std::size_t held = 0;
-    for (const classify::DensityField &field : fields.channels) {
-        m_channels.push_back(
-            makeChannel(field, {budget.bytes - std::min(budget.bytes, held)}, progress));
-        held += m_channels.back().bytes;
+    const render::RenderPlan &plan = m_fitting.plan;
+    std::size_t exactBytes = 0;
+    for (const classify::DensityField &field : fields.channels)
+        exactBytes += reference::WideKernel::bytes(field.support) +
+                      reference::sliceBytes(m_lattice, scene.camera, scene.image);
+    if (plan.predictedError <= scene.tolerance || scene.interpolation != render::Interpolation() ||
+        m_fitting.reduction > 1 || exactBytes > budget.bytes) {
+        const auto &sources =
+            m_fitting.reducedFields.empty() ? fields.channels : m_fitting.reducedFields;
+        m_lattice = sources.front().values.lattice();
+        m_engine = render::makeEngine(sources, fields.color, plan, progress);
+        m_fitting.reducedFields.clear();
+        m_bytes = plan.bytes;
+        m_predictedError = plan.predictedError;
+        return;
     }
-}
-
-Renderer::Channel Renderer::makeChannel(const classify::DensityField &field,
-                                        const render::Budget &budget,
-                                        const task::Progress &progress) const {
-    const render::FieldSummary summary = render::summarise(field);
-    Channel channel{render::planWithin(m_scene, field, summary, budget, progress),
-                    field.values.lattice()};
-    const render::RenderPlan &plan = channel.fitting.plan;
-    const std::size_t exactBytes =
-        reference::WideKernel::bytes(field.support) +
-        reference::sliceBytes(field.values.lattice(), m_scene.camera, m_scene.image);
-    if (plan.predictedError <= m_scene.tolerance ||
-        m_scene.interpolation != render::Interpolation() || channel.fitting.reduction > 1 ||
-        exactBytes > budget.bytes) {
-        const auto &source = channel.fitting.reducedField ? *channel.fitting.reducedField : field;
-        channel.engine = std::make_unique<render::CpuEngine>(
-            std::make_shared<const fourier::Spectrum>(
-                fourier::Spectrum::prepare(source.values, plan.spectrum, progress)),
-            plan.room);
-        channel.lattice = source.values.lattice();
-        channel.bytes = plan.bytes;
-        channel.predictedError = plan.predictedError;
-        channel.fitting.reducedField.reset();
-    } else {
-        channel.reference =
-            std::make_unique<reference::WideKernel>(field.values, field.support, progress);
-        channel.bytes = exactBytes;
-        // Double precision leaves rounding, about 1e-10, and what is left of the roll-off's tails.
-        channel.predictedError =
-            std::hypot(1e-10, reference::foldedTails(summary.lattice, m_scene.camera, m_scene.image,
-                                                     *summary.energy.spread));
-    }
-    return channel;
-}
-
-std::vector<float> Renderer::project(Channel &channel, const render::Camera &camera,
-                                     render::FrameTimes &times) const {
-    if (channel.engine) {
-        render::FrameTimes own;
-        auto image = channel.engine->render(camera, m_scene.image, &own);
-        times.sliceMs += own.sliceMs;
-        times.transformMs += own.transformMs;
-        return std::move(image.samples);
-    }
-    Stopwatch watch;
-    const auto exact = channel.reference->image(camera, m_scene.image);
-    times.sliceMs += watch.lapMs();
-    return {exact.begin(), exact.end()};
+    for (const classify::DensityField &field : fields.channels)
+        m_references.emplace_back(field.values, field.support, progress);
+    m_bytes = exactBytes;
+    // Double precision leaves rounding, about 1e-10, and what is left of the roll-off's tails.
+    for (const render::FieldSummary &summary : summaries)
+        m_predictedError = std::max(
+            m_predictedError,
+            std::hypot(1e-10, reference::foldedTails(summary.lattice, scene.camera, scene.image,
+                                                     *summary.energy.spread)));
 }
 
 render::ProjectionImage Renderer::image(const render::Camera &camera, render::FrameTimes &times) {
-    times = {};
-    std::vector<std::vector<float>> planes;
-    for (Channel &channel : m_channels)
-        planes.push_back(project(channel, camera, times));
+    if (m_engine)
+        return m_engine->render(camera, m_scene.image, &times);
+    Stopwatch watch;
+    std::vector<std::vector<double>> planes;
+    for (const reference::WideKernel &exact : m_references)
+        planes.push_back(exact.image(camera, m_scene.image));
+    times = {watch.lapMs(), 0.0};
     render::ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}};
     if (m_isGrey) {
-        image.samples = std::move(planes.front());
+        image.samples.assign(planes.front().begin(), planes.front().end());
         return image;
     }
     image.channels = 3;
     image.samples.resize(3 * planes.front().size());
     const std::array<double, 3> color{m_color.red, m_color.green, m_color.blue};
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::vector<float> &plane = planes[std::min(c, planes.size() - 1)];
-        const float factor = planes.size() == 1 ? float(color[c]) : 1.0F;
+        const std::vector<double> &plane = planes[std::min(c, planes.size() - 1)];
         for (std::size_t n = 0; n < plane.size(); ++n)
-            image.samples[3 * n + c] = factor * plane[n];
+            image.samples[3 * n + c] = float((planes.size() == 1 ? color[c] : 1.0) * plane[n]);
     }
     return image;
 }
 
 std::string Renderer::description() const {
-    const Channel &first = m_channels.front();
-    return first.engine ? first.engine->description() : "exact reference, double precision";
+    return m_engine ? m_engine->description() : "exact reference, double precision";
 }
 
 json Renderer::planJson() const {
-    const Channel &first = m_channels.front();
-    if (!first.engine)
+    if (!m_engine)
         return {{"kernel", "KB12"}, {"taps", 12 * 12 * 12}, {"padding", 2.0}, {"storage", "f64"}};
-    const render::RenderPlan &plan = first.fitting.plan;
+    const render::RenderPlan &plan = m_fitting.plan;
     const auto &s = plan.spectrum;
     const render::SliceGrid grid =
-        render::sliceGrid(m_scene.camera, plan.room, first.lattice, m_scene.image);
+        render::sliceGrid(m_scene.camera, plan.room, m_lattice, m_scene.image);
     const int w = s.width();
     return {{"kernel", s.kernels[0].name()},
             {"taps", w * w * w},
@@ -121,26 +100,8 @@ json Renderer::planJson() const {
             {"reason", plan.reason}};
 }
 
-std::size_t Renderer::bytes() const {
-    std::size_t sum = 0;
-    for (const Channel &channel : m_channels)
-        sum += channel.bytes;
-    return sum;
-}
-
-double Renderer::predictedError() const {
-    double most = 0.0;
-    for (const Channel &channel : m_channels)
-        most = std::max(most, channel.predictedError);
-    return most;
-}
-
 std::optional<double> Renderer::predictedMaximum() const {
-    std::optional<double> most;
-    for (const Channel &channel : m_channels)
-        if (channel.engine)
-            most = std::max(most.value_or(0.0), channel.fitting.plan.predictedMaximum);
-    return most;
+    return m_engine ? std::optional(m_fitting.plan.predictedMaximum) : std::nullopt;
 }
 
 } // namespace pellucid::cli

@@ -15,9 +15,8 @@
 
 namespace pellucid::cli {
 
-/// Images of one scene within a tolerance: each channel by the engine, or by the exact reference
-/// where no plan keeps the tolerance, unless the memory is short or the scene fixes the
-/// interpolation.
+/// Images of one scene within a tolerance: by the engine, or by the exact reference where no plan
+/// keeps the tolerance, unless the memory is short or the scene fixes the interpolation.
 class Renderer {
 public:
     /// The scene must outlive it. *Throws* Error{outOfMemory}, Cancelled.
@@ -29,35 +28,30 @@ public:
 
     /// What makes the images, one line.
     std::string description() const;
-    /// Of the first channel.
     nlohmann::json planJson() const;
-    std::size_t channelCount() const { return m_channels.size(); }
-    std::size_t bytes() const;
-    bool isReduced() const { return m_channels.front().fitting.reduction > 1; }
-    const std::string &reason() const { return m_channels.front().fitting.plan.reason; }
+    std::size_t channelCount() const { return m_channels; }
+    std::size_t bytes() const { return m_bytes; }
+    bool isReduced() const { return m_fitting.reduction > 1; }
+    const std::string &reason() const { return m_fitting.plan.reason; }
     /// The worst channel's: the picture's, all channels taken together, is no larger.
-    double predictedError() const;
+    double predictedError() const { return m_predictedError; }
     /// Of the engine only: the reference's lies below what a float image holds.
     std::optional<double> predictedMaximum() const;
 
 private:
-    struct Channel {
-        render::FittingPlan fitting;
-        volume::Lattice lattice; ///< of what the engine renders
-        std::size_t bytes = 0;
-        double predictedError = 0.0;
-        std::unique_ptr<render::CpuEngine> engine;
-        std::unique_ptr<reference::WideKernel> reference;
-    };
-    Channel makeChannel(const classify::DensityField &field, const render::Budget &budget,
-                        const task::Progress &progress) const;
-    std::vector<float> project(Channel &channel, const render::Camera &camera,
-                               render::FrameTimes &times) const;
+    Renderer(const render::Scene &scene, const classify::ShownFields &fields,
+             const std::vector<render::FieldSummary> &summaries, const render::Budget &budget,
+             const Context &context);
 
     const render::Scene &m_scene;
     classify::Color m_color;
+    std::size_t m_channels, m_bytes = 0;
     bool m_isGrey;
-    std::vector<Channel> m_channels;
+    render::FittingPlan m_fitting;
+    volume::Lattice m_lattice; ///< of what is rendered
+    double m_predictedError = 0.0;
+    std::shared_ptr<render::CpuEngine> m_engine;
+    std::vector<reference::WideKernel> m_references; ///< one each channel, in place of an engine
 };
 
 } // namespace pellucid::cli

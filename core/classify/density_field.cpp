@@ -16,17 +16,8 @@ namespace pellucid::classify {
 
 namespace {
 
+using volume::united;
 using volume::VoxelBox;
-
-// The union of two boxes; a box with hi <= lo is empty.
-VoxelBox united(const VoxelBox &a, const VoxelBox &b) {
-    if (a.hi.i <= a.lo.i)
-        return b;
-    if (b.hi.i <= b.lo.i)
-        return a;
-    return {{std::min(a.lo.i, b.lo.i), std::min(a.lo.j, b.lo.j), std::min(a.lo.k, b.lo.k)},
-            {std::max(a.hi.i, b.hi.i), std::max(a.hi.j, b.hi.j), std::max(a.hi.k, b.hi.k)}};
-}
 
 struct Mapping {
     float low, scale;

@@ -116,8 +116,9 @@ bool isUniform(const Mask &mask) {
 }
 
 // Which samples lie within a distance of those that have a value in the mask: the square of the
-// distance axis by axis, each sample looking no farther than the distance. ITK's distance map, which
-// has no end, takes ten times as long for the radii of anatomy. *Shape*: the mask holds both values.
+// distance axis by axis, each sample looking no farther than the distance. ITK's distance map,
+// which has no end, takes ten times as long for the radii of anatomy. *Shape*: the mask holds both
+// values.
 Mask within(const volume::Lattice &lattice, const Mask &mask, std::uint8_t value, double radiusMm,
             const task::Progress &progress) {
     const volume::GridSize size = lattice.size();
@@ -149,8 +150,7 @@ Mask within(const volume::Lattice &lattice, const Mask &mask, std::uint8_t value
         const int reach = int(std::min(radiusMm / step * (1.0 + 1e-5), double(size[axis])));
         const int at = axis == 1 ? j : k;
         for (int d = std::max(-reach, -at); d <= std::min(reach, size[axis] - 1 - at); ++d) {
-            const float *const source =
-                from.data() + (axis == 1 ? row(j + d, k) : row(j, k + d));
+            const float *const source = from.data() + (axis == 1 ? row(j + d, k) : row(j, k + d));
             const auto square = float(d * step * d * step);
             for (int i = 0; i < size.i; ++i)
                 to[i] = std::min(to[i], source[i] + square);

@@ -93,7 +93,7 @@ struct CpuEngine::Workplace {
     }
 
     // Makes ready for frames of a grid.
-    void fit(const SliceGrid &grid, const ImageDefinition &image) {
+    void fit(const SliceGrid &grid, int channels, const ImageDefinition &image) {
         for (auto &kept : others)
             if (kept && kept->grid == grid && kept->share == image.rollOff)
                 std::swap(tables, kept);
@@ -105,14 +105,15 @@ struct CpuEngine::Workplace {
             tables = std::move(made);
         }
         const SliceGrid need{std::max(room.columns, grid.columns), std::max(room.rows, grid.rows)};
-        if (need != room)
-            allocate(need);
+        if (need != room || channels > channelRoom)
+            allocate(need, std::max(channels, channelRoom));
     }
 
     // Buffers for every grid up to a size.
-    void allocate(const SliceGrid &grid) {
+    void allocate(const SliceGrid &grid, int channels) {
         // Set last: if memory runs out half way, nothing here may look ready.
         room = {0, 0};
+        channelRoom = 0;
         const std::size_t stripCount = groupsOf(grid.columns / 2);
         const std::size_t columns = stripCount * stripLanes;
         const std::size_t length = std::size_t(groupsOf(std::max(grid.rows, grid.columns))) *
@@ -122,21 +123,27 @@ struct CpuEngine::Workplace {
             std::fill_n(reinterpret_cast<float *>(memory.get()), count, 0.0F);
             return memory;
         };
-        lines = floats(groupsOf(grid.rows) * columns * stripFloats);
+        lines.clear();
+        for (int c = 0; c < channels; ++c)
+            lines.push_back(floats(groupsOf(grid.rows) * columns * stripFloats));
         columnPhase = floats(2 * columns);
         rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
         batches = fourier::allocatePages(
             scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch), "an image of this size");
         strips.clear();
         for (std::size_t n = 0; n < scratch.size(); ++n) {
-            strips.push_back(floats(2 * length * stripFloats));
-            scratch[n].strips = reinterpret_cast<float *>(strips.back().get());
-            scratch[n].beside = scratch[n].strips + length * stripFloats;
+            strips.push_back(floats(std::size_t(channels + 1) * length * stripFloats));
+            auto *const ofStrips = reinterpret_cast<float *>(strips.back().get());
+            for (int c = 0; c < channels; ++c)
+                scratch[n].strips[std::size_t(c)] =
+                    ofStrips + std::size_t(c) * length * stripFloats;
+            scratch[n].beside = ofStrips + std::size_t(channels) * length * stripFloats;
             auto *const first = reinterpret_cast<FrequencyBatch *>(batches.get());
             scratch[n].batches = first + n * (batchesAhead + 1);
             std::uninitialized_default_construct_n(scratch[n].batches, batchesAhead + 1);
         }
         room = grid;
+        channelRoom = channels;
     }
 
     struct Framed {
@@ -152,25 +159,106 @@ struct CpuEngine::Workplace {
     std::unique_ptr<GridTables> tables;
     std::array<std::unique_ptr<GridTables>, 2> others;
     SliceGrid room{0, 0}; ///< what the buffers hold
-    std::shared_ptr<std::byte[]> lines, columnPhase, batches;
-    std::vector<std::shared_ptr<std::byte[]>> strips;
+    int channelRoom = 0;
+    std::shared_ptr<std::byte[]> columnPhase, batches;
+    std::vector<std::shared_ptr<std::byte[]>> lines, strips;
+    std::array<std::vector<float>, FrameJob::mostChannels> planes; ///< of pictures with colours
     std::vector<Complex> rowPhase;
 };
 
 namespace {
 
+bool isGrey(const ChannelShares &share) {
+    return share[0] == share[1] && share[1] == share[2];
+}
+
+// The spectra that have a share of a picture, and how many slices are made of them.
+struct Mixing {
+    Mixing(const std::vector<std::shared_ptr<const fourier::Spectrum>> &spectra,
+           const std::vector<ChannelShares> &shares) {
+        for (std::size_t n = 0; n < spectra.size(); ++n)
+            if (shares[n] != ChannelShares{0.0, 0.0, 0.0})
+                parts.push_back({spectra[n].get(), shares[n]});
+        grey = std::all_of(parts.begin(), parts.end(),
+                           [](const Part &part) { return isGrey(part.shares); });
+        if (parts.empty())
+            return;
+        unit = parts.front().spectrum->unit();
+        // One spectrum is one slice, in whatever colour: the colour is given to the image.
+        channels = grey || parts.size() == 1 ? 1 : FrameJob::mostChannels;
+        if (parts.size() == 1 && grey)
+            unit *= parts.front().shares[0];
+        else if (parts.size() == 1)
+            color = parts.front().shares;
+        for (const Part &part : parts) {
+            const double s = part.spectrum->unit() / parts.front().spectrum->unit();
+            sources.push_back({part.spectrum->cells(),
+                               {float(s * part.shares[0]), float(s * part.shares[1]),
+                                float(s * part.shares[2])}});
+            for (std::size_t c = 0; c < mass.size(); ++c)
+                mass[c] +=
+                    part.spectrum->mass() * (parts.size() == 1 && !grey ? 1.0 : part.shares[c]);
+        }
+    }
+
+    struct Part {
+        const fourier::Spectrum *spectrum;
+        ChannelShares shares;
+    };
+    std::vector<Part> parts;
+    std::vector<FrameSource> sources;
+    bool grey = true;
+    int channels = 1; ///< slices, hence transforms
+    double unit = 1.0;
+    ChannelShares color{1.0, 1.0, 1.0}, mass{};
+};
+
 struct Frame {
     FrameJob job;
     FrameScratch *scratch;
+    const ChannelShares &color;
+    float *image; ///< height x width x 3, if there are colours
 };
+
+// 16 rows of the planes as pixels of red, green and blue.
+void joinChannels(const Frame &frame, int group) {
+    const FrameJob &job = frame.job;
+    const std::size_t first = std::size_t(group) * stripLanes * job.imageColumns;
+    const std::size_t last =
+        std::min(std::size_t(group + 1) * stripLanes, std::size_t(job.imageRows)) *
+        job.imageColumns;
+    const std::array<float, 3> color{float(frame.color[0]), float(frame.color[1]),
+                                     float(frame.color[2])};
+    const float *const r = job.samples[0], *const g = job.channels > 1 ? job.samples[1] : r,
+                       *const b = job.channels > 1 ? job.samples[2] : r;
+    for (std::size_t n = first; n < last; ++n) {
+        frame.image[3 * n] = color[0] * r[n];
+        frame.image[3 * n + 1] = color[1] * g[n];
+        frame.image[3 * n + 2] = color[2] * b[n];
+    }
+}
 
 } // namespace
 
 CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
                      const std::optional<SliceRoom> &room, int threads)
-    : m_spectrum(std::move(spectrum)), m_workplace(std::make_unique<Workplace>(threads)),
-      m_room(room ? *room : roomOfBox(m_spectrum->lattice(), m_spectrum->layout().box)) {}
+    : CpuEngine(std::vector{spectrum}, room ? *room : roomOfBox(spectrum->lattice(), spectrum->layout().box),
+                threads) {}
+
+CpuEngine::CpuEngine(std::vector<std::shared_ptr<const fourier::Spectrum>> spectra,
+                     const SliceRoom &room, int threads)
+    : m_spectra(std::move(spectra)), m_shares(m_spectra.size(), {1.0, 1.0, 1.0}),
+      m_workplace(std::make_unique<Workplace>(threads)), m_room(room) {}
+
 CpuEngine::~CpuEngine() = default;
+
+void CpuEngine::setShares(std::vector<ChannelShares> shares) {
+    m_shares = std::move(shares);
+}
+
+std::size_t CpuEngine::bytes() const {
+    return m_spectra.size() * m_spectra.front()->bytes();
+}
 
 std::string CpuEngine::description() const {
     const int threads = m_workplace->team.threads();
@@ -181,16 +269,26 @@ std::string CpuEngine::description() const {
 ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &image,
                                   FrameTimes *times) {
     const double start = frameClockSeconds();
-    const fourier::SpectrumLayout &layout = m_spectrum->layout();
-    const volume::Lattice &lattice = m_spectrum->lattice();
+    const fourier::Spectrum &spectrum = *m_spectra.front();
+    const fourier::SpectrumLayout &layout = spectrum.layout();
+    const volume::Lattice &lattice = spectrum.lattice();
+    const Mixing mixing(m_spectra, m_shares);
     const SliceGrid grid = m_workplace->gridFor(camera, m_room, lattice, image);
-    ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}};
+    const std::size_t pixels = std::size_t(camera.width) * camera.height;
+    ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}, mixing.grey ? 1 : 3};
     try {
-        m_workplace->fit(grid, image);
-        result.samples.resize(std::size_t(camera.width) * camera.height);
+        m_workplace->fit(grid, mixing.channels, image);
+        result.samples.resize(pixels * std::size_t(result.channels));
+        for (int c = 0; c < mixing.channels && !mixing.grey; ++c)
+            m_workplace->planes[std::size_t(c)].resize(pixels);
     } catch (const std::bad_alloc &) {
         throw task::Error(task::ErrorCode::outOfMemory,
                           "not enough memory for an image of this size");
+    }
+    if (mixing.parts.empty()) { // nothing is shown
+        if (times != nullptr)
+            *times = {};
+        return result;
     }
     Workplace &place = *m_workplace;
     const GridTables &tables = *place.tables;
@@ -198,9 +296,13 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     const glm::dmat3 axes = camera.axes();
     const double du = 1.0 / (grid.columns * camera.pixelMm);
     const double dv = 1.0 / (grid.rows * camera.pixelMm);
-    Frame frame{{}, place.scratch.data()};
+    Frame frame{{}, place.scratch.data(), mixing.color, result.samples.data()};
     FrameJob &job = frame.job;
-    job.spectrum = m_spectrum.get();
+    job.layout = &layout;
+    job.cellLayout = &spectrum.cellLayout();
+    job.sources = mixing.sources.data();
+    job.sourceCount = int(mixing.sources.size());
+    job.channels = mixing.channels;
     job.image = image;
     job.columns = grid.columns;
     job.rows = grid.rows;
@@ -216,7 +318,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     job.stripCount = int(tables.strips.size());
     job.rollOff = tables.rollOff.data();
     // exp(+i 2 pi s.(c - x_wrap)) and the position of the first pixel, split into u and v.
-    const glm::dvec3 shift = lattice.center().mm - m_spectrum->wrapPoint().mm;
+    const glm::dvec3 shift = lattice.center().mm - spectrum.wrapPoint().mm;
     const double firstU = camera.panMm.x - 0.5 * (camera.width - 1) * camera.pixelMm;
     const double firstV = camera.panMm.y + 0.5 * (camera.height - 1) * camera.pixelMm;
     const int columns = job.stripCount * stripLanes;
@@ -227,7 +329,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         columnPhase[columns + n] = float(turnU[n].imag());
     }
     const auto turnV = rotations(grid.rows / 2 + 1, -dv * (glm::dot(axes[1], shift) + firstV));
-    const double unit = du * dv * m_spectrum->unit();
+    const double unit = du * dv * mixing.unit;
     for (std::size_t n = 0; n < turnV.size(); ++n)
         place.rowPhase[n] = Complex(unit * turnV[n]);
     job.columnPhase = columnPhase;
@@ -235,9 +337,11 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     job.alongRows = &tables.alongRows;
     job.halfColumns = &tables.halfColumns;
     job.untangle = tables.untangle.data();
-    job.lines = reinterpret_cast<float *>(place.lines.get());
-    job.samples = result.samples.data();
-    job.zeroFrequency = m_spectrum->mass() * du * dv;
+    for (std::size_t c = 0; c < std::size_t(job.channels); ++c) {
+        job.lines[c] = reinterpret_cast<float *>(place.lines[c].get());
+        job.samples[c] = mixing.grey ? result.samples.data() : place.planes[c].data();
+        job.zeroFrequency[c] = mixing.mass[c] * du * dv;
+    }
     for (FrameScratch &scratch : place.scratch)
         scratch.sliceSeconds = scratch.stripSeconds = 0.0;
 
@@ -256,14 +360,19 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     const WorkerTeam::Phase between{
         1, [](void *c, int, int) { static_cast<Context *>(c)->rowsStart = frameClockSeconds(); },
         &context};
-    const WorkerTeam::Phase finishing{groupsOf(std::min(camera.height, grid.rows)),
+    const WorkerTeam::Phase finishing{job.channels * groupsOf(std::min(camera.height, grid.rows)),
                                       [](void *c, int part, int slot) {
                                           Frame &f = static_cast<Context *>(c)->frame;
-                                          finishRows(f.job, part, f.scratch[slot]);
+                                          finishRows(f.job, part % f.job.channels,
+                                                     part / f.job.channels, f.scratch[slot]);
                                       },
                                       &context};
-    const std::array<WorkerTeam::Phase, 3> phases{slicing, between, finishing};
-    place.team.run(phases);
+    const WorkerTeam::Phase joining{
+        groupsOf(camera.height),
+        [](void *c, int part, int) { joinChannels(static_cast<Context *>(c)->frame, part); },
+        &context};
+    const std::array<WorkerTeam::Phase, 4> phases{slicing, between, finishing, joining};
+    place.team.run(std::span(phases).first(mixing.grey ? 3 : 4));
 
     if (times != nullptr) {
         // Strips are transformed as soon as they are interpolated: the wall time of the strips is

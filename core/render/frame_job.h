@@ -32,9 +32,22 @@ struct alignas(64) FrequencyBatch {
     std::array<float, lanes> sign;   ///< -1: the conjugate is meant
 };
 
+/// A spectrum and its share of each channel of the slice.
+struct FrameSource {
+    const std::byte *cells = nullptr;
+    std::array<float, 3> shares{1.0F, 1.0F, 1.0F};
+};
+
 /// What a frame's parts share: read by every thread, except what each part writes for itself.
 struct FrameJob {
-    const fourier::Spectrum *spectrum = nullptr;
+    static constexpr int mostChannels = 3;
+
+    const fourier::SpectrumLayout *layout = nullptr; ///< of all sources
+    const fourier::CellLayout *cellLayout = nullptr;
+    const FrameSource *sources = nullptr;
+    int sourceCount = 1;
+    /// How many images are made: one or three. A single source makes one, by a share of 1.
+    int channels = 1;
     ImageDefinition image;
     bool wraps = false; ///< some |a_d.s| of the disc exceeds 1/2
 
@@ -56,15 +69,18 @@ struct FrameJob {
     /// exp(+i 2 pi k / columns), k = 0..columns/2 - 1.
     const std::complex<float> *untangle = nullptr;
 
-    /// After the transform along image rows' direction: [group of 16 image rows][column][strip].
-    float *lines = nullptr;
-    double zeroFrequency = 0.0; ///< what the slice is at frequency 0, exactly
-    float *samples = nullptr;   ///< imageRows x imageColumns
+    /// After the transform along image rows' direction: [group of 16 image rows][column][strip], of
+    /// each channel.
+    std::array<float *, mostChannels> lines{};
+    std::array<double, mostChannels> zeroFrequency{}; ///< what a slice is at frequency 0, exactly
+    std::array<float *, mostChannels> samples{};      ///< imageRows x imageColumns each
 };
 
-/// Scratch of one thread: two arrays of `length` strips and a few batches.
+/// Scratch of one thread: an array of `length` strips for each channel, one beside them, and a few
+/// batches.
 struct FrameScratch {
-    float *strips = nullptr, *beside = nullptr;
+    std::array<float *, FrameJob::mostChannels> strips{};
+    float *beside = nullptr;
     FrequencyBatch *batches = nullptr; ///< `batchesAhead` + 1 of them
     /// Time spent on strips, and on their interpolation alone, added up.
     double stripSeconds = 0.0, sliceSeconds = 0.0;
@@ -75,8 +91,8 @@ double frameClockSeconds();
 
 /// Interpolates one strip of the slice and transforms it along the rows.
 void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch);
-/// Transforms 16 image rows along the columns and stores what belongs to the image.
-void finishRows(const FrameJob &job, int group, FrameScratch &scratch);
+/// Transforms 16 image rows of a channel along the columns and stores what belongs to the image.
+void finishRows(const FrameJob &job, int channel, int group, FrameScratch &scratch);
 /// The instruction set in use.
 const char *instructionSet();
 

@@ -21,11 +21,11 @@ using fourier::StripTransform;
 
 // x[2n] + i x[2n+1] is the transform of half the length of
 //   (X_k + conj X_(h-k)) + i exp(+i 2 pi k/columns) (X_k - conj X_(h-k)), h = columns/2.
-void finishSixteenRows(const FrameJob &job, int group, FrameScratch &scratch) {
+void finishSixteenRows(const FrameJob &job, int channel, int group, FrameScratch &scratch) {
     const StripTag d;
     const int half = job.columns / 2, known = std::min(half, job.stripCount * stripLanes);
-    const float *const lines =
-        job.lines + std::size_t(group) * job.stripCount * stripLanes * stripFloats;
+    const float *const lines = job.lines[std::size_t(channel)] +
+                               std::size_t(group) * job.stripCount * stripLanes * stripFloats;
     for (int k = 0; k <= half / 2; ++k) {
         const int other = half - k;
         for (std::size_t lane = 0; lane < stripLanes; lane += hn::Lanes(d)) {
@@ -43,22 +43,23 @@ void finishSixteenRows(const FrameJob &job, int group, FrameScratch &scratch) {
             const StripComplex difference =
                 rotated({hn::Sub(a.re, b.re), hn::Add(a.im, b.im)},
                         hn::Set(d, job.untangle[k].real()), hn::Set(d, job.untangle[k].imag()));
-            float *const to = scratch.strips + std::size_t(k) * stripFloats + lane;
+            float *const to = scratch.strips[0] + std::size_t(k) * stripFloats + lane;
             hn::Store(hn::Sub(sum.re, difference.im), d, to);
             hn::Store(hn::Add(sum.im, difference.re), d, to + stripLanes);
             if (k == 0 || other == k)
                 continue;
-            float *const mirrored = scratch.strips + std::size_t(other) * stripFloats + lane;
+            float *const mirrored = scratch.strips[0] + std::size_t(other) * stripFloats + lane;
             hn::Store(hn::Add(sum.re, difference.im), d, mirrored);
             hn::Store(hn::Sub(difference.re, sum.im), d, mirrored + stripLanes);
         }
     }
     // [column][16 rows]: the real and imaginary parts of a strip are neighbouring columns.
-    const float *const image = runTransform(*job.halfColumns, scratch.strips, scratch.beside);
+    const float *const image = runTransform(*job.halfColumns, scratch.strips[0], scratch.beside);
     const int firstRow = group * stripLanes;
     const int rowCount = std::min(stripLanes, std::min(job.imageRows, job.rows) - firstRow);
     const int width = std::min(job.imageColumns, job.columns);
-    float *const samples = job.samples + std::size_t(firstRow) * job.imageColumns;
+    float *const all = job.samples[std::size_t(channel)];
+    float *const samples = all + std::size_t(firstRow) * job.imageColumns;
     for (int column = 0; column < width; column += stripLanes) {
         const float *const from = image + std::size_t(column) * stripLanes;
         const int columnCount = std::min(stripLanes, width - column);
@@ -78,7 +79,7 @@ void finishSixteenRows(const FrameJob &job, int group, FrameScratch &scratch) {
         for (int column = width; column < job.imageColumns; column += job.columns)
             std::copy_n(line, std::min(job.columns, job.imageColumns - column), line + column);
         for (int copy = firstRow + row + job.rows; copy < job.imageRows; copy += job.rows)
-            std::copy_n(line, job.imageColumns, job.samples + std::size_t(copy) * job.imageColumns);
+            std::copy_n(line, job.imageColumns, all + std::size_t(copy) * job.imageColumns);
     }
 }
 
@@ -90,8 +91,8 @@ namespace pellucid::render {
 
 HWY_EXPORT(finishSixteenRows);
 
-void finishRows(const FrameJob &job, int group, FrameScratch &scratch) {
-    HWY_DYNAMIC_DISPATCH(finishSixteenRows)(job, group, scratch);
+void finishRows(const FrameJob &job, int channel, int group, FrameScratch &scratch) {
+    HWY_DYNAMIC_DISPATCH(finishSixteenRows)(job, channel, group, scratch);
 }
 
 } // namespace pellucid::render

@@ -2,36 +2,44 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <span>
+#include <vector>
 
+#include "core/classify/shown_fields.h"
 #include "core/render/cpu_engine.h"
 
 namespace pellucid::render {
 
-/// A plan that fits the memory, if need be for a field of fewer samples.
+/// A plan that fits the memory, if need be for fields of fewer samples.
 struct FittingPlan {
     RenderPlan plan;
-    /// The field to render in place of the original: means of up to `reduction` samples an axis.
-    std::optional<classify::DensityField> reducedField;
+    /// The fields to render in place of the originals: means of up to `reduction` samples an axis.
+    std::vector<classify::DensityField> reducedFields;
     int reduction = 1;
 };
 
 /// What fits is used; what does not is reduced in this order: storage, padding, resolution. The
 /// predicted error of a reduced field counts the detail that the means leave out, as its share of
-/// the field's energy: projections, which average too, lose less. *Throws* Error{outOfMemory} if
-/// 32 samples a side do not fit either, or if it is the image that is too large; Cancelled.
-FittingPlan planWithin(const Scene &scene, const classify::DensityField &field,
-                       const FieldSummary &summary, const Budget &budget,
+/// the field's energy: projections, which average too, lose less. *Shape*: fields on one lattice,
+/// as many summaries. *Throws* Error{outOfMemory} if 32 samples a side do not fit either, or if it
+/// is the image that is too large; Cancelled.
+FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityField> fields,
+                       std::span<const FieldSummary> summaries, const Budget &budget,
                        const task::Progress &progress = {});
 
 /// An engine, ready to render.
 struct PreparedEngine {
-    std::shared_ptr<CpuEngine> engine;
+    std::shared_ptr<ProjectionEngine> engine;
     RenderPlan plan;
 };
 
-/// Plans within the budget and prepares the spectrum. *Throws* Error{outOfMemory}, Cancelled.
-PreparedEngine prepareEngine(const Scene &scene, const classify::DensityField &field,
+/// An engine for the channels of a look whose spectra, of one layout, are prepared by a plan.
+std::shared_ptr<CpuEngine> makeEngine(std::span<const classify::DensityField> channels,
+                                      const classify::Color &color, const RenderPlan &plan,
+                                      const task::Progress &progress = {});
+
+/// Plans within the budget and prepares the spectra. *Throws* Error{outOfMemory}, Cancelled.
+PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fields,
                              const Budget &budget, const task::Progress &progress = {});
 
 } // namespace pellucid::render

@@ -52,7 +52,17 @@ double frameTime(const SliceGrid &grid, const Camera &camera, const volume::Latt
 } // namespace
 
 FieldSummary summarise(const classify::DensityField &field) {
-    return {field.values.lattice(), field.support, energyMarginals(field.values, field.support)};
+    return summarise({&field, 1}).front();
+}
+
+std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields) {
+    volume::VoxelBox box = fields.front().support;
+    for (const classify::DensityField &field : fields)
+        box = volume::united(box, field.support);
+    std::vector<FieldSummary> summaries;
+    for (const classify::DensityField &field : fields)
+        summaries.push_back({field.values.lattice(), box, energyMarginals(field.values, box)});
+    return summaries;
 }
 
 namespace {
@@ -61,11 +71,14 @@ namespace {
 // milliseconds.
 class AxisCandidates {
 public:
-    AxisCandidates(int samples, const std::vector<double> &energy)
-        : m_samples(samples), m_energy(energy), m_folded((std::size_t(samples) + 3) / 2, 0.0) {
+    AxisCandidates(int axis, std::span<const FieldSummary> fields)
+        : m_samples(fields.front().support.size()[axis]), m_axis(std::size_t(axis)),
+          m_fields(fields), m_folded((std::size_t(m_samples) + 3) / 2, 0.0) {
         // From the wrap voxel, the middle one, outward.
-        for (int n = 0; n < samples; ++n)
-            m_folded[std::size_t(std::abs(n - samples / 2))] += energy[n];
+        for (const FieldSummary &field : fields)
+            for (int n = 0; n < m_samples; ++n)
+                m_folded[std::size_t(std::abs(n - m_samples / 2))] +=
+                    field.energy.axis[m_axis][std::size_t(n)] / double(fields.size());
     }
 
     struct Candidate {
@@ -82,7 +95,12 @@ public:
             const double padding =
                 std::clamp(double(padded) / m_samples, 1.05, std::max(2.5, wanted));
             auto kernel = fourier::makeKernel(choice, padding, m_folded);
-            const AxisError error = axisError(kernel, padded, m_energy);
+            AxisError error{0.0, 0.0, 0.0, 0.0};
+            for (const FieldSummary &field : m_fields) {
+                const AxisError e = axisError(kernel, padded, field.energy.axis[m_axis]);
+                error = {std::max(error.ghosts, e.ghosts), std::max(error.inPhase, e.inPhase),
+                         std::max(error.brightest, e.brightest), std::max(error.noise, e.noise)};
+            }
             slot = std::make_unique<Candidate>(Candidate{std::move(kernel), padded, error});
         }
         return *slot;
@@ -90,15 +108,20 @@ public:
 
 private:
     int m_samples;
-    const std::vector<double> &m_energy;
+    std::size_t m_axis;
+    std::span<const FieldSummary> m_fields;
     std::vector<double> m_folded;
     std::map<std::pair<std::string, double>, std::unique_ptr<Candidate>> m_made;
 };
 
-double wrappedShare(const Camera &camera, const SliceGrid &grid, const FieldSummary &field) {
+double wrappedShare(const Camera &camera, const SliceGrid &grid,
+                    std::span<const FieldSummary> fields) {
     const double image = double(camera.width) * camera.height;
     const double period = double(grid.columns) * grid.rows;
-    return std::min(1.0, image / period) / shareInImage(camera, *field.energy.spread);
+    double least = 1.0;
+    for (const FieldSummary &field : fields)
+        least = std::min(least, shareInImage(camera, *field.energy.spread));
+    return std::min(1.0, image / period) / least;
 }
 
 // A slice grid and what the tails that fold back into it leave.
@@ -111,18 +134,23 @@ struct PlannedGrid {
 };
 
 // The slice grids worth their time, smallest first.
-std::vector<PlannedGrid> planGrids(const Scene &scene, const FieldSummary &field) {
+std::vector<PlannedGrid> planGrids(const Scene &scene, std::span<const FieldSummary> fields) {
     const Camera &camera = scene.camera;
+    SliceRoom room;
+    for (const FieldSummary &field : fields)
+        room.spreads.push_back(field.energy.spread);
     std::vector<PlannedGrid> grids;
     // A fifth stays in reserve: regular patterns have their lines at the edge of some view's band.
     for (const double share : {0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
-        const SliceRoom room{field.energy.spread, share * scene.tolerance};
-        const SliceGrid grid = sliceGrid(camera, room, field.lattice, scene.image);
+        room.foldedTails = share * scene.tolerance;
+        const SliceGrid grid = sliceGrid(camera, room, fields.front().lattice, scene.image);
         if (!grids.empty() && grid == grids.back().grid)
             continue;
-        const double folded =
-            predictFoldedTails(scene.image, camera, grid.columns, grid.rows, *field.energy.spread);
-        grids.push_back({grid, room, folded, wrappedShare(camera, grid, field)});
+        double folded = 0.0;
+        for (const auto &spread : room.spreads)
+            folded = std::max(
+                folded, predictFoldedTails(scene.image, camera, grid.columns, grid.rows, *spread));
+        grids.push_back({grid, room, folded, wrappedShare(camera, grid, fields)});
     }
     return grids;
 }
@@ -165,7 +193,13 @@ std::string reasonFor(const RenderPlan &plan, const Scene &scene, bool overBudge
 } // namespace
 
 RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budget &budget) {
+    return planRender(scene, {&field, 1}, 1, budget);
+}
+
+RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, int channels,
+                      const Budget &budget) {
     validate(scene);
+    const FieldSummary &field = fields.front(); // lattice and box are the same of all
     using fourier::KernelFamily;
     constexpr auto least = KernelFamily::leastGhosts;
     const auto kernels = choices<fourier::KernelChoice>(
@@ -175,11 +209,9 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
         choices(scene.interpolation.padding, {1.25, 1.375, 1.5, 1.625, 1.75, 2.0});
     const auto storages = choices(scene.interpolation.storage,
                                   {fourier::Storage::binary16, fourier::Storage::float32});
-    const volume::GridSize size = field.support.size();
-    std::array<AxisCandidates, 3> axes{AxisCandidates(size.i, field.energy.axis[0]),
-                                       AxisCandidates(size.j, field.energy.axis[1]),
-                                       AxisCandidates(size.k, field.energy.axis[2])};
-    const std::vector<PlannedGrid> grids = planGrids(scene, field);
+    std::array<AxisCandidates, 3> axes{AxisCandidates(0, fields), AxisCandidates(1, fields),
+                                       AxisCandidates(2, fields)};
+    const std::vector<PlannedGrid> grids = planGrids(scene, fields);
 
     const double leastFolded =
         std::min_element(grids.begin(), grids.end(), [](const auto &a, const auto &b) {
@@ -222,10 +254,13 @@ RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budge
                 overBudget = true;
                 return;
             }
-            const std::size_t spectrumBytes = layout.peakBytes();
+            // All but the last are there when the last is prepared.
+            const std::size_t spectrumBytes =
+                layout.peakBytes() + (fields.size() - 1) * layout.bytes();
             bool fits = false;
             for (const PlannedGrid &planned : grids) {
-                const std::size_t bytes = spectrumBytes + frameBytes(planned.grid, scene.camera);
+                const std::size_t bytes =
+                    spectrumBytes + std::size_t(channels) * frameBytes(planned.grid, scene.camera);
                 leastBytes = std::min(leastBytes, bytes);
                 if (bytes > budget.bytes) {
                     overBudget = true;

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/fourier/spectrum.h"
 #include "core/render/error_prediction.h"
@@ -20,6 +22,8 @@ struct FieldSummary {
 };
 
 FieldSummary summarise(const classify::DensityField &field);
+/// Of fields on one lattice that share a plan: each in the box that holds all.
+std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields);
 
 /// The memory that a plan may ask for, bytes.
 struct Budget {
@@ -47,5 +51,11 @@ struct RenderPlan {
 /// that fits. What the scene's `interpolation` fixes stays fixed.
 /// *Throws* Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const Scene &scene, const FieldSummary &field, const Budget &budget = {});
+
+/// The same for fields whose spectra share a layout, so that a slice can be their weighted sum: the
+/// errors are those of the worst, the bytes are of all. *Shape*: `channels` images are made of
+/// them.
+RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, int channels,
+                      const Budget &budget = {});
 
 } // namespace pellucid::render

@@ -36,7 +36,10 @@ double reachPixels(const Camera &camera, const SliceRoom &room, const volume::La
                    const ImageDefinition &image) {
     const double longest =
         std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
-    return (room.spread->radiusMm + footprint(image) * longest) / camera.pixelMm;
+    double radiusMm = 0.0;
+    for (const auto &spread : room.spreads)
+        radiusMm = std::max(radiusMm, spread->radiusMm);
+    return (radiusMm + footprint(image) * longest) / camera.pixelMm;
 }
 
 } // namespace
@@ -47,15 +50,12 @@ std::size_t frameBytes(const SliceGrid &grid, const Camera &camera) {
 }
 
 SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box) {
-    return {std::make_shared<const EnergySpread>(evenSpread(lattice, box))};
+    return {{std::make_shared<const EnergySpread>(evenSpread(lattice, box))}};
 }
 
 SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
                     const ImageDefinition &image) {
     const double projection = reachPixels(camera, room, lattice, image);
-    // Of each axis, and of the whole projection.
-    const double allowed =
-        0.5 * room.foldedTails * room.foldedTails * shareInImage(camera, *room.spread);
     const auto cells = [&](int side, double panMm) {
         const double pan = std::abs(panMm) / camera.pixelMm;
         // A copy of the projection, a period away, must stay outside the image: its near edge lies
@@ -68,8 +68,12 @@ SliceGrid sliceGrid(const Camera &camera, const SliceRoom &room, const volume::L
                             "than {} frequencies a side",
                             camera.pixelMm, std::abs(panMm), largestSliceGrid));
         const auto keeps = [&](int period) {
-            return foldedTailEnergy(*room.spread, image.rollOff, camera.pixelMm, period, side,
-                                    pan) <= allowed;
+            // Half for each axis, of what the image holds of the projection.
+            return std::all_of(room.spreads.begin(), room.spreads.end(), [&](const auto &spread) {
+                return foldedTailEnergy(*spread, image.rollOff, camera.pixelMm, period, side,
+                                        pan) <=
+                       0.5 * room.foldedTails * room.foldedTails * shareInImage(camera, *spread);
+            });
         };
         const int least = fourier::smoothEvenSize(int(std::ceil(reach)));
         const int most = std::min(largestSliceGrid, std::max(512, 2 * least));

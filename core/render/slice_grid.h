@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/render/folded_tails.h"
 
@@ -16,8 +17,9 @@ struct SliceGrid {
 
 /// What the slice grid makes room for.
 struct SliceRoom {
-    /// Where the field is: what lies beyond its radius is zero.
-    std::shared_ptr<const EnergySpread> spread;
+    /// Where each of the fields is that the slice is summed from: what lies beyond its radius is
+    /// zero. At least one.
+    std::vector<std::shared_ptr<const EnergySpread>> spreads;
     /// What the tails of the roll-off may leave when they fold back, relative L2.
     double foldedTails = 3e-4;
 };
@@ -29,7 +31,7 @@ std::size_t frameBytes(const SliceGrid &grid, const Camera &camera);
 /// The room that any field within a box needs.
 SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box);
 
-/// The smallest smooth slice grid for a camera that no sample of the projection with its footprint
+/// The smallest smooth slice grid for a camera that no sample of any projection with its footprint
 /// along an axis, seen from any direction, wraps into, and whose folded tails are as asked for;
 /// where that takes more than twice the cells along an axis, and more than 512, those. *Throws*
 /// Error{outOfMemory} for more than 65536 frequencies a side.

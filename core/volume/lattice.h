@@ -41,6 +41,9 @@ struct VoxelBox {
     bool operator==(const VoxelBox &) const = default;
 };
 
+/// The smallest box that holds two boxes; one without samples adds nothing.
+VoxelBox united(const VoxelBox &a, const VoxelBox &b);
+
 /// Where the samples of a volume lie: an origin and three steps that may have different lengths
 /// (anisotropic voxels) and need not be orthogonal (gantry tilt). Sample (i, j, k) is at
 /// origin + i a_0 + j a_1 + k a_2. Only a Lattice converts between voxel and patient space.

@@ -24,7 +24,8 @@ TEST(SliceGrid, LessTailsTakeMoreRoomAndNeverMoreThanThereIs) {
         const render::SliceGrid grid = s.grid();
         EXPECT_GE(grid.columns, before);
         EXPECT_GE(grid.columns, 52 + s.camera.width / 2); // half a diagonal beside half the image
-        EXPECT_LE(render::predictFoldedTails({}, s.camera, grid.columns, grid.rows, *s.room.spread),
+        EXPECT_LE(render::predictFoldedTails({}, s.camera, grid.columns, grid.rows,
+                                             *s.room.spreads.front()),
                   tails);
         before = grid.columns;
     }
@@ -58,9 +59,9 @@ TEST(FoldedTails, ACropHasMoreOfThem) {
     const Setting s;
     render::Camera crop = s.camera;
     crop.width = crop.height = 16;
-    EXPECT_EQ(render::shareInImage(s.camera, *s.room.spread), 1.0);
+    EXPECT_EQ(render::shareInImage(s.camera, *s.room.spreads.front()), 1.0);
     // A cube's mean shadow is a quarter of its surface.
-    EXPECT_NEAR(render::shareInImage(crop, *s.room.spread), 256.0 / (1.5 * 3600.0), 1e-12);
+    EXPECT_NEAR(render::shareInImage(crop, *s.room.spreads.front()), 256.0 / (1.5 * 3600.0), 1e-12);
 }
 
 } // namespace

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/render/layer_set.h"
+
+#include <algorithm>
+#include <new>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/classify/coarse_field.h"
+#include "core/render/frame_job.h"
+#include "core/task/error.h"
+
+namespace pellucid::render {
+
+namespace {
+
+constexpr std::size_t mostSamples = std::size_t(1) << 25;
+constexpr int fewestSamples = 32;
+constexpr ChannelShares none{0.0, 0.0, 0.0};
+
+int leastReduction(const volume::GridSize &size) {
+    int reduction = 1;
+    while (size.count() / (std::size_t(reduction) * reduction * reduction) > mostSamples)
+        ++reduction;
+    return reduction;
+}
+
+} // namespace
+
+LayerSet::LayerSet(std::shared_ptr<CpuEngine> engine, RenderPlan plan, int reduction)
+    : m_engine(std::move(engine)), m_plan(std::move(plan)), m_reduction(reduction) {}
+
+std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t count,
+                                            const FieldOf &fieldOf, const Budget &budget,
+                                            const task::Progress &progress) {
+    std::vector<classify::DensityField> fields;
+    int reduction = 1, longest = 0;
+    const auto side = [&] { return (longest + reduction - 1) / reduction; };
+    for (std::size_t n = 0; n < count; ++n) {
+        classify::DensityField field = fieldOf(
+            n, progress.part(0.5 * double(n) / double(count), 0.5 * double(n + 1) / double(count)));
+        const volume::GridSize size = field.values.lattice().size();
+        longest = std::max({size.i, size.j, size.k});
+        reduction = leastReduction(size);
+        fields.push_back(reduction > 1 ? classify::coarseField(field, side()) : std::move(field));
+    }
+    for (;;) {
+        progress.check();
+        std::size_t held = 0;
+        for (const classify::DensityField &field : fields)
+            held += field.values.bytes();
+        try {
+            const std::size_t left = budget.bytes > held ? budget.bytes - held : 0;
+            RenderPlan plan = planRender(scene, summarise(fields), FrameJob::mostChannels, {left});
+            std::vector<std::shared_ptr<const fourier::Spectrum>> spectra;
+            for (std::size_t n = 0; n < count; ++n) {
+                const double done = 0.5 + 0.5 * double(n) / double(count);
+                spectra.push_back(std::make_shared<const fourier::Spectrum>(
+                    fourier::Spectrum::prepare(fields[n].values, plan.spectrum,
+                                               progress.part(done, done + 0.5 / double(count)))));
+                fields[n] = classify::DensityField();
+            }
+            auto engine = std::make_shared<CpuEngine>(std::move(spectra), plan.room);
+            return std::shared_ptr<LayerSet>(
+                new LayerSet(std::move(engine), std::move(plan), reduction));
+        } catch (const task::Error &error) {
+            ++reduction;
+            const bool lostFields =
+                std::any_of(fields.begin(), fields.end(), [](const classify::DensityField &f) {
+                    return f.values.lattice().size().count() <= 1;
+                });
+            if (error.code() != task::ErrorCode::outOfMemory || side() < fewestSamples ||
+                lostFields)
+                throw;
+        }
+        for (classify::DensityField &field : fields)
+            field = classify::coarseField(field, side());
+    }
+}
+
+void LayerSet::keep(std::size_t layer) {
+    std::vector<ChannelShares> alone(count(), none);
+    alone[layer] = {1.0, 1.0, 1.0};
+    m_engine->setShares(std::move(alone));
+    m_kept->projections[layer] = std::move(m_engine->render(m_kept->camera, m_kept->image).samples);
+}
+
+ProjectionImage LayerSet::sumOfKept(const std::vector<ChannelShares> &shares) const {
+    const bool grey = std::all_of(shares.begin(), shares.end(), [](const ChannelShares &s) {
+        return s[0] == s[1] && s[1] == s[2];
+    });
+    const Camera &camera = m_kept->camera;
+    ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}, grey ? 1 : 3};
+    const auto channels = std::size_t(image.channels);
+    const std::size_t pixels = std::size_t(camera.width) * camera.height;
+    image.samples.resize(pixels * channels);
+    // A block of sums stays in the first cache.
+    constexpr std::size_t block = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (pixels + block - 1) / block, 16),
+                      [&](const tbb::blocked_range<std::size_t> &range) {
+                          std::array<std::array<float, block>, FrameJob::mostChannels> sums;
+                          for (std::size_t b = range.begin(); b != range.end(); ++b) {
+                              const std::size_t first = b * block,
+                                                size = std::min(block, pixels - first);
+                              for (std::size_t c = 0; c < channels; ++c)
+                                  sums[c].fill(0.0F);
+                              for (std::size_t n = 0; n < shares.size(); ++n)
+                                  for (std::size_t c = 0; c < channels; ++c) {
+                                      const auto share = float(shares[n][c]);
+                                      if (share == 0.0F)
+                                          continue;
+                                      const float *const from =
+                                          m_kept->projections[n].data() + first;
+                                      float *const to = sums[c].data();
+                                      for (std::size_t p = 0; p < size; ++p)
+                                          to[p] += share * from[p];
+                                  }
+                              float *const to = image.samples.data() + first * channels;
+                              for (std::size_t p = 0; p < size; ++p)
+                                  for (std::size_t c = 0; c < channels; ++c)
+                                      to[p * channels + c] = sums[c][p];
+                          }
+                      });
+    return image;
+}
+
+ProjectionImage LayerSet::render(const Camera &camera, const ImageDefinition &image,
+                                 const std::vector<ChannelShares> &shares, FrameTimes *times) {
+    const bool sameView = m_kept && m_kept->camera == camera && m_kept->image == image;
+    if (!sameView) {
+        // The view moves: what would be kept now would not be asked for again.
+        m_kept = Kept{camera, image, std::vector<std::vector<float>>(count())};
+        m_engine->setShares(shares);
+        return m_engine->render(camera, image, times);
+    }
+    const double start = frameClockSeconds();
+    try {
+        for (std::size_t n = 0; n < shares.size(); ++n)
+            if (shares[n] != none && m_kept->projections[n].empty())
+                keep(n);
+        ProjectionImage sum = sumOfKept(shares);
+        if (times != nullptr)
+            *times = {1e3 * (frameClockSeconds() - start), 0.0};
+        return sum;
+    } catch (const std::bad_alloc &) {
+        m_kept.reset();
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          "not enough memory to keep the projections of the layers");
+    }
+}
+
+MixtureEngine::MixtureEngine(std::shared_ptr<LayerSet> layers, std::vector<ChannelShares> shares)
+    : m_layers(std::move(layers)), m_shares(std::move(shares)) {}
+
+std::string MixtureEngine::description() const {
+    return m_layers->description();
+}
+
+ProjectionImage MixtureEngine::render(const Camera &camera, const ImageDefinition &image,
+                                      FrameTimes *times) {
+    return m_layers->render(camera, image, m_shares, times);
+}
+
+} // namespace pellucid::render

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/render/prepared_engine.h"
+
+namespace pellucid::render {
+
+/// The layers of a look with a spectrum each, shown with any weights and colours at once.
+/// Projecting is linear, which is used in two ways: while the view stands still the projections of
+/// the layers are kept, and a change of weights costs a sum over the pixels, no slice and no
+/// transform; while both move, one slice is the sum of the layers' slices and each channel is
+/// transformed once. The third, one spectrum of the sum while the weights stand still, is a
+/// PreparedEngine.
+class LayerSet {
+public:
+    /// What makes the field of a layer.
+    using FieldOf = std::function<classify::DensityField(std::size_t, const task::Progress &)>;
+
+    /// Fields of more than 2^25 samples are halved until they are smaller, and further until all
+    /// spectra fit the budget: the layers serve the moving hand. *Throws* Error{outOfMemory} if 32
+    /// samples a side do not fit, Cancelled.
+    static std::shared_ptr<LayerSet> prepare(const Scene &scene, std::size_t count,
+                                             const FieldOf &fieldOf, const Budget &budget,
+                                             const task::Progress &progress = {});
+
+    /// What holds for each layer alone: the error is that of the worst.
+    const RenderPlan &plan() const { return m_plan; }
+    /// How many samples an axis are one here; 1: none were joined.
+    int reduction() const { return m_reduction; }
+    std::size_t count() const { return m_engine->spectrumCount(); }
+    std::size_t bytes() const { return m_engine->bytes(); }
+
+    /// Not safe to call from two threads at once. *Shape*: shares, one each layer. *Throws*
+    /// Error{outOfMemory}.
+    ProjectionImage render(const Camera &camera, const ImageDefinition &image,
+                           const std::vector<ChannelShares> &shares, FrameTimes *times = nullptr);
+
+    std::string description() const { return m_engine->description(); }
+
+private:
+    LayerSet(std::shared_ptr<CpuEngine> engine, RenderPlan plan, int reduction);
+    void keep(std::size_t layer);
+    ProjectionImage sumOfKept(const std::vector<ChannelShares> &shares) const;
+
+    std::shared_ptr<CpuEngine> m_engine;
+    RenderPlan m_plan;
+    int m_reduction;
+    /// The view of the last frame, and the projections of the layers in it, those that were needed.
+    struct Kept {
+        Camera camera;
+        ImageDefinition image;
+        std::vector<std::vector<float>> projections;
+    };
+    std::optional<Kept> m_kept;
+};
+
+/// Layers with their shares, as an engine.
+class MixtureEngine final : public ProjectionEngine {
+public:
+    MixtureEngine(std::shared_ptr<LayerSet> layers, std::vector<ChannelShares> shares);
+    std::string description() const override;
+    ProjectionImage render(const Camera &camera, const ImageDefinition &image,
+                           FrameTimes *times = nullptr) override;
+
+private:
+    std::shared_ptr<LayerSet> m_layers;
+    std::vector<ChannelShares> m_shares;
+};
+
+} // namespace pellucid::render
