@@ -17,7 +17,7 @@ TonePass::~TonePass() {
 }
 
 void TonePass::upload(const render::ProjectionImage &image) {
-    m_texture.upload(image.width, image.height, image.samples.data());
+    m_texture.upload(image.width, image.height, image.channels, image.samples.data());
 }
 
 void TonePass::draw(const render::ToneRange &range, bool inverted) const {

@@ -10,6 +10,5 @@ in vec2 position;
 out vec4 color;
 
 void main() {
-    float grey = tone(texture(projection, position).r, range.x, range.y, inverted);
-    color = vec4(vec3(grey), 1.0);
+    color = vec4(tone(texture(projection, position).rgb, range.x, range.y, inverted), 1.0);
 }

@@ -35,7 +35,8 @@
 namespace pellucid::ui {
 
 MainWindow::MainWindow(const Theme &theme, QWidget *parent)
-    : QMainWindow(parent), m_theme(theme), m_opener(m_document, m_jobs) {
+    : QMainWindow(parent), m_theme(theme), m_preparer(m_document, m_jobs),
+      m_opener(m_document, m_jobs, m_preparer) {
     setObjectName("mainWindow");
     setWindowTitle("Pellucid");
     setAcceptDrops(true);
@@ -52,7 +53,7 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     createToolBar();
     createStatusBar();
     connect(&m_document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
-    connect(&m_opener, &StudyOpener::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(&m_preparer, &LookPreparer::engineReady, m_projection, &ProjectionView::setEngine);
     connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
     connect(&m_opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);
     connect(&m_document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
@@ -104,8 +105,8 @@ void MainWindow::createStudyDock() {
 
 void MainWindow::createQualityDock() {
     auto *panel = new QualityPanel(m_document);
-    connect(&m_opener, &StudyOpener::engineReady, panel, &QualityPanel::showPlan);
-    connect(panel, &QualityPanel::chosenAgain, &m_opener, &StudyOpener::prepareAgain);
+    connect(&m_preparer, &LookPreparer::engineReady, panel, &QualityPanel::showPlan);
+    connect(panel, &QualityPanel::chosenAgain, &m_preparer, &LookPreparer::prepareAgain);
     connect(m_projection, &ProjectionView::frameShown, panel, &QualityPanel::showFrame);
     auto *dock = new QDockWidget(tr("QUALITY"), this);
     dock->setObjectName("qualityDock");
@@ -233,6 +234,7 @@ void MainWindow::createLookMenu() {
         scene.tone.low.reset();
         scene.tone.high.reset();
         m_document.undoStack()->push(new EditScene(m_document, scene, tr("Automatic tone")));
+        m_projection->retakeTone();
     });
     m_windowMenu = menu->addMenu(tr("&Window of the planes"));
     m_windowMenu->setObjectName("windowMenu");
@@ -406,10 +408,6 @@ void MainWindow::openScene() {
         return;
     attempt([&] {
         const render::Scene scene = readSceneFile(path);
-        if (classify::mixesColors(scene.look))
-            throw task::Error(task::ErrorCode::unusable,
-                              "its coloured classes are not shown by the window in this version",
-                              path.toStdString());
         m_document.undoStack()->push(new EditScene(m_document, scene, tr("Open scene")));
         m_projection->adoptCamera(scene.camera);
     });

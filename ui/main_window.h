@@ -8,6 +8,7 @@
 
 #include "ui/document.h"
 #include "ui/job_runner.h"
+#include "ui/look_preparer.h"
 #include "ui/study_opener.h"
 #include "ui/theme.h"
 #include "ui/tools.h"
@@ -73,6 +74,7 @@ private:
     Theme m_theme;
     Document m_document;
     JobRunner m_jobs;
+    LookPreparer m_preparer;
     StudyOpener m_opener;
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;

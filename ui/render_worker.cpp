@@ -16,9 +16,11 @@ RenderWorker::~RenderWorker() {
     m_thread.join();
 }
 
-void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine) {
+void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
+                             std::uint64_t generation) {
     const std::lock_guard lock(m_mutex);
     m_engine = std::move(engine);
+    m_generation = generation;
     m_next.reset();
 }
 
@@ -28,7 +30,7 @@ std::uint64_t RenderWorker::request(const render::Camera &camera,
     const std::lock_guard lock(m_mutex);
     if (!m_engine)
         return m_number;
-    m_next = Request{m_engine, camera, image, reduction, ++m_number};
+    m_next = Request{m_engine, m_generation, camera, image, reduction, ++m_number};
     m_wake.notify_one();
     return m_number;
 }
@@ -54,7 +56,7 @@ void RenderWorker::run(std::stop_token stop) {
         }
         try {
             auto frame = std::make_shared<RenderedFrame>();
-            frame->engine = request.engine;
+            frame->generation = request.generation;
             frame->number = request.number;
             frame->draft = request.reduction.draft;
             frame->image = request.engine->render(request.camera, request.image, &frame->times);

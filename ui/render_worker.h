@@ -16,8 +16,8 @@ namespace pellucid::ui {
 
 /// A finished frame.
 struct RenderedFrame {
-    /// Who made it: a frame of an engine that is no longer shown is dropped.
-    std::shared_ptr<render::ProjectionEngine> engine;
+    /// Of the request: frames of what is no longer shown are dropped.
+    std::uint64_t generation = 0;
     render::ProjectionImage image;
     render::FrameTimes times;
     std::uint64_t number = 0; ///< of the request it answers
@@ -32,7 +32,8 @@ public:
     explicit RenderWorker(QObject *parent = nullptr);
     ~RenderWorker() override;
 
-    void setEngine(std::shared_ptr<render::ProjectionEngine> engine);
+    /// `generation`: what its frames will carry.
+    void setEngine(std::shared_ptr<render::ProjectionEngine> engine, std::uint64_t generation);
     /// How a frame is made smaller than it is shown.
     struct Reduction {
         bool draft = false; ///< half the pixels a side: the central part of the same spectrum
@@ -50,6 +51,7 @@ signals:
 private:
     struct Request {
         std::shared_ptr<render::ProjectionEngine> engine;
+        std::uint64_t generation;
         render::Camera camera;
         render::ImageDefinition image;
         Reduction reduction;
@@ -58,6 +60,7 @@ private:
     void run(std::stop_token stop);
 
     std::shared_ptr<render::ProjectionEngine> m_engine;
+    std::uint64_t m_generation = 0;
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
     std::optional<Request> m_next;

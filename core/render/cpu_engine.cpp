@@ -242,8 +242,8 @@ void joinChannels(const Frame &frame, int group) {
 
 CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
                      const std::optional<SliceRoom> &room, int threads)
-    : CpuEngine(std::vector{spectrum}, room ? *room : roomOfBox(spectrum->lattice(), spectrum->layout().box),
-                threads) {}
+    : CpuEngine(std::vector{spectrum},
+                room ? *room : roomOfBox(spectrum->lattice(), spectrum->layout().box), threads) {}
 
 CpuEngine::CpuEngine(std::vector<std::shared_ptr<const fourier::Spectrum>> spectra,
                      const SliceRoom &room, int threads)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The display curve of core/render/compose.h: window, x^(1/1.4), film inversion.
-float tone(float value, float low, float high, bool inverted) {
-    float x = clamp((value - low) / (high - low), 0.0, 1.0);
-    x = pow(x, 1.0 / 1.4);
-    return inverted ? 1.0 - x : x;
+// The display curve of core/render/compose.h: window, x^(1/1.4), film inversion. The brightest
+// channel takes the curve, the others keep their ratio to it; a grey pixel has all three alike.
+vec3 tone(vec3 value, float low, float high, bool inverted) {
+    float most = max(value.r, max(value.g, value.b));
+    float x = pow(clamp((most - low) / (high - low), 0.0, 1.0), 1.0 / 1.4);
+    vec3 shown = most > 0.0 ? x * max(value, vec3(0.0)) / most : vec3(x);
+    return inverted ? vec3(1.0) - shown : shown;
 }

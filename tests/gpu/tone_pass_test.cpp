@@ -56,8 +56,14 @@ TEST_F(TonePass, DrawsWhatComposeComputes) {
     render::ProjectionImage image{37, 23, 1.0, std::vector<float>(37 * 23)};
     for (float &p : image.samples)
         p = uniform(random);
-    for (const render::Tone &tone : {render::Tone{}, render::Tone{10.0, 70.0, true}}) {
-        const auto expected = render::compose(image, tone), found = drawn(image, tone);
+    render::ProjectionImage colored{37, 23, 1.0, std::vector<float>(37 * 23 * 3), 3};
+    for (float &p : colored.samples)
+        p = uniform(random);
+    for (const auto &[shown, tone] : {std::pair(image, render::Tone{}),
+                                      {image, render::Tone{10.0, 70.0, true}},
+                                      {colored, render::Tone{}},
+                                      {colored, render::Tone{10.0, 70.0, true}}}) {
+        const auto expected = render::compose(shown, tone), found = drawn(shown, tone);
         int largest = 0;
         for (std::size_t n = 0; n < expected.size(); ++n)
             largest = std::max(largest, std::abs(int(expected[n]) - int(found[n])));

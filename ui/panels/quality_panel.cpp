@@ -213,7 +213,8 @@ void QualityPanel::clearPlan() {
     m_reason->clear();
 }
 
-void QualityPanel::showPlan(const render::PreparedEngine &prepared, bool coarse) {
+void QualityPanel::showPlan(const render::PreparedEngine &prepared, EngineStage stage) {
+    const bool coarse = stage == EngineStage::coarse;
     const render::RenderPlan &plan = prepared.plan;
     const auto &spectrum = plan.spectrum;
     const bool missed = plan.predictedError > m_document.scene().tolerance;
@@ -229,10 +230,11 @@ void QualityPanel::showPlan(const render::PreparedEngine &prepared, bool coarse)
                         .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
                         .arg(spectrum.bytes() >> 20));
     const QString reason = QString::fromStdString(plan.reason);
-    say(coarse   ? tr("A first, coarse picture; the full one follows")
-        : missed ? tr("More error than allowed: %1").arg(reason)
-                 : tr("It is %1").arg(reason),
-        missed && !coarse);
+    say(coarse                       ? tr("A first, coarse picture; the full one follows")
+        : stage == EngineStage::live ? tr("The parts of the look, summed while they change")
+        : missed                     ? tr("More error than allowed: %1").arg(reason)
+                                     : tr("It is %1").arg(reason),
+        missed && stage == EngineStage::full);
 }
 
 void QualityPanel::say(const QString &text, bool isWarning) {

@@ -5,7 +5,7 @@
 
 #include <QWidget>
 
-#include "core/render/prepared_engine.h"
+#include "ui/look_preparer.h"
 
 class QComboBox;
 class QLabel;
@@ -21,7 +21,7 @@ class QualityPanel : public QWidget {
 public:
     explicit QualityPanel(Document &document, QWidget *parent = nullptr);
 
-    void showPlan(const render::PreparedEngine &prepared, bool coarse);
+    void showPlan(const render::PreparedEngine &prepared, EngineStage stage);
     void showFrame(const render::FrameTimes &times, bool draft);
 
 signals:

@@ -65,7 +65,7 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
             return;
         // What was projected belongs to another volume.
         m_engine.reset();
-        m_worker.setEngine(nullptr);
+        m_worker.setEngine(nullptr, ++m_generation);
         m_frame.reset();
         m_automaticTone.reset();
         m_message = m_document.volume() ? tr("Preparing the projection") : QString();
@@ -87,16 +87,23 @@ ProjectionView::~ProjectionView() {
     m_canvas.reset();
 }
 
-void ProjectionView::setEngine(const render::PreparedEngine &prepared, bool coarse) {
+void ProjectionView::setEngine(const render::PreparedEngine &prepared, EngineStage stage) {
     const auto &engine = prepared.engine;
     m_engine = engine;
     m_predictedError = prepared.plan.predictedError;
-    m_coarse = coarse;
     m_message.clear();
-    m_fullFrameMs = 0.0;
-    // Another field window, or the fine field after the coarse one, has another brightness.
-    m_automaticTone.reset();
-    m_worker.setEngine(engine);
+    // Weights that move change the brightness, and are meant to; another field, or the fine one
+    // after the coarse one, has a brightness of its own.
+    const bool sameFields = stage == EngineStage::live || m_stage == EngineStage::live;
+    if (!sameFields) {
+        m_automaticTone.reset();
+        m_fullFrameMs = 0.0;
+    }
+    // Frames of the weights of a moment ago are shown: the hand may be faster than they are.
+    if (stage != EngineStage::live || m_stage != EngineStage::live)
+        ++m_generation;
+    m_stage = stage;
+    m_worker.setEngine(engine, m_generation);
     emit engineDescribed(
         tr("%1: %2").arg(QString::fromStdString(engine->description()), m_canvas->description()));
     requestFrame(false);
@@ -119,6 +126,16 @@ void ProjectionView::adoptCamera(const render::Camera &wanted) {
     m_document.setCamera(camera);
     m_zoom = std::clamp(fittingPixelMm() / wanted.pixelMm, 0.2, 20.0);
     fitCamera();
+    requestFrame(false);
+}
+
+void ProjectionView::setLookName(const QString &name) {
+    m_lookName = name;
+    m_overlay->update();
+}
+
+void ProjectionView::retakeTone() {
+    m_automaticTone.reset();
     requestFrame(false);
 }
 
@@ -175,7 +192,8 @@ void ProjectionView::requestFrame(bool moving) {
 }
 
 void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame) {
-    if (!m_engine || frame->engine != m_engine) // of a volume that was closed, or the coarse one's
+    if (!m_engine ||
+        frame->generation != m_generation) // of a volume that was closed, or the coarse one's
         return;
     m_frame = frame;
     m_pending = m_rest.isActive() || frame->number != m_requested;
@@ -345,7 +363,7 @@ void ProjectionView::paintOverlay(QPainter &painter) {
              colors.muted);
     if (!m_document.volume())
         return;
-    drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, tr("X-ray"), colors.text);
+    drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, m_lookName, colors.text);
     // Warnings of the geometry stay on the image.
     QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
     for (const std::string &w : m_document.volume()->notes().warnings) {
@@ -362,8 +380,10 @@ void ProjectionView::paintOverlay(QPainter &painter) {
     }
     if (!m_frame)
         return;
-    const QString quality =
-        m_coarse ? tr("coarse") : tr("error %1 %").arg(100.0 * m_predictedError, 0, 'f', 3);
+    const QString quality = m_stage == EngineStage::coarse ? tr("coarse")
+                            : m_stage == EngineStage::live
+                                ? tr("live")
+                                : tr("error %1 %").arg(100.0 * m_predictedError, 0, 'f', 3);
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop,
              QString("CPU  %1 ms  %2")
                  .arg(m_frame->times.totalMs(), 0, 'f', 1)

@@ -9,6 +9,7 @@
 
 #include "core/render/prepared_engine.h"
 #include "ui/commands.h"
+#include "ui/look_preparer.h"
 #include "ui/render_worker.h"
 #include "ui/views/projection_canvas.h"
 
@@ -24,7 +25,11 @@ public:
     explicit ProjectionView(Document &document, QWidget *parent = nullptr);
     ~ProjectionView() override;
 
-    void setEngine(const render::PreparedEngine &prepared, bool coarse);
+    void setEngine(const render::PreparedEngine &prepared, EngineStage stage);
+    /// The name of the look, shown below the pane's.
+    void setLookName(const QString &name);
+    /// Takes the brightness anew from the next frame.
+    void retakeTone();
     void setMessage(const QString &message);
     /// Looks the way another camera does, as far as the pane allows.
     void adoptCamera(const render::Camera &wanted);
@@ -35,7 +40,9 @@ public:
     void resetView();
     /// The picture as it is seen, without annotations.
     QImage picture() const;
-    bool showsFinalImage() const { return m_frame && !m_frame->draft && !m_coarse && !m_pending; }
+    bool showsFinalImage() const {
+        return m_frame && !m_frame->draft && m_stage == EngineStage::full && !m_pending;
+    }
     QString canvasDescription() const { return m_canvas->description(); }
 
 signals:
@@ -77,10 +84,11 @@ private:
     std::shared_ptr<render::ProjectionEngine> m_engine;
     std::shared_ptr<const RenderedFrame> m_frame;
     std::optional<render::ToneRange> m_automaticTone;
-    QString m_message;
+    QString m_message, m_lookName;
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
-    bool m_coarse = false, m_pending = false;
-    std::uint64_t m_requested = 0;
+    EngineStage m_stage = EngineStage::coarse;
+    bool m_pending = false;
+    std::uint64_t m_requested = 0, m_generation = 0;
     Qt::MouseButton m_button = Qt::NoButton;
     DragId m_drag = 0;
     QPoint m_last;

@@ -19,8 +19,8 @@ constexpr classify::FieldWindow window{-900.0, 2000.0};
 
 const volume::Volume &head() {
     static const volume::Volume volume = phantom::makePhantom(
-        phantom::Kind::head, phantom::phantomLattice(phantom::Kind::head,
-                                                     {.size = volume::GridSize{64, 64, 48}}));
+        phantom::Kind::head,
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{64, 64, 48}}));
     return volume;
 }
 
@@ -104,8 +104,9 @@ TEST_P(Layers, SixteenAlternatingPointsAreWithinTheTolerance) {
     const auto exact = exactOf(fields.channels.front(), scene);
     const auto shares = classify::mixtureOf(look).shares;
     for (const char *how : {"summed", "kept"})
-        EXPECT_LE(test::relativeL2(layers->render(scene.camera, scene.image, shares).samples, exact),
-                  scene.tolerance)
+        EXPECT_LE(
+            test::relativeL2(layers->render(scene.camera, scene.image, shares).samples, exact),
+            scene.tolerance)
             << how;
     const auto settled = render::prepareEngine(scene, fields, {});
     EXPECT_LE(test::relativeL2(settled.engine->render(scene.camera, scene.image).samples, exact),
@@ -147,11 +148,11 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
 TEST(LayerSet, WithoutWeightsThePictureIsEmpty) {
     const render::Scene scene = sceneOf(head().lattice(), fourier::Storage::binary16);
     const auto layers = layersOf(scene, alternating(3));
-    const auto image = layers->render(scene.camera, scene.image,
-                                      std::vector<ChannelShares>(3, {0.0, 0.0, 0.0}));
+    const auto image =
+        layers->render(scene.camera, scene.image, std::vector<ChannelShares>(3, {0.0, 0.0, 0.0}));
     EXPECT_EQ(image.channels, 1);
-    EXPECT_TRUE(std::all_of(image.samples.begin(), image.samples.end(),
-                            [](float f) { return f == 0.0F; }));
+    EXPECT_TRUE(
+        std::all_of(image.samples.begin(), image.samples.end(), [](float f) { return f == 0.0F; }));
 }
 
 TEST(LayerSet, IsReducedToTheBudgetOrRefused) {

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/look_preparer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/classify/coarse_field.h"
+#include "core/classify/shown_fields.h"
+#include "core/preprocess/step_cache.h"
+#include "core/task/memory.h"
+#include "ui/document.h"
+#include "ui/job_runner.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// The coarse projection: small enough to be there within a blink of the volume.
+constexpr int coarseSide = 96;
+// A hand that pauses for longer rests.
+constexpr int restMs = 300;
+// What the results of steps may hold of the memory that is left.
+constexpr std::size_t stepsShare = 4, mostStepsBytes = std::size_t(2) << 30;
+
+bool isLarge(const volume::Volume &volume) {
+    const volume::GridSize n = volume.lattice().size();
+    return std::max({n.i, n.j, n.k}) > coarseSide;
+}
+
+// Planned for the whole volume in a picture of its own; the pane's zoom comes and goes.
+render::Scene planningScene(const volume::Volume &volume, const PreparedFor &wanted) {
+    render::Scene scene;
+    scene.tolerance = wanted.tolerance;
+    scene.interpolation = wanted.interpolation;
+    scene.camera.pixelMm = volume.lattice().shortestStepMm();
+    scene.camera.width = scene.camera.height =
+        int(std::clamp(2.0 * volume.lattice().radiusMm() / scene.camera.pixelMm, 2.0, 4096.0));
+    return scene;
+}
+
+classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &wanted) {
+    return wanted.window.value_or(classify::defaultFieldWindow(volume));
+}
+
+} // namespace
+
+bool PreparedFor::hasLayersOf(const PreparedFor &other) const {
+    return window == other.window && tolerance == other.tolerance &&
+           interpolation == other.interpolation &&
+           classify::mixtureOf(look).layers == classify::mixtureOf(other.look).layers;
+}
+
+LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
+    : QObject(parent), m_document(document), m_jobs(jobs),
+      m_steps(std::make_shared<preprocess::StepCache>(
+          std::min(mostStepsBytes, task::availableMemoryBytes() / stepsShare))) {
+    m_rest.setSingleShot(true);
+    m_rest.setInterval(restMs);
+    connect(&m_rest, &QTimer::timeout, this, [this] {
+        // The layers first: they follow the hand.
+        if (m_layersUnderway)
+            m_rest.start();
+        else
+            followScene();
+    });
+    connect(&document, &Document::sceneChanged, this, &LookPreparer::followScene);
+    // Done or cancelled: what was not delivered is not there.
+    connect(&jobs, &JobRunner::finished, this, [this] {
+        if (m_underway)
+            m_givenUp = std::exchange(m_underway, std::nullopt);
+        if (m_layersUnderway)
+            m_layersGivenUp = std::exchange(m_layersUnderway, std::nullopt);
+    });
+}
+
+LookPreparer::~LookPreparer() = default;
+
+void LookPreparer::prepareAgain() {
+    m_givenUp.reset();
+    m_layersGivenUp.reset();
+    followScene();
+}
+
+PreparedFor LookPreparer::forgetVolume() {
+    m_rest.stop();
+    m_prepared.reset();
+    m_givenUp.reset();
+    m_layers.reset();
+    m_layersOf.reset();
+    m_layersGivenUp.reset();
+    m_full.reset();
+    m_live = false;
+    PreparedFor wanted(m_document.scene());
+    wanted.window.reset(); // a new volume has its own
+    wanted.look = {};
+    return wanted;
+}
+
+void LookPreparer::expect(const PreparedFor &wanted) {
+    m_underway = wanted;
+    m_givenUp.reset();
+}
+
+void LookPreparer::followScene() {
+    const PreparedFor wanted(m_document.scene());
+    const auto &volume = m_document.volume();
+    if (!volume || m_document.isPreview() || !volume->notes().placed || m_held ||
+        wanted == m_underway || wanted == m_givenUp)
+        return;
+    if (wanted == m_prepared) {
+        // Back to what is there: nothing else is wanted any more.
+        m_rest.stop();
+        if (m_underway)
+            m_jobs.cancel();
+        if (m_live && m_full) {
+            m_live = false;
+            emit engineReady(*m_full, EngineStage::full);
+        }
+        return;
+    }
+    const bool onlyWeights = m_prepared && wanted.hasLayersOf(*m_prepared);
+    const bool rested = QObject::sender() == &m_rest;
+    if (onlyWeights && !rested)
+        followWeights(wanted);
+    else
+        startPreparing(!onlyWeights);
+}
+
+void LookPreparer::followWeights(const PreparedFor &wanted) {
+    // An engine of a former sum is no longer wanted, and takes the hand's time.
+    if (m_underway) {
+        m_underway.reset();
+        m_jobs.cancel();
+    }
+    if (m_layers && m_layersOf->hasLayersOf(wanted))
+        showLayers();
+    else if (!(m_layersUnderway && m_layersUnderway->hasLayersOf(wanted)) &&
+             !(m_layersGivenUp && m_layersGivenUp->hasLayersOf(wanted)))
+        startLayers(wanted);
+    m_rest.start();
+}
+
+void LookPreparer::showLayers() {
+    m_live = true;
+    emit engineReady({std::make_shared<render::MixtureEngine>(
+                          m_layers, classify::mixtureOf(m_document.scene().look).shares),
+                      m_layers->plan()},
+                     EngineStage::live);
+}
+
+void LookPreparer::startLayers(const PreparedFor &wanted) {
+    m_layers.reset();
+    m_layersOf.reset();
+    m_jobs.start(tr("Preparing the parts of the look"), [this, volume = *m_document.volume(),
+                                                         wanted, steps = m_steps](const Job &job) {
+        const auto mixture = classify::mixtureOf(wanted.look);
+        const classify::FieldWindow window = windowOf(volume, wanted);
+        const auto announce = [&](int side, const task::Progress &progress) {
+            const auto layers = render::LayerSet::prepare(
+                planningScene(volume, wanted), mixture.layers.size(),
+                [&](std::size_t n, const task::Progress &p) {
+                    auto field =
+                        classify::layerField(volume, window, mixture.layers[n], steps.get(), p);
+                    return side > 0 ? classify::coarseField(field, side) : field;
+                },
+                // Half of it: engines of the sum are to come.
+                {task::availableMemoryBytes() / 2}, progress);
+            job.deliver([this, layers, wanted, isLast = side == 0] {
+                m_layers = layers;
+                m_layersOf = wanted;
+                if (isLast)
+                    m_layersUnderway.reset();
+                const PreparedFor now(m_document.scene());
+                if (m_prepared && now != *m_prepared && now.hasLayersOf(wanted))
+                    showLayers();
+            });
+        };
+        if (isLarge(volume))
+            announce(coarseSide, job.progress().part(0.0, 0.2));
+        announce(0, job.progress().part(0.2, 1.0));
+    });
+    m_layersUnderway = wanted;
+}
+
+void LookPreparer::startPreparing(bool coarseFirst) {
+    const PreparedFor wanted(m_document.scene());
+    m_rest.stop();
+    m_jobs.start(tr("Preparing the projection"),
+                 [this, volume = *m_document.volume(), wanted, coarseFirst](const Job &job) {
+                     prepare(job, volume, wanted, 0.0, coarseFirst);
+                 });
+    // Now that the end of the former job has been told.
+    expect(wanted);
+}
+
+void LookPreparer::prepare(const Job &job, const volume::Volume &volume, const PreparedFor &wanted,
+                           double from, bool coarseFirst) {
+    const task::Progress progress = job.progress().part(from, 1.0);
+    const render::Scene scene = planningScene(volume, wanted);
+    const auto fields = classify::shownFields(volume, windowOf(volume, wanted), wanted.look,
+                                              m_steps.get(), progress.part(0.0, 0.2));
+    const auto announce = [&](const classify::ShownFields &f, EngineStage stage,
+                              const task::Progress &p) {
+        const auto prepared = render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p);
+        job.deliver([this, prepared, stage, wanted] {
+            // A coarse picture leaves the full one wanted.
+            if (stage == EngineStage::full) {
+                m_prepared = wanted;
+                m_full = prepared;
+                m_underway.reset();
+                m_givenUp.reset();
+                m_live = false;
+                // Layers of another look are of no more use.
+                if (m_layersOf && !m_layersOf->hasLayersOf(wanted)) {
+                    m_layers.reset();
+                    m_layersOf.reset();
+                }
+            }
+            emit engineReady(prepared, stage);
+        });
+    };
+    if (coarseFirst && isLarge(volume)) {
+        classify::ShownFields coarse{{}, fields.color};
+        for (const classify::DensityField &field : fields.channels)
+            coarse.channels.push_back(classify::coarseField(field, coarseSide));
+        announce(coarse, EngineStage::coarse, progress.part(0.2, 0.3));
+    }
+    announce(fields, EngineStage::full, progress.part(0.3, 1.0));
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <QObject>
+#include <QTimer>
+
+#include "core/classify/layers.h"
+#include "core/render/layer_set.h"
+
+namespace pellucid::preprocess {
+class StepCache;
+}
+
+namespace pellucid::ui {
+
+class Document;
+class Job;
+class JobRunner;
+
+/// How far an engine is from what is wanted: a first, small picture; the parts of a look summed
+/// while its weights move; or the thing itself.
+enum class EngineStage { coarse, live, full };
+
+/// What of a scene an engine is made for; the rest changes from frame to frame.
+struct PreparedFor {
+    PreparedFor() = default;
+    explicit PreparedFor(const render::Scene &scene)
+        : window(scene.fieldWindow), look(scene.look), tolerance(scene.tolerance),
+          interpolation(scene.interpolation) {}
+    std::optional<classify::FieldWindow> window;
+    classify::Look look;
+    double tolerance = 0.0;
+    render::Interpolation interpolation;
+    bool operator==(const PreparedFor &) const = default;
+
+    /// Whether only weights, colours and control points differ: the layers are the same.
+    bool hasLayersOf(const PreparedFor &other) const;
+};
+
+/// Makes the engines of the projection, as jobs, and follows the scene with them. While weights and
+/// colours move, the layers of the look are summed; when they rest, one engine is made of the sum.
+class LookPreparer : public QObject {
+    Q_OBJECT
+public:
+    LookPreparer(Document &document, JobRunner &jobs, QObject *parent = nullptr);
+    ~LookPreparer() override;
+
+    /// Prepares the projection that the document's scene asks for, unless it is there or on its
+    /// way, even if that was cancelled or failed before.
+    void prepareAgain();
+    /// Nothing is prepared while the studies are scanned.
+    void setHeld(bool held) { m_held = held; }
+
+    /// A new volume comes: what was made is forgotten. What its engine will be made for.
+    PreparedFor forgetVolume();
+    /// The job that was just started makes an engine for it.
+    void expect(const PreparedFor &wanted);
+    /// Within a job: makes engines and hands them over. The part of its progress beyond `from`.
+    void prepare(const Job &job, const volume::Volume &volume, const PreparedFor &wanted,
+                 double from, bool coarseFirst);
+
+    /// Runs the steps of classes; shared with whoever else shows them.
+    const std::shared_ptr<preprocess::StepCache> &steps() const { return m_steps; }
+
+signals:
+    void engineReady(const pellucid::render::PreparedEngine &engine,
+                     pellucid::ui::EngineStage stage);
+
+private:
+    /// Follows, but what was given up stays so.
+    void followScene();
+    void followWeights(const PreparedFor &wanted);
+    void startPreparing(bool coarseFirst);
+    void startLayers(const PreparedFor &wanted);
+    void showLayers();
+
+    Document &m_document;
+    JobRunner &m_jobs;
+    std::shared_ptr<preprocess::StepCache> m_steps;
+    QTimer m_rest;
+    bool m_held = false, m_live = false;
+    /// What the last full engine was made for, what the next one is being made for, and what was
+    /// cancelled or failed.
+    std::optional<PreparedFor> m_prepared, m_underway, m_givenUp;
+    std::optional<render::PreparedEngine> m_full;
+    /// The layers that are there, of which look; and those on their way or given up.
+    std::shared_ptr<render::LayerSet> m_layers;
+    std::optional<PreparedFor> m_layersOf, m_layersUnderway, m_layersGivenUp;
+};
+
+} // namespace pellucid::ui
