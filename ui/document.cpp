@@ -42,8 +42,9 @@ void Document::clearProblems() {
 }
 
 void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow &initialWindow,
-                         bool preview) {
+                         const classify::FieldWindow &fieldWindow, bool preview) {
     m_initialWindow = initialWindow;
+    m_fieldWindow = fieldWindow;
     const bool same = m_volume && m_preview && m_volume->lattice() == volume.lattice();
     m_volume = volume;
     m_preview = preview;
@@ -56,6 +57,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         fresh.tolerance = m_scene.tolerance;
         fresh.interpolation = m_scene.interpolation;
         m_scene = fresh;
+        m_selectedClass = -1;
         m_scene.camera.orientation = render::viewOrientation(render::StandardView::front);
     }
     // A preview's quantiles are those of the slices that happened to come first; a window that the
@@ -82,6 +84,25 @@ void Document::setCamera(const render::Camera &camera) {
 void Document::setScene(const render::Scene &scene) {
     m_scene = scene;
     emit sceneChanged();
+}
+
+int Document::selectedClass() const {
+    const int count = int(m_scene.look.classes.size());
+    return count == 0 ? -1 : std::clamp(m_selectedClass, 0, count - 1);
+}
+
+void Document::selectClass(int index) {
+    if (index == m_selectedClass)
+        return;
+    m_selectedClass = index;
+    emit selectedClassChanged();
+}
+
+void Document::setTint(const std::optional<classify::TissueClass> &tint) {
+    if (tint == m_tint)
+        return;
+    m_tint = tint;
+    emit tintChanged();
 }
 
 void Document::setDisplayWindow(const volume::ValueWindow &window) {

@@ -36,8 +36,14 @@ public:
     const std::optional<volume::Volume> &volume() const { return m_volume; }
     bool isPreview() const { return m_preview; }
     /// `initialWindow`: what it is first shown with, and what resetting goes back to.
+    /// `fieldWindow`: what the field is made with unless the scene says otherwise.
     void setVolume(const volume::Volume &volume, const volume::ValueWindow &initialWindow,
-                   bool preview);
+                   const classify::FieldWindow &fieldWindow, bool preview);
+    /// The scene's field window, or the volume's own.
+    classify::FieldWindow fieldWindow() const {
+        return m_scene.fieldWindow.value_or(m_fieldWindow);
+    }
+    const classify::FieldWindow &defaultFieldWindow() const { return m_fieldWindow; }
     const volume::ValueWindow &initialWindow() const { return m_initialWindow; }
     void closeVolume();
 
@@ -54,6 +60,13 @@ public:
     volume::PatientPoint crosshair() const { return m_crosshair; }
     void setCrosshair(volume::PatientPoint point);
 
+    /// The class whose curve and range are looked at; -1: the whole volume.
+    int selectedClass() const;
+    void selectClass(int index);
+    /// A range of values that the planes tint while it is chosen.
+    const std::optional<classify::TissueClass> &tint() const { return m_tint; }
+    void setTint(const std::optional<classify::TissueClass> &tint);
+
     QUndoStack *undoStack() { return &m_undo; }
 
 signals:
@@ -65,6 +78,8 @@ signals:
     void sceneChanged();
     void displayWindowChanged();
     void crosshairChanged();
+    void selectedClassChanged();
+    void tintChanged();
 
 private:
     std::vector<StudySource> m_sources;
@@ -72,6 +87,9 @@ private:
     std::vector<dicom::Skipped> m_problems;
     std::optional<volume::Volume> m_volume;
     bool m_preview = false;
+    classify::FieldWindow m_fieldWindow;
+    int m_selectedClass = -1;
+    std::optional<classify::TissueClass> m_tint;
     render::Scene m_scene;
     volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
     volume::PatientPoint m_crosshair;

@@ -21,8 +21,9 @@
 
 #include "core/task/error.h"
 #include "ui/commands.h"
+#include "ui/look_docks.h"
 #include "ui/panels/job_strip.h"
-#include "ui/panels/quality_panel.h"
+#include "ui/panels/presets_panel.h"
 #include "ui/panels/series_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/recent_paths.h"
@@ -43,7 +44,8 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
     createPanes();
     createStudyDock();
-    createQualityDock();
+    m_look = new LookDocks(*this, m_document, m_preparer, *m_projection, m_theme);
+    connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
     createFileMenu();
     createEditMenu();
     createViewMenu();
@@ -101,20 +103,6 @@ void MainWindow::createStudyDock() {
     dock->setWidget(panel);
     panel->setMinimumWidth(250);
     addDockWidget(Qt::LeftDockWidgetArea, dock);
-}
-
-void MainWindow::createQualityDock() {
-    auto *panel = new QualityPanel(m_document);
-    connect(&m_preparer, &LookPreparer::engineReady, panel, &QualityPanel::showPlan);
-    connect(panel, &QualityPanel::chosenAgain, &m_preparer, &LookPreparer::prepareAgain);
-    connect(m_projection, &ProjectionView::frameShown, panel, &QualityPanel::showFrame);
-    auto *dock = new QDockWidget(tr("QUALITY"), this);
-    dock->setObjectName("qualityDock");
-    dock->setWidget(panel);
-    panel->setFixedWidth(250);
-    // Docks of this side stand at the top, one below the other.
-    panel->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Maximum);
-    addDockWidget(Qt::RightDockWidgetArea, dock);
 }
 
 QAction *MainWindow::addCommand(QMenu *menu, const QString &text, const char *name,
@@ -205,6 +193,16 @@ void MainWindow::createViewMenu() {
 
 void MainWindow::createLookMenu() {
     QMenu *menu = menuBar()->addMenu(tr("&Look"));
+    PresetsPanel &presets = m_look->presets();
+    addCommand(menu, tr("&Save look..."), "saveLookAction", QKeySequence::Save, [this, &presets] {
+        findChild<QDockWidget *>("presetsDock")->show();
+        presets.askForName();
+    });
+    addCommand(menu, tr("&Import preset..."), "importPresetAction", {},
+               [&presets] { presets.importPreset(); });
+    addCommand(menu, tr("&Export preset..."), "exportPresetAction", {},
+               [&presets] { presets.exportPreset(); });
+    menu->addSeparator();
     QMenu *between = menu->addMenu(tr("&Reconstruction"));
     m_reconstructions = new QActionGroup(this);
     using render::Reconstruction;
@@ -277,8 +275,9 @@ void MainWindow::createToolsMenu() {
 
 void MainWindow::createHelpMenu() {
     QMenu *window = menuBar()->addMenu(tr("W&indow"));
-    for (const char *dock : {"studyDock", "qualityDock"})
-        window->addAction(findChild<QDockWidget *>(dock)->toggleViewAction());
+    window->addAction(findChild<QDockWidget *>("studyDock")->toggleViewAction());
+    for (QDockWidget *dock : m_look->docks())
+        window->addAction(dock->toggleViewAction());
     QMenu *menu = menuBar()->addMenu(tr("&Help"));
     addCommand(menu, tr("&Manual"), "manualAction", QKeySequence("F1"), [this] { showManual(); });
     addCommand(menu, tr("&About Pellucid"), "aboutAction", {}, [this] { showAbout(); });

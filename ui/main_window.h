@@ -19,10 +19,10 @@ class QStackedWidget;
 
 namespace pellucid::ui {
 
+class LookDocks;
 class MprView;
 class PaneArea;
 class ProjectionView;
-class QualityPanel;
 class SeriesPanel;
 class StartPage;
 
@@ -47,7 +47,6 @@ protected:
 private:
     void createPanes();
     void createStudyDock();
-    void createQualityDock();
     void createFileMenu();
     void createEditMenu();
     void createViewMenu();
@@ -78,6 +77,7 @@ private:
     StudyOpener m_opener;
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;
+    LookDocks *m_look = nullptr;
     PaneArea *m_panes = nullptr;
     StartPage *m_start = nullptr;
     QStackedWidget *m_stack = nullptr;

@@ -71,14 +71,15 @@ void StudyOpener::openSource(int index) {
         dicom::LoadObserver observer;
         observer.preview = [&](const volume::Volume &soFar) {
             const volume::ValueWindow window = initialWindow(soFar);
-            job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, true); });
+            job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, {}, true); });
         };
         const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
         const volume::Volume volume = loaded.volume;
         const volume::ValueWindow window = initialWindow(volume);
-        job.deliver([this, loaded, window] {
+        const classify::FieldWindow field = classify::defaultFieldWindow(volume);
+        job.deliver([this, loaded, window, field] {
             m_document.addProblems(loaded.skipped);
-            m_document.setVolume(loaded.volume, window, false);
+            m_document.setVolume(loaded.volume, window, field, false);
             // The quality may have been changed while the volume came.
             m_preparer.prepareAgain();
         });

@@ -9,8 +9,14 @@
 
 namespace pellucid::classify {
 
-DensityField coarseField(const DensityField &field, int side) {
-    const volume::Lattice &fine = field.values.lattice();
+namespace {
+
+// What lies beyond the last sample of an outer block: nothing, as of a field; or what the samples
+// within it are.
+enum class Beyond { zero, mean };
+
+volume::Volume blockMeans(const volume::Volume &volume, int side, Beyond beyond) {
+    const volume::Lattice &fine = volume.lattice();
     std::array<int, 3> block{}, count{};
     for (int d = 0; d < 3; ++d) {
         block[d] = (fine.size()[d] + side - 1) / side;
@@ -30,8 +36,14 @@ DensityField coarseField(const DensityField &field, int side) {
     std::array<int, 3> start{};
     for (int d = 0; d < 3; ++d)
         start[d] = int(std::ceil(firstBlock[d] - 0.5 * block[d]));
+    // How many samples of an axis a block holds, as the loops below share them out.
+    const auto held = [&](int d, int n) {
+        const int first = start[d] + n * block[d];
+        const int last = n + 1 == count[d] ? fine.size()[d] : first + block[d];
+        return std::max(0, std::min(last, fine.size()[d]) - (n == 0 ? 0 : std::max(first, 0)));
+    };
     std::vector<float> means(lattice.size().count(), 0.0F);
-    field.values.visit([&](auto samples) {
+    volume.visit([&](auto samples) {
         tbb::parallel_for(0, count[2], [&](int ck) {
             const std::size_t plane = static_cast<std::size_t>(count[0]) * count[1];
             std::vector<double> sums(plane, 0.0);
@@ -47,13 +59,34 @@ DensityField coarseField(const DensityField &field, int side) {
                         out[std::clamp((i - start[0]) / block[0], 0, count[0] - 1)] +=
                             double(row[i]);
                 }
-            for (std::size_t n = 0; n < sums.size(); ++n)
+            for (std::size_t n = 0; n < sums.size(); ++n) {
+                double share = double(block[0]) * block[1] * block[2];
+                if (beyond == Beyond::mean) {
+                    const std::array<int, 3> at{int(n % std::size_t(count[0])),
+                                                int(n / std::size_t(count[0])), ck};
+                    share = 1.0;
+                    for (int d = 0; d < 3; ++d)
+                        share *= held(d, at[d]);
+                }
                 means[std::size_t(ck) * sums.size() + n] =
-                    float(sums[n] / (double(block[0]) * block[1] * block[2]));
+                    share > 0.0 ? float(sums[n] / share) : 0.0F;
+            }
         });
     });
-    const volume::Volume like(lattice, means, volume::ValueUnit::none);
-    return fieldOf(like, std::move(means));
+    return {lattice, std::move(means), volume.unit(), volume.notes()};
+}
+
+} // namespace
+
+DensityField coarseField(const DensityField &field, int side) {
+    const volume::Volume means = blockMeans(field.values, side, Beyond::zero);
+    return means.visit([&](auto samples) {
+        return fieldOf(means, std::vector<float>(samples.begin(), samples.end()));
+    });
+}
+
+volume::Volume coarseVolume(const volume::Volume &volume, int side) {
+    return blockMeans(volume, side, Beyond::mean);
 }
 
 } // namespace pellucid::classify

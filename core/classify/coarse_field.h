@@ -9,4 +9,7 @@ namespace pellucid::classify {
 /// the mass stays, the detail goes. About the same centre, for a first quick picture.
 DensityField coarseField(const DensityField &field, int side);
 
+/// The values of a volume as means of blocks, with which it looks the same from afar.
+volume::Volume coarseVolume(const volume::Volume &volume, int side);
+
 } // namespace pellucid::classify

@@ -55,6 +55,16 @@ QString coordinateText(const glm::dvec3 &axis, double mm) {
 constexpr std::array<mpr::Orientation, 3> allOrientations{
     mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal};
 
+// A grey with as much of a class's color as the value belongs to it.
+QRgb tinted(uchar grey, const classify::TissueClass &tint, double value) {
+    constexpr double strength = 0.6;
+    const double share = strength * tint.membership(value);
+    const auto mix = [&](double part) {
+        return int(std::lround((1.0 - share) * grey + share * 255.0 * part));
+    };
+    return qRgb(mix(tint.color.red), mix(tint.color.green), mix(tint.color.blue));
+}
+
 } // namespace
 
 MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *parent)
@@ -75,6 +85,7 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
         refresh();
     });
     connect(&document, &Document::displayWindowChanged, this, refresh);
+    connect(&document, &Document::tintChanged, this, refresh);
     connect(&document, &Document::crosshairChanged, this, refresh);
 }
 
@@ -126,20 +137,25 @@ void MprView::updateImage() {
     m_imageValid = true;
     const volume::Volume &volume = *m_document.volume();
     const mpr::SliceImage slice = mpr::reslice(volume, plane());
-    m_image = QImage(slice.width, slice.height, QImage::Format_Grayscale8);
+    const auto &tint = m_document.tint();
+    m_image =
+        QImage(slice.width, slice.height, tint ? QImage::Format_RGB32 : QImage::Format_Grayscale8);
     const volume::ValueWindow &window = m_document.displayWindow();
     const auto low = float(window.center - 0.5 * window.width), scale = float(255.0 / window.width);
     const bool inverted = volume.notes().darkIsHigh;
     for (int r = 0; r < slice.height; ++r) {
         uchar *out = m_image.scanLine(r);
+        auto *const pixels = reinterpret_cast<QRgb *>(out);
         const float *in = slice.values.data() + std::size_t(r) * slice.width;
         for (int c = 0; c < slice.width; ++c) {
-            if (std::isnan(in[c])) { // outside the volume is black, inverted or not
-                out[c] = 0;
-                continue;
-            }
-            const float grey = std::clamp((in[c] - low) * scale, 0.0F, 255.0F);
-            out[c] = uchar(inverted ? 255.0F - grey : grey);
+            // Outside the volume is black, inverted or not.
+            const bool isOutside = std::isnan(in[c]);
+            const float bright = std::clamp((in[c] - low) * scale, 0.0F, 255.0F);
+            const auto grey = uchar(isOutside ? 0.0F : inverted ? 255.0F - bright : bright);
+            if (tint)
+                pixels[c] = isOutside ? qRgb(0, 0, 0) : tinted(grey, *tint, double(in[c]));
+            else
+                out[c] = grey;
         }
     }
     m_image.setDevicePixelRatio(devicePixelRatioF());

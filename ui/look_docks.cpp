@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/look_docks.h"
+
+#include <QDockWidget>
+#include <QMainWindow>
+
+#include "ui/look_preparer.h"
+#include "ui/panels/classes_panel.h"
+#include "ui/panels/presets_panel.h"
+#include "ui/panels/quality_panel.h"
+#include "ui/panels/transfer_function_panel.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr int panelWidth = 300;
+
+} // namespace
+
+LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer,
+                     ProjectionView &projection, const Theme &theme)
+    : QObject(&window), m_previewer(document), m_presets(new PresetsPanel(document)),
+      m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document, theme)),
+      m_quality(new QualityPanel(document)) {
+    // The order and the heights of the design: the stack fits 900 pixels.
+    dock(window, tr("PRESETS"), "presetsDock", m_presets, 190);
+    dock(window, tr("CLASSES"), "classesDock", m_classes, 190);
+    dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, 215);
+    dock(window, tr("QUALITY"), "qualityDock", m_quality, 230);
+
+    connect(m_presets, &PresetsPanel::presetsListed, &m_previewer, &LookPreviewer::preview);
+    connect(m_presets, &PresetsPanel::lookNamed, &projection, &ProjectionView::setLookName);
+    connect(&m_previewer, &LookPreviewer::pictureReady, m_presets, &PresetsPanel::setPicture);
+    connect(&m_previewer, &LookPreviewer::histogramReady, m_function,
+            &TransferFunctionPanel::setHistogram);
+    connect(&preparer, &LookPreparer::engineReady, m_quality, &QualityPanel::showPlan);
+    connect(m_quality, &QualityPanel::chosenAgain, &preparer, &LookPreparer::prepareAgain);
+    connect(&projection, &ProjectionView::frameShown, m_quality, &QualityPanel::showFrame);
+}
+
+void LookDocks::dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
+                     int height) {
+    auto *dock = new QDockWidget(title, &window);
+    dock->setObjectName(name);
+    dock->setWidget(panel);
+    panel->setMinimumWidth(panelWidth);
+    panel->setMinimumHeight(height / 2);
+    window.addDockWidget(Qt::RightDockWidgetArea, dock);
+    window.resizeDocks({dock}, {height}, Qt::Vertical);
+    m_docks.push_back(dock);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+
+#include "ui/look_previewer.h"
+#include "ui/theme.h"
+
+class QDockWidget;
+class QMainWindow;
+
+namespace pellucid::ui {
+
+class ClassesPanel;
+class LookPreparer;
+class PresetsPanel;
+class ProjectionView;
+class QualityPanel;
+class TransferFunctionPanel;
+
+/// The docks at the right of the window, which say what is shown and how: presets, classes,
+/// transfer function, quality. Connects them with what they act on.
+class LookDocks : public QObject {
+    Q_OBJECT
+public:
+    LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer,
+              ProjectionView &projection, const Theme &theme);
+
+    const std::vector<QDockWidget *> &docks() const { return m_docks; }
+    PresetsPanel &presets() { return *m_presets; }
+
+private:
+    void dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
+              int height);
+
+    LookPreviewer m_previewer;
+    PresetsPanel *m_presets;
+    ClassesPanel *m_classes;
+    TransferFunctionPanel *m_function;
+    QualityPanel *m_quality;
+    std::vector<QDockWidget *> m_docks;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+
+#include "core/classify/tissue_class.h"
+
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+
+namespace pellucid::ui {
+
+class Document;
+
+/// Everything about one class. While it is open the planes are tinted where values belong to it.
+class ClassDialog : public QDialog {
+    Q_OBJECT
+public:
+    ClassDialog(Document &document, const classify::TissueClass &tissue, QWidget *parent = nullptr);
+    ~ClassDialog() override;
+
+    /// What is typed. *Throws* task::Error if it makes no class.
+    classify::TissueClass tissue() const;
+
+    void accept() override;
+
+private:
+    void showTint();
+    void chooseColor();
+    void showColor();
+    void addStep();
+
+    Document &m_document;
+    classify::TissueClass m_tissue;
+    QLineEdit *m_name, *m_step;
+    QDoubleSpinBox *m_low, *m_high, *m_softness;
+    QPushButton *m_color;
+    QListWidget *m_steps;
+    QLabel *m_said;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "core/classify/tissue_class.h"
+#include "ui/commands.h"
+
+class QDoubleSpinBox;
+class QLabel;
+class QSlider;
+class QToolButton;
+
+namespace pellucid::ui {
+
+/// One class of the table: a dot in its color that shows or hides it, its name and range, a slider
+/// and the number for its weight.
+class ClassRow : public QWidget {
+    Q_OBJECT
+public:
+    explicit ClassRow(int index, QWidget *parent = nullptr);
+    void show(const classify::TissueClass &tissue, bool isSelected);
+
+signals:
+    void chosen(int index);
+    void toggled(int index);
+    void weightChanged(int index, double weight, pellucid::ui::DragId drag);
+    void editRequested(int index);
+    void menuRequested(int index, const QPoint &globalAt);
+
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
+    void mousePressEvent(QMouseEvent *event) override;
+    void mouseDoubleClickEvent(QMouseEvent *event) override;
+    void contextMenuEvent(QContextMenuEvent *event) override;
+
+private:
+    int m_index;
+    QToolButton *m_dot;
+    QLabel *m_name, *m_range;
+    QSlider *m_slider;
+    QDoubleSpinBox *m_weight;
+    DragId m_drag = 0;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/classes_panel.h"
+
+#include <algorithm>
+
+#include <QColorDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+#include "ui/document.h"
+#include "ui/panels/class_dialog.h"
+#include "ui/panels/class_row.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// A class for values that are no HU: a band of the window.
+classify::TissueClass ownClass(const classify::FieldWindow &window) {
+    const double width = window.high - window.low;
+    return {"Own", window.low + 0.4 * width, window.low + 0.6 * width, 0.05 * width, 1.0, {}};
+}
+
+QString capitalised(const std::string &name) {
+    QString text = QString::fromStdString(name);
+    return text.isEmpty() ? text : text.at(0).toUpper() + text.mid(1);
+}
+
+} // namespace
+
+ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_list(new QWidget), m_rows(new QVBoxLayout(m_list)),
+      m_empty(new QLabel(tr("The whole volume through the transfer function. Add a class to show "
+                            "tissues apart."))),
+      m_area(new QScrollArea) {
+    setObjectName("classesPanel");
+    setAttribute(Qt::WA_StyledBackground);
+    auto *addButton = new QPushButton(tr("Add class"));
+    addButton->setObjectName("addClassButton");
+    addButton->setToolTip(tr("Add a tissue class"));
+    addButton->setProperty("role", "link");
+    m_empty->setProperty("role", "muted");
+    m_empty->setWordWrap(true);
+    m_rows->setContentsMargins(0, 0, 4, 0);
+    m_rows->setSpacing(1);
+    m_rows->addWidget(m_empty);
+    m_rows->addStretch();
+    m_list->setObjectName("classList");
+    m_area->setObjectName("classArea");
+    m_area->setWidget(m_list);
+    m_area->setWidgetResizable(true);
+    m_area->setFrameShape(QFrame::NoFrame);
+    m_area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto *top = new QHBoxLayout;
+    top->addStretch();
+    top->addWidget(addButton);
+    auto *column = new QVBoxLayout(this);
+    column->setContentsMargins(12, 0, 8, 6);
+    column->setSpacing(2);
+    column->addLayout(top);
+    column->addWidget(m_area, 1);
+    connect(addButton, &QPushButton::clicked, this, &ClassesPanel::showAddMenu);
+    connect(&document, &Document::sceneChanged, this, &ClassesPanel::showScene);
+    connect(&document, &Document::selectedClassChanged, this, &ClassesPanel::showScene);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        setEnabled(m_document.volume() && !m_document.isPreview());
+        if (m_dialog)
+            m_dialog->close();
+        showScene();
+    });
+    setEnabled(false);
+    showScene();
+}
+
+void ClassesPanel::showScene() {
+    const auto &classes = m_document.scene().look.classes;
+    m_empty->setVisible(classes.empty());
+    while (m_shown.size() > classes.size()) {
+        m_shown.back()->deleteLater();
+        m_shown.pop_back();
+    }
+    while (m_shown.size() < classes.size()) {
+        auto *row = new ClassRow(int(m_shown.size()));
+        m_rows->insertWidget(m_rows->count() - 1, row);
+        m_shown.push_back(row);
+        connect(row, &ClassRow::chosen, &m_document, &Document::selectClass);
+        connect(row, &ClassRow::toggled, this, &ClassesPanel::toggle);
+        connect(row, &ClassRow::weightChanged, this, &ClassesPanel::setWeight);
+        connect(row, &ClassRow::editRequested, this, &ClassesPanel::edit);
+        connect(row, &ClassRow::menuRequested, this, &ClassesPanel::showMenu);
+    }
+    for (std::size_t n = 0; n < classes.size(); ++n)
+        m_shown[n]->show(classes[n], int(n) == m_document.selectedClass());
+}
+
+void ClassesPanel::change(const QString &what, const std::function<void(classify::Look &)> &edit,
+                          DragId drag) {
+    render::Scene scene = m_document.scene();
+    edit(scene.look);
+    if (!(scene == m_document.scene()))
+        m_document.undoStack()->push(new EditScene(m_document, scene, what, drag));
+}
+
+void ClassesPanel::setWeight(int index, double weight, DragId drag) {
+    change(
+        tr("Weight"),
+        [&](classify::Look &look) { look.classes[std::size_t(index)].weight = weight; }, drag);
+}
+
+void ClassesPanel::toggle(int index) {
+    const auto &tissue = m_document.scene().look.classes[std::size_t(index)];
+    const QString name = QString::fromStdString(tissue.name);
+    if (tissue.weight > 0.0)
+        m_hiddenWeight[name] = tissue.weight;
+    const double weight = tissue.weight > 0.0 ? 0.0 : m_hiddenWeight.value(name, 1.0);
+    change(tissue.weight > 0.0 ? tr("Hide %1").arg(name) : tr("Show %1").arg(name),
+           [&](classify::Look &look) { look.classes[std::size_t(index)].weight = weight; });
+}
+
+void ClassesPanel::add(const classify::TissueClass &tissue) {
+    change(tr("Add class"), [&](classify::Look &look) { look.classes.push_back(tissue); });
+    m_document.selectClass(int(m_document.scene().look.classes.size()) - 1);
+}
+
+void ClassesPanel::showAddMenu() {
+    QMenu menu;
+    const auto &volume = m_document.volume();
+    if (!volume)
+        return;
+    // The standard ranges are in HU.
+    if (volume->unit() == volume::ValueUnit::hounsfield) {
+        for (classify::TissueClass tissue : classify::standardClasses()) {
+            tissue.name = capitalised(tissue.name).toStdString();
+            menu.addAction(QString::fromStdString(tissue.name), this,
+                           [this, tissue] { add(tissue); });
+        }
+        menu.addSeparator();
+    }
+    menu.addAction(tr("Own range"), this, [this] {
+        add(ownClass(m_document.fieldWindow()));
+        edit(int(m_document.scene().look.classes.size()) - 1);
+    });
+    auto *button = findChild<QPushButton *>("addClassButton");
+    menu.setObjectName("addClassMenu");
+    menu.exec(button->mapToGlobal(QPoint(0, button->height())));
+}
+
+void ClassesPanel::showMenu(int index, const QPoint &globalAt) {
+    QMenu menu;
+    menu.setObjectName("classMenu");
+    menu.addAction(tr("Edit..."), this, [this, index] { edit(index); });
+    menu.addAction(tr("Colour..."), this, [this, index] { chooseColor(index); });
+    menu.addAction(tr("Show it alone"), this, [this, index] {
+        change(tr("Show it alone"), [&](classify::Look &look) {
+            for (std::size_t n = 0; n < look.classes.size(); ++n)
+                if (int(n) != index)
+                    look.classes[n].weight = 0.0;
+                else if (look.classes[n].weight == 0.0)
+                    look.classes[n].weight = 1.0;
+        });
+    });
+    menu.addSeparator();
+    menu.addAction(tr("Remove"), this, [this, index] {
+        change(tr("Remove class"),
+               [&](classify::Look &look) { look.classes.erase(look.classes.begin() + index); });
+    });
+    menu.exec(globalAt);
+}
+
+void ClassesPanel::edit(int index) {
+    const auto &classes = m_document.scene().look.classes;
+    if (index < 0 || index >= int(classes.size()))
+        return;
+    if (m_dialog)
+        m_dialog->close();
+    m_dialog = new ClassDialog(m_document, classes[std::size_t(index)], window());
+    connect(m_dialog, &QDialog::accepted, this, [this, index, dialog = m_dialog.data()] {
+        const classify::TissueClass typed = dialog->tissue();
+        if (index < int(m_document.scene().look.classes.size()))
+            change(tr("Edit class"),
+                   [&](classify::Look &look) { look.classes[std::size_t(index)] = typed; });
+    });
+    m_dialog->show();
+}
+
+void ClassesPanel::chooseColor(int index) {
+    const classify::Color c = m_document.scene().look.classes[std::size_t(index)].color;
+    const QColor chosen = QColorDialog::getColor(
+        QColor::fromRgbF(float(c.red), float(c.green), float(c.blue)), this, tr("Colour"));
+    if (chosen.isValid())
+        change(tr("Colour"), [&](classify::Look &look) {
+            look.classes[std::size_t(index)].color = {chosen.redF(), chosen.greenF(),
+                                                      chosen.blueF()};
+        });
+}
+
+} // namespace pellucid::ui

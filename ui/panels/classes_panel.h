@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <QHash>
+#include <QPointer>
+#include <QWidget>
+
+#include "core/render/scene.h"
+#include "ui/commands.h"
+
+class QLabel;
+class QScrollArea;
+class QVBoxLayout;
+
+namespace pellucid::ui {
+
+class ClassDialog;
+class ClassRow;
+class Document;
+
+/// The tissue classes of the look: shown or not, weight, range and color of each.
+class ClassesPanel : public QWidget {
+    Q_OBJECT
+public:
+    explicit ClassesPanel(Document &document, QWidget *parent = nullptr);
+
+private:
+    void showScene();
+    void change(const QString &what, const std::function<void(classify::Look &)> &edit,
+                DragId drag = 0);
+    void add(const classify::TissueClass &tissue);
+    void showAddMenu();
+    void setWeight(int index, double weight, DragId drag);
+    void toggle(int index);
+    void showMenu(int index, const QPoint &globalAt);
+    void edit(int index);
+    void chooseColor(int index);
+
+    Document &m_document;
+    QWidget *m_list;
+    QVBoxLayout *m_rows;
+    QLabel *m_empty;
+    QScrollArea *m_area;
+    std::vector<ClassRow *> m_shown;
+    QPointer<ClassDialog> m_dialog;
+    /// The weight that a hidden class had, by its name.
+    QHash<QString, double> m_hiddenWeight;
+};
+
+} // namespace pellucid::ui

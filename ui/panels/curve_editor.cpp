@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/curve_editor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr double mostWeight = classify::TransferFunction::largestWeight;
+constexpr double keyStep = 0.05;
+constexpr double handleRadius = 4.5;
+
+// Tick marks at round values, two to five of them.
+double tickStep(double range) {
+    const double rough = range / 3.0;
+    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    for (const double step : {1.0, 2.0, 5.0})
+        if (step * power >= rough)
+            return step * power;
+    return 10.0 * power;
+}
+
+} // namespace
+
+CurveEditor::CurveEditor(const Theme &theme, QWidget *parent) : QWidget(parent), m_theme(theme) {
+    setObjectName("curveEditor");
+    setAccessibleName(tr("Transfer function"));
+    setToolTip(tr("Drag a segment up or down; double-click resets it to 1"));
+    setMouseTracking(true);
+    setFocusPolicy(Qt::StrongFocus);
+}
+
+void CurveEditor::setFunction(const classify::TransferFunction &function) {
+    m_function = function;
+    m_selected = std::clamp(m_selected, 0, int(function.weights.size()) - 1);
+    if (m_hovered >= int(function.weights.size()))
+        m_hovered = -1;
+    update();
+}
+
+void CurveEditor::setWindow(const classify::FieldWindow &window, const QString &unit) {
+    m_window = window;
+    m_unit = unit;
+    update();
+}
+
+void CurveEditor::setHistogram(std::vector<double> heights) {
+    m_histogram = std::move(heights);
+    update();
+}
+
+void CurveEditor::selectPoint(int index) {
+    const int point = std::clamp(index, 0, int(m_function.weights.size()) - 1);
+    if (point == m_selected)
+        return;
+    m_selected = point;
+    emit pointSelected(point);
+    update();
+}
+
+QRectF CurveEditor::plot() const {
+    const int line = fontMetrics().height();
+    return QRectF(rect()).adjusted(18, 4, -10, -line - 4);
+}
+
+int CurveEditor::segmentAt(double x) const {
+    const QRectF area = plot();
+    const int count = int(m_function.weights.size());
+    return std::clamp(int((x - area.left()) / area.width() * count), 0, count - 1);
+}
+
+double CurveEditor::yOf(double weight) const {
+    const QRectF area = plot();
+    return area.bottom() - weight / mostWeight * area.height();
+}
+
+QPointF CurveEditor::handleAt(int index) const {
+    const QRectF area = plot();
+    const auto count = double(m_function.weights.size());
+    return {area.left() + (index + 0.5) / count * area.width(),
+            yOf(m_function.weights[std::size_t(index)])};
+}
+
+void CurveEditor::paintAxes(QPainter &painter) {
+    const QRectF area = plot();
+    painter.setPen(m_theme.color("muted"));
+    QFont small = font();
+    small.setPointSizeF(0.85 * small.pointSizeF());
+    painter.setFont(small);
+    for (const double weight : {0.0, 1.0, 2.0})
+        painter.drawText(QRectF(0, yOf(weight) - 8, area.left() - 4, 16),
+                         Qt::AlignRight | Qt::AlignVCenter, QString::number(weight));
+    const double range = m_window.high - m_window.low;
+    if (!(range > 0.0))
+        return;
+    const double step = tickStep(range);
+    for (double value = std::ceil(m_window.low / step) * step;
+         value <= m_window.high + 1e-9 * range; value += step) {
+        const double x = area.left() + (value - m_window.low) / range * area.width();
+        painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + 3));
+        const QRectF box(x - 34, area.bottom() + 3, 68, 16);
+        painter.drawText(box.translated(std::min(0.0, width() - 2 - box.right()), 0.0),
+                         Qt::AlignHCenter | Qt::AlignTop,
+                         QString::number(std::abs(value) < 1e-9 * range ? 0.0 : value, 'g', 4));
+    }
+}
+
+void CurveEditor::paintHistogram(QPainter &painter) {
+    if (m_histogram.empty())
+        return;
+    const QRectF area = plot();
+    QPainterPath path(area.bottomLeft());
+    const auto count = double(m_histogram.size());
+    for (std::size_t n = 0; n < m_histogram.size(); ++n)
+        path.lineTo(area.left() + (double(n) + 0.5) / count * area.width(),
+                    area.bottom() - m_histogram[n] * 0.9 * area.height());
+    path.lineTo(area.bottomRight());
+    path.closeSubpath();
+    painter.fillPath(path, m_theme.color("line"));
+}
+
+void CurveEditor::paintEvent(QPaintEvent *) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QRectF area = plot();
+    painter.fillRect(area, m_theme.color("background"));
+    paintHistogram(painter);
+    paintAxes(painter);
+    const int count = int(m_function.weights.size());
+    if (m_hovered >= 0) {
+        const double width = area.width() / count;
+        QColor fill = m_theme.color("accent");
+        painter.setPen(QPen(fill, 1.0));
+        fill.setAlphaF(0.18F);
+        painter.setBrush(fill);
+        painter.drawRect(QRectF(area.left() + m_hovered * width, area.top(), width, area.height()));
+    }
+    QPainterPath curve;
+    constexpr int steps = 128;
+    for (int n = 0; n <= steps; ++n) {
+        const double f = double(n) / steps;
+        const QPointF at(area.left() + f * area.width(), yOf(m_function.at(f)));
+        n == 0 ? curve.moveTo(at) : curve.lineTo(at);
+    }
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(m_theme.color("curve"), 2.0));
+    painter.drawPath(curve);
+    for (int n = 0; n < count; ++n) {
+        painter.setBrush(n == m_selected && hasFocus() ? m_theme.color("curve")
+                                                       : m_theme.color("background"));
+        painter.drawEllipse(handleAt(n), handleRadius, handleRadius);
+    }
+    if (m_mouseX < area.left() || m_mouseX > area.right())
+        return;
+    painter.setPen(QPen(m_theme.color("error"), 1.0));
+    painter.drawLine(QPointF(m_mouseX, area.top()), QPointF(m_mouseX, area.bottom()));
+    const double f = (m_mouseX - area.left()) / area.width();
+    const double value = m_window.low + f * (m_window.high - m_window.low);
+    painter.setPen(m_theme.color("curve"));
+    painter.drawText(area.adjusted(6, 2, 0, 0), Qt::AlignLeft | Qt::AlignTop,
+                     tr("weight %1 at %2%3")
+                         .arg(m_function.at(f), 0, 'f', 2)
+                         .arg(value, 0, 'g', 4)
+                         .arg(m_unit.isEmpty() ? QString() : " " + m_unit));
+}
+
+void CurveEditor::mousePressEvent(QMouseEvent *event) {
+    if (event->button() != Qt::LeftButton)
+        return;
+    const int segment = segmentAt(event->position().x());
+    m_dragging = true;
+    m_drag = nextDragId();
+    m_dragFromY = event->position().y();
+    m_dragFromWeight = m_function.weights[std::size_t(segment)];
+    selectPoint(segment);
+    setCursor(Qt::SizeVerCursor);
+    update();
+}
+
+void CurveEditor::mouseMoveEvent(QMouseEvent *event) {
+    m_mouseX = event->position().x();
+    if (!m_dragging) {
+        m_hovered = plot().contains(event->position()) ? segmentAt(m_mouseX) : -1;
+        update();
+        return;
+    }
+    const double moved = (m_dragFromY - event->position().y()) / plot().height() * mostWeight;
+    emit weightChanged(m_selected, std::clamp(m_dragFromWeight + moved, 0.0, mostWeight), m_drag);
+    update();
+}
+
+void CurveEditor::mouseReleaseEvent(QMouseEvent *) {
+    m_dragging = false;
+    unsetCursor();
+}
+
+void CurveEditor::mouseDoubleClickEvent(QMouseEvent *event) {
+    m_dragging = false;
+    emit weightChanged(segmentAt(event->position().x()), 1.0, nextDragId());
+}
+
+void CurveEditor::keyPressEvent(QKeyEvent *event) {
+    const double weight = m_function.weights[std::size_t(m_selected)];
+    switch (event->key()) {
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+        selectPoint(m_selected + (event->key() == Qt::Key_Left ? -1 : 1));
+        break;
+    case Qt::Key_Up:
+    case Qt::Key_Down:
+        emit weightChanged(
+            m_selected,
+            std::clamp(weight + (event->key() == Qt::Key_Up ? keyStep : -keyStep), 0.0, mostWeight),
+            nextDragId());
+        break;
+    default:
+        QWidget::keyPressEvent(event);
+    }
+}
+
+void CurveEditor::leaveEvent(QEvent *) {
+    m_hovered = -1;
+    m_mouseX = -1.0;
+    update();
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <QWidget>
+
+#include "core/classify/density_field.h"
+#include "core/classify/transfer_function.h"
+#include "ui/commands.h"
+#include "ui/theme.h"
+
+namespace pellucid::ui {
+
+/// A Bézier transfer function over the values of the field's window: weight 0 to 2 above, the
+/// histogram behind. The width is cut into as many segments as there are control points; the one
+/// under the mouse is framed and dragged up and down, a line follows the mouse and the weight there
+/// is told. *Source*: Cheng 2007, section 4.3.1.
+class CurveEditor : public QWidget {
+    Q_OBJECT
+public:
+    explicit CurveEditor(const Theme &theme, QWidget *parent = nullptr);
+
+    void setFunction(const classify::TransferFunction &function);
+    void setWindow(const classify::FieldWindow &window, const QString &unit);
+    /// Heights 0..1 over the window; empty: none.
+    void setHistogram(std::vector<double> heights);
+    int selectedPoint() const { return m_selected; }
+    void selectPoint(int index);
+    /// Where the handle of a control point is drawn.
+    QPointF handleAt(int index) const;
+
+signals:
+    void pointSelected(int index);
+    /// `drag`: the same number during one drag.
+    void weightChanged(int index, double weight, pellucid::ui::DragId drag);
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+    void mousePressEvent(QMouseEvent *event) override;
+    void mouseMoveEvent(QMouseEvent *event) override;
+    void mouseReleaseEvent(QMouseEvent *event) override;
+    void mouseDoubleClickEvent(QMouseEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+    void leaveEvent(QEvent *event) override;
+    QSize sizeHint() const override { return {260, 150}; }
+    QSize minimumSizeHint() const override { return {200, 120}; }
+
+private:
+    QRectF plot() const;
+    int segmentAt(double x) const;
+    double yOf(double weight) const;
+    void paintAxes(QPainter &painter);
+    void paintHistogram(QPainter &painter);
+
+    Theme m_theme;
+    classify::TransferFunction m_function;
+    classify::FieldWindow m_window{0.0, 1.0};
+    QString m_unit;
+    std::vector<double> m_histogram;
+    int m_hovered = -1, m_selected = 0;
+    double m_mouseX = -1.0;
+    bool m_dragging = false;
+    DragId m_drag = 0;
+    double m_dragFromY = 0.0, m_dragFromWeight = 0.0;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/presets_panel.h"
+
+#include <algorithm>
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QPainter>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "core/presets/slicer_preset.h"
+#include "core/task/error.h"
+#include "ui/commands.h"
+#include "ui/document.h"
+#include "ui/look_previewer.h"
+#include "ui/theme.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr QSize pictureSize{LookPreviewer::pictureWidth, LookPreviewer::pictureHeight};
+
+QIcon emptyIcon() {
+    QPixmap pixmap(pictureSize);
+    pixmap.fill(QColor::fromRgb(pictureBackground));
+    return QIcon(pixmap);
+}
+
+bool isSlicers(const QString &path) {
+    return path.endsWith(".vp") || path.endsWith(".vp.json");
+}
+
+} // namespace
+
+PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_library(presets::PresetLibrary::ofUser()),
+      m_gallery(new QListWidget), m_name(new QLineEdit), m_nameRow(new QWidget),
+      m_said(new QLabel) {
+    setObjectName("presetsPanel");
+    setAttribute(Qt::WA_StyledBackground);
+    m_gallery->setObjectName("presetGallery");
+    m_gallery->setAccessibleName(tr("Presets"));
+    m_gallery->setViewMode(QListView::IconMode);
+    m_gallery->setMovement(QListView::Static);
+    m_gallery->setResizeMode(QListView::Adjust);
+    m_gallery->setUniformItemSizes(true);
+    m_gallery->setIconSize(pictureSize);
+    m_gallery->setGridSize(pictureSize + QSize(8, 22));
+    m_gallery->setTextElideMode(Qt::ElideRight);
+    m_gallery->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+    m_gallery->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_gallery->setContextMenuPolicy(Qt::CustomContextMenu);
+    auto *save = new QPushButton(tr("Save look"));
+    save->setObjectName("saveLookButton");
+    save->setToolTip(tr("Keep what is shown as a preset of your own (Ctrl+S)"));
+    save->setProperty("role", "link");
+    m_name->setObjectName("lookNameEdit");
+    m_name->setAccessibleName(tr("Name of the look"));
+    m_name->setMaxLength(60);
+    m_name->installEventFilter(this);
+    auto *keep = new QPushButton(tr("Save"));
+    keep->setObjectName("keepLookButton");
+    m_said->setObjectName("presetSaid");
+    m_said->setProperty("role", "warning");
+    m_said->setWordWrap(true);
+    m_said->hide();
+
+    auto *nameLayout = new QHBoxLayout(m_nameRow);
+    nameLayout->setContentsMargins(0, 0, 0, 0);
+    nameLayout->addWidget(m_name, 1);
+    nameLayout->addWidget(keep);
+    m_nameRow->hide();
+    auto *top = new QHBoxLayout;
+    top->addStretch();
+    top->addWidget(save);
+    auto *column = new QVBoxLayout(this);
+    column->setContentsMargins(14, 0, 8, 6);
+    column->setSpacing(2);
+    column->addLayout(top);
+    column->addWidget(m_nameRow);
+    column->addWidget(m_said);
+    column->addWidget(m_gallery, 1);
+
+    connect(save, &QPushButton::clicked, this, &PresetsPanel::askForName);
+    connect(keep, &QPushButton::clicked, this, &PresetsPanel::saveLook);
+    connect(m_name, &QLineEdit::returnPressed, this, &PresetsPanel::saveLook);
+    connect(m_gallery, &QListWidget::itemClicked, this, &PresetsPanel::apply);
+    connect(m_gallery, &QListWidget::itemActivated, this, &PresetsPanel::apply);
+    connect(m_gallery, &QListWidget::customContextMenuRequested, this, &PresetsPanel::showMenu);
+    connect(&document, &Document::sceneChanged, this, &PresetsPanel::showCurrent);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        if (m_document.isPreview())
+            return;
+        m_nameRow->hide();
+        setEnabled(m_document.volume() && m_document.volume()->notes().placed);
+        list();
+    });
+    setEnabled(false);
+    list();
+}
+
+template <class F> void PresetsPanel::attempt(const F &what) {
+    m_said->hide();
+    try {
+        what();
+    } catch (const task::Error &error) {
+        m_said->setText(QString::fromStdString(error.reason()));
+        m_said->show();
+        emit failed(QString::fromStdString(error.reason()),
+                    QString::fromStdString(error.path().string()));
+    }
+}
+
+bool PresetsPanel::suits(const presets::Preset &preset) const {
+    const auto &volume = m_document.volume();
+    return !volume || presets::mismatch(preset, *volume).empty();
+}
+
+void PresetsPanel::list() {
+    std::vector<presets::Preset> listed;
+    m_gallery->clear();
+    for (const auto &entry : m_library.entries()) {
+        if (!suits(entry.preset))
+            continue;
+        listed.push_back(entry.preset);
+        const QString name = QString::fromStdString(entry.preset.name);
+        auto *item = new QListWidgetItem(emptyIcon(), name);
+        item->setToolTip(entry.preset.notes.empty()
+                             ? name
+                             : name + ": " + QString::fromStdString(entry.preset.notes));
+        m_gallery->addItem(item);
+    }
+    showCurrent();
+    if (m_document.volume() && !listed.empty())
+        emit presetsListed(listed);
+}
+
+void PresetsPanel::setPicture(const QString &preset, const QImage &picture) {
+    if (picture.isNull())
+        return;
+    for (QListWidgetItem *item : m_gallery->findItems(preset, Qt::MatchExactly))
+        item->setIcon(QIcon(QPixmap::fromImage(picture)));
+}
+
+void PresetsPanel::showCurrent() {
+    const render::Scene &scene = m_document.scene();
+    const classify::FieldWindow shown = m_document.fieldWindow();
+    m_gallery->setCurrentItem(nullptr);
+    QString current = tr("Own look");
+    if (scene.look == classify::Look() && shown == m_document.defaultFieldWindow())
+        current = tr("Plain density");
+    for (const auto &entry : m_library.entries()) {
+        const auto window = entry.preset.window.value_or(m_document.defaultFieldWindow());
+        if (!suits(entry.preset) || !(window == shown) ||
+            !(presets::lookFor(entry.preset, window) == scene.look))
+            continue;
+        current = QString::fromStdString(entry.preset.name);
+        const auto items = m_gallery->findItems(current, Qt::MatchExactly);
+        if (!items.isEmpty())
+            m_gallery->setCurrentItem(items.front());
+        break;
+    }
+    emit lookNamed(current);
+}
+
+void PresetsPanel::apply(QListWidgetItem *item) {
+    const auto *entry = m_library.find(item->text().toStdString());
+    if (entry == nullptr || !m_document.volume())
+        return;
+    render::Scene scene = m_document.scene();
+    scene.fieldWindow = entry->preset.window;
+    scene.look = presets::lookFor(entry->preset,
+                                  scene.fieldWindow.value_or(m_document.defaultFieldWindow()));
+    if (!(scene == m_document.scene()))
+        m_document.undoStack()->push(
+            new EditScene(m_document, scene, tr("Preset %1").arg(item->text())));
+}
+
+void PresetsPanel::askForName() {
+    if (!isEnabled())
+        return;
+    // A name that is free: the second click is enough.
+    int number = 1;
+    const auto name = [&] { return tr("Own look %1").arg(number); };
+    while (m_library.find(name().toStdString()) != nullptr)
+        ++number;
+    m_said->hide();
+    m_name->setText(name());
+    m_nameRow->show();
+    m_name->setFocus();
+    m_name->selectAll();
+}
+
+void PresetsPanel::saveLook() {
+    attempt([&] {
+        const QString name = m_name->text().trimmed();
+        m_library.save(presets::presetOf(name.toStdString(), m_document.scene().look,
+                                         m_document.fieldWindow(), *m_document.volume()));
+        m_nameRow->hide();
+        list();
+        const auto items = m_gallery->findItems(name, Qt::MatchExactly);
+        if (!items.isEmpty())
+            m_gallery->scrollToItem(items.front());
+    });
+}
+
+bool PresetsPanel::eventFilter(QObject *watched, QEvent *event) {
+    if (watched == m_name && event->type() == QEvent::KeyPress &&
+        static_cast<QKeyEvent *>(event)->key() == Qt::Key_Escape) {
+        m_nameRow->hide();
+        return true;
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void PresetsPanel::remove(const QString &name) {
+    attempt([&] {
+        m_library.remove(name.toStdString());
+        list();
+    });
+}
+
+void PresetsPanel::importPreset() {
+    const QString path = QFileDialog::getOpenFileName(
+        this, tr("Import preset"), {}, tr("Presets, 3D Slicer properties (*.json *.vp)"));
+    if (path.isEmpty())
+        return;
+    attempt([&] {
+        QString fit;
+        presets::Preset preset;
+        if (isSlicers(path)) {
+            auto imported = presets::importSlicerPreset(path.toStdString());
+            preset = std::move(imported.preset);
+            fit = tr("'%1' was fitted; its opacity is met within %2")
+                      .arg(QString::fromStdString(preset.name))
+                      .arg(imported.largestError, 0, 'g', 2);
+        } else {
+            preset = presets::readPreset(path.toStdString());
+        }
+        // Nothing that is kept is lost to a file of the same name.
+        const std::string wanted = preset.name;
+        for (int n = 2; m_library.find(preset.name) != nullptr; ++n)
+            preset.name = wanted + " " + std::to_string(n);
+        m_library.save(preset);
+        list();
+        m_said->setText(fit);
+        m_said->setVisible(!fit.isEmpty());
+    });
+}
+
+void PresetsPanel::exportPreset() {
+    if (!m_document.volume())
+        return;
+    const QListWidgetItem *current = m_gallery->currentItem();
+    const QString name = current != nullptr ? current->text() : tr("Own look");
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export preset"), name + ".json",
+                                                      tr("Preset (*.json)"));
+    if (path.isEmpty())
+        return;
+    attempt([&] {
+        const auto *entry = current != nullptr ? m_library.find(name.toStdString()) : nullptr;
+        presets::writePreset(
+            path.toStdString(),
+            entry != nullptr ? entry->preset
+                             : presets::presetOf(name.toStdString(), m_document.scene().look,
+                                                 m_document.fieldWindow(), *m_document.volume()));
+    });
+}
+
+void PresetsPanel::showMenu(const QPoint &at) {
+    QListWidgetItem *item = m_gallery->itemAt(at);
+    const auto *entry = item != nullptr ? m_library.find(item->text().toStdString()) : nullptr;
+    if (entry == nullptr)
+        return;
+    QMenu menu;
+    QAction *removal = menu.addAction(tr("Delete"));
+    removal->setEnabled(!entry->isBuiltIn());
+    if (menu.exec(m_gallery->mapToGlobal(at)) == removal)
+        remove(item->text());
+}
+
+} // namespace pellucid::ui

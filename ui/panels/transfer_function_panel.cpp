@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/transfer_function_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <QClipboard>
+#include <QGuiApplication>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include "core/task/error.h"
+#include "ui/document.h"
+#include "ui/panels/curve_editor.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr int histogramBins = 96;
+
+QPushButton *addLink(QHBoxLayout *row, const QString &text, const char *name, const QString &tip) {
+    auto *button = new QPushButton(text);
+    button->setObjectName(name);
+    button->setToolTip(tip);
+    button->setProperty("role", "link");
+    row->addWidget(button);
+    return button;
+}
+
+} // namespace
+
+TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &theme,
+                                             QWidget *parent)
+    : QWidget(parent), m_document(document), m_editor(new CurveEditor(theme)),
+      m_subject(new QLabel), m_points(new QSpinBox), m_weight(new QDoubleSpinBox) {
+    setObjectName("transferFunctionPanel");
+    setAttribute(Qt::WA_StyledBackground);
+    using classify::TransferFunction;
+    m_subject->setObjectName("transferFunctionSubject");
+    m_subject->setProperty("role", "muted");
+    m_points->setObjectName("pointsBox");
+    m_points->setAccessibleName(tr("Number of control points"));
+    m_points->setToolTip(tr("Number of control points: more make finer curves"));
+    m_points->setRange(TransferFunction::fewestPoints, TransferFunction::mostPoints);
+    m_points->setSuffix(tr(" points"));
+    m_weight->setObjectName("weightBox");
+    m_weight->setAccessibleName(tr("Weight of the selected point"));
+    m_weight->setToolTip(tr("Weight of the selected point, 0 to 2"));
+    m_weight->setRange(0.0, TransferFunction::largestWeight);
+    m_weight->setSingleStep(0.05);
+    m_weight->setDecimals(2);
+
+    auto *top = new QHBoxLayout;
+    top->addWidget(m_subject, 1);
+    top->addWidget(m_points);
+    auto *bottom = new QHBoxLayout;
+    bottom->setSpacing(2);
+    bottom->addWidget(m_weight);
+    bottom->addStretch();
+    QPushButton *reset = addLink(bottom, tr("Reset"), "resetCurveButton", tr("All weights 1"));
+    QPushButton *copyLink =
+        addLink(bottom, tr("Copy"), "copyCurveButton", tr("Copy the weights as text"));
+    QPushButton *pasteLink =
+        addLink(bottom, tr("Paste"), "pasteCurveButton", tr("Paste 2 to 16 weights of 0 to 2"));
+    auto *column = new QVBoxLayout(this);
+    column->setContentsMargins(14, 2, 14, 8);
+    column->setSpacing(4);
+    column->addLayout(top);
+    column->addWidget(m_editor, 1);
+    column->addLayout(bottom);
+
+    connect(m_editor, &CurveEditor::weightChanged, this, &TransferFunctionPanel::setWeight);
+    connect(m_editor, &CurveEditor::pointSelected, this, &TransferFunctionPanel::showScene);
+    connect(m_points, &QSpinBox::valueChanged, this, [this](int points) {
+        if (points != int(function().weights.size()))
+            change(classify::withPoints(function(), points), tr("Control points"));
+    });
+    connect(m_weight, &QDoubleSpinBox::valueChanged, this, [this](double weight) {
+        const int at = m_editor->selectedPoint();
+        if (std::abs(weight - function().weights[std::size_t(at)]) > 0.005)
+            setWeight(at, weight, 0);
+    });
+    connect(reset, &QPushButton::clicked, this, [this] {
+        change({std::vector<double>(function().weights.size(), 1.0)}, tr("Reset the curve"));
+    });
+    connect(copyLink, &QPushButton::clicked, this, &TransferFunctionPanel::copy);
+    connect(pasteLink, &QPushButton::clicked, this, &TransferFunctionPanel::paste);
+    connect(&document, &Document::sceneChanged, this, &TransferFunctionPanel::showScene);
+    connect(&document, &Document::selectedClassChanged, this, &TransferFunctionPanel::showScene);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        setEnabled(m_document.volume().has_value() && !m_document.isPreview());
+        m_histogram = {};
+        showScene();
+    });
+    setEnabled(false);
+    showScene();
+}
+
+const classify::TransferFunction &TransferFunctionPanel::function() const {
+    static const classify::TransferFunction plain;
+    const classify::Look &look = m_document.scene().look;
+    const int selected = m_document.selectedClass();
+    if (selected < 0)
+        return look.transferFunction;
+    const auto &own = look.classes[std::size_t(selected)].transferFunction;
+    return own ? *own : plain;
+}
+
+void TransferFunctionPanel::change(const classify::TransferFunction &function, const QString &what,
+                                   DragId drag) {
+    render::Scene scene = m_document.scene();
+    const int selected = m_document.selectedClass();
+    if (selected < 0)
+        scene.look.transferFunction = function;
+    else
+        scene.look.classes[std::size_t(selected)].transferFunction = function;
+    if (!(scene == m_document.scene()))
+        m_document.undoStack()->push(new EditScene(m_document, scene, what, drag));
+}
+
+void TransferFunctionPanel::setWeight(int index, double weight, DragId drag) {
+    classify::TransferFunction bent = function();
+    bent.weights[std::size_t(index)] = weight;
+    change(bent, tr("Transfer function"), drag);
+}
+
+void TransferFunctionPanel::copy() {
+    QStringList weights;
+    for (const double weight : function().weights)
+        weights << QString::number(weight);
+    QGuiApplication::clipboard()->setText(weights.join(", "));
+}
+
+void TransferFunctionPanel::paste() {
+    classify::TransferFunction pasted{{}};
+    for (const QString &part : QGuiApplication::clipboard()->text().split(',')) {
+        bool isNumber = false;
+        pasted.weights.push_back(part.trimmed().toDouble(&isNumber));
+        if (!isNumber) {
+            m_subject->setText(tr("The clipboard holds no weights"));
+            return;
+        }
+    }
+    try {
+        classify::validate(pasted);
+        change(pasted, tr("Paste a curve"));
+    } catch (const task::Error &error) {
+        m_subject->setText(QString::fromStdString(error.reason()));
+    }
+}
+
+void TransferFunctionPanel::setHistogram(const volume::Histogram &histogram) {
+    m_histogram = histogram;
+    showHistogram();
+}
+
+void TransferFunctionPanel::showHistogram() {
+    const classify::FieldWindow window = m_document.fieldWindow();
+    const double step = (m_histogram.high - m_histogram.low) / double(m_histogram.counts.size());
+    std::vector<double> heights;
+    if (!m_histogram.counts.empty() && window.high > window.low && step > 0.0) {
+        // Logarithms: bone is a thousandth of air.
+        heights.assign(histogramBins, 0.0);
+        for (std::size_t n = 0; n < m_histogram.counts.size(); ++n) {
+            const double value = m_histogram.low + (double(n) + 0.5) * step;
+            const double f = (value - window.low) / (window.high - window.low);
+            if (f >= 0.0 && f < 1.0)
+                heights[std::size_t(f * histogramBins)] += double(m_histogram.counts[n]);
+        }
+        double most = 0.0;
+        for (double &height : heights)
+            most = std::max(most, height = std::log1p(height));
+        for (double &height : heights)
+            height = most > 0.0 ? height / most : 0.0;
+    }
+    m_editor->setHistogram(std::move(heights));
+}
+
+void TransferFunctionPanel::showScene() {
+    const int selected = m_document.selectedClass();
+    m_subject->setText(
+        selected < 0
+            ? tr("Whole volume")
+            : QString::fromStdString(m_document.scene().look.classes[std::size_t(selected)].name));
+    m_editor->setFunction(function());
+    const auto &volume = m_document.volume();
+    m_editor->setWindow(m_document.fieldWindow(),
+                        volume && volume->unit() == volume::ValueUnit::hounsfield ? tr("HU")
+                                                                                  : QString());
+    const QSignalBlocker noPoints(m_points), noWeight(m_weight);
+    m_points->setValue(int(function().weights.size()));
+    m_weight->setValue(function().weights[std::size_t(m_editor->selectedPoint())]);
+    showHistogram();
+}
+
+} // namespace pellucid::ui
