@@ -2,7 +2,9 @@
 #include "ui/look_docks.h"
 
 #include <QDockWidget>
+#include <QHBoxLayout>
 #include <QMainWindow>
+#include <QToolButton>
 
 #include "ui/look_preparer.h"
 #include "ui/panels/classes_panel.h"
@@ -25,10 +27,11 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
       m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document, theme)),
       m_quality(new QualityPanel(document)) {
     // The order and the heights of the design: the stack fits 900 pixels.
-    dock(window, tr("PRESETS"), "presetsDock", m_presets, 190);
-    dock(window, tr("CLASSES"), "classesDock", m_classes, 190);
-    dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, 215);
-    dock(window, tr("QUALITY"), "qualityDock", m_quality, 230);
+    dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 165);
+    dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 190);
+    dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(),
+         215);
+    dock(window, tr("QUALITY"), "qualityDock", m_quality, m_quality->corner(), 170);
 
     connect(m_presets, &PresetsPanel::presetsListed, &m_previewer, &LookPreviewer::preview);
     connect(m_presets, &PresetsPanel::lookNamed, &projection, &ProjectionView::setLookName);
@@ -41,15 +44,34 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
 }
 
 void LookDocks::dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
-                     int height) {
+                     QWidget *corner, int height) {
     auto *dock = new QDockWidget(title, &window);
     dock->setObjectName(name);
     dock->setWidget(panel);
+    // A click on the heading folds the panel.
+    auto *heading = new QToolButton;
+    heading->setObjectName(QString(name) + "Heading");
+    heading->setText(title);
+    heading->setToolTip(tr("Fold or unfold"));
+    heading->setProperty("role", "heading");
+    connect(heading, &QToolButton::clicked, panel,
+            [panel] { panel->setVisible(!panel->isVisible()); });
+    auto *bar = new QWidget;
+    bar->setAttribute(Qt::WA_StyledBackground);
+    bar->setProperty("role", "dockTitle");
+    auto *row = new QHBoxLayout(bar);
+    row->setContentsMargins(8, 6, 8, 0);
+    row->addWidget(heading);
+    row->addStretch();
+    if (corner != nullptr)
+        row->addWidget(corner);
+    dock->setTitleBarWidget(bar);
     panel->setMinimumWidth(panelWidth);
-    panel->setMinimumHeight(height / 2);
     window.addDockWidget(Qt::RightDockWidgetArea, dock);
-    window.resizeDocks({dock}, {height}, Qt::Vertical);
     m_docks.push_back(dock);
+    m_heights.push_back(height);
+    window.resizeDocks(QList<QDockWidget *>(m_docks.begin(), m_docks.end()),
+                       QList<int>(m_heights.begin(), m_heights.end()), Qt::Vertical);
 }
 
 } // namespace pellucid::ui

@@ -30,8 +30,9 @@ public:
     PresetsPanel &presets() { return *m_presets; }
 
 private:
+    /// `corner`: what stands beside the heading; may be null.
     void dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
-              int height);
+              QWidget *corner, int height);
 
     LookPreviewer m_previewer;
     PresetsPanel *m_presets;
@@ -39,6 +40,7 @@ private:
     TransferFunctionPanel *m_function;
     QualityPanel *m_quality;
     std::vector<QDockWidget *> m_docks;
+    std::vector<int> m_heights;
 };
 
 } // namespace pellucid::ui

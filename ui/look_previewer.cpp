@@ -25,7 +25,7 @@ render::Scene pictureScene(const volume::Lattice &lattice) {
     scene.camera.width = 2 * LookPreviewer::pictureWidth;
     scene.camera.height = 2 * LookPreviewer::pictureHeight;
     scene.camera.pixelMm =
-        2.0 * lattice.radiusMm() * 0.86 / std::min(scene.camera.width, scene.camera.height);
+        2.0 * lattice.radiusMm() * 0.7 / std::min(scene.camera.width, scene.camera.height);
     scene.tolerance = 1e-2;
     scene.interpolation.kernel = fourier::kernelFromName("ES4");
     scene.interpolation.padding = 1.5;

@@ -337,7 +337,9 @@ Mask body(const volume::Volume &volume, double marginMm, const task::Progress &p
 Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
           const task::Progress &progress) {
     const Mask patient = body(volume, 0.0, progress.part(0.0, 0.7));
-    const Mask deep = eroded(volume.lattice(), patient, depthMm, progress.part(0.7, 0.85));
+    // At least a sample deep, or coarse volumes would have none.
+    const double depth = std::max(depthMm, 1.01 * volume.lattice().shortestStepMm());
+    const Mask deep = eroded(volume.lattice(), patient, depth, progress.part(0.7, 0.85));
     Mask shell = dilated(volume.lattice(), patient, marginMm, progress.part(0.85, 1.0));
     for (std::size_t n = 0; n < shell.size(); ++n)
         shell[n] = std::uint8_t(shell[n] & ~deep[n] & 1);

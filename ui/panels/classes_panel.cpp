@@ -33,16 +33,16 @@ QString capitalised(const std::string &name) {
 } // namespace
 
 ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_list(new QWidget), m_rows(new QVBoxLayout(m_list)),
+    : QWidget(parent), m_document(document), m_add(new QPushButton(tr("Add class"))),
+      m_list(new QWidget), m_rows(new QVBoxLayout(m_list)),
       m_empty(new QLabel(tr("The whole volume through the transfer function. Add a class to show "
                             "tissues apart."))),
       m_area(new QScrollArea) {
     setObjectName("classesPanel");
     setAttribute(Qt::WA_StyledBackground);
-    auto *addButton = new QPushButton(tr("Add class"));
-    addButton->setObjectName("addClassButton");
-    addButton->setToolTip(tr("Add a tissue class"));
-    addButton->setProperty("role", "link");
+    m_add->setObjectName("addClassButton");
+    m_add->setToolTip(tr("Add a tissue class"));
+    m_add->setProperty("role", "link");
     m_empty->setProperty("role", "muted");
     m_empty->setWordWrap(true);
     m_rows->setContentsMargins(0, 0, 4, 0);
@@ -55,25 +55,27 @@ ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
     m_area->setWidgetResizable(true);
     m_area->setFrameShape(QFrame::NoFrame);
     m_area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    auto *top = new QHBoxLayout;
-    top->addStretch();
-    top->addWidget(addButton);
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(12, 0, 8, 6);
     column->setSpacing(2);
-    column->addLayout(top);
     column->addWidget(m_area, 1);
-    connect(addButton, &QPushButton::clicked, this, &ClassesPanel::showAddMenu);
+    connect(m_add, &QPushButton::clicked, this, &ClassesPanel::showAddMenu);
     connect(&document, &Document::sceneChanged, this, &ClassesPanel::showScene);
     connect(&document, &Document::selectedClassChanged, this, &ClassesPanel::showScene);
     connect(&document, &Document::volumeChanged, this, [this] {
         setEnabled(m_document.volume() && !m_document.isPreview());
+        m_add->setEnabled(isEnabled());
         if (m_dialog)
             m_dialog->close();
         showScene();
     });
     setEnabled(false);
+    m_add->setEnabled(false);
     showScene();
+}
+
+QWidget *ClassesPanel::corner() {
+    return m_add;
 }
 
 void ClassesPanel::showScene() {
@@ -144,9 +146,8 @@ void ClassesPanel::showAddMenu() {
         add(ownClass(m_document.fieldWindow()));
         edit(int(m_document.scene().look.classes.size()) - 1);
     });
-    auto *button = findChild<QPushButton *>("addClassButton");
     menu.setObjectName("addClassMenu");
-    menu.exec(button->mapToGlobal(QPoint(0, button->height())));
+    menu.exec(m_add->mapToGlobal(QPoint(0, m_add->height())));
 }
 
 void ClassesPanel::showMenu(int index, const QPoint &globalAt) {

@@ -11,6 +11,7 @@
 #include "ui/commands.h"
 
 class QLabel;
+class QPushButton;
 class QScrollArea;
 class QVBoxLayout;
 
@@ -26,6 +27,9 @@ class ClassesPanel : public QWidget {
 public:
     explicit ClassesPanel(Document &document, QWidget *parent = nullptr);
 
+    /// Stands beside the panel's heading.
+    QWidget *corner();
+
 private:
     void showScene();
     void change(const QString &what, const std::function<void(classify::Look &)> &edit,
@@ -39,6 +43,7 @@ private:
     void chooseColor(int index);
 
     Document &m_document;
+    QPushButton *m_add;
     QWidget *m_list;
     QVBoxLayout *m_rows;
     QLabel *m_empty;

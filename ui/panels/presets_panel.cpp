@@ -42,8 +42,8 @@ bool isSlicers(const QString &path) {
 
 PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(presets::PresetLibrary::ofUser()),
-      m_gallery(new QListWidget), m_name(new QLineEdit), m_nameRow(new QWidget),
-      m_said(new QLabel) {
+      m_save(new QPushButton), m_gallery(new QListWidget), m_name(new QLineEdit),
+      m_nameRow(new QWidget), m_said(new QLabel) {
     setObjectName("presetsPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_gallery->setObjectName("presetGallery");
@@ -53,15 +53,16 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     m_gallery->setResizeMode(QListView::Adjust);
     m_gallery->setUniformItemSizes(true);
     m_gallery->setIconSize(pictureSize);
-    m_gallery->setGridSize(pictureSize + QSize(8, 22));
+    m_gallery->setGridSize(pictureSize + QSize(4, 22));
+    m_gallery->setSpacing(0);
     m_gallery->setTextElideMode(Qt::ElideRight);
     m_gallery->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_gallery->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_gallery->setContextMenuPolicy(Qt::CustomContextMenu);
-    auto *save = new QPushButton(tr("Save look"));
-    save->setObjectName("saveLookButton");
-    save->setToolTip(tr("Keep what is shown as a preset of your own (Ctrl+S)"));
-    save->setProperty("role", "link");
+    m_save->setText(tr("Save look"));
+    m_save->setObjectName("saveLookButton");
+    m_save->setToolTip(tr("Keep what is shown as a preset of your own (Ctrl+S)"));
+    m_save->setProperty("role", "link");
     m_name->setObjectName("lookNameEdit");
     m_name->setAccessibleName(tr("Name of the look"));
     m_name->setMaxLength(60);
@@ -78,18 +79,14 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     nameLayout->addWidget(m_name, 1);
     nameLayout->addWidget(keep);
     m_nameRow->hide();
-    auto *top = new QHBoxLayout;
-    top->addStretch();
-    top->addWidget(save);
     auto *column = new QVBoxLayout(this);
-    column->setContentsMargins(14, 0, 8, 6);
+    column->setContentsMargins(12, 0, 4, 6);
     column->setSpacing(2);
-    column->addLayout(top);
     column->addWidget(m_nameRow);
     column->addWidget(m_said);
     column->addWidget(m_gallery, 1);
 
-    connect(save, &QPushButton::clicked, this, &PresetsPanel::askForName);
+    connect(m_save, &QPushButton::clicked, this, &PresetsPanel::askForName);
     connect(keep, &QPushButton::clicked, this, &PresetsPanel::saveLook);
     connect(m_name, &QLineEdit::returnPressed, this, &PresetsPanel::saveLook);
     connect(m_gallery, &QListWidget::itemClicked, this, &PresetsPanel::apply);
@@ -101,10 +98,16 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
             return;
         m_nameRow->hide();
         setEnabled(m_document.volume() && m_document.volume()->notes().placed);
+        m_save->setEnabled(isEnabled());
         list();
     });
     setEnabled(false);
+    m_save->setEnabled(false);
     list();
+}
+
+QWidget *PresetsPanel::corner() {
+    return m_save;
 }
 
 template <class F> void PresetsPanel::attempt(const F &what) {

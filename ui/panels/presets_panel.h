@@ -9,6 +9,7 @@ class QLabel;
 class QLineEdit;
 class QListWidget;
 class QListWidgetItem;
+class QPushButton;
 
 namespace pellucid::ui {
 
@@ -21,6 +22,8 @@ class PresetsPanel : public QWidget {
 public:
     explicit PresetsPanel(Document &document, QWidget *parent = nullptr);
 
+    /// Stands beside the panel's heading.
+    QWidget *corner();
     void setPicture(const QString &preset, const QImage &picture);
     /// Asks for the name that the shown look is to be kept under.
     void askForName();
@@ -51,6 +54,7 @@ private:
 
     Document &m_document;
     presets::PresetLibrary m_library;
+    QPushButton *m_save;
     QListWidget *m_gallery;
     QLineEdit *m_name;
     QWidget *m_nameRow;

@@ -9,6 +9,7 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QStyle>
 
 #include "ui/commands.h"
@@ -46,13 +47,13 @@ QLabel *addFigure(QFormLayout *form, const QString &text, const char *name, cons
 } // namespace
 
 QualityPanel::QualityPanel(Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document) {
+    : QWidget(parent), m_document(document), m_more(new QPushButton(tr("More"))) {
     setObjectName("qualityPanel");
     setAttribute(Qt::WA_StyledBackground);
     auto *form = new QFormLayout(this);
-    form->setContentsMargins(14, 4, 14, 12);
+    form->setContentsMargins(14, 2, 14, 8);
     form->setHorizontalSpacing(12);
-    form->setVerticalSpacing(6);
+    form->setVerticalSpacing(4);
     m_quality = addBox(form, tr("Quality"), "qualityBox", tr("The largest error that is allowed"));
     const std::array<QString, qualityCount> names{tr("Draft"), tr("Interactive"), tr("Standard"),
                                                   tr("Fine")};
@@ -98,9 +99,21 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_reason->setProperty("role", "muted");
     m_reason->setWordWrap(true);
     m_reason->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-    // Room for the longest reason: a dock does not grow with the text of its panel.
-    m_reason->setMinimumHeight(4 * m_reason->fontMetrics().lineSpacing());
+    // Room for the usual reason: a dock does not grow with the text of its panel.
+    m_reason->setMinimumHeight(2 * m_reason->fontMetrics().lineSpacing());
     form->addRow(m_reason);
+    m_more->setObjectName("moreQualityButton");
+    m_more->setProperty("role", "link");
+    m_more->setCheckable(true);
+    m_more->setToolTip(tr("What the plan chooses, to be chosen by hand"));
+    const std::array<QWidget *, 6> expert{m_kernel,  m_padding, m_storage,
+                                          m_largest, m_padded,  m_tolerance};
+    const auto showExpert = [form, expert](bool isShown) {
+        for (QWidget *widget : expert)
+            form->setRowVisible(widget, isShown);
+    };
+    connect(m_more, &QPushButton::toggled, this, showExpert);
+    showExpert(false);
 
     connect(m_quality, &QComboBox::activated, this, &QualityPanel::chooseTolerance);
     connect(m_tolerance, &QLineEdit::editingFinished, this, &QualityPanel::typeTolerance);
@@ -144,6 +157,10 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     clearPlan();
 }
 
+QWidget *QualityPanel::corner() {
+    return m_more;
+}
+
 void QualityPanel::change(const QString &what, const std::function<void(render::Scene &)> &edit) {
     render::Scene scene = m_document.scene();
     edit(scene);
@@ -156,6 +173,7 @@ void QualityPanel::change(const QString &what, const std::function<void(render::
 void QualityPanel::chooseTolerance(int index) {
     const QVariant tolerance = m_quality->itemData(index);
     if (!tolerance.isValid()) { // a tolerance of one's own is typed
+        m_more->setChecked(true);
         m_tolerance->setFocus();
         m_tolerance->selectAll();
         return;

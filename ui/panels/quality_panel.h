@@ -10,6 +10,7 @@
 class QComboBox;
 class QLabel;
 class QLineEdit;
+class QPushButton;
 
 namespace pellucid::ui {
 
@@ -21,6 +22,8 @@ class QualityPanel : public QWidget {
 public:
     explicit QualityPanel(Document &document, QWidget *parent = nullptr);
 
+    /// Stands beside the panel's heading: shows what experts choose.
+    QWidget *corner();
     void showPlan(const render::PreparedEngine &prepared, EngineStage stage);
     void showFrame(const render::FrameTimes &times, bool draft);
 
@@ -37,6 +40,7 @@ private:
     void change(const QString &what, const std::function<void(render::Scene &)> &edit);
 
     Document &m_document;
+    QPushButton *m_more;
     QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_padding, *m_storage;
     QLineEdit *m_tolerance;
     QLabel *m_time, *m_error, *m_largest, *m_plan, *m_padded, *m_reason;

@@ -54,9 +54,6 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     m_weight->setSingleStep(0.05);
     m_weight->setDecimals(2);
 
-    auto *top = new QHBoxLayout;
-    top->addWidget(m_subject, 1);
-    top->addWidget(m_points);
     auto *bottom = new QHBoxLayout;
     bottom->setSpacing(2);
     bottom->addWidget(m_weight);
@@ -69,7 +66,7 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(14, 2, 14, 8);
     column->setSpacing(4);
-    column->addLayout(top);
+    column->addWidget(m_subject);
     column->addWidget(m_editor, 1);
     column->addLayout(bottom);
 
@@ -93,11 +90,17 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     connect(&document, &Document::selectedClassChanged, this, &TransferFunctionPanel::showScene);
     connect(&document, &Document::volumeChanged, this, [this] {
         setEnabled(m_document.volume().has_value() && !m_document.isPreview());
+        m_points->setEnabled(isEnabled());
         m_histogram = {};
         showScene();
     });
     setEnabled(false);
+    m_points->setEnabled(false);
     showScene();
+}
+
+QWidget *TransferFunctionPanel::corner() {
+    return m_points;
 }
 
 const classify::TransferFunction &TransferFunctionPanel::function() const {

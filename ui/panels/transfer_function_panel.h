@@ -23,6 +23,8 @@ class TransferFunctionPanel : public QWidget {
 public:
     TransferFunctionPanel(Document &document, const Theme &theme, QWidget *parent = nullptr);
 
+    /// Stands beside the panel's heading.
+    QWidget *corner();
     /// The counts of the open volume's values.
     void setHistogram(const volume::Histogram &histogram);
 
