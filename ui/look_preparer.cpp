@@ -44,6 +44,14 @@ classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &
 
 } // namespace
 
+PreparedFor::PreparedFor(const Document &document)
+    : look(document.scene().look), tolerance(document.scene().tolerance),
+      interpolation(document.scene().interpolation) {
+    // The volume's own window is the same whether it is named or not.
+    if (document.fieldWindow() != document.defaultFieldWindow())
+        window = document.fieldWindow();
+}
+
 bool PreparedFor::hasLayersOf(const PreparedFor &other) const {
     return window == other.window && tolerance == other.tolerance &&
            interpolation == other.interpolation &&
@@ -90,7 +98,7 @@ PreparedFor LookPreparer::forgetVolume() {
     m_layersGivenUp.reset();
     m_full.reset();
     m_live = false;
-    PreparedFor wanted(m_document.scene());
+    PreparedFor wanted(m_document);
     wanted.window.reset(); // a new volume has its own
     wanted.look = {};
     return wanted;
@@ -102,7 +110,7 @@ void LookPreparer::expect(const PreparedFor &wanted) {
 }
 
 void LookPreparer::followScene() {
-    const PreparedFor wanted(m_document.scene());
+    const PreparedFor wanted(m_document);
     const auto &volume = m_document.volume();
     if (!volume || m_document.isPreview() || !volume->notes().placed || m_held ||
         wanted == m_underway || wanted == m_givenUp)
@@ -170,7 +178,7 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
                 m_layersOf = wanted;
                 if (isLast)
                     m_layersUnderway.reset();
-                const PreparedFor now(m_document.scene());
+                const PreparedFor now(m_document);
                 if (m_prepared && now != *m_prepared && now.hasLayersOf(wanted))
                     showLayers();
             });
@@ -183,7 +191,7 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
 }
 
 void LookPreparer::startPreparing(bool coarseFirst) {
-    const PreparedFor wanted(m_document.scene());
+    const PreparedFor wanted(m_document);
     m_rest.stop();
     m_jobs.start(tr("Preparing the projection"),
                  [this, volume = *m_document.volume(), wanted, coarseFirst](const Job &job) {

@@ -27,10 +27,8 @@ enum class EngineStage { coarse, live, full };
 /// What of a scene an engine is made for; the rest changes from frame to frame.
 struct PreparedFor {
     PreparedFor() = default;
-    explicit PreparedFor(const render::Scene &scene)
-        : window(scene.fieldWindow), look(scene.look), tolerance(scene.tolerance),
-          interpolation(scene.interpolation) {}
-    std::optional<classify::FieldWindow> window;
+    explicit PreparedFor(const Document &document);
+    std::optional<classify::FieldWindow> window; ///< none: the volume's own
     classify::Look look;
     double tolerance = 0.0;
     render::Interpolation interpolation;

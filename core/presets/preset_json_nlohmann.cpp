@@ -87,10 +87,12 @@ public:
         return true;
     }
     bool parse_error(std::size_t, const std::string &, const json::exception &error) override {
-        // "[tag] parse error at line 3, column 5: syntax error while ...: what"
+        // "[tag] parse error at line 3, column 5: what", or "[tag] what".
         const std::string text = error.what();
-        const auto reason = text.find(": ");
-        m_failure = reason == std::string::npos ? text : text.substr(reason + 2);
+        const auto tag = text.find("] ");
+        m_failure = tag == std::string::npos ? text : text.substr(tag + 2);
+        if (m_failure.rfind("parse error at", 0) == 0)
+            m_failure = m_failure.substr(m_failure.find(": ") + 2);
         return false;
     }
     int line() const { return m_line; }

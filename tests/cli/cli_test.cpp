@@ -269,6 +269,73 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
         EXPECT_EQ(written.value(at), expected.value(at));
 }
 
+TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
+    // A library of its own.
+    setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
+    const auto list = cli("preset list");
+    EXPECT_EQ(list.exitCode, 0);
+    EXPECT_NE(list.out.find("Bone over soft tissue"), std::string::npos);
+    EXPECT_GE(std::count(list.out.begin(), list.out.end(), '\n'), 15);
+    const fs::path file = folder / "bone.json";
+    ASSERT_EQ(cli("preset export Bone -o " + quoted(file)).exitCode, 0);
+    EXPECT_EQ(cli("preset validate " + quoted(file)).exitCode, 0);
+    EXPECT_NE(cli("preset show bone").out.find("pellucid-preset/1"), std::string::npos);
+    // What is built in stays; under another name it is kept, once.
+    EXPECT_EQ(cli("preset import " + quoted(file)).exitCode, 2);
+    EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine").exitCode, 0);
+    EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine").exitCode, 2);
+    EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine --replace").exitCode, 0);
+    EXPECT_NE(cli("preset list").out.find("Mine"), std::string::npos);
+
+    std::ofstream(folder / "bad.json") << "{\n  \"schema\": \"pellucid-preset/1\",\n"
+                                          "  \"name\": \"x\",\n  \"window\": [3]\n}\n";
+    const auto bad = cli("preset validate " + quoted(folder / "bad.json"));
+    EXPECT_EQ(bad.exitCode, 3);
+    EXPECT_NE(bad.error.find("bad.json: line 4: /window: must be two numbers"), std::string::npos)
+        << bad.error;
+    // One in the library is passed over with its reason; the others stay usable.
+    fs::copy_file(folder / "bad.json", folder / "data/pellucid/presets/bad.json");
+    const auto warned = cli("preset list");
+    EXPECT_EQ(warned.exitCode, 0);
+    EXPECT_NE(warned.error.find("bad.json: line 4"), std::string::npos) << warned.error;
+    EXPECT_NE(warned.out.find("Mine"), std::string::npos);
+    unsetenv("XDG_DATA_HOME");
+}
+
+TEST_F(Cli, APresetMakesThePictureThatItsClassesMake) {
+    const fs::path series = phantomFolder("--kind head --size 56x56x40");
+    const auto picture = [&](const std::string &options, const char *name) {
+        const fs::path out = folder / name;
+        const auto r = cli("render " + quoted(series) + " -o " + quoted(out) + " " + options);
+        EXPECT_EQ(r.exitCode, 0) << r.error;
+        int height = 0, width = 0, channels = 0;
+        return readNpy(out, height, width, channels);
+    };
+    std::ofstream(folder / "p.json")
+        << R"({"schema": "pellucid-preset/1", "name": "p", "window": [-900, 2000], "classes": [)"
+        << R"({"name": "Bone", "range": [250, 2500], "softness": 150, "weight": 0.7}]})";
+    EXPECT_EQ(picture("--preset " + quoted(folder / "p.json"), "preset.npy"),
+              picture("--class bone=0.7", "class.npy"));
+    // A scene says the same.
+    const auto unknown = cli("render " + quoted(series) + " -o x.png --preset Bonee");
+    EXPECT_EQ(unknown.exitCode, 2);
+    EXPECT_EQ(cli("render " + quoted(series) + " -o x.png --preset /nowhere/x.json").exitCode, 3);
+    // Edges, with steps of a class: where Canny finds them and nowhere else.
+    const fs::path nrrd = folder / "edges.nrrd";
+    ASSERT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --edges").exitCode, 0);
+    const auto edges = volume::readNrrd(nrrd);
+    std::size_t some = 0, count = 0;
+    edges.visit([&](auto samples) {
+        for (const auto e : samples) {
+            EXPECT_TRUE(e >= 0 && e <= 1);
+            some += e > 0;
+            ++count;
+        }
+    });
+    EXPECT_GT(some, count / 200);
+    EXPECT_LT(some, count / 4);
+}
+
 TEST_F(Cli, ScenesTurntablesAndFormats) {
     const fs::path series = phantomFolder("--kind ellipsoids --size 32x32x32");
     ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(folder / "turn.png") +

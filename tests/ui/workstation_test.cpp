@@ -7,19 +7,25 @@
 #include <fstream>
 
 #include <QComboBox>
+#include <QDialog>
+#include <QDoubleSpinBox>
 #include <QDropEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMimeData>
 #include <QPushButton>
+#include <QSlider>
 #include <QStandardPaths>
+#include <QStyleOptionSlider>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #include "core/dicom/write_series.h"
 #include "core/phantom/phantom.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/main_window.h"
+#include "ui/panels/curve_editor.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
 
@@ -49,6 +55,24 @@ double meanGrey(const QImage &image) {
         for (int x = 0; x < image.width(); ++x)
             sum += qGray(image.pixel(x, y));
     return sum / (double(image.width()) * image.height());
+}
+
+// The mean distance of the channels from each other.
+double colorfulness(const QImage &image) {
+    double sum = 0.0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const QRgb p = image.pixel(x, y);
+            sum +=
+                std::max({qRed(p), qGreen(p), qBlue(p)}) - std::min({qRed(p), qGreen(p), qBlue(p)});
+        }
+    return sum / (double(image.width()) * image.height());
+}
+
+void moveMouse(QWidget *widget, QPoint to) {
+    QMouseEvent move(QEvent::MouseMove, to, widget->mapToGlobal(to), Qt::NoButton, Qt::NoButton,
+                     Qt::NoModifier);
+    QCoreApplication::sendEvent(widget, &move);
 }
 
 double meanGrey(const QImage &image, const QRect &area) {
@@ -94,6 +118,8 @@ private slots:
     void initTestCase() {
         QStandardPaths::setTestModeEnabled(true);
         QSettings().clear();
+        // The user's own presets stay out of it.
+        qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "data").string()));
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});
         dicom::writeCtSeries(
@@ -265,6 +291,147 @@ private slots:
                                  patienceMs);
     }
 
+    void aBentSegmentIsShownUndoneSavedAndFoundAgain() {
+        open(headPath());
+        auto *editor = find<ui::CurveEditor>("curveEditor");
+        const QImage before = projection()->picture();
+        // The segment under the mouse is framed, and what the curve weighs there is told.
+        const QImage calm = editor->grab().toImage();
+        const QPoint handle = editor->handleAt(1).toPoint();
+        moveMouse(editor, handle);
+        QTRY_VERIFY(changed(calm, editor->grab().toImage()) > 0.005);
+        // Bone and the brain are dense: the second of six segments is skin and fat, the third
+        // water.
+        dragMouse(editor, Qt::LeftButton, editor->handleAt(2).toPoint(), {0, 200});
+        const auto &weights = m_window->document().scene().look.transferFunction.weights;
+        QCOMPARE(weights[2], 0.0);
+        QCOMPARE(m_window->document().undoStack()->count(), 1); // one drag, one step
+        settle();
+        QVERIFY(changed(before, projection()->picture()) > 0.02);
+        save("transfer_function");
+        // A typed weight, and a double-click that resets it.
+        auto *weight = find<QDoubleSpinBox>("weightBox");
+        weight->setValue(1.5);
+        QCOMPARE(weights[2], 1.5);
+        QTest::mouseDClick(editor, Qt::LeftButton, Qt::NoModifier, editor->handleAt(2).toPoint());
+        QCOMPARE(weights[2], 1.0);
+        find<QAction>("undoAction")->trigger();
+        find<QAction>("undoAction")->trigger();
+        QCOMPARE(weights[2], 0.0);
+        // More points hold the same curve.
+        find<QSpinBox>("pointsBox")->setValue(9);
+        QCOMPARE(int(weights.size()), 9);
+        settle();
+        find<QAction>("undoAction")->trigger();
+        QCOMPARE(int(weights.size()), 6);
+        // Copied, reset and pasted.
+        QTest::mouseClick(find<QPushButton>("copyCurveButton"), Qt::LeftButton);
+        QTest::mouseClick(find<QPushButton>("resetCurveButton"), Qt::LeftButton);
+        QVERIFY(m_window->document().scene().look == classify::Look());
+        QTest::mouseClick(find<QPushButton>("pasteCurveButton"), Qt::LeftButton);
+        QCOMPARE(weights[2], 0.0);
+        // Two clicks keep the look.
+        QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
+        QTest::mouseClick(find<QPushButton>("keepLookButton"), Qt::LeftButton);
+        auto *gallery = find<QListWidget>("presetGallery");
+        QCOMPARE(int(gallery->findItems("Own look 1", Qt::MatchExactly).size()), 1);
+        while (m_window->document().undoStack()->canUndo())
+            find<QAction>("undoAction")->trigger();
+        settle();
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+
+        // Another day: it is there, and shows the same.
+        cleanup();
+        init();
+        open(headPath());
+        gallery = find<QListWidget>("presetGallery");
+        const auto found = gallery->findItems("Own look 1", Qt::MatchExactly);
+        QCOMPARE(int(found.size()), 1);
+        gallery->scrollToItem(found.front());
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(found.front()).center());
+        QCOMPARE(m_window->document().scene().look.transferFunction.weights[2], 0.0);
+        settle();
+        QVERIFY(changed(before, projection()->picture()) > 0.02);
+        find<QAction>("undoAction")->trigger();
+        QVERIFY(m_window->document().scene().look == classify::Look());
+    }
+
+    void presetsShowClassesInColourAndTheirWeightsMoveThePicture() {
+        open(headPath());
+        auto *gallery = find<QListWidget>("presetGallery");
+        // Pictures of the open study come by themselves; MR presets are not offered for CT.
+        const auto item = [&](const char *name) {
+            const auto items = gallery->findItems(name, Qt::MatchExactly);
+            return items.isEmpty() ? nullptr : items.front();
+        };
+        QVERIFY(item("MR: brain") == nullptr);
+        QTRY_VERIFY_WITH_TIMEOUT(meanGrey(item("Bone")->icon().pixmap(60, 52).toImage()) > 3.0,
+                                 patienceMs);
+        gallery->scrollToItem(item("Bone over soft tissue"));
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(item("Bone over soft tissue")).center());
+        settle();
+        const QImage colored = projection()->picture();
+        QVERIFY2(colorfulness(colored) > 2.0, "bone is ivory, soft tissue blue");
+        QCOMPARE(int(m_window->document().scene().look.classes.size()), 2);
+
+        // The weight of soft tissue by its slider: the picture follows, one drag is one step.
+        auto *slider = find<QSlider>("classSlider1");
+        const int count = m_window->document().undoStack()->count();
+        QStyleOptionSlider option;
+        option.initFrom(slider);
+        option.minimum = slider->minimum();
+        option.maximum = slider->maximum();
+        option.sliderPosition = option.sliderValue = slider->value();
+        const QRect knob = slider->style()->subControlRect(QStyle::CC_Slider, &option,
+                                                           QStyle::SC_SliderHandle, slider);
+        dragMouse(slider, Qt::LeftButton, knob.center(), {40, 0});
+        QVERIFY(m_window->document().scene().look.classes[1].weight > 0.8);
+        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
+        settle();
+        QVERIFY(changed(colored, projection()->picture()) > 0.02);
+        save("classes");
+        // The dot hides it and brings it back as it was.
+        const double weight = m_window->document().scene().look.classes[1].weight;
+        QTest::mouseClick(find<QToolButton>("classEye1"), Qt::LeftButton);
+        QCOMPARE(m_window->document().scene().look.classes[1].weight, 0.0);
+        settle();
+        QVERIFY2(colorfulness(projection()->picture()) < colorfulness(colored), "bone alone");
+        QTest::mouseClick(find<QToolButton>("classEye1"), Qt::LeftButton);
+        QCOMPARE(m_window->document().scene().look.classes[1].weight, weight);
+
+        // A range is edited with a tint on the planes.
+        const QImage plane = grab("axialView");
+        QTest::mouseDClick(find<QWidget>("classRow0"), Qt::LeftButton, Qt::NoModifier, {40, 8});
+        auto *dialog = find<QDialog>("classDialog");
+        find<QDoubleSpinBox>("classLowBox")->setValue(-100.0);
+        QTRY_VERIFY(colorfulness(grab("axialView")) > colorfulness(plane) + 2.0);
+        save("class_tint");
+        dialog->accept();
+        QTRY_VERIFY(colorfulness(grab("axialView")) < colorfulness(plane) + 1.0);
+        QCOMPARE(m_window->document().scene().look.classes[0].low, -100.0);
+        settle();
+        while (m_window->document().undoStack()->canUndo())
+            find<QAction>("undoAction")->trigger();
+        QVERIFY(m_window->document().scene().look == classify::Look());
+        settle();
+        QVERIFY(colorfulness(projection()->picture()) < 0.01);
+    }
+
+    void aPresetThatCannotBeKeptIsRefusedAndNothingIsLost() {
+        open(headPath());
+        QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
+        auto *name = find<QLineEdit>("lookNameEdit");
+        name->setText("X-ray");
+        QTest::keyClick(name, Qt::Key_Return);
+        QVERIFY(find<QLabel>("presetSaid")->isVisible());
+        QVERIFY(find<QLabel>("presetSaid")->text().contains("comes with the program"));
+        QVERIFY(name->isVisible()); // still there, to be given another name
+        QTest::keyClick(name, Qt::Key_Escape);
+        QVERIFY(!name->isVisible());
+    }
+
     void aPaneFillsTheWindowByDoubleClick() {
         open(headPath());
         auto *axial = find<QWidget>("axialView");
@@ -382,6 +549,12 @@ private:
 
     void open(const QString &path) {
         drop(*m_window, {QUrl::fromLocalFile(path)});
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
+                                 patienceMs);
+    }
+
+    // What the scene asks for is there.
+    void settle() {
         QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
                                  patienceMs);
     }

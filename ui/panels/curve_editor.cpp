@@ -176,6 +176,7 @@ void CurveEditor::mousePressEvent(QMouseEvent *event) {
         return;
     const int segment = segmentAt(event->position().x());
     m_dragging = true;
+    m_hovered = segment;
     m_drag = nextDragId();
     m_dragFromY = event->position().y();
     m_dragFromWeight = m_function.weights[std::size_t(segment)];

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/presets/preset_library.h"
+
+#include <csignal>
+#include <fstream>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "core/task/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid {
+namespace {
+
+using presets::Preset;
+using presets::PresetLibrary;
+
+Preset named(const std::string &name, double weight = 1.0) {
+    Preset preset;
+    preset.name = name;
+    preset.look.transferFunction.weights = {0.0, weight};
+    return preset;
+}
+
+std::size_t filesIn(const std::filesystem::path &folder) {
+    return std::size_t(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(PresetLibrary, BuiltInPresetsAreEnoughAndAllValid) {
+    const PresetLibrary library{std::filesystem::path()};
+    int ct = 0, mr = 0;
+    for (const auto &entry : library.entries()) {
+        EXPECT_TRUE(entry.isBuiltIn());
+        ct += entry.preset.modality == "CT";
+        mr += entry.preset.modality == "MR";
+    }
+    EXPECT_GE(ct, 12);
+    EXPECT_GE(mr, 3);
+    EXPECT_NE(library.find("x-RAY"), nullptr);
+}
+
+TEST(PresetLibrary, SavesReplacesFindsAndRemoves) {
+    test::TemporaryFolder folder;
+    PresetLibrary library(folder / "presets"); // made when it is needed
+    library.save(named("Mine", 0.5));
+    library.save(named("mine", 1.5));
+    PresetLibrary again(folder / "presets");
+    ASSERT_NE(again.find("Mine"), nullptr);
+    EXPECT_EQ(again.get("Mine").preset.look.transferFunction.weights[1], 1.5);
+    EXPECT_EQ(filesIn(folder / "presets"), 1U);
+    // Names that look alike to a file system stay apart.
+    again.save(named("a/b"));
+    again.save(named("a\\b"));
+    again.save(named("骨"));
+    EXPECT_EQ(PresetLibrary(folder / "presets").entries().size(),
+              PresetLibrary({}).entries().size() + 4);
+    again.remove("a/b");
+    EXPECT_EQ(again.find("a/b"), nullptr);
+    EXPECT_NE(again.find("a\\b"), nullptr);
+    EXPECT_THROW(again.get("nothing of the kind"), task::Error);
+}
+
+TEST(PresetLibrary, BuiltInOnesStay) {
+    test::TemporaryFolder folder;
+    PresetLibrary library(folder / "presets");
+    EXPECT_THROW(library.save(named("Bone")), task::Error);
+    EXPECT_THROW(library.remove("Bone"), task::Error);
+    EXPECT_THROW(library.save(named("")), task::Error);
+}
+
+TEST(PresetLibrary, ABadFileIsPassedOverWithItsReason) {
+    test::TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "presets");
+    std::ofstream(folder / "presets/broken.json") << "{\n\"schema\": ";
+    std::ofstream(folder / "presets/.half.json.abc") << "{";
+    std::ofstream(folder / "presets/notes.txt") << "hello";
+    PresetLibrary library(folder / "presets");
+    library.save(named("Mine"));
+    ASSERT_EQ(library.skipped().size(), 1U);
+    EXPECT_EQ(library.skipped()[0].path.filename(), "broken.json");
+    EXPECT_EQ(library.skipped()[0].reason.rfind("line 2: ", 0), 0U) << library.skipped()[0].reason;
+    EXPECT_NE(library.find("Mine"), nullptr);
+    EXPECT_TRUE(std::filesystem::exists(folder / "presets/broken.json"));
+}
+
+TEST(PresetLibrary, AFolderThatCannotBeWrittenIsNamed) {
+    test::TemporaryFolder folder;
+    // A file where the folder should be: no permission of any user makes it one.
+    std::ofstream(folder / "presets") << "in the way";
+    PresetLibrary library(folder / "presets");
+    try {
+        library.save(named("Mine"));
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::output);
+    }
+}
+
+// A full disk, as a limit on the size of files: the former preset is there unharmed.
+TEST(PresetLibrary, AFullDiskLosesNothing) {
+    test::TemporaryFolder folder;
+    PresetLibrary library(folder / "presets");
+    library.save(named("Mine", 0.5));
+    Preset longer = named("Mine", 1.5);
+    longer.notes = std::string(60000, 'x');
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    rlimit small = before;
+    small.rlim_cur = 20000;
+    setrlimit(RLIMIT_FSIZE, &small);
+    EXPECT_THROW(library.save(longer), task::Error);
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(filesIn(folder / "presets"), 1U);
+    EXPECT_EQ(PresetLibrary(folder / "presets").get("Mine").preset.look.transferFunction.weights[1],
+              0.5);
+}
+
+} // namespace
+} // namespace pellucid
