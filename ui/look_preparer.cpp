@@ -104,6 +104,12 @@ PreparedFor LookPreparer::forgetVolume() {
     return wanted;
 }
 
+void LookPreparer::adopt(const PreparedFor &preparedFor, const render::PreparedEngine &engine) {
+    m_prepared = preparedFor;
+    m_full = engine;
+    emit engineReady(engine, EngineStage::full);
+}
+
 void LookPreparer::expect(const PreparedFor &wanted) {
     m_underway = wanted;
     m_givenUp.reset();
@@ -152,7 +158,7 @@ void LookPreparer::showLayers() {
     m_live = true;
     emit engineReady({std::make_shared<render::MixtureEngine>(
                           m_layers, classify::mixtureOf(m_document.scene().look).shares),
-                      m_layers->plan()},
+                      m_layers->plan(), m_layers->bytes()},
                      EngineStage::live);
 }
 

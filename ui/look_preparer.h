@@ -54,6 +54,11 @@ public:
 
     /// A new volume comes: what was made is forgotten. What its engine will be made for.
     PreparedFor forgetVolume();
+    /// What the last full engine was made for, and the engine, if there is one.
+    const std::optional<PreparedFor> &preparedFor() const { return m_prepared; }
+    const std::optional<render::PreparedEngine> &fullEngine() const { return m_full; }
+    /// Shows an engine that was made before.
+    void adopt(const PreparedFor &preparedFor, const render::PreparedEngine &engine);
     /// The job that was just started makes an engine for it.
     void expect(const PreparedFor &wanted);
     /// Within a job: makes engines and hands them over. The part of its progress beyond `from`.

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/dicom/scan.h"
+#include "core/task/memory.h"
 #include "ui/document.h"
 #include "ui/job_runner.h"
 #include "ui/look_preparer.h"
@@ -20,6 +21,37 @@ StudyOpener::StudyOpener(Document &document, JobRunner &jobs, LookPreparer &prep
 
 void StudyOpener::endScan() {
     m_preparer.setHeld(false);
+}
+
+void StudyOpener::keepCurrent() {
+    const auto &volume = m_document.volume();
+    if (!volume || m_document.isPreview() || m_document.currentSource() < 0)
+        return;
+    m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
+                 m_document.defaultFieldWindow(), m_document.scene(), m_preparer.preparedFor(),
+                 m_preparer.fullEngine()});
+    // Half of what there is belongs to what comes.
+    m_kept.trim((task::availableMemoryBytes() + m_kept.bytes()) / 2);
+}
+
+bool StudyOpener::showKept(int index) {
+    const auto kept = m_kept.take(index);
+    if (!kept)
+        return false;
+    m_document.setVolume(kept->volume, kept->initialWindow, kept->fieldWindow, false);
+    render::Scene scene = kept->scene;
+    // The pane may have another size by now; the picture's quality is the person's, not the
+    // study's.
+    scene.camera = m_document.scene().camera;
+    scene.camera.orientation = kept->scene.camera.orientation;
+    scene.camera.panMm = kept->scene.camera.panMm;
+    scene.tolerance = m_document.scene().tolerance;
+    scene.interpolation = m_document.scene().interpolation;
+    if (kept->engine)
+        m_preparer.adopt(*kept->preparedFor, *kept->engine);
+    m_document.setScene(scene);
+    m_preparer.prepareAgain(); // what changed, or was dropped
+    return true;
 }
 
 void StudyOpener::openPaths(const QStringList &paths) {
@@ -64,9 +96,12 @@ void StudyOpener::openSource(int index) {
     const StudySource source = m_document.sources().at(std::size_t(index));
     // First, because the end of the former job tidies up after it.
     m_jobs.cancel();
+    keepCurrent();
     const PreparedFor wanted = m_preparer.forgetVolume();
     m_document.setCurrentSource(index);
     m_document.closeVolume();
+    if (showKept(index))
+        return;
     m_jobs.start(tr("Loading %1").arg(source.series), [this, source, wanted](const Job &job) {
         dicom::LoadObserver observer;
         observer.preview = [&](const volume::Volume &soFar) {

@@ -4,11 +4,12 @@
 #include <QObject>
 #include <QStringList>
 
+#include "ui/kept_studies.h"
+
 namespace pellucid::ui {
 
 class Document;
 class JobRunner;
-class LookPreparer;
 
 /// The way from a path to a turning picture, as jobs: scan, choose, load with previews, and have
 /// the projection prepared.
@@ -30,10 +31,13 @@ signals:
 
 private:
     void endScan();
+    void keepCurrent();
+    bool showKept(int index);
 
     Document &m_document;
     JobRunner &m_jobs;
     LookPreparer &m_preparer;
+    KeptStudies m_kept;
 };
 
 } // namespace pellucid::ui

@@ -24,6 +24,9 @@ void runScalingSuite(const Report &report, const Subject *given);
 void runHardSuite(const Report &report);
 /// Cheng 2007, tables 4.1 to 4.6.
 void runThesisSuite(const Report &report);
+/// Looks on 128^3 and 256^3: what weights, colours and control points cost in each of the three
+/// uses of linearity.
+void runClassesSuite(const Report &report);
 /// Totsuka and Levoy 1993, table 1, and their adaptive filter.
 void runTotsukaSuite(const Report &report);
 

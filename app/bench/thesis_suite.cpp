@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "app/bench/suites.h"
+#include "app/bench/look_rows.h"
 
 namespace pellucid::bench {
 
@@ -52,53 +51,16 @@ Subject headOf(const volume::GridSize &size) {
     return phantomSubject("head", phantom::Kind::head, {.size = size});
 }
 
-// f times one Bernstein polynomial of the default six control points.
-Subject bezierBasis(const Subject &head, int index) {
-    constexpr int degree = 5;
-    constexpr double binomial[] = {1, 5, 10, 10, 5, 1};
-    std::vector<float> samples;
-    head.field.values.visit([&](auto values) {
-        for (const auto value : values) {
-            const double f = double(value);
-            samples.push_back(float(f * binomial[index] * std::pow(f, index) *
-                                    std::pow(1.0 - f, degree - index)));
-        }
-    });
-    return {
-        head.name,
-        {volume::Volume(head.field.values.lattice(), std::move(samples), volume::ValueUnit::none),
-         head.field.support}};
-}
-
-// Table 4.6: six basis volumes, a slice of each in every frame.
+// Table 4.6: six basis volumes, a slice of each in every frame; and what the default makes of it.
 void measureTransferFunction(const Report &report, int n, double seconds, double framesPerSecond) {
-    const Subject head = headOf({n, n, n});
-    Measurement how;
-    how.scene.camera = squareCamera(head.field.values.lattice(), n);
-    how.scene.interpolation.kernel = fourier::kernelFromName("trilinear");
-    how.scene.interpolation.padding = 1.0;
-    how.transform = false;
-    Row sum;
-    for (int index = 0; index < 6; ++index) {
-        const Subject basis = bezierBasis(head, index);
-        Truth none(basis, how.scene.camera, 0);
-        const Row row =
-            measure("thesis", "4.6 transfer function, six slices a frame", basis, none, how);
-        if (index == 0) {
-            sum = row;
-            continue;
-        }
-        *sum.prepareMs += *row.prepareMs;
-        *sum.sliceMs += *row.sliceMs;
-        *sum.transformMs += *row.transformMs;
-        *sum.frameMs += *row.frameMs;
-        *sum.bytes += *row.bytes;
-    }
-    sum.predictedError.reset(); // of a sum of six
-    sum.predictedMax.reset();
-    sum.note = publishedText(seconds, framesPerSecond) +
-               "; with fixed weights one combined spectrum serves, at the price of the rows above";
-    report(sum);
+    LookSubject subject(n);
+    classify::Look look;
+    look.transferFunction.weights = {0.0, 0.5, 2.0, 1.0, 0.5, 2.0};
+    const std::string published = publishedText(seconds, framesPerSecond);
+    reportLook(report, "thesis", "default six points", subject, look, published);
+    subject.scene.interpolation.kernel = fourier::kernelFromName("trilinear");
+    subject.scene.interpolation.padding = 1.0;
+    reportLook(report, "thesis", "4.6 six points", subject, look, published);
 }
 
 } // namespace

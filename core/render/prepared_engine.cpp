@@ -109,7 +109,9 @@ PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fi
     FittingPlan fitting =
         planWithin(scene, fields.channels, summarise(fields.channels), budget, progress);
     const auto &sources = fitting.reducedFields.empty() ? fields.channels : fitting.reducedFields;
-    return {makeEngine(sources, fields.color, fitting.plan, progress), std::move(fitting.plan)};
+    auto engine = makeEngine(sources, fields.color, fitting.plan, progress);
+    const std::size_t bytes = engine->bytes();
+    return {std::move(engine), std::move(fitting.plan), bytes};
 }
 
 } // namespace pellucid::render

@@ -31,6 +31,7 @@ FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityFiel
 struct PreparedEngine {
     std::shared_ptr<ProjectionEngine> engine;
     RenderPlan plan;
+    std::size_t bytes = 0; ///< of its spectra
 };
 
 /// An engine for the channels of a look whose spectra, of one layout, are prepared by a plan.

@@ -24,8 +24,10 @@
 #include "core/dicom/write_series.h"
 #include "core/phantom/phantom.h"
 #include "tests/support/temporary_folder.h"
+#include "ui/kept_studies.h"
 #include "ui/main_window.h"
 #include "ui/panels/curve_editor.h"
+#include "ui/panels/series_panel.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
 
@@ -430,6 +432,50 @@ private slots:
         QVERIFY(name->isVisible()); // still there, to be given another name
         QTest::keyClick(name, Qt::Key_Escape);
         QVERIFY(!name->isVisible());
+    }
+
+    void aStudyThatWasOpenComesBackAtOnceAsItWas() {
+        open(headPath());
+        auto *gallery = find<QListWidget>("presetGallery");
+        const auto bone = gallery->findItems("Bone", Qt::MatchExactly).front();
+        gallery->scrollToItem(bone);
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(bone).center());
+        settle();
+        const QImage before = projection()->picture();
+        find<QAction>("chestPhantomAction")->trigger();
+        QTRY_VERIFY(m_window->document().currentSource() == 1);
+        settle();
+        QVERIFY(m_window->document().scene().look == classify::Look()); // a study of its own
+        emit find<ui::SeriesPanel>("seriesPanel")->sourceActivated(0);
+        QVERIFY(!m_window->jobs().isRunning());
+        QVERIFY(!m_window->document().scene().look.classes.empty());
+        settle();
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+    }
+
+    void ofKeptStudiesTheSpectraGoFirstAndTheOldestFirst() {
+        const auto lattice =
+            phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 32}});
+        const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
+        render::Scene scene;
+        scene.camera = render::defaultCamera(lattice);
+        const auto engine =
+            render::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
+        ui::KeptStudies kept;
+        for (int source = 0; source < 3; ++source)
+            kept.keep({source, volume, {}, {}, scene, ui::PreparedFor(), engine});
+        const std::size_t one = volume.bytes() + engine.bytes;
+        QCOMPARE(kept.bytes(), 3 * one);
+        kept.trim(3 * one - 1);
+        QCOMPARE(int(kept.count()), 3); // a spectrum went
+        QVERIFY(!kept.take(0)->engine);
+        QVERIFY(kept.take(2)->engine);
+        kept.trim(volume.bytes());
+        QCOMPARE(int(kept.count()), 1);
+        QVERIFY(!kept.take(1)->engine);
+        QVERIFY(!kept.take(1));
+        QCOMPARE(kept.bytes(), std::size_t(0));
     }
 
     void aPaneFillsTheWindowByDoubleClick() {

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/bench/look_rows.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/classify/layers.h"
+#include "core/classify/shown_fields.h"
+#include "core/render/layer_set.h"
+
+namespace pellucid::bench {
+
+namespace {
+
+constexpr int views = 48;
+// Weight changes at each of the views that stand still.
+constexpr int stillViews = 6, changes = 8;
+
+Row rowOf(const std::string &suite, const std::string &name, const LookSubject &subject,
+          const render::RenderPlan &plan) {
+    const int width = plan.spectrum.width();
+    Row row{suite,
+            name,
+            subject.volume.lattice().size(),
+            "cpu",
+            plan.spectrum.kernels[0].name(),
+            width * width * width,
+            double(plan.spectrum.padded.i) / plan.spectrum.box.size().i,
+            fourier::storageName(plan.spectrum.storage),
+            thisMachine().threads};
+    row.predictedError = plan.predictedError;
+    row.predictedMax = plan.predictedMaximum;
+    if (subject.scene.interpolation == render::Interpolation())
+        row.tolerance = subject.scene.tolerance;
+    return row;
+}
+
+render::Camera truthCamera(const LookSubject &subject) {
+    render::Camera camera = subject.scene.camera;
+    camera.orientation = randomViews(1, 11).front();
+    return camera;
+}
+
+// The channels of the exact picture, interleaved.
+std::vector<double> exactImage(const LookSubject &subject, const classify::ShownFields &fields) {
+    const render::Camera camera = truthCamera(subject);
+    std::vector<std::vector<double>> planes;
+    for (const classify::DensityField &field : fields.channels)
+        planes.push_back(
+            reference::WideKernel(field.values, field.support).image(camera, subject.scene.image));
+    if (fields.isGrey())
+        return planes.front();
+    const std::array<double, 3> color{fields.color.red, fields.color.green, fields.color.blue};
+    std::vector<double> image;
+    for (std::size_t n = 0; n < planes.front().size(); ++n)
+        for (std::size_t c = 0; c < 3; ++c)
+            image.push_back(planes.size() == 1 ? color[c] * planes.front()[n] : planes[c][n]);
+    return image;
+}
+
+void fillError(Row &row, const render::ProjectionImage &image, const std::vector<double> &exact) {
+    const ImageError error = compare(image.samples, exact);
+    row.relativeL2 = error.relativeL2;
+    row.maxError = error.maximum;
+    row.psnrDb = error.psnrDb;
+}
+
+void fillTimes(Row &row, render::ProjectionEngine &engine, const LookSubject &subject) {
+    render::Camera camera = subject.scene.camera;
+    std::vector<double> slice, transform, frame;
+    for (const glm::dquat &orientation : randomViews(views)) {
+        camera.orientation = orientation;
+        render::FrameTimes times;
+        const double start = millisecondsNow();
+        engine.render(camera, subject.scene.image, &times);
+        frame.push_back(millisecondsNow() - start);
+        slice.push_back(times.sliceMs);
+        transform.push_back(times.transformMs);
+    }
+    row.sliceMs = median(slice);
+    row.transformMs = median(transform);
+    row.frameMs = median(frame);
+}
+
+} // namespace
+
+LookSubject::LookSubject(int side)
+    : volume(phantom::makePhantom(
+          phantom::Kind::head,
+          phantom::phantomLattice(phantom::Kind::head,
+                                  {.size = volume::GridSize{side, side, side}}))),
+      window(classify::defaultFieldWindow(volume)) {
+    scene.camera = squareCamera(volume.lattice(), side);
+}
+
+void reportLook(const Report &report, const std::string &suite, const std::string &name,
+                const LookSubject &subject, const classify::Look &look, const std::string &note) {
+    const auto fields = classify::shownFields(subject.volume, subject.window, look, nullptr);
+    const std::vector<double> exact = exactImage(subject, fields);
+    const auto mixture = classify::mixtureOf(look);
+    {
+        double start = millisecondsNow();
+        // The fields are part of what a change of a range costs.
+        const auto prepared = render::prepareEngine(
+            subject.scene, classify::shownFields(subject.volume, subject.window, look, nullptr),
+            {});
+        Row row = rowOf(suite, name + ", settled", subject, prepared.plan);
+        row.prepareMs = millisecondsNow() - start;
+        row.bytes = double(fields.channels.size()) * double(prepared.plan.spectrum.bytes());
+        fillTimes(row, *prepared.engine, subject);
+        fillError(row, prepared.engine->render(truthCamera(subject), subject.scene.image), exact);
+        row.note = note;
+        report(row);
+    }
+    double start = millisecondsNow();
+    const auto layers = render::LayerSet::prepare(
+        subject.scene, mixture.layers.size(),
+        [&](std::size_t n, const task::Progress &progress) {
+            return classify::layerField(subject.volume, subject.window, mixture.layers[n], nullptr,
+                                        progress);
+        },
+        {});
+    Row summed = rowOf(suite, name + ", both move", subject, layers->plan());
+    summed.prepareMs = millisecondsNow() - start;
+    summed.bytes = double(layers->bytes());
+    Row kept = summed;
+    kept.name = name + ", weights move";
+    render::MixtureEngine engine(layers, mixture.shares);
+    fillTimes(summed, engine, subject);
+    fillError(summed, engine.render(truthCamera(subject), subject.scene.image), exact);
+    summed.note = note;
+    report(summed);
+
+    std::vector<double> first, later;
+    render::Camera camera = subject.scene.camera;
+    auto shares = mixture.shares;
+    for (const glm::dquat &orientation : randomViews(stillViews)) {
+        camera.orientation = orientation;
+        layers->render(camera, subject.scene.image, shares);
+        for (int change = 0; change < changes; ++change) {
+            for (double &share : shares[std::size_t(change) % shares.size()])
+                share *= 0.98;
+            start = millisecondsNow();
+            layers->render(camera, subject.scene.image, shares);
+            (change == 0 ? first : later).push_back(millisecondsNow() - start);
+        }
+    }
+    layers->render(truthCamera(subject), subject.scene.image, mixture.shares);
+    fillError(kept, layers->render(truthCamera(subject), subject.scene.image, mixture.shares),
+              exact);
+    kept.frameMs = median(later);
+    kept.note = fmt::format("{}{}the first change at a view {:.1f} ms", note,
+                            note.empty() ? "" : "; ", median(first));
+    report(kept);
+}
+
+} // namespace pellucid::bench
