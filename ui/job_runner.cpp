@@ -84,6 +84,11 @@ void JobRunner::start(const QString &title, Work work) {
          })});
 }
 
+void JobRunner::join() {
+    cancel();
+    m_threads.clear();
+}
+
 void JobRunner::cancel() {
     for (Thread &t : m_threads)
         t.thread.request_stop();

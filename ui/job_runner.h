@@ -43,6 +43,8 @@ public:
 
     void start(const QString &title, Work work);
     void cancel();
+    /// Cancels and waits until no work runs any more.
+    void join();
     bool isRunning() const { return m_running; }
 
 signals:

@@ -20,6 +20,8 @@ struct KeptStudy {
     /// Its projection, unless it was dropped or never made.
     std::optional<PreparedFor> preparedFor;
     std::optional<render::PreparedEngine> engine;
+    volume::ValueWindow displayWindow;
+    volume::PatientPoint crosshair;
 
     std::size_t bytes() const;
 };

@@ -69,7 +69,7 @@ LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
         if (m_layersUnderway)
             m_rest.start();
         else
-            followScene();
+            settle();
     });
     connect(&document, &Document::sceneChanged, this, &LookPreparer::followScene);
     // Done or cancelled: what was not delivered is not there.
@@ -97,7 +97,7 @@ PreparedFor LookPreparer::forgetVolume() {
     m_layersOf.reset();
     m_layersGivenUp.reset();
     m_full.reset();
-    m_live = false;
+    m_shown.reset();
     PreparedFor wanted(m_document);
     wanted.window.reset(); // a new volume has its own
     wanted.look = {};
@@ -107,7 +107,24 @@ PreparedFor LookPreparer::forgetVolume() {
 void LookPreparer::adopt(const PreparedFor &preparedFor, const render::PreparedEngine &engine) {
     m_prepared = preparedFor;
     m_full = engine;
-    emit engineReady(engine, EngineStage::full);
+    showFull();
+}
+
+void LookPreparer::showFull() {
+    // After the layers the brightness is still theirs.
+    const EngineStage stage =
+        m_shown == EngineStage::live ? EngineStage::settled : EngineStage::full;
+    m_shown = stage;
+    emit engineReady(*m_full, stage);
+}
+
+void LookPreparer::stopOwnJob() {
+    // Nobody gave up what the program itself stops.
+    if (!m_underway && !m_layersUnderway)
+        return;
+    m_underway.reset();
+    m_layersUnderway.reset();
+    m_jobs.cancel();
 }
 
 void LookPreparer::expect(const PreparedFor &wanted) {
@@ -125,27 +142,28 @@ void LookPreparer::followScene() {
         // Back to what is there: nothing else is wanted any more.
         m_rest.stop();
         if (m_underway)
-            m_jobs.cancel();
-        if (m_live && m_full) {
-            m_live = false;
-            emit engineReady(*m_full, EngineStage::full);
-        }
+            stopOwnJob();
+        if (m_shown == EngineStage::live || m_shown == EngineStage::coarse)
+            showFull();
         return;
     }
-    const bool onlyWeights = m_prepared && wanted.hasLayersOf(*m_prepared);
-    const bool rested = QObject::sender() == &m_rest;
-    if (onlyWeights && !rested)
+    if (m_prepared && wanted.hasLayersOf(*m_prepared))
         followWeights(wanted);
     else
-        startPreparing(!onlyWeights);
+        startPreparing(true);
+}
+
+void LookPreparer::settle() {
+    const PreparedFor wanted(m_document);
+    if (m_document.volume() && !m_document.isPreview() && !m_held && wanted != m_prepared &&
+        wanted != m_underway && wanted != m_givenUp)
+        startPreparing(false);
 }
 
 void LookPreparer::followWeights(const PreparedFor &wanted) {
     // An engine of a former sum is no longer wanted, and takes the hand's time.
-    if (m_underway) {
-        m_underway.reset();
-        m_jobs.cancel();
-    }
+    if (m_underway)
+        stopOwnJob();
     if (m_layers && m_layersOf->hasLayersOf(wanted))
         showLayers();
     else if (!(m_layersUnderway && m_layersUnderway->hasLayersOf(wanted)) &&
@@ -155,7 +173,7 @@ void LookPreparer::followWeights(const PreparedFor &wanted) {
 }
 
 void LookPreparer::showLayers() {
-    m_live = true;
+    m_shown = EngineStage::live;
     emit engineReady({std::make_shared<render::MixtureEngine>(
                           m_layers, classify::mixtureOf(m_document.scene().look).shares),
                       m_layers->plan(), m_layers->bytes()},
@@ -163,23 +181,23 @@ void LookPreparer::showLayers() {
 }
 
 void LookPreparer::startLayers(const PreparedFor &wanted) {
+    stopOwnJob();
     m_layers.reset();
     m_layersOf.reset();
     m_jobs.start(tr("Preparing the parts of the look"), [this, volume = *m_document.volume(),
                                                          wanted, steps = m_steps](const Job &job) {
         const auto mixture = classify::mixtureOf(wanted.look);
         const classify::FieldWindow window = windowOf(volume, wanted);
-        const auto announce = [&](int side, const task::Progress &progress) {
+        const auto announce = [&](const volume::Volume &of, bool isLast,
+                                  const task::Progress &progress) {
             const auto layers = render::LayerSet::prepare(
-                planningScene(volume, wanted), mixture.layers.size(),
+                planningScene(of, wanted), mixture.layers.size(),
                 [&](std::size_t n, const task::Progress &p) {
-                    auto field =
-                        classify::layerField(volume, window, mixture.layers[n], steps.get(), p);
-                    return side > 0 ? classify::coarseField(field, side) : field;
+                    return classify::layerField(of, window, mixture.layers[n], steps.get(), p);
                 },
                 // Half of it: engines of the sum are to come.
                 {task::availableMemoryBytes() / 2}, progress);
-            job.deliver([this, layers, wanted, isLast = side == 0] {
+            job.deliver([this, layers, wanted, isLast] {
                 m_layers = layers;
                 m_layersOf = wanted;
                 if (isLast)
@@ -189,9 +207,11 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
                     showLayers();
             });
         };
+        // First of a small volume: the hand does not wait.
         if (isLarge(volume))
-            announce(coarseSide, job.progress().part(0.0, 0.2));
-        announce(0, job.progress().part(0.2, 1.0));
+            announce(classify::coarseVolume(volume, coarseSide), false,
+                     job.progress().part(0.0, 0.1));
+        announce(volume, true, job.progress().part(0.1, 1.0));
     });
     m_layersUnderway = wanted;
 }
@@ -199,47 +219,59 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
 void LookPreparer::startPreparing(bool coarseFirst) {
     const PreparedFor wanted(m_document);
     m_rest.stop();
+    stopOwnJob();
     m_jobs.start(tr("Preparing the projection"),
-                 [this, volume = *m_document.volume(), wanted, coarseFirst](const Job &job) {
-                     prepare(job, volume, wanted, 0.0, coarseFirst);
-                 });
+                 [volume = *m_document.volume(), prepare = preparation(wanted, 0.0, coarseFirst)](
+                     const Job &job) { prepare(job, volume); });
     // Now that the end of the former job has been told.
     expect(wanted);
 }
 
-void LookPreparer::prepare(const Job &job, const volume::Volume &volume, const PreparedFor &wanted,
-                           double from, bool coarseFirst) {
-    const task::Progress progress = job.progress().part(from, 1.0);
-    const render::Scene scene = planningScene(volume, wanted);
-    const auto fields = classify::shownFields(volume, windowOf(volume, wanted), wanted.look,
-                                              m_steps.get(), progress.part(0.0, 0.2));
-    const auto announce = [&](const classify::ShownFields &f, EngineStage stage,
-                              const task::Progress &p) {
-        const auto prepared = render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p);
-        job.deliver([this, prepared, stage, wanted] {
-            // A coarse picture leaves the full one wanted.
-            if (stage == EngineStage::full) {
-                m_prepared = wanted;
-                m_full = prepared;
+LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, double from,
+                                                    bool coarseFirst) {
+    return [this, steps = m_steps, wanted, from, coarseFirst](const Job &job,
+                                                              const volume::Volume &volume) {
+        const task::Progress progress = job.progress().part(from, 1.0);
+        const render::Scene scene = planningScene(volume, wanted);
+        const std::size_t needed =
+            classify::peakBytes(wanted.look, volume.lattice().size().count());
+        if (needed > task::availableMemoryBytes())
+            throw task::Error(
+                task::ErrorCode::outOfMemory,
+                tr("the fields of the look need %1 MB").arg(needed >> 20).toStdString());
+        const classify::FieldWindow window = windowOf(volume, wanted);
+        const auto announce = [&](const classify::ShownFields &f, bool isLast,
+                                  const task::Progress &p) {
+            const auto prepared =
+                render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p);
+            job.deliver([this, prepared, isLast, wanted] {
+                if (!isLast) {
+                    // A coarse picture leaves the full one wanted.
+                    m_shown = EngineStage::coarse;
+                    emit engineReady(prepared, EngineStage::coarse);
+                    return;
+                }
                 m_underway.reset();
                 m_givenUp.reset();
-                m_live = false;
                 // Layers of another look are of no more use.
                 if (m_layersOf && !m_layersOf->hasLayersOf(wanted)) {
                     m_layers.reset();
                     m_layersOf.reset();
+                    m_shown.reset();
                 }
-            }
-            emit engineReady(prepared, stage);
-        });
+                adopt(wanted, prepared);
+            });
+        };
+        // First of a small volume, on which steps take no time.
+        if (coarseFirst && isLarge(volume)) {
+            const volume::Volume small = classify::coarseVolume(volume, coarseSide);
+            announce(classify::shownFields(small, window, wanted.look, steps.get()), false,
+                     progress.part(0.0, 0.1));
+        }
+        const auto fields = classify::shownFields(volume, window, wanted.look, steps.get(),
+                                                  progress.part(0.1, 0.3));
+        announce(fields, true, progress.part(0.3, 1.0));
     };
-    if (coarseFirst && isLarge(volume)) {
-        classify::ShownFields coarse{{}, fields.color};
-        for (const classify::DensityField &field : fields.channels)
-            coarse.channels.push_back(classify::coarseField(field, coarseSide));
-        announce(coarse, EngineStage::coarse, progress.part(0.2, 0.3));
-    }
-    announce(fields, EngineStage::full, progress.part(0.3, 1.0));
 }
 
 } // namespace pellucid::ui

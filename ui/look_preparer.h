@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -21,8 +22,8 @@ class Job;
 class JobRunner;
 
 /// How far an engine is from what is wanted: a first, small picture; the parts of a look summed
-/// while its weights move; or the thing itself.
-enum class EngineStage { coarse, live, full };
+/// while its weights move; the sum itself, after they came to rest; or another thing altogether.
+enum class EngineStage { coarse, live, settled, full };
 
 /// What of a scene an engine is made for; the rest changes from frame to frame.
 struct PreparedFor {
@@ -61,12 +62,10 @@ public:
     void adopt(const PreparedFor &preparedFor, const render::PreparedEngine &engine);
     /// The job that was just started makes an engine for it.
     void expect(const PreparedFor &wanted);
-    /// Within a job: makes engines and hands them over. The part of its progress beyond `from`.
-    void prepare(const Job &job, const volume::Volume &volume, const PreparedFor &wanted,
-                 double from, bool coarseFirst);
-
-    /// Runs the steps of classes; shared with whoever else shows them.
-    const std::shared_ptr<preprocess::StepCache> &steps() const { return m_steps; }
+    /// What makes engines within a job and hands them over, in the part of its progress beyond
+    /// `from`. It needs the preparer itself only where it delivers.
+    using Preparation = std::function<void(const Job &job, const volume::Volume &volume)>;
+    Preparation preparation(const PreparedFor &wanted, double from, bool coarseFirst);
 
 signals:
     void engineReady(const pellucid::render::PreparedEngine &engine,
@@ -75,6 +74,9 @@ signals:
 private:
     /// Follows, but what was given up stays so.
     void followScene();
+    void settle();
+    void stopOwnJob();
+    void showFull();
     void followWeights(const PreparedFor &wanted);
     void startPreparing(bool coarseFirst);
     void startLayers(const PreparedFor &wanted);
@@ -84,7 +86,9 @@ private:
     JobRunner &m_jobs;
     std::shared_ptr<preprocess::StepCache> m_steps;
     QTimer m_rest;
-    bool m_held = false, m_live = false;
+    bool m_held = false;
+    /// What was handed over last; none since the volume came.
+    std::optional<EngineStage> m_shown;
     /// What the last full engine was made for, what the next one is being made for, and what was
     /// cancelled or failed.
     std::optional<PreparedFor> m_prepared, m_underway, m_givenUp;

@@ -56,6 +56,7 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     createStatusBar();
     connect(&m_document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
     connect(&m_preparer, &LookPreparer::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(&m_opener, &StudyOpener::cameraKept, m_projection, &ProjectionView::adoptCamera);
     connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
     connect(&m_opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);
     connect(&m_document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
@@ -63,6 +64,11 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
     showVolumeState();
+}
+
+MainWindow::~MainWindow() {
+    // Work that still runs looks at the members.
+    m_jobs.join();
 }
 
 void MainWindow::createPanes() {
@@ -196,6 +202,7 @@ void MainWindow::createLookMenu() {
     PresetsPanel &presets = m_look->presets();
     addCommand(menu, tr("&Save look..."), "saveLookAction", QKeySequence::Save, [this, &presets] {
         findChild<QDockWidget *>("presetsDock")->show();
+        presets.show(); // it may be folded
         presets.askForName();
     });
     addCommand(menu, tr("&Import preset..."), "importPresetAction", {},

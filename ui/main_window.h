@@ -31,6 +31,7 @@ class MainWindow : public QMainWindow {
     Q_OBJECT
 public:
     explicit MainWindow(const Theme &theme, QWidget *parent = nullptr);
+    ~MainWindow() override;
 
     void openPaths(const QStringList &paths);
     void openPhantom(const QString &kind);

@@ -29,9 +29,9 @@ void StudyOpener::keepCurrent() {
         return;
     m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
                  m_document.defaultFieldWindow(), m_document.scene(), m_preparer.preparedFor(),
-                 m_preparer.fullEngine()});
+                 m_preparer.fullEngine(), m_document.displayWindow(), m_document.crosshair()});
     // Half of what there is belongs to what comes.
-    m_kept.trim((task::availableMemoryBytes() + m_kept.bytes()) / 2);
+    m_kept.trim(task::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
 
 bool StudyOpener::showKept(int index) {
@@ -43,13 +43,14 @@ bool StudyOpener::showKept(int index) {
     // The pane may have another size by now; the picture's quality is the person's, not the
     // study's.
     scene.camera = m_document.scene().camera;
-    scene.camera.orientation = kept->scene.camera.orientation;
-    scene.camera.panMm = kept->scene.camera.panMm;
     scene.tolerance = m_document.scene().tolerance;
     scene.interpolation = m_document.scene().interpolation;
     if (kept->engine)
         m_preparer.adopt(*kept->preparedFor, *kept->engine);
     m_document.setScene(scene);
+    m_document.setDisplayWindow(kept->displayWindow);
+    m_document.setCrosshair(kept->crosshair);
+    emit cameraKept(kept->scene.camera);
     m_preparer.prepareAgain(); // what changed, or was dropped
     return true;
 }
@@ -74,6 +75,9 @@ void StudyOpener::openPaths(const QStringList &paths) {
                 return;
             }
             const auto indices = m_document.addSources(sourcesFrom(catalogue));
+            // Files may have changed since.
+            for (const int index : indices)
+                m_kept.take(index);
             emit pathsOpened(paths);
             endScan();
             openSource(indices[defaultSource(*catalogue)]);
@@ -102,7 +106,9 @@ void StudyOpener::openSource(int index) {
     m_document.closeVolume();
     if (showKept(index))
         return;
-    m_jobs.start(tr("Loading %1").arg(source.series), [this, source, wanted](const Job &job) {
+    m_jobs.start(tr("Loading %1").arg(source.series), [this, source,
+                                                       prepare = m_preparer.preparation(
+                                                           wanted, 0.6, true)](const Job &job) {
         dicom::LoadObserver observer;
         observer.preview = [&](const volume::Volume &soFar) {
             const volume::ValueWindow window = initialWindow(soFar);
@@ -127,7 +133,7 @@ void StudyOpener::openSource(int index) {
             return;
         }
         job.stage(tr("Preparing the projection"));
-        m_preparer.prepare(job, volume, wanted, 0.6, true);
+        prepare(job, volume);
     });
     m_preparer.expect(wanted);
 }

@@ -26,6 +26,8 @@ public:
 signals:
     /// The paths held something.
     void pathsOpened(const QStringList &paths);
+    /// The way the study that came back was looked at.
+    void cameraKept(const pellucid::render::Camera &camera);
     /// The open volume cannot be projected.
     void notProjectable(const QString &reason);
 

@@ -40,6 +40,7 @@ void measureCase(const Report &report, const Published &p) {
     Measurement how;
     how.scene.camera = squareCamera(subject.field.values.lattice(), p.field);
     how.transform = false;
+    how.peers = true;
     Truth truth(subject, how.scene.camera, 2);
     how.scene.interpolation = {fourier::kernelFromName("ES3"), double(p.padded) / p.field,
                                fourier::Storage::binary16};
@@ -48,16 +49,6 @@ void measureCase(const Report &report, const Published &p) {
         fmt::format("published: {:.2f} s in frequency space, {:.2f} s in space, {:.2g} "
                     "operations, {:.2g} with the adaptive filter",
                     p.frequencySeconds, p.spatialSeconds, p.operations, p.adaptiveOperations);
-    const SpatialVolume inSpace(subject.field.values);
-    std::vector<double> cast;
-    render::Camera camera = how.scene.camera;
-    for (const glm::dquat &view : randomViews(8)) {
-        camera.orientation = view;
-        const double start = millisecondsNow();
-        raySum(inSpace, camera, subject.field.values.lattice().shortestStepMm());
-        cast.push_back(millisecondsNow() - start);
-    }
-    row.raySumMs = median(cast);
     report(row);
     how.scene.interpolation = {};
     report(measure("totsuka", fmt::format("default, the same {}", p.name), subject, truth, how));
@@ -68,6 +59,7 @@ void measureCase(const Report &report, const Published &p) {
     const auto plan = render::planRender(how.scene, render::summarise(subject.field));
     const auto spectrum = fourier::Spectrum::prepare(subject.field.values, plan.spectrum);
     AdaptiveSlice slices(spectrum);
+    render::Camera camera = how.scene.camera;
     const int size =
         render::sliceGrid(camera, plan.room, subject.field.values.lattice(), how.scene.image)
             .columns;

@@ -44,6 +44,10 @@ void list() {
 }
 
 void validate(const Options &o) {
+    if (presets::isSlicerPreset(o.path))
+        throw task::Error(task::ErrorCode::usage,
+                          "is a volume property of 3D Slicer; 'preset import' makes a preset of it",
+                          o.path);
     const auto preset = presets::readPreset(o.path);
     std::puts(fmt::format("{}: a preset named '{}'", o.path, preset.name).c_str());
 }
@@ -52,19 +56,20 @@ void exportTo(const Options &o) {
     presets::writePreset(o.out, openLibrary().get(o.name).preset);
 }
 
-bool isSlicers(const fs::path &path) {
-    return path.extension() == ".vp" ||
-           (path.extension() == ".json" && path.stem().extension() == ".vp");
-}
-
 void import(const Options &o) {
     PresetLibrary library = openLibrary();
     presets::Preset preset;
     std::string fit;
-    if (isSlicers(o.path)) {
+    if (presets::isSlicerPreset(o.path)) {
         auto imported = presets::importSlicerPreset(o.path, o.points);
         preset = std::move(imported.preset);
-        fit = fmt::format("; its opacity within {:.2g}", imported.largestError);
+        fit = fmt::format("; its opacity is met within {:.2g}", imported.largestError);
+        constexpr double visible = 0.1;
+        if (imported.largestError > visible)
+            std::fprintf(stderr,
+                         "pellucid-cli: warning: the opacity changes too steeply for one "
+                         "curve of %d points; classes show steps\n",
+                         o.points);
     } else {
         preset = presets::readPreset(o.path);
     }

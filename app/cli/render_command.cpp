@@ -73,6 +73,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     preprocess::StepCache steps(budgetOfSteps);
     const auto fields =
         classify::shownFields(volume, window, scene.look, &steps, task::Progress(context.stop));
+    steps.trim(0); // the picture asks for nothing twice
     // Asking for more than there is would end in the system killing the program.
     render::Budget budget{task::availableMemoryBytes()};
     if (command.count("--memory") > 0)
@@ -99,6 +100,14 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     };
     if (renderer.isReduced())
         warn(renderer.reason());
+    const bool hasClasses = !scene.look.classes.empty();
+    if (hasClasses && command.count("--bezier") > 0)
+        warn("--bezier weighs the whole volume; beside --class it is not seen");
+    if (command.count("--preset") > 0 &&
+        (command.count("--class") > 0 || command.count("--bezier") > 0))
+        warn("what is shown is --class or --bezier; of the preset its window is left");
+    if (command.count("--class") > 0 && volume.unit() != volume::ValueUnit::hounsfield)
+        warn("the ranges of --class are Hounsfield units, which the values are not known to be");
     if (const auto preset = presetFor(o.scene))
         if (const std::string why = presets::mismatch(*preset, volume); !why.empty())
             warn(why);

@@ -143,10 +143,15 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         .add_option("--pixel-mm", options.pixelMm,
                     "Pixel size in mm; default: the shortest voxel step")
         ->check(positive);
-    command.add_option("--preset", options.preset, "A look of the library, or its file");
+    const CLI::Validator notEmpty(
+        [](std::string &text) { return text.empty() ? "it is empty" : std::string(); }, "", "text");
+    command.add_option("--preset", options.preset, "A look of the library, or its file")
+        ->check(notEmpty);
     command.add_option("--window", options.window, "The field's window LO,HI in value units");
-    command.add_option("--bezier", options.bezier,
-                       "Weights w0,w1,... of the transfer function, 2 to 16 of 0 to 2");
+    command
+        .add_option("--bezier", options.bezier,
+                    "Weights w0,w1,... of the transfer function, 2 to 16 of 0 to 2")
+        ->check(notEmpty);
     command
         .add_option("--class", options.classes,
                     "NAME=WEIGHT[:#rrggbb]: show the classes named, by weight 0 to 2; repeat it")

@@ -26,7 +26,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (command.count("--window") > 0 && !o.field && o.tissue.empty() && !o.edges)
         throw task::Error(task::ErrorCode::usage, "--window needs --field or --class");
     std::optional<classify::TissueClass> tissue;
-    if (!o.tissue.empty() || o.edges)
+    if (command.count("--class") > 0 || o.edges)
         tissue = classNamed(o.edges ? "edges" : o.tissue);
     std::optional<classify::FieldWindow> window;
     if (command.count("--window") > 0)
@@ -58,10 +58,12 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
                   "Series number or UID; default: the volume with most voxels");
     CLI::Option *field =
         c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
-    c->add_option("--class", o->tissue, "Write the field of a standard class, as --field otherwise")
-        ->excludes(field);
+    CLI::Option *tissue = c->add_option("--class", o->tissue,
+                                        "Write the field of a standard class, as --field otherwise")
+                              ->excludes(field);
     c->add_flag("--edges", o->edges, "Write the Canny edges, the standard class 'edges'")
-        ->excludes(field);
+        ->excludes(field)
+        ->excludes(tissue);
     c->add_option("--window", o->window, "The field's window LO,HI in value units");
     c->add_flag("--gzip", o->gzip, "Compress the samples");
     c->callback([o, c, context] { run(*o, *c, context); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/classify/shown_fields.h"
 
+#include <algorithm>
 #include <array>
 #include <new>
 

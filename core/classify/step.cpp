@@ -2,8 +2,8 @@
 #include "core/classify/step.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -15,6 +15,9 @@ namespace {
 
 using task::Error;
 using task::ErrorCode;
+
+// No end: as large as single precision bears squares of.
+constexpr double open = 1e15;
 
 const StepParameter *find(const StepKind &kind, const std::string &name) {
     const auto found = std::find_if(kind.parameters.begin(), kind.parameters.end(),
@@ -58,14 +61,14 @@ const std::vector<StepKind> &stepKinds() {
         {"threshold",
          StepEffect::region,
          "Only where the value is within a hard range",
-         {{"low", "value units", -1e6, 1e6, -500.0, false, "Least value"},
-          {"high", "value units", -1e6, 1e6, 1e6, false, "Greatest value"}}},
+         {{"low", "value units", -open, open, -open, false, "Least value"},
+          {"high", "value units", -open, open, open, false, "Greatest value"}}},
         {"edges",
          StepEffect::region,
          "Canny edges, shown with a density of one",
          {{"sigma_mm", "mm", 0.0, 20.0, 1.0, false, "Smoothing beforehand"},
-          {"low", "value units per mm", 0.0, 1e6, 20.0, false, "An edge goes on above this"},
-          {"high", "value units per mm", 0.0, 1e6, 60.0, false, "An edge starts above this"}}},
+          {"low", "value units per mm", 0.0, open, 20.0, false, "An edge goes on above this"},
+          {"high", "value units per mm", 0.0, open, 60.0, false, "An edge starts above this"}}},
         {"opening",
          StepEffect::region,
          "Removes what is thinner than a ball",
@@ -142,9 +145,11 @@ Step stepFromText(const std::string &text) {
             const auto equals = item.find('=');
             const std::string number =
                 equals == std::string::npos ? std::string() : item.substr(equals + 1);
-            char *end = nullptr;
-            const double value = std::strtod(number.c_str(), &end);
-            if (number.empty() || *end != '\0')
+            // Not strtod: the machine's language does not change a file's decimal sign.
+            double value = 0.0;
+            const char *const end = number.data() + number.size();
+            const auto read = std::from_chars(number.data(), end, value);
+            if (number.empty() || read.ec != std::errc() || read.ptr != end)
                 throw Error(ErrorCode::usage,
                             "'" + item + "' in the step '" + text + "' is not NAME=NUMBER");
             step.parameters[item.substr(0, equals)] = value;

@@ -58,6 +58,8 @@ void validate(const TissueClass &tissue) {
     for (const double c : {tissue.color.red, tissue.color.green, tissue.color.blue})
         if (!(c >= 0.0 && c <= 1.0))
             refuse("the colour is not within 0 and 1");
+    if (tissue.steps.size() > mostSteps)
+        refuse(fmt::format("has {} steps, {} are allowed", tissue.steps.size(), mostSteps));
     try {
         if (tissue.transferFunction)
             validate(*tissue.transferFunction);

@@ -38,6 +38,9 @@ struct TissueClass {
     double membership(double value) const;
 };
 
+/// Each takes seconds; more serve nobody.
+inline constexpr std::size_t mostSteps = 16;
+
 /// *Throws* Error{usage} naming the class and what is out of its range.
 void validate(const TissueClass &tissue);
 

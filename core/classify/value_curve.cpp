@@ -65,7 +65,11 @@ float ValueCurve::at(float value, Region region) const {
     if (region == Region::outside || std::isnan(value))
         return 0.0F;
     const float scaled = (value - m_low) * m_scale;
-    const float f = m_density == DensityKind::one ? 1.0F : std::clamp(scaled, 0.0F, 1.0F);
+    // Written so that infinity times a window without width, which is no number, ends as 0.
+    const float f = m_density == DensityKind::one ? 1.0F
+                    : scaled >= 1.0F              ? 1.0F
+                    : scaled > 0.0F               ? scaled
+                                                  : 0.0F;
     float shown = f;
     if (!m_table.empty()) {
         const float at = f * tableSteps;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 
 #include "core/task/error.h"
@@ -13,6 +14,15 @@
 namespace pellucid::files {
 
 AtomicFile::AtomicFile(std::filesystem::path path) : m_path(std::move(path)) {
+    // Through a link to what it points at; and no device, pipe or folder becomes a file.
+    std::error_code unknown;
+    if (std::filesystem::is_symlink(m_path, unknown))
+        if (const auto target = std::filesystem::weakly_canonical(m_path, unknown); !unknown)
+            m_path = target;
+    if (std::filesystem::exists(m_path, unknown) &&
+        !std::filesystem::is_regular_file(m_path, unknown) &&
+        !std::filesystem::is_directory(m_path, unknown))
+        throw task::Error(task::ErrorCode::output, "is no regular file", m_path);
     // A dot in front keeps the unfinished file out of listings and of folder scans.
     std::string name =
         (m_path.parent_path() / ("." + m_path.filename().string() + ".XXXXXX")).string();

@@ -64,8 +64,9 @@ public:
     static float product(const std::array<float, 3> &a, const std::array<float, 3> &b) {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     }
-    // The second derivative along the gradient.
-    float alongGradient(int i, int j, int k) const {
+    // The second derivative along the gradient, of which a slope below `flat` counts little: where
+    // there is hardly a gradient its direction says nothing.
+    float alongGradient(int i, int j, int k, float flat) const {
         const Around n = around(i, j, k);
         const auto d = differences(n);
         const auto g = raised(d);
@@ -81,10 +82,9 @@ public:
             0.25F * (at(i, n.jm, n.km) - at(i, n.jm, n.kp) - at(i, n.jp, n.km) + at(i, n.jp, n.kp));
         const float sum = g[0] * g[0] * xx + g[1] * g[1] * yy + g[2] * g[2] * zz +
                           2.0F * (g[0] * g[1] * xy + g[0] * g[2] * xz + g[1] * g[2] * yz);
-        return sum / (product(d, g) + flat);
+        const float square = product(d, g);
+        return square > 0.0F ? sum / (square + flat * flat) : 0.0F;
     }
-    // Keeps quotients finite where there is no gradient.
-    static constexpr float flat = 1e-4F;
 
 private:
     const float *m_samples;
@@ -182,8 +182,11 @@ Mask cannyEdges(const volume::Volume &volume, const CannyOptions &options,
                                   : volume);
         const Derivatives ofValues(lattice, smooth.data());
         std::vector<float> second(smooth.size()), strength(smooth.size());
+        const double unit = lattice.shortestStepMm();
+        // Far below what makes an edge, whatever the scale of the values.
+        const auto flat = float(2.5e-4 * unit * options.high);
         forPlanes(size, progress, [&](int i, int j, int k, std::size_t n) {
-            second[n] = ofValues.alongGradient(i, j, k);
+            second[n] = ofValues.alongGradient(i, j, k, flat);
         });
         progress.report(0.7);
         const Derivatives ofSecond(lattice, second.data());
@@ -202,10 +205,9 @@ Mask cannyEdges(const volume::Volume &volume, const CannyOptions &options,
             const auto g = ofValues.raised(d);
             // The second derivative falls along the gradient: a maximum of its magnitude.
             if (Derivatives::product(ofSecond.differences(around), g) <= 0.0F)
-                strength[n] = std::sqrt(Derivatives::product(d, g) + Derivatives::flat);
+                strength[n] = std::sqrt(std::max(0.0F, Derivatives::product(d, g)));
         });
         progress.report(0.9);
-        const double unit = lattice.shortestStepMm();
         Mask edges = linked(size, strength, float(unit * options.low), float(unit * options.high));
         progress.report(1.0);
         return edges;

@@ -10,9 +10,10 @@
 namespace pellucid::preprocess {
 
 // Every filter works on the volume's own lattice, in mm: a radius that is shorter than a step does
-// not reach the neighbour along it. On a tilted lattice distances are taken along the axes, except
-// for gradients and edges, which know the tilt. Beyond the border the outermost sample goes on.
-// Each *Throws* Error{outOfMemory}, Error{internal} naming the filter, Cancelled.
+// not reach the neighbour along it. On a tilted lattice distances are taken along the axes, that of
+// the Gaussian before edges too; the derivatives of gradients and edges know the tilt. Beyond the
+// border the outermost sample goes on. Each *Throws* Error{outOfMemory}, Error{internal} naming the
+// filter, Cancelled.
 
 /// Standard deviation in mm; the discrete Gaussian, exact for less than a sample too.
 volume::Volume gaussian(const volume::Volume &volume, double sigmaMm,

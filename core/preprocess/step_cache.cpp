@@ -37,23 +37,23 @@ std::uint64_t digest(const std::byte *bytes, std::size_t count) {
     constexpr std::size_t block = 1 << 16;
     constexpr std::uint64_t factor = 0x9e3779b97f4a7c15U;
     const std::size_t blocks = (count + block - 1) / block;
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, blocks), std::uint64_t(count),
-        [&](const tbb::blocked_range<std::size_t> &range, std::uint64_t sum) {
-            for (std::size_t b = range.begin(); b != range.end(); ++b) {
-                std::uint64_t hash = (b + 1) * factor;
-                const std::size_t end = std::min(count, (b + 1) * block);
-                for (std::size_t n = b * block; n < end; n += 8) {
-                    std::uint64_t word = 0;
-                    std::memcpy(&word, bytes + n, std::min<std::size_t>(8, end - n));
-                    hash = (hash ^ word) * factor;
-                    hash ^= hash >> 29;
-                }
-                sum += hash;
-            }
-            return sum;
-        },
-        std::plus<>());
+    return count + tbb::parallel_reduce(
+                       tbb::blocked_range<std::size_t>(0, blocks), std::uint64_t(0),
+                       [&](const tbb::blocked_range<std::size_t> &range, std::uint64_t sum) {
+                           for (std::size_t b = range.begin(); b != range.end(); ++b) {
+                               std::uint64_t hash = (b + 1) * factor;
+                               const std::size_t end = std::min(count, (b + 1) * block);
+                               for (std::size_t n = b * block; n < end; n += 8) {
+                                   std::uint64_t word = 0;
+                                   std::memcpy(&word, bytes + n, std::min<std::size_t>(8, end - n));
+                                   hash = (hash ^ word) * factor;
+                                   hash ^= hash >> 29;
+                               }
+                               sum += hash;
+                           }
+                           return sum;
+                       },
+                       std::plus<>());
 }
 
 std::string identity(const volume::Volume &volume) {
@@ -86,23 +86,26 @@ Mask belonging(const volume::Volume &values, const TissueClass &tissue, const Re
     return mask;
 }
 
-// A part of what belonged to the class, with the rim in which its membership fades.
-std::vector<Region> partOf(const volume::Lattice &lattice, const Mask &before, const Mask &kept) {
+// A part of what belonged to the class, with the rim in which its membership fades. What was
+// outside before stays outside, and gaps that were filled stay filled.
+std::vector<Region> partOf(const volume::Lattice &lattice, const Mask &before, const Mask &kept,
+                           const Regions &former) {
     const volume::GridSize size = lattice.size();
     std::vector<Region> regions(kept.size(), Region::outside);
     tbb::parallel_for(0, size.k, [&](int k) {
         for (int j = 0; j < size.j; ++j)
             for (int i = 0; i < size.i; ++i) {
                 const std::size_t n = (std::size_t(k) * size.j + j) * size.i + i;
+                const Region was = former ? (*former)[n] : Region::inside;
                 bool touches = kept[n] != 0;
-                if (!touches && before[n] == 0)
+                if (!touches && before[n] == 0 && was != Region::outside)
                     for (int z = std::max(k - 1, 0); z <= std::min(k + 1, size.k - 1); ++z)
                         for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size.j - 1); ++y)
                             for (int x = std::max(i - 1, 0); x <= std::min(i + 1, size.i - 1); ++x)
                                 touches = touches ||
                                           kept[(std::size_t(z) * size.j + y) * size.i + x] != 0;
                 if (touches)
-                    regions[n] = Region::inside;
+                    regions[n] = was;
             }
     });
     return regions;
@@ -156,9 +159,9 @@ std::vector<Region> foundRegions(const volume::Volume &values, const Step &step,
     }
     const Mask now = belonging(values, tissue, before);
     if (step.kind == "largest")
-        return partOf(lattice, now, largestPart(lattice, now, progress));
+        return partOf(lattice, now, largestPart(lattice, now, progress), before);
     if (step.kind == "opening")
-        return partOf(lattice, now, opening(lattice, now, step.at("radius_mm"), progress));
+        return partOf(lattice, now, opening(lattice, now, step.at("radius_mm"), progress), before);
     const Mask closed = closing(lattice, now, step.at("radius_mm"), progress);
     std::vector<Region> regions =
         before ? *before : std::vector<Region>(closed.size(), Region::inside);

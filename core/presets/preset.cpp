@@ -20,22 +20,27 @@ using task::ErrorCode;
 
 constexpr std::uintmax_t largestFile = 1 << 20;
 
+// Which thresholds are carried over: those given, or the usual ones of edges too, which mean value
+// units.
+enum class Thresholds { given, all };
+
 // Ranges and thresholds with `offset` and `scale` applied to values, and `scale` to slopes.
-Look mapped(Look look, double offset, double scale) {
-    const auto value = [&](double v) { return offset + scale * v; };
+Look mapped(Look look, double offset, double scale, Thresholds thresholds) {
     for (classify::TissueClass &tissue : look.classes) {
-        bool isSlope = false;
+        bool isSlope = false; // what the class looks at, after a gradient
+        const auto value = [&](double v) { return (isSlope ? 0.0 : offset) + scale * v; };
         for (classify::Step &step : tissue.steps) {
             for (const char *name : {"low", "high"}) {
-                if (step.kind != "edges" && step.kind != "threshold")
-                    continue;
-                const double given = step.at(name);
-                step.parameters[name] = step.kind == "edges" ? scale * given : value(given);
+                const bool isGiven = step.parameters.contains(name);
+                if (step.kind == "edges" && (isGiven || thresholds == Thresholds::all))
+                    step.parameters[name] = scale * step.at(name);
+                if (step.kind == "threshold" && isGiven)
+                    step.parameters[name] = value(step.at(name));
             }
             isSlope = isSlope || step.kind == "gradient";
         }
-        tissue.low = isSlope ? scale * tissue.low : value(tissue.low);
-        tissue.high = isSlope ? scale * tissue.high : value(tissue.high);
+        tissue.low = value(tissue.low);
+        tissue.high = value(tissue.high);
         tissue.softness *= scale;
     }
     return look;
@@ -46,7 +51,7 @@ Look mapped(Look look, double offset, double scale) {
 Look lookFor(const Preset &preset, const FieldWindow &window) {
     if (preset.unit == RangeUnit::value)
         return preset.look;
-    return mapped(preset.look, window.low, window.high - window.low);
+    return mapped(preset.look, window.low, window.high - window.low, Thresholds::given);
 }
 
 std::string mismatch(const Preset &preset, const volume::Volume &volume) {
@@ -72,7 +77,7 @@ Preset presetOf(const std::string &name, const Look &look, const FieldWindow &wi
         preset.window = window;
     } else if (width > 0.0) {
         preset.unit = RangeUnit::window;
-        preset.look = mapped(look, -window.low / width, 1.0 / width);
+        preset.look = mapped(look, -window.low / width, 1.0 / width, Thresholds::all);
     }
     return preset;
 }

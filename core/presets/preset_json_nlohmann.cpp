@@ -152,6 +152,12 @@ std::string textAt(const json &in, const char *key) {
     return in[key].get<std::string>();
 }
 
+// Bytes that begin a character of UTF-8.
+std::ptrdiff_t characters(const std::string &text) {
+    return std::count_if(text.begin(), text.end(),
+                         [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+}
+
 Preset parsed(const json &in, const std::string &source) {
     if (!in.is_object())
         refuse("", "must be an object");
@@ -159,7 +165,7 @@ Preset parsed(const json &in, const std::string &source) {
         refuse("/schema", "is not " + std::string(schema));
     Preset preset;
     preset.name = textAt(in, "name");
-    if (preset.name.empty() || preset.name.size() > 80 ||
+    if (preset.name.find_first_not_of(' ') == std::string::npos || characters(preset.name) > 80 ||
         std::any_of(preset.name.begin(), preset.name.end(),
                     [](char c) { return static_cast<unsigned char>(c) < 32; }))
         refuse("/name", "must be a text of 1 to 80 characters on one line");
@@ -174,8 +180,9 @@ Preset parsed(const json &in, const std::string &source) {
         if (!w.is_array() || w.size() != 2 || !w[0].is_number() || !w[1].is_number())
             refuse("/window", "must be two numbers");
         preset.window = classify::FieldWindow{w[0].get<double>(), w[1].get<double>()};
-        if (!(preset.window->low < preset.window->high && std::abs(preset.window->low) <= 1e30 &&
-              std::abs(preset.window->high) <= 1e30))
+        if (!(std::abs(preset.window->low) <= 1e30 && std::abs(preset.window->high) <= 1e30))
+            refuse("/window", "is out of range");
+        if (!(preset.window->low < preset.window->high))
             refuse("/window", "must be two numbers, the lower first");
     }
     preset.look = classify::lookFromJson(source);

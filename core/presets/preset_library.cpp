@@ -111,12 +111,23 @@ void PresetLibrary::save(const Preset &preset) {
                                           "' comes with the program and stays as it is; choose "
                                           "another name");
     // What is not well formed would be lost at the next start.
-    presetFromJson(toJson(preset));
+    try {
+        presetFromJson(toJson(preset));
+    } catch (const Error &error) {
+        // The line of a text that nobody sees says nothing.
+        const auto line = error.reason().find(": ");
+        throw Error(ErrorCode::usage,
+                    "the preset cannot be kept: " + error.reason().substr(line + 2));
+    }
     std::error_code failed;
     fs::create_directories(m_folder, failed);
     if (failed)
         throw Error(ErrorCode::output, "cannot be made: " + failed.message(), m_folder);
-    writePreset(former != nullptr ? former->path : m_folder / fileNameOf(preset.name), preset);
+    fs::path path = former != nullptr ? former->path : m_folder / fileNameOf(preset.name);
+    // A file of that name that is no preset, or another one, stays what it is.
+    for (int n = 2; former == nullptr && fs::exists(path, failed); ++n)
+        path = m_folder / fileNameOf(fmt::format("{} {}", preset.name, n));
+    writePreset(path, preset);
     read();
 }
 

@@ -14,6 +14,9 @@ struct ImportedPreset {
     double largestError = 0.0;
 };
 
+/// Whether a path ends as 3D Slicer's files do: .vp or .vp.json.
+bool isSlicerPreset(const std::filesystem::path &path);
+
 /// The scalar opacity of a `.vp` or `.vp.json` file as a transfer function of so many points over
 /// the window from where the opacity begins to where it ends to change: f B(f) is the curve nearest
 /// to the opacity. Colours and gradient opacity have no counterpart in one curve and are left out.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -100,6 +101,11 @@ classify::FieldWindow windowOf(const Points &points) {
 
 } // namespace
 
+bool isSlicerPreset(const fs::path &path) {
+    return path.extension() == ".vp" ||
+           (path.extension() == ".json" && path.stem().extension() == ".vp");
+}
+
 ImportedPreset importSlicerPreset(const fs::path &path, int points) {
     try {
         std::error_code failed;
@@ -113,7 +119,9 @@ ImportedPreset importSlicerPreset(const fs::path &path, int points) {
         Points curve =
             path.extension() == ".json" ? pointsOfJson(text.str()) : pointsOfText(text.str());
         for (const Point &p : curve)
-            if (!(std::abs(p.value) <= 1e30 && p.opacity >= 0.0 && p.opacity <= 1.0))
+            if (!(std::abs(p.value) <= 1e30))
+                refuse(fmt::format("the value {:g} is out of range", p.value));
+            else if (!(p.opacity >= 0.0 && p.opacity <= 1.0))
                 refuse(fmt::format("the opacity {:g} at {:g} is not within 0 and 1", p.opacity,
                                    p.value));
         std::stable_sort(curve.begin(), curve.end(),
@@ -121,27 +129,40 @@ ImportedPreset importSlicerPreset(const fs::path &path, int points) {
         if (curve.size() < 2 || std::none_of(curve.begin(), curve.end(),
                                              [](const Point &p) { return p.opacity > 0.0; }))
             refuse("its opacity is 0 everywhere");
-        const classify::FieldWindow window = windowOf(curve);
-        if (!(window.low < window.high))
+        const classify::FieldWindow whole = windowOf(curve);
+        if (!(whole.low < whole.high))
             refuse("its opacity does not change over any range of values");
 
+        // A steep beginning needs density where it begins, since weights end at 2: the window may
+        // begin before the opacity does. The nearest fit is taken.
         ImportedPreset imported;
         Preset &preset = imported.preset;
         preset.name = path.stem().stem().string();
-        preset.window = window;
-        const auto opacity = [&](double f) {
-            return opacityAt(curve, window.low + f * (window.high - window.low));
-        };
-        // What is shown is f B(f): errors count where there is density.
-        const auto fitted =
-            classify::fitTransferFunction([&](double f) { return f > 0.0 ? opacity(f) / f : 0.0; },
-                                          points, [](double f) { return f * f; });
-        preset.look.transferFunction = fitted.function;
-        constexpr int samples = 1024;
-        for (int n = 0; n <= samples; ++n) {
-            const double f = double(n) / samples;
-            imported.largestError =
-                std::max(imported.largestError, std::abs(f * fitted.function.at(f) - opacity(f)));
+        double least = std::numeric_limits<double>::infinity();
+        for (const double before : {0.0, 0.125, 0.25, 0.5, 1.0}) {
+            const classify::FieldWindow window{whole.low - before * (whole.high - whole.low),
+                                               whole.high};
+            const auto opacity = [&](double f) {
+                return opacityAt(curve, window.low + f * (window.high - window.low));
+            };
+            // What is shown is f B(f): errors count where there is density.
+            const auto fitted = classify::fitTransferFunction(
+                [&](double f) { return f > 0.0 ? opacity(f) / f : 0.0; }, points,
+                [](double f) { return f * f; });
+            constexpr int samples = 1024;
+            double square = 0.0, largest = 0.0;
+            for (int n = 0; n <= samples; ++n) {
+                const double f = double(n) / samples;
+                const double error = f * fitted.function.at(f) - opacity(f);
+                square += error * error;
+                largest = std::max(largest, std::abs(error));
+            }
+            if (square < 0.99 * least) { // the narrower window if there is hardly a difference
+                least = square;
+                imported.largestError = largest;
+                preset.window = window;
+                preset.look.transferFunction = fitted.function;
+            }
         }
         preset.notes = fmt::format("Opacity of {}, within {:.2g}", path.filename().string(),
                                    imported.largestError);

@@ -2,6 +2,7 @@
 #include "core/render/layer_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include <tbb/blocked_range.h>
@@ -35,47 +36,67 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t coun
                                             const FieldOf &fieldOf, const Budget &budget,
                                             const task::Progress &progress) {
     std::vector<classify::DensityField> fields;
+    std::vector<double> lost(count, 0.0); // of each, by joining samples
     int reduction = 1, longest = 0;
-    const auto side = [&] { return (longest + reduction - 1) / reduction; };
+    const auto reduce = [&](std::size_t n) {
+        classify::DensityField coarse =
+            classify::coarseField(fields[n], (longest + reduction - 1) / reduction);
+        lost[n] = std::hypot(lost[n], lostDetail(fields[n], coarse));
+        fields[n] = std::move(coarse);
+    };
+    const auto held = [&] {
+        std::size_t sum = 0;
+        for (const classify::DensityField &field : fields)
+            sum += field.values.bytes();
+        return sum;
+    };
     for (std::size_t n = 0; n < count; ++n) {
-        classify::DensityField field = fieldOf(
-            n, progress.part(0.5 * double(n) / double(count), 0.5 * double(n + 1) / double(count)));
-        const volume::GridSize size = field.values.lattice().size();
-        longest = std::max({size.i, size.j, size.k});
-        reduction = leastReduction(size);
-        fields.push_back(reduction > 1 ? classify::coarseField(field, side()) : std::move(field));
+        fields.push_back(fieldOf(n, progress.part(0.5 * double(n) / double(count),
+                                                  0.5 * double(n + 1) / double(count))));
+        const volume::GridSize size = fields.back().values.lattice().size();
+        if (n == 0) {
+            longest = std::max({size.i, size.j, size.k});
+            reduction = leastReduction(size);
+        }
+        if (reduction > 1)
+            reduce(n);
+        // The fields alone may not take what their spectra need.
+        while (held() > budget.bytes / 2 && longest / (reduction + 1) >= fewestSamples) {
+            progress.check();
+            ++reduction;
+            for (std::size_t m = 0; m <= n; ++m)
+                reduce(m);
+        }
     }
+    const std::size_t keptBytes =
+        count * sizeof(float) * std::size_t(scene.camera.width) * std::size_t(scene.camera.height);
     for (;;) {
         progress.check();
-        std::size_t held = 0;
-        for (const classify::DensityField &field : fields)
-            held += field.values.bytes();
+        const std::size_t taken = held() + keptBytes;
         try {
-            const std::size_t left = budget.bytes > held ? budget.bytes - held : 0;
-            RenderPlan plan = planRender(scene, summarise(fields), FrameJob::mostChannels, {left});
+            RenderPlan plan = planRender(scene, summarise(fields), FrameJob::mostChannels,
+                                         {budget.bytes > taken ? budget.bytes - taken : 0});
             std::vector<std::shared_ptr<const fourier::Spectrum>> spectra;
             for (std::size_t n = 0; n < count; ++n) {
                 const double done = 0.5 + 0.5 * double(n) / double(count);
                 spectra.push_back(std::make_shared<const fourier::Spectrum>(
                     fourier::Spectrum::prepare(fields[n].values, plan.spectrum,
                                                progress.part(done, done + 0.5 / double(count)))));
-                fields[n] = classify::DensityField();
             }
+            const double worst = *std::max_element(lost.begin(), lost.end());
+            plan.predictedError = std::hypot(plan.predictedError, worst);
+            plan.predictedMaximum = std::max(plan.predictedMaximum, worst);
             auto engine = std::make_shared<CpuEngine>(std::move(spectra), plan.room);
             return std::shared_ptr<LayerSet>(
                 new LayerSet(std::move(engine), std::move(plan), reduction));
         } catch (const task::Error &error) {
-            ++reduction;
-            const bool lostFields =
-                std::any_of(fields.begin(), fields.end(), [](const classify::DensityField &f) {
-                    return f.values.lattice().size().count() <= 1;
-                });
-            if (error.code() != task::ErrorCode::outOfMemory || side() < fewestSamples ||
-                lostFields)
+            if (error.code() != task::ErrorCode::outOfMemory ||
+                longest / (reduction + 1) < fewestSamples)
                 throw;
         }
-        for (classify::DensityField &field : fields)
-            field = classify::coarseField(field, side());
+        ++reduction;
+        for (std::size_t n = 0; n < count; ++n)
+            reduce(n);
     }
 }
 

@@ -26,6 +26,13 @@ double energy(const volume::Volume &field) {
 
 } // namespace
 
+double lostDetail(const classify::DensityField &field, const classify::DensityField &means) {
+    const double all = energy(field.values);
+    const double kept = energy(means.values) * (means.values.lattice().cellVolumeMm3() /
+                                                field.values.lattice().cellVolumeMm3());
+    return all > 0.0 ? std::sqrt(std::max(0.0, 1.0 - kept / all)) : 0.0;
+}
+
 FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityField> fields,
                        std::span<const FieldSummary> summaries, const Budget &budget,
                        const task::Progress &progress) {
@@ -55,13 +62,8 @@ FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityFiel
                 progress.check();
                 reduced.push_back(
                     classify::coarseField(field, (longest + reduction - 1) / reduction));
-                const volume::Volume &coarse = reduced.back().values;
-                held += coarse.bytes();
-                const double all = energy(field.values);
-                const double kept = energy(coarse) * (coarse.lattice().cellVolumeMm3() /
-                                                      field.values.lattice().cellVolumeMm3());
-                if (all > 0.0)
-                    lost = std::max(lost, std::sqrt(std::max(0.0, 1.0 - kept / all)));
+                held += reduced.back().values.bytes();
+                lost = std::max(lost, lostDetail(field, reduced.back()));
             }
             if (held >= budget.bytes)
                 continue;

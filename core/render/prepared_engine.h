@@ -27,6 +27,9 @@ FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityFiel
                        std::span<const FieldSummary> summaries, const Budget &budget,
                        const task::Progress &progress = {});
 
+/// The share of a field's energy, as a relative L2, that means of blocks leave out.
+double lostDetail(const classify::DensityField &field, const classify::DensityField &means);
+
 /// An engine, ready to render.
 struct PreparedEngine {
     std::shared_ptr<ProjectionEngine> engine;

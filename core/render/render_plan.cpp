@@ -218,6 +218,11 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
             return a.folded < b.folded;
         })->folded;
 
+    // Planes are joined into a picture of their own.
+    const std::size_t joinedBytes = channels > 1 ? std::size_t(channels) * scene.camera.width *
+                                                       scene.camera.height * sizeof(float)
+                                                 : 0;
+
     std::optional<RenderPlan> best;
     double bestTime = std::numeric_limits<double>::infinity(); // of those within the tolerance
     bool overBudget = false;
@@ -260,7 +265,8 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
             bool fits = false;
             for (const PlannedGrid &planned : grids) {
                 const std::size_t bytes =
-                    spectrumBytes + std::size_t(channels) * frameBytes(planned.grid, scene.camera);
+                    spectrumBytes + std::size_t(channels) * frameBytes(planned.grid, scene.camera) +
+                    joinedBytes;
                 leastBytes = std::min(leastBytes, bytes);
                 if (bytes > budget.bytes) {
                     overBudget = true;

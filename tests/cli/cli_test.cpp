@@ -316,7 +316,6 @@ TEST_F(Cli, APresetMakesThePictureThatItsClassesMake) {
         << R"({"name": "Bone", "range": [250, 2500], "softness": 150, "weight": 0.7}]})";
     EXPECT_EQ(picture("--preset " + quoted(folder / "p.json"), "preset.npy"),
               picture("--class bone=0.7", "class.npy"));
-    // A scene says the same.
     const auto unknown = cli("render " + quoted(series) + " -o x.png --preset Bonee");
     EXPECT_EQ(unknown.exitCode, 2);
     EXPECT_EQ(cli("render " + quoted(series) + " -o x.png --preset /nowhere/x.json").exitCode, 3);

@@ -313,8 +313,11 @@ private slots:
         save("transfer_function");
         // A typed weight, and a double-click that resets it.
         auto *weight = find<QDoubleSpinBox>("weightBox");
-        weight->setValue(1.5);
-        QCOMPARE(weights[2], 1.5);
+        weight->setFocus();
+        weight->selectAll();
+        QTest::keyClicks(weight, "1.45");
+        QTest::keyClick(weight, Qt::Key_Return);
+        QCOMPARE(weights[2], 1.45);
         QTest::mouseDClick(editor, Qt::LeftButton, Qt::NoModifier, editor->handleAt(2).toPoint());
         QCOMPARE(weights[2], 1.0);
         find<QAction>("undoAction")->trigger();
@@ -464,7 +467,7 @@ private slots:
             render::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
         ui::KeptStudies kept;
         for (int source = 0; source < 3; ++source)
-            kept.keep({source, volume, {}, {}, scene, ui::PreparedFor(), engine});
+            kept.keep({source, volume, {}, {}, scene, ui::PreparedFor(), engine, {}, {}});
         const std::size_t one = volume.bytes() + engine.bytes;
         QCOMPARE(kept.bytes(), 3 * one);
         kept.trim(3 * one - 1);

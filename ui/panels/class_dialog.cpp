@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/class_dialog.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <QColorDialog>
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
@@ -19,12 +22,13 @@ namespace pellucid::ui {
 
 namespace {
 
-QDoubleSpinBox *valueBox(const char *name, double value, double step) {
+// As fine as the values are: a thousandth of the window counts.
+QDoubleSpinBox *valueBox(const char *name, double value, double windowWidth) {
     auto *box = new QDoubleSpinBox;
     box->setObjectName(name);
     box->setRange(-1e9, 1e9);
-    box->setDecimals(1);
-    box->setSingleStep(step);
+    box->setDecimals(std::clamp(int(std::ceil(3.0 - std::log10(windowWidth))), 1, 9));
+    box->setSingleStep(windowWidth / 200.0);
     box->setValue(value);
     return box;
 }
@@ -53,15 +57,17 @@ ClassDialog::ClassDialog(Document &document, const classify::TissueClass &tissue
     setObjectName("classDialog");
     setWindowTitle(tr("Class"));
     setAttribute(Qt::WA_DeleteOnClose);
-    // As fine as the values are: a hundredth of the window, a tenth of it for coarse values.
     const classify::FieldWindow window = document.fieldWindow();
-    const double step = (window.high - window.low) / 200.0;
+    const double width = std::max(window.high - window.low, 1e-9);
     m_name->setObjectName("classNameEdit");
     m_name->setText(QString::fromStdString(tissue.name));
-    m_low = valueBox("classLowBox", tissue.low, step);
-    m_high = valueBox("classHighBox", tissue.high, step);
-    m_softness = valueBox("classSoftnessBox", tissue.softness, step);
+    m_low = valueBox("classLowBox", tissue.low, width);
+    m_high = valueBox("classHighBox", tissue.high, width);
+    m_softness = valueBox("classSoftnessBox", tissue.softness, width);
     m_softness->setMinimum(0.0);
+    m_shownLow = m_low->value();
+    m_shownHigh = m_high->value();
+    m_shownSoftness = m_softness->value();
     m_softness->setToolTip(tr("Width over which the class fades in and out about its ends"));
     m_color->setObjectName("classColorButton");
     m_steps->setObjectName("classSteps");
@@ -116,26 +122,33 @@ ClassDialog::ClassDialog(Document &document, const classify::TissueClass &tissue
     showTint();
 }
 
-ClassDialog::~ClassDialog() {
+void ClassDialog::done(int result) {
     m_document.setTint(std::nullopt);
+    QDialog::done(result);
 }
 
-classify::TissueClass ClassDialog::tissue() const {
-    classify::TissueClass typed = m_tissue;
-    typed.name = m_name->text().trimmed().toStdString();
-    typed.low = m_low->value();
-    typed.high = m_high->value();
-    typed.softness = m_softness->value();
-    typed.steps.clear();
+// What nobody touched is not rounded.
+double ClassDialog::valueOf(const QDoubleSpinBox &box, double shown, double former) const {
+    return box.value() == shown ? former : box.value();
+}
+
+classify::TissueClass ClassDialog::typed(const classify::TissueClass &now) const {
+    classify::TissueClass tissue = now;
+    tissue.name = m_name->text().trimmed().toStdString();
+    tissue.low = valueOf(*m_low, m_shownLow, m_tissue.low);
+    tissue.high = valueOf(*m_high, m_shownHigh, m_tissue.high);
+    tissue.softness = valueOf(*m_softness, m_shownSoftness, m_tissue.softness);
+    tissue.color = m_tissue.color;
+    tissue.steps.clear();
     for (int n = 0; n < m_steps->count(); ++n)
-        typed.steps.push_back(classify::stepFromText(m_steps->item(n)->text().toStdString()));
-    classify::validate(typed);
-    return typed;
+        tissue.steps.push_back(classify::stepFromText(m_steps->item(n)->text().toStdString()));
+    classify::validate(tissue);
+    return tissue;
 }
 
 void ClassDialog::accept() {
     try {
-        tissue();
+        typed(m_tissue);
         QDialog::accept();
     } catch (const task::Error &error) {
         m_said->setText(QString::fromStdString(error.reason()));
@@ -159,7 +172,7 @@ void ClassDialog::chooseColor() {
         QColor::fromRgbF(float(c.red), float(c.green), float(c.blue)), this, tr("Colour"));
     if (!chosen.isValid())
         return;
-    m_tissue.color = {chosen.redF(), chosen.greenF(), chosen.blueF()};
+    m_tissue.color = classify::colorFromText(chosen.name().toStdString());
     showColor();
     showTint();
 }

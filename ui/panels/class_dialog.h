@@ -20,14 +20,15 @@ class ClassDialog : public QDialog {
     Q_OBJECT
 public:
     ClassDialog(Document &document, const classify::TissueClass &tissue, QWidget *parent = nullptr);
-    ~ClassDialog() override;
-
-    /// What is typed. *Throws* task::Error if it makes no class.
-    classify::TissueClass tissue() const;
+    /// What is typed: a class with all else as it is now. *Throws* task::Error if it makes no
+    /// class.
+    classify::TissueClass typed(const classify::TissueClass &now) const;
 
     void accept() override;
+    void done(int result) override;
 
 private:
+    double valueOf(const QDoubleSpinBox &box, double shown, double former) const;
     void showTint();
     void chooseColor();
     void showColor();
@@ -37,6 +38,7 @@ private:
     classify::TissueClass m_tissue;
     QLineEdit *m_name, *m_step;
     QDoubleSpinBox *m_low, *m_high, *m_softness;
+    double m_shownLow, m_shownHigh, m_shownSoftness; ///< as the boxes round them
     QPushButton *m_color;
     QListWidget *m_steps;
     QLabel *m_said;

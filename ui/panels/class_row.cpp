@@ -66,6 +66,8 @@ ClassRow::ClassRow(int index, QWidget *parent)
     m_weight->setObjectName(QString("classWeight%1").arg(index));
     m_weight->setRange(0.0, classify::TransferFunction::largestWeight);
     m_weight->setDecimals(2);
+    m_weight->setKeyboardTracking(false); // typed to the end before it counts
+    m_weight->installEventFilter(this);
     m_weight->setSingleStep(0.05);
     m_weight->setButtonSymbols(QAbstractSpinBox::NoButtons);
     m_weight->setFixedWidth(44);
@@ -116,7 +118,7 @@ bool ClassRow::eventFilter(QObject *watched, QEvent *event) {
         return true;
     }
     // Scrolling the table must not change weights on its way.
-    if (watched == m_slider && event->type() == QEvent::Wheel && !m_slider->hasFocus()) {
+    if (event->type() == QEvent::Wheel && !static_cast<QWidget *>(watched)->hasFocus()) {
         event->ignore();
         return true;
     }

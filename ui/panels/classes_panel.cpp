@@ -81,6 +81,9 @@ QWidget *ClassesPanel::corner() {
 void ClassesPanel::showScene() {
     const auto &classes = m_document.scene().look.classes;
     m_empty->setVisible(classes.empty());
+    // A dialog is about a class that was there by its place.
+    if (m_dialog && m_shown.size() != classes.size())
+        m_dialog->close();
     while (m_shown.size() > classes.size()) {
         m_shown.back()->deleteLater();
         m_shown.pop_back();
@@ -107,10 +110,18 @@ void ClassesPanel::change(const QString &what, const std::function<void(classify
         m_document.undoStack()->push(new EditScene(m_document, scene, what, drag));
 }
 
+void ClassesPanel::changeClass(int index, const QString &what,
+                               const std::function<void(classify::TissueClass &)> &edit,
+                               DragId drag) {
+    // A study may have come while a menu or a dialog was open.
+    if (index < int(m_document.scene().look.classes.size()))
+        change(
+            what, [&](classify::Look &look) { edit(look.classes[std::size_t(index)]); }, drag);
+}
+
 void ClassesPanel::setWeight(int index, double weight, DragId drag) {
-    change(
-        tr("Weight"),
-        [&](classify::Look &look) { look.classes[std::size_t(index)].weight = weight; }, drag);
+    changeClass(
+        index, tr("Weight"), [&](classify::TissueClass &tissue) { tissue.weight = weight; }, drag);
 }
 
 void ClassesPanel::toggle(int index) {
@@ -119,8 +130,8 @@ void ClassesPanel::toggle(int index) {
     if (tissue.weight > 0.0)
         m_hiddenWeight[name] = tissue.weight;
     const double weight = tissue.weight > 0.0 ? 0.0 : m_hiddenWeight.value(name, 1.0);
-    change(tissue.weight > 0.0 ? tr("Hide %1").arg(name) : tr("Show %1").arg(name),
-           [&](classify::Look &look) { look.classes[std::size_t(index)].weight = weight; });
+    changeClass(index, tissue.weight > 0.0 ? tr("Hide %1").arg(name) : tr("Show %1").arg(name),
+                [&](classify::TissueClass &shown) { shown.weight = weight; });
 }
 
 void ClassesPanel::add(const classify::TissueClass &tissue) {
@@ -166,8 +177,10 @@ void ClassesPanel::showMenu(int index, const QPoint &globalAt) {
     });
     menu.addSeparator();
     menu.addAction(tr("Remove"), this, [this, index] {
-        change(tr("Remove class"),
-               [&](classify::Look &look) { look.classes.erase(look.classes.begin() + index); });
+        change(tr("Remove class"), [&](classify::Look &look) {
+            if (index < int(look.classes.size()))
+                look.classes.erase(look.classes.begin() + index);
+        });
     });
     menu.exec(globalAt);
 }
@@ -180,22 +193,22 @@ void ClassesPanel::edit(int index) {
         m_dialog->close();
     m_dialog = new ClassDialog(m_document, classes[std::size_t(index)], window());
     connect(m_dialog, &QDialog::accepted, this, [this, index, dialog = m_dialog.data()] {
-        const classify::TissueClass typed = dialog->tissue();
-        if (index < int(m_document.scene().look.classes.size()))
-            change(tr("Edit class"),
-                   [&](classify::Look &look) { look.classes[std::size_t(index)] = typed; });
+        changeClass(index, tr("Edit class"),
+                    [&](classify::TissueClass &now) { now = dialog->typed(now); });
     });
     m_dialog->show();
 }
 
 void ClassesPanel::chooseColor(int index) {
-    const classify::Color c = m_document.scene().look.classes[std::size_t(index)].color;
+    const auto &classes = m_document.scene().look.classes;
+    if (index >= int(classes.size()))
+        return;
+    const classify::Color c = classes[std::size_t(index)].color;
     const QColor chosen = QColorDialog::getColor(
         QColor::fromRgbF(float(c.red), float(c.green), float(c.blue)), this, tr("Colour"));
     if (chosen.isValid())
-        change(tr("Colour"), [&](classify::Look &look) {
-            look.classes[std::size_t(index)].color = {chosen.redF(), chosen.greenF(),
-                                                      chosen.blueF()};
+        changeClass(index, tr("Colour"), [&](classify::TissueClass &tissue) {
+            tissue.color = classify::colorFromText(chosen.name().toStdString());
         });
 }
 

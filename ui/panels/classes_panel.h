@@ -34,6 +34,8 @@ private:
     void showScene();
     void change(const QString &what, const std::function<void(classify::Look &)> &edit,
                 DragId drag = 0);
+    void changeClass(int index, const QString &what,
+                     const std::function<void(classify::TissueClass &)> &edit, DragId drag = 0);
     void add(const classify::TissueClass &tissue);
     void showAddMenu();
     void setWeight(int index, double weight, DragId drag);

@@ -34,10 +34,6 @@ QIcon emptyIcon() {
     return QIcon(pixmap);
 }
 
-bool isSlicers(const QString &path) {
-    return path.endsWith(".vp") || path.endsWith(".vp.json");
-}
-
 } // namespace
 
 PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
@@ -142,7 +138,14 @@ void PresetsPanel::list() {
         m_gallery->addItem(item);
     }
     showCurrent();
-    if (m_document.volume() && !listed.empty())
+    if (!m_library.skipped().empty()) {
+        const auto &first = m_library.skipped().front();
+        m_said->setText(tr("%1 is no preset: %2")
+                            .arg(QString::fromStdString(first.path.filename().string()),
+                                 QString::fromStdString(first.reason)));
+        m_said->show();
+    }
+    if (m_document.volume()) // without presets there is still a histogram
         emit presetsListed(listed);
 }
 
@@ -203,8 +206,12 @@ void PresetsPanel::askForName() {
 }
 
 void PresetsPanel::saveLook() {
+    if (!m_document.volume())
+        return;
     attempt([&] {
         const QString name = m_name->text().trimmed();
+        if (name.isEmpty())
+            throw task::Error(task::ErrorCode::usage, tr("a look needs a name").toStdString());
         m_library.save(presets::presetOf(name.toStdString(), m_document.scene().look,
                                          m_document.fieldWindow(), *m_document.volume()));
         m_nameRow->hide();
@@ -239,7 +246,7 @@ void PresetsPanel::importPreset() {
     attempt([&] {
         QString fit;
         presets::Preset preset;
-        if (isSlicers(path)) {
+        if (presets::isSlicerPreset(path.toStdString())) {
             auto imported = presets::importSlicerPreset(path.toStdString());
             preset = std::move(imported.preset);
             fit = tr("'%1' was fitted; its opacity is met within %2")
@@ -263,31 +270,32 @@ void PresetsPanel::exportPreset() {
     if (!m_document.volume())
         return;
     const QListWidgetItem *current = m_gallery->currentItem();
-    const QString name = current != nullptr ? current->text() : tr("Own look");
+    const auto *entry =
+        current != nullptr ? m_library.find(current->text().toStdString()) : nullptr;
+    const QString name = entry != nullptr ? current->text() : tr("Own look");
+    const auto exported = entry != nullptr
+                              ? entry->preset
+                              : presets::presetOf(name.toStdString(), m_document.scene().look,
+                                                  m_document.fieldWindow(), *m_document.volume());
     const QString path = QFileDialog::getSaveFileName(this, tr("Export preset"), name + ".json",
                                                       tr("Preset (*.json)"));
     if (path.isEmpty())
         return;
-    attempt([&] {
-        const auto *entry = current != nullptr ? m_library.find(name.toStdString()) : nullptr;
-        presets::writePreset(
-            path.toStdString(),
-            entry != nullptr ? entry->preset
-                             : presets::presetOf(name.toStdString(), m_document.scene().look,
-                                                 m_document.fieldWindow(), *m_document.volume()));
-    });
+    attempt([&] { presets::writePreset(path.toStdString(), exported); });
 }
 
 void PresetsPanel::showMenu(const QPoint &at) {
-    QListWidgetItem *item = m_gallery->itemAt(at);
-    const auto *entry = item != nullptr ? m_library.find(item->text().toStdString()) : nullptr;
+    const QListWidgetItem *item = m_gallery->itemAt(at);
+    // The gallery may be listed anew while the menu is open.
+    const QString name = item != nullptr ? item->text() : QString();
+    const auto *entry = m_library.find(name.toStdString());
     if (entry == nullptr)
         return;
     QMenu menu;
     QAction *removal = menu.addAction(tr("Delete"));
     removal->setEnabled(!entry->isBuiltIn());
     if (menu.exec(m_gallery->mapToGlobal(at)) == removal)
-        remove(item->text());
+        remove(name);
 }
 
 } // namespace pellucid::ui

@@ -252,7 +252,7 @@ void QualityPanel::showPlan(const render::PreparedEngine &prepared, EngineStage 
         : stage == EngineStage::live ? tr("The parts of the look, summed while they change")
         : missed                     ? tr("More error than allowed: %1").arg(reason)
                                      : tr("It is %1").arg(reason),
-        missed && stage == EngineStage::full);
+        missed && (stage == EngineStage::full || stage == EngineStage::settled));
 }
 
 void QualityPanel::say(const QString &text, bool isWarning) {

@@ -47,12 +47,14 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     m_points->setToolTip(tr("Number of control points: more make finer curves"));
     m_points->setRange(TransferFunction::fewestPoints, TransferFunction::mostPoints);
     m_points->setSuffix(tr(" points"));
+    m_points->setKeyboardTracking(false);
     m_weight->setObjectName("weightBox");
     m_weight->setAccessibleName(tr("Weight of the selected point"));
     m_weight->setToolTip(tr("Weight of the selected point, 0 to 2"));
     m_weight->setRange(0.0, TransferFunction::largestWeight);
     m_weight->setSingleStep(0.05);
     m_weight->setDecimals(2);
+    m_weight->setKeyboardTracking(false); // typed to the end before it counts
 
     auto *bottom = new QHBoxLayout;
     bottom->setSpacing(2);

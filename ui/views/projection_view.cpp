@@ -94,7 +94,7 @@ void ProjectionView::setEngine(const render::PreparedEngine &prepared, EngineSta
     m_message.clear();
     // Weights that move change the brightness, and are meant to; another field, or the fine one
     // after the coarse one, has a brightness of its own.
-    const bool sameFields = stage == EngineStage::live || m_stage == EngineStage::live;
+    const bool sameFields = stage == EngineStage::live || stage == EngineStage::settled;
     if (!sameFields) {
         m_automaticTone.reset();
         m_fullFrameMs = 0.0;

@@ -40,9 +40,8 @@ public:
     void resetView();
     /// The picture as it is seen, without annotations.
     QImage picture() const;
-    bool showsFinalImage() const {
-        return m_frame && !m_frame->draft && m_stage == EngineStage::full && !m_pending;
-    }
+    bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
+    bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
     QString canvasDescription() const { return m_canvas->description(); }
 
 signals:

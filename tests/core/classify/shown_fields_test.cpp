@@ -63,6 +63,17 @@ TEST(TissueClass, ValuesThatAreNoNumbersBelongToNothing) {
     EXPECT_NEAR(field.values.value({3, 0, 0}), 0.5, 1e-6);
 }
 
+TEST(ShownFields, AWindowWithoutWidthShowsNothingWhateverTheValue) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const volume::Volume values(volume::Lattice::centred({3, 1, 1}, {1, 1, 1}),
+                                std::vector<float>{7.0F, infinity, -infinity},
+                                volume::ValueUnit::none);
+    const auto bent = classify::shownFields(
+        values, {7.0, 7.0}, {classify::TransferFunction{{0.5, 2.0, 1.0}}, {}}, nullptr);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(bent.channels[0].values.value({i, 0, 0}), 0.0);
+}
+
 TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
     const TissueClass low{"low", -500, 0, 100, 0.5, Color{1.0, 0.5, 0.0}};
     const TissueClass high{"high", 200, 900, 100, 2.0, Color{0.0, 0.5, 1.0}};

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "core/files/atomic_file.h"
 #include "core/files/image_files.h"
@@ -68,6 +69,23 @@ TEST(AtomicFile, AFullDiskKeepsTheOldFile) {
     EXPECT_TRUE(failed);
     EXPECT_EQ(contents(folder / "a"), "old");
     EXPECT_EQ(entries(folder.path()), 1U);
+}
+
+TEST(AtomicFile, FollowsLinksAndLeavesWhatIsNoFile) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "target") << "old";
+    std::filesystem::create_symlink(folder / "target", folder / "link");
+    {
+        files::AtomicFile file(folder / "link");
+        const std::string text = "new";
+        file.write(std::as_bytes(std::span(text)));
+        file.commit();
+    }
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(contents(folder / "target"), "new");
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_THROW(files::AtomicFile(folder / "pipe"), task::Error);
+    EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
 }
 
 TEST(Npy, HasAnAlignedHeaderAndTheSamples) {

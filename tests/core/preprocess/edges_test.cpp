@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/preprocess/edges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -77,6 +78,26 @@ TEST(CannyEdges, AreThoseOfItkOnIsotropicLattices) {
         // Sums in another order move a sample or two across a threshold or a tie.
         EXPECT_LE(different, count / 500) << "spacing " << spacing;
     }
+}
+
+TEST(CannyEdges, DoNotDependOnTheScaleOfTheValues) {
+    const auto lattice = volume::Lattice::centred({32, 32, 24}, {1, 1, 1.5});
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0.0, 10.0);
+    const auto large = volumeOf(lattice, [&](glm::dvec3 p) {
+        return (glm::length(p) < 9.0 ? 300.0 : 0.0) + noise(random);
+    });
+    // A power of two: the numbers differ in their exponents alone.
+    constexpr float scale = 1.0F / 16384.0F;
+    std::vector<float> samples;
+    large.visit([&](auto values) {
+        for (const auto value : values)
+            samples.push_back(scale * float(value));
+    });
+    const volume::Volume small(lattice, std::move(samples), volume::ValueUnit::none);
+    const Mask edges = preprocess::cannyEdges(large, {1.0, 15.0, 40.0});
+    EXPECT_GT(std::count(edges.begin(), edges.end(), 1), 300);
+    EXPECT_EQ(preprocess::cannyEdges(small, {1.0, 15.0 * scale, 40.0 * scale}), edges);
 }
 
 // The surface of a ball in thick, tilted slices: every direction is found alike, because the

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/preprocess/step_cache.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/classify/shown_fields.h"
@@ -102,6 +104,31 @@ TEST(StepCache, OpeningKeepsTheSoftRimAndClosingFills) {
     }
     EXPECT_GT(removed, 0);
     EXPECT_GT(filled, 0);
+}
+
+// Steps one after the other: each leaves what the one before left, or less; gaps stay filled.
+TEST(StepCache, StepsOfRegionsFollowEachOther) {
+    preprocess::StepCache cache(0);
+    const auto regions = [&](std::vector<classify::Step> steps) {
+        return *cache.run(head(), bone(std::move(steps)), {}).regions;
+    };
+    const classify::Step edges{"edges", {{"sigma_mm", 2.0}}}, largest{"largest", {}},
+        opening{"opening", {{"radius_mm", 9.0}}}, closing{"closing", {{"radius_mm", 12.0}}};
+    const auto count = [](const std::vector<Region> &r, Region what) {
+        return std::count(r.begin(), r.end(), what);
+    };
+    const auto isWithin = [](const std::vector<Region> &less, const std::vector<Region> &more) {
+        for (std::size_t n = 0; n < less.size(); ++n)
+            if (less[n] != Region::outside && more[n] == Region::outside)
+                return false;
+        return true;
+    };
+    EXPECT_TRUE(isWithin(regions({edges, largest}), regions({edges})));
+    EXPECT_TRUE(isWithin(regions({opening, largest}), regions({opening})));
+    const auto closed = regions({closing}), part = regions({closing, largest});
+    EXPECT_GT(count(closed, Region::filled), 0);
+    EXPECT_GT(count(part, Region::filled), 0);
+    EXPECT_LE(count(part, Region::filled), count(closed, Region::filled));
 }
 
 TEST(StepCache, RefusesWhatItDoesNotKnowAndWrongOrder) {

@@ -82,6 +82,10 @@ TEST(PresetLibrary, ABadFileIsPassedOverWithItsReason) {
     EXPECT_EQ(library.skipped()[0].path.filename(), "broken.json");
     EXPECT_EQ(library.skipped()[0].reason.rfind("line 2: ", 0), 0U) << library.skipped()[0].reason;
     EXPECT_NE(library.find("Mine"), nullptr);
+    // Nor is it overwritten by a preset of its name.
+    library.save(named("broken"));
+    EXPECT_NE(PresetLibrary(folder / "presets").find("broken"), nullptr);
+    EXPECT_EQ(PresetLibrary(folder / "presets").skipped().size(), 1U);
     EXPECT_TRUE(std::filesystem::exists(folder / "presets/broken.json"));
 }
 

@@ -91,6 +91,9 @@ TEST(Preset, RefusesWithLineAndReason) {
     EXPECT_EQ(reasonOf(with("preset/1", "preset/9")), "line 2: /schema: is not pellucid-preset/1");
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"\"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "[2000, -900]")).rfind("line 5: /window: ", 0), 0U);
+    EXPECT_EQ(reasonOf(with("[-900, 2000]", "[-1e308, 1e308]")),
+              "line 5: /window: is out of range");
+    EXPECT_EQ(reasonOf(with("\"Test\"", "\"   \"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf("[]").rfind("line 1: ", 0), 0U);
     EXPECT_EQ(reasonOf("").rfind("line 1: ", 0), 0U);
     // Cut off anywhere, it is refused and names a line.

@@ -58,9 +58,18 @@ TEST_F(SlicerPreset, JsonAndTextAgreeAndTheErrorIsTheFits) {
     EXPECT_EQ(a.preset.look, b.preset.look);
     EXPECT_EQ(a.largestError, b.largestError);
     EXPECT_EQ(b.preset.name, "bone");
-    // A step of 0.69 at the low end is more than a weight of 2 can lift a low density to.
-    EXPECT_GT(a.largestError, 0.3);
-    EXPECT_LT(a.largestError, 0.7);
+    // A step of 0.69 is steeper than any curve of eight points; away from it the fit is near: the
+    // window begins so far below that a weight of 2 reaches the opacity.
+    EXPECT_GT(a.largestError, 0.1);
+    EXPECT_LT(a.largestError, 0.6);
+    const auto &window = *a.preset.window;
+    EXPECT_LT(window.low, 0.0);
+    for (const double value : {1000.0, 2000.0, 3000.0}) {
+        const double f = (value - window.low) / (window.high - window.low);
+        const double opacity =
+            0.696078 + (0.833333 - 0.696078) * (value - 214.389) / (3071 - 214.389);
+        EXPECT_NEAR(f * a.preset.look.transferFunction.at(f), opacity, 0.1);
+    }
     EXPECT_LE(presets::importSlicerPreset(text, 16).largestError, a.largestError + 0.02);
 }
 
