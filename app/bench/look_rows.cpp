@@ -67,13 +67,19 @@ void fillError(Row &row, const render::ProjectionImage &image, const std::vector
     row.psnrDb = error.psnrDb;
 }
 
-void fillTimes(Row &row, render::ProjectionEngine &engine, const LookSubject &subject) {
+// Times the frames of an engine in turns with those of the plain density: what both take depends on
+// the clock and the caches of the moment. The times of the plain frames, median.
+double fillTimes(Row &row, render::ProjectionEngine &engine, render::ProjectionEngine &plain,
+                 const LookSubject &subject) {
     render::Camera camera = subject.scene.camera;
-    std::vector<double> slice, transform, frame;
+    std::vector<double> slice, transform, frame, plainFrame;
     for (const glm::dquat &orientation : randomViews(views)) {
         camera.orientation = orientation;
+        double start = millisecondsNow();
+        plain.render(camera, subject.scene.image);
+        plainFrame.push_back(millisecondsNow() - start);
         render::FrameTimes times;
-        const double start = millisecondsNow();
+        start = millisecondsNow();
         engine.render(camera, subject.scene.image, &times);
         frame.push_back(millisecondsNow() - start);
         slice.push_back(times.sliceMs);
@@ -82,6 +88,12 @@ void fillTimes(Row &row, render::ProjectionEngine &engine, const LookSubject &su
     row.sliceMs = median(slice);
     row.transformMs = median(transform);
     row.frameMs = median(frame);
+    return median(plainFrame);
+}
+
+std::string ratioText(const Row &row, double plainMs, const std::string &note) {
+    return fmt::format("{}{}{:.2f} times the plain frame of {:.2f} ms, in turns", note,
+                       note.empty() ? "" : "; ", *row.frameMs / plainMs, plainMs);
 }
 
 } // namespace
@@ -100,6 +112,8 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
     const auto fields = classify::shownFields(subject.volume, subject.window, look, nullptr);
     const std::vector<double> exact = exactImage(subject, fields);
     const auto mixture = classify::mixtureOf(look);
+    const auto plain = render::prepareEngine(
+        subject.scene, {{classify::densityField(subject.volume, subject.window)}, {}}, {});
     {
         double start = millisecondsNow();
         // The fields are part of what a change of a range costs.
@@ -109,9 +123,9 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
         Row row = rowOf(suite, name + ", settled", subject, prepared.plan);
         row.prepareMs = millisecondsNow() - start;
         row.bytes = double(fields.channels.size()) * double(prepared.plan.spectrum.bytes());
-        fillTimes(row, *prepared.engine, subject);
+        const double plainMs = fillTimes(row, *prepared.engine, *plain.engine, subject);
         fillError(row, prepared.engine->render(truthCamera(subject), subject.scene.image), exact);
-        row.note = note;
+        row.note = ratioText(row, plainMs, note);
         report(row);
     }
     double start = millisecondsNow();
@@ -128,9 +142,9 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
     Row kept = summed;
     kept.name = name + ", weights move";
     render::MixtureEngine engine(layers, mixture.shares);
-    fillTimes(summed, engine, subject);
+    const double plainMs = fillTimes(summed, engine, *plain.engine, subject);
     fillError(summed, engine.render(truthCamera(subject), subject.scene.image), exact);
-    summed.note = note;
+    summed.note = ratioText(summed, plainMs, note);
     report(summed);
 
     std::vector<double> first, later;
