@@ -138,6 +138,8 @@ TEST(StepCache, RefusesWhatItDoesNotKnowAndWrongOrder) {
     EXPECT_THROW(classify::validate(bone({{"diffusion", {{"iterations", 2.5}}}})), task::Error);
     EXPECT_THROW(classify::validate(bone({{"largest", {}}, {"median", {}}})), task::Error);
     EXPECT_THROW(classify::validate(bone({{"edges", {{"low", 90.0}}}})), task::Error);
+    EXPECT_THROW(classify::validate(bone(std::vector<classify::Step>(17, {"body", {}}))),
+                 task::Error);
     classify::validate(bone({{"median", {}}, {"edges", {{"low", 90.0}, {"high", 95.0}}}}));
     for (const char *text : {"largest", "edges(high=80,sigma_mm=1.5)", "median(radius_mm=2)"})
         EXPECT_EQ(classify::stepText(classify::stepFromText(text)), text);
