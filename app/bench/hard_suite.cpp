@@ -14,7 +14,6 @@ void runHardSuite(const Report &report) {
         how.scene.camera = render::defaultCamera(subject.field.values.lattice());
         how.views = 4; // a speed that nobody asks for
         how.transform = false;
-        how.peers = true;
         Truth truth(subject, how.scene.camera, 6);
         for (const double tolerance : {1e-2, render::Scene().tolerance, 1e-4, 1e-5}) {
             how.scene.tolerance = tolerance;
