@@ -18,25 +18,6 @@ constexpr int views = 48;
 // Weight changes at each of the views that stand still.
 constexpr int stillViews = 6, changes = 8;
 
-Row rowOf(const std::string &suite, const std::string &name, const LookSubject &subject,
-          const render::RenderPlan &plan) {
-    const int width = plan.spectrum.width();
-    Row row{suite,
-            name,
-            subject.volume.lattice().size(),
-            "cpu",
-            plan.spectrum.kernels[0].name(),
-            width * width * width,
-            double(plan.spectrum.padded.i) / plan.spectrum.box.size().i,
-            fourier::storageName(plan.spectrum.storage),
-            thisMachine().threads};
-    row.predictedError = plan.predictedError;
-    row.predictedMax = plan.predictedMaximum;
-    if (subject.scene.interpolation == render::Interpolation())
-        row.tolerance = subject.scene.tolerance;
-    return row;
-}
-
 render::Camera truthCamera(const LookSubject &subject) {
     render::Camera camera = subject.scene.camera;
     camera.orientation = randomViews(1, 11).front();
@@ -60,35 +41,17 @@ std::vector<double> exactImage(const LookSubject &subject, const classify::Shown
     return image;
 }
 
-void fillError(Row &row, const render::ProjectionImage &image, const std::vector<double> &exact) {
-    const ImageError error = compare(image.samples, exact);
-    row.relativeL2 = error.relativeL2;
-    row.maxError = error.maximum;
-    row.psnrDb = error.psnrDb;
-}
-
 // Times the frames of an engine in turns with those of the plain density: what both take depends on
 // the clock and the caches of the moment. The times of the plain frames, median.
-double fillTimes(Row &row, render::ProjectionEngine &engine, render::ProjectionEngine &plain,
-                 const LookSubject &subject) {
-    render::Camera camera = subject.scene.camera;
-    std::vector<double> slice, transform, frame, plainFrame;
-    for (const glm::dquat &orientation : randomViews(views)) {
-        camera.orientation = orientation;
-        double start = millisecondsNow();
+double fillTimesInTurns(Row &row, render::ProjectionEngine &engine, render::ProjectionEngine &plain,
+                        const LookSubject &subject) {
+    std::vector<double> plainMs;
+    fillTimes(row, engine, subject.scene, views, [&](const render::Camera &camera) {
+        const double start = millisecondsNow();
         plain.render(camera, subject.scene.image);
-        plainFrame.push_back(millisecondsNow() - start);
-        render::FrameTimes times;
-        start = millisecondsNow();
-        engine.render(camera, subject.scene.image, &times);
-        frame.push_back(millisecondsNow() - start);
-        slice.push_back(times.sliceMs);
-        transform.push_back(times.transformMs);
-    }
-    row.sliceMs = median(slice);
-    row.transformMs = median(transform);
-    row.frameMs = median(frame);
-    return median(plainFrame);
+        plainMs.push_back(millisecondsNow() - start);
+    });
+    return median(plainMs);
 }
 
 std::string ratioText(const Row &row, double plainMs, const std::string &note) {
@@ -120,11 +83,14 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
         const auto prepared = render::prepareEngine(
             subject.scene, classify::shownFields(subject.volume, subject.window, look, nullptr),
             {});
-        Row row = rowOf(suite, name + ", settled", subject, prepared.plan);
+        Row row = plannedRow(suite, name + ", settled", subject.volume.lattice().size(),
+                             prepared.plan, subject.scene, 0);
         row.prepareMs = millisecondsNow() - start;
         row.bytes = double(fields.channels.size()) * double(prepared.plan.spectrum.bytes());
-        const double plainMs = fillTimes(row, *prepared.engine, *plain.engine, subject);
-        fillError(row, prepared.engine->render(truthCamera(subject), subject.scene.image), exact);
+        const double plainMs = fillTimesInTurns(row, *prepared.engine, *plain.engine, subject);
+        fillError(
+            row, compare(prepared.engine->render(truthCamera(subject), subject.scene.image).samples,
+                         exact));
         row.note = ratioText(row, plainMs, note);
         report(row);
     }
@@ -136,14 +102,16 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
                                         progress);
         },
         {});
-    Row summed = rowOf(suite, name + ", both move", subject, layers->plan());
+    Row summed = plannedRow(suite, name + ", both move", subject.volume.lattice().size(),
+                            layers->plan(), subject.scene, 0);
     summed.prepareMs = millisecondsNow() - start;
     summed.bytes = double(layers->bytes());
     Row kept = summed;
     kept.name = name + ", weights move";
     render::MixtureEngine engine(layers, mixture.shares);
-    const double plainMs = fillTimes(summed, engine, *plain.engine, subject);
-    fillError(summed, engine.render(truthCamera(subject), subject.scene.image), exact);
+    const double plainMs = fillTimesInTurns(summed, engine, *plain.engine, subject);
+    fillError(summed,
+              compare(engine.render(truthCamera(subject), subject.scene.image).samples, exact));
     summed.note = ratioText(summed, plainMs, note);
     report(summed);
 
@@ -162,8 +130,10 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
         }
     }
     layers->render(truthCamera(subject), subject.scene.image, mixture.shares);
-    fillError(kept, layers->render(truthCamera(subject), subject.scene.image, mixture.shares),
-              exact);
+    fillError(
+        kept,
+        compare(layers->render(truthCamera(subject), subject.scene.image, mixture.shares).samples,
+                exact));
     kept.frameMs = median(later);
     kept.note = fmt::format("{}{}the first change at a view {:.1f} ms", note,
                             note.empty() ? "" : "; ", median(first));

@@ -121,40 +121,36 @@ double transformMs(const fourier::SpectrumLayout &layout) {
 
 } // namespace
 
-Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
-            const Measurement &how) {
-    const classify::DensityField &field = subject.field;
-    const auto plan = render::planRender(how.scene, render::summarise(field));
+Row plannedRow(const std::string &suite, const std::string &name, const volume::GridSize &size,
+               const render::RenderPlan &plan, const render::Scene &scene, int threads) {
     const int width = plan.spectrum.width();
     Row row{suite,
             name,
-            field.values.lattice().size(),
+            size,
             "cpu",
             plan.spectrum.kernels[0].name(),
             width * width * width,
             double(plan.spectrum.padded.i) / plan.spectrum.box.size().i,
             fourier::storageName(plan.spectrum.storage),
-            how.threads > 0 ? how.threads : thisMachine().threads};
-    double start = millisecondsNow();
-    const auto spectrum = std::make_shared<const fourier::Spectrum>(
-        fourier::Spectrum::prepare(field.values, plan.spectrum));
-    row.prepareMs = millisecondsNow() - start;
-    if (how.transform)
-        row.fft3dMs = transformMs(plan.spectrum);
-    row.bytes = double(spectrum->bytes());
+            threads > 0 ? threads : thisMachine().threads};
     row.predictedError = plan.predictedError;
     row.predictedMax = plan.predictedMaximum;
-    if (how.scene.interpolation == render::Interpolation()) // else nothing is promised
-        row.tolerance = how.scene.tolerance;
+    if (scene.interpolation == render::Interpolation())
+        row.tolerance = scene.tolerance;
+    return row;
+}
 
-    render::CpuEngine engine(spectrum, plan.room, how.threads);
-    render::Camera camera = how.scene.camera;
+void fillTimes(Row &row, render::ProjectionEngine &engine, const render::Scene &scene, int views,
+               const std::function<void(const render::Camera &)> &before) {
+    render::Camera camera = scene.camera;
     std::vector<double> slice, transform, frame;
-    for (const glm::dquat &orientation : randomViews(how.views)) {
+    for (const glm::dquat &orientation : randomViews(views)) {
         camera.orientation = orientation;
+        if (before)
+            before(camera);
         render::FrameTimes times;
-        start = millisecondsNow();
-        engine.render(camera, how.scene.image, &times);
+        const double start = millisecondsNow();
+        engine.render(camera, scene.image, &times);
         frame.push_back(millisecondsNow() - start);
         slice.push_back(times.sliceMs);
         transform.push_back(times.transformMs);
@@ -162,6 +158,28 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
     row.sliceMs = median(slice);
     row.transformMs = median(transform);
     row.frameMs = median(frame);
+}
+
+void fillError(Row &row, const ImageError &error) {
+    row.relativeL2 = error.relativeL2;
+    row.maxError = error.maximum;
+    row.psnrDb = error.psnrDb;
+}
+
+Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
+            const Measurement &how) {
+    const classify::DensityField &field = subject.field;
+    const auto plan = render::planRender(how.scene, render::summarise(field));
+    Row row = plannedRow(suite, name, field.values.lattice().size(), plan, how.scene, how.threads);
+    const double start = millisecondsNow();
+    const auto spectrum = std::make_shared<const fourier::Spectrum>(
+        fourier::Spectrum::prepare(field.values, plan.spectrum));
+    row.prepareMs = millisecondsNow() - start;
+    if (how.transform)
+        row.fft3dMs = transformMs(plan.spectrum);
+    row.bytes = double(spectrum->bytes());
+    render::CpuEngine engine(spectrum, plan.room, how.threads);
+    fillTimes(row, engine, how.scene, how.views);
 
     ImageError worst{0.0, 0.0, 1e9};
     for (int view = 0; view < truth.views(); ++view) {
@@ -171,9 +189,7 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
                  std::max(worst.maximum, error.maximum), std::min(worst.psnrDb, error.psnrDb)};
     }
     if (truth.views() > 0) {
-        row.relativeL2 = worst.relativeL2;
-        row.maxError = worst.maximum;
-        row.psnrDb = worst.psnrDb;
+        fillError(row, worst);
         if (how.peers) {
             const Truth::Peers &peers = truth.peers();
             row.raySumMs = peers.raySumMs;

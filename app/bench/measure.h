@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -65,6 +66,16 @@ struct Measurement {
 /// Plans, prepares and times one case; the error is the worst of the truth's views.
 Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
             const Measurement &how);
+
+/// A row with what a plan says; a tolerance only where nothing of the interpolation is fixed, since
+/// else nothing is promised.
+Row plannedRow(const std::string &suite, const std::string &name, const volume::GridSize &size,
+               const render::RenderPlan &plan, const render::Scene &scene, int threads);
+/// The medians of an engine's frames from random views, into the row. Before each comes `before`,
+/// if there is one: a frame of something else to be timed in turns.
+void fillTimes(Row &row, render::ProjectionEngine &engine, const render::Scene &scene, int views,
+               const std::function<void(const render::Camera &)> &before = {});
+void fillError(Row &row, const ImageError &error);
 
 /// The camera of an image of side x side pixels of the shortest step, for any lattice.
 render::Camera squareCamera(const volume::Lattice &lattice, int side);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/classify/layers.h"
 
-#include <algorithm>
 #include <new>
 
 #include "core/classify/shown_fields.h"
@@ -9,12 +8,6 @@
 #include "core/task/error.h"
 
 namespace pellucid::classify {
-
-bool Mixture::isGrey() const {
-    return std::all_of(shares.begin(), shares.end(), [](const std::array<double, 3> &share) {
-        return share[0] == share[1] && share[1] == share[2];
-    });
-}
 
 Mixture mixtureOf(const Look &look) {
     Mixture mixture;

@@ -23,8 +23,6 @@ struct Layer {
 struct Mixture {
     std::vector<Layer> layers;
     std::vector<std::array<double, 3>> shares; ///< of red, green and blue, one each layer
-    /// Whether all channels are alike, hence one is enough.
-    bool isGrey() const;
 };
 
 /// A look as a mixture: looks that differ in weights, colours and control points have the same

@@ -168,10 +168,6 @@ struct CpuEngine::Workplace {
 
 namespace {
 
-bool isGrey(const ChannelShares &share) {
-    return share[0] == share[1] && share[1] == share[2];
-}
-
 // The spectra that have a share of a picture, and how many slices are made of them.
 struct Mixing {
     Mixing(const std::vector<std::shared_ptr<const fourier::Spectrum>> &spectra,
@@ -179,8 +175,7 @@ struct Mixing {
         for (std::size_t n = 0; n < spectra.size(); ++n)
             if (shares[n] != ChannelShares{0.0, 0.0, 0.0})
                 parts.push_back({spectra[n].get(), shares[n]});
-        grey = std::all_of(parts.begin(), parts.end(),
-                           [](const Part &part) { return isGrey(part.shares); });
+        grey = areGrey(shares);
         if (parts.empty())
             return;
         unit = parts.front().spectrum->unit();
@@ -239,6 +234,12 @@ void joinChannels(const Frame &frame, int group) {
 }
 
 } // namespace
+
+bool areGrey(std::span<const ChannelShares> shares) {
+    return std::all_of(shares.begin(), shares.end(), [](const ChannelShares &share) {
+        return share[0] == share[1] && share[1] == share[2];
+    });
+}
 
 CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
                      const std::optional<SliceRoom> &room, int threads)

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace pellucid::render {
 
 /// How much of red, green and blue a field has in a picture.
 using ChannelShares = std::array<double, 3>;
+
+/// Whether all channels are alike, hence one is enough.
+bool areGrey(std::span<const ChannelShares> shares);
 
 /// Makes projections of prepared fields. Engines are interchangeable: under the same plan they
 /// give the same image within a stated rounding bound.

@@ -108,11 +108,8 @@ void LayerSet::keep(std::size_t layer) {
 }
 
 ProjectionImage LayerSet::sumOfKept(const std::vector<ChannelShares> &shares) const {
-    const bool grey = std::all_of(shares.begin(), shares.end(), [](const ChannelShares &s) {
-        return s[0] == s[1] && s[1] == s[2];
-    });
     const Camera &camera = m_kept->camera;
-    ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}, grey ? 1 : 3};
+    ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}, areGrey(shares) ? 1 : 3};
     const auto channels = std::size_t(image.channels);
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     image.samples.resize(pixels * channels);
