@@ -10,6 +10,7 @@
 #include "ui/panels/classes_panel.h"
 #include "ui/panels/presets_panel.h"
 #include "ui/panels/quality_panel.h"
+#include "ui/panels/shading_panel.h"
 #include "ui/panels/transfer_function_panel.h"
 #include "ui/views/projection_view.h"
 
@@ -25,12 +26,13 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
                      ProjectionView &projection, const Theme &theme)
     : QObject(&window), m_previewer(document), m_presets(new PresetsPanel(document)),
       m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document, theme)),
-      m_quality(new QualityPanel(document)) {
+      m_shading(new ShadingPanel(document, theme)), m_quality(new QualityPanel(document)) {
     // The order and the heights of the design: the stack fits 900 pixels.
-    dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 165);
-    dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 190);
+    dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 155);
+    dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 165);
     dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(),
-         215);
+         200);
+    dock(window, tr("SHADING"), "shadingDock", m_shading, m_shading->corner(), 165);
     dock(window, tr("QUALITY"), "qualityDock", m_quality, m_quality->corner(), 170);
 
     connect(m_presets, &PresetsPanel::presetsListed, &m_previewer, &LookPreviewer::preview);
@@ -41,6 +43,13 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
     connect(&preparer, &LookPreparer::engineReady, m_quality, &QualityPanel::showPlan);
     connect(m_quality, &QualityPanel::chosenAgain, &preparer, &LookPreparer::prepareAgain);
     connect(&projection, &ProjectionView::frameShown, m_quality, &QualityPanel::showFrame);
+}
+
+void LookDocks::unfold(QWidget &panel) {
+    for (QDockWidget *dock : m_docks)
+        if (dock->widget() == &panel)
+            dock->show();
+    panel.show();
 }
 
 void LookDocks::dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,

@@ -16,10 +16,11 @@ class LookPreparer;
 class PresetsPanel;
 class ProjectionView;
 class QualityPanel;
+class ShadingPanel;
 class TransferFunctionPanel;
 
 /// The docks at the right of the window, which say what is shown and how: presets, classes,
-/// transfer function, quality. Connects them with what they act on.
+/// transfer function, shading, quality. Connects them with what they act on.
 class LookDocks : public QObject {
     Q_OBJECT
 public:
@@ -28,6 +29,9 @@ public:
 
     const std::vector<QDockWidget *> &docks() const { return m_docks; }
     PresetsPanel &presets() { return *m_presets; }
+    ShadingPanel &shading() { return *m_shading; }
+    /// Shows a panel whose dock may be closed or folded.
+    void unfold(QWidget &panel);
 
 private:
     /// `corner`: what stands beside the heading; may be null.
@@ -38,6 +42,7 @@ private:
     PresetsPanel *m_presets;
     ClassesPanel *m_classes;
     TransferFunctionPanel *m_function;
+    ShadingPanel *m_shading;
     QualityPanel *m_quality;
     std::vector<QDockWidget *> m_docks;
     std::vector<int> m_heights;

@@ -27,11 +27,28 @@ bool isLarge(const volume::Volume &volume) {
     return std::max({n.i, n.j, n.k}) > coarseSide;
 }
 
+// Strength and values rounded up to halves.
+shading::DepthCue plannedCue(const shading::DepthCue &cue) {
+    if (!cue.isActive())
+        return {};
+    const auto up = [](double value) { return std::ceil(2.0 * value) / 2.0; };
+    shading::DepthCue planned{cue.kind, up(cue.strength)};
+    if (cue.kind == shading::CueKind::curve) {
+        planned.curve = cue.curve;
+        for (double &value : planned.curve)
+            value = up(value);
+    }
+    return planned;
+}
+
 // Planned for the whole volume in a picture of its own; the pane's zoom comes and goes.
 render::Scene planningScene(const volume::Volume &volume, const PreparedFor &wanted) {
     render::Scene scene;
     scene.tolerance = wanted.tolerance;
     scene.interpolation = wanted.interpolation;
+    scene.shading.cue = wanted.cue;
+    if (wanted.isLit) // whatever the lights: their number and place cost nothing
+        scene.shading.lights.emplace_back();
     scene.camera.pixelMm = volume.lattice().shortestStepMm();
     scene.camera.width = scene.camera.height =
         int(std::clamp(2.0 * volume.lattice().radiusMm() / scene.camera.pixelMm, 2.0, 4096.0));
@@ -46,7 +63,8 @@ classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &
 
 PreparedFor::PreparedFor(const Document &document)
     : look(document.scene().look), tolerance(document.scene().tolerance),
-      interpolation(document.scene().interpolation) {
+      interpolation(document.scene().interpolation), cue(plannedCue(document.scene().shading.cue)),
+      isLit(document.scene().shading.isLit()) {
     // The volume's own window is the same whether it is named or not.
     if (document.fieldWindow() != document.defaultFieldWindow())
         window = document.fieldWindow();
@@ -54,8 +72,13 @@ PreparedFor::PreparedFor(const Document &document)
 
 bool PreparedFor::hasLayersOf(const PreparedFor &other) const {
     return window == other.window && tolerance == other.tolerance &&
-           interpolation == other.interpolation &&
+           interpolation == other.interpolation && cue == other.cue && isLit == other.isLit &&
            classify::mixtureOf(look).layers == classify::mixtureOf(other.look).layers;
+}
+
+bool PreparedFor::showsSameAs(const PreparedFor &other) const {
+    return window == other.window && look == other.look && tolerance == other.tolerance &&
+           interpolation == other.interpolation;
 }
 
 LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
@@ -98,9 +121,12 @@ PreparedFor LookPreparer::forgetVolume() {
     m_layersGivenUp.reset();
     m_full.reset();
     m_shown.reset();
+    m_coarseToCome = false;
     PreparedFor wanted(m_document);
     wanted.window.reset(); // a new volume has its own
     wanted.look = {};
+    wanted.cue = {};
+    wanted.isLit = false;
     return wanted;
 }
 
@@ -124,6 +150,7 @@ void LookPreparer::stopOwnJob() {
         return;
     m_underway.reset();
     m_layersUnderway.reset();
+    m_coarseToCome = false;
     m_jobs.cancel();
 }
 
@@ -147,10 +174,26 @@ void LookPreparer::followScene() {
             showFull();
         return;
     }
-    if (m_prepared && wanted.hasLayersOf(*m_prepared))
+    if (m_prepared && wanted.showsSameAs(*m_prepared))
+        followCueAndLight(wanted);
+    else if (m_prepared && wanted.hasLayersOf(*m_prepared))
         followWeights(wanted);
     else
         startPreparing(true);
+}
+
+void LookPreparer::followCueAndLight(const PreparedFor &wanted) {
+    if (m_prepared->isLit && !wanted.isLit) {
+        // What the lights needed goes; what is left may be all that is wanted.
+        PreparedFor unlit = *m_prepared;
+        unlit.isLit = false;
+        stopOwnJob();
+        adopt(unlit, render::withoutLight(*m_full));
+        if (wanted == unlit)
+            return;
+    }
+    // A cue is seen at once with what there is; a light needs more, first of a small volume.
+    startPreparing(wanted.isLit && !m_prepared->isLit);
 }
 
 void LookPreparer::settle() {
@@ -161,6 +204,13 @@ void LookPreparer::settle() {
 }
 
 void LookPreparer::followWeights(const PreparedFor &wanted) {
+    if (wanted.isLit) {
+        // Under light the picture is no sum of layers: small pictures follow the hand, each as soon
+        // as the former is there.
+        if (!(m_underway && m_coarseToCome))
+            startPreparing(true);
+        return;
+    }
     // An engine of a former sum is no longer wanted, and takes the hand's time.
     if (m_underway)
         stopOwnJob();
@@ -196,7 +246,8 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
                     return classify::layerField(of, window, mixture.layers[n], steps.get(), p);
                 },
                 // Half of it: engines of the sum are to come.
-                {task::availableMemoryBytes() / 2}, progress);
+                {task::availableMemoryBytes() / 2}, progress,
+                shading::shadingScale(volume.lattice()));
             job.deliver([this, layers, wanted, isLast] {
                 m_layers = layers;
                 m_layersOf = wanted;
@@ -225,6 +276,7 @@ void LookPreparer::startPreparing(bool coarseFirst) {
                      const Job &job) { prepare(job, volume); });
     // Now that the end of the former job has been told.
     expect(wanted);
+    m_coarseToCome = coarseFirst;
 }
 
 LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, double from,
@@ -234,7 +286,9 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
         const task::Progress progress = job.progress().part(from, 1.0);
         const render::Scene scene = planningScene(volume, wanted);
         const std::size_t needed =
-            classify::peakBytes(wanted.look, volume.lattice().size().count());
+            classify::peakBytes(wanted.look, volume.lattice().size().count()) +
+            render::bytesForLight(scene.shading, volume.lattice().size().count(),
+                                  classify::mixesColors(wanted.look) ? 3 : 1);
         if (needed > task::availableMemoryBytes())
             throw task::Error(
                 task::ErrorCode::outOfMemory,
@@ -242,13 +296,18 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
         const classify::FieldWindow window = windowOf(volume, wanted);
         const auto announce = [&](const classify::ShownFields &f, bool isLast,
                                   const task::Progress &p) {
-            const auto prepared =
-                render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p);
+            const auto prepared = render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p,
+                                                        shading::shadingScale(volume.lattice()));
             job.deliver([this, prepared, isLast, wanted] {
+                m_coarseToCome = false;
                 if (!isLast) {
-                    // A coarse picture leaves the full one wanted.
-                    m_shown = EngineStage::coarse;
-                    emit engineReady(prepared, EngineStage::coarse);
+                    // A coarse picture leaves the full one wanted. Of weights that move it keeps
+                    // the brightness, as their layers do.
+                    const bool isLive = m_prepared && wanted.hasLayersOf(*m_prepared);
+                    m_shown = isLive ? EngineStage::live : EngineStage::coarse;
+                    emit engineReady(prepared, *m_shown);
+                    if (PreparedFor(m_document) != wanted)
+                        followScene();
                     return;
                 }
                 m_underway.reset();
@@ -260,6 +319,9 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
                     m_shown.reset();
                 }
                 adopt(wanted, prepared);
+                // Of a small volume the first picture is the last.
+                if (wanted.isLit && PreparedFor(m_document) != wanted)
+                    followScene();
             });
         };
         // First of a small volume, on which steps take no time.

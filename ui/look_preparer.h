@@ -33,10 +33,16 @@ struct PreparedFor {
     classify::Look look;
     double tolerance = 0.0;
     render::Interpolation interpolation;
+    /// The cue that the error is planned for: as strong as it is, or a little stronger, so that not
+    /// every touch asks for a new plan.
+    shading::DepthCue cue;
+    bool isLit = false;
     bool operator==(const PreparedFor &) const = default;
 
     /// Whether only weights, colours and control points differ: the layers are the same.
     bool hasLayersOf(const PreparedFor &other) const;
+    /// Whether only cue and light differ.
+    bool showsSameAs(const PreparedFor &other) const;
 };
 
 /// Makes the engines of the projection, as jobs, and follows the scene with them. While weights and
@@ -78,6 +84,7 @@ private:
     void stopOwnJob();
     void showFull();
     void followWeights(const PreparedFor &wanted);
+    void followCueAndLight(const PreparedFor &wanted);
     void startPreparing(bool coarseFirst);
     void startLayers(const PreparedFor &wanted);
     void showLayers();
@@ -92,6 +99,8 @@ private:
     /// What the last full engine was made for, what the next one is being made for, and what was
     /// cancelled or failed.
     std::optional<PreparedFor> m_prepared, m_underway, m_givenUp;
+    /// The one underway has not shown its first picture yet.
+    bool m_coarseToCome = false;
     std::optional<render::PreparedEngine> m_full;
     /// The layers that are there, of which look; and those on their way or given up.
     std::shared_ptr<render::LayerSet> m_layers;

@@ -22,6 +22,7 @@
 #include "core/task/error.h"
 #include "ui/commands.h"
 #include "ui/look_docks.h"
+#include "ui/look_menu.h"
 #include "ui/panels/job_strip.h"
 #include "ui/panels/presets_panel.h"
 #include "ui/panels/series_panel.h"
@@ -49,7 +50,9 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     createFileMenu();
     createEditMenu();
     createViewMenu();
-    createLookMenu();
+    auto *lookMenu =
+        new LookMenu(*menuBar()->addMenu(tr("&Look")), m_document, *m_look, *m_projection);
+    m_windowMenu = &lookMenu->windowMenu();
     createToolsMenu();
     createHelpMenu();
     createToolBar();
@@ -195,63 +198,6 @@ void MainWindow::createViewMenu() {
     QAction *full = addCommand(menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"),
                                [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
     full->setCheckable(true);
-}
-
-void MainWindow::createLookMenu() {
-    QMenu *menu = menuBar()->addMenu(tr("&Look"));
-    PresetsPanel &presets = m_look->presets();
-    addCommand(menu, tr("&Save look..."), "saveLookAction", QKeySequence::Save, [this, &presets] {
-        findChild<QDockWidget *>("presetsDock")->show();
-        presets.show(); // it may be folded
-        presets.askForName();
-    });
-    addCommand(menu, tr("&Import preset..."), "importPresetAction", {},
-               [&presets] { presets.importPreset(); });
-    addCommand(menu, tr("&Export preset..."), "exportPresetAction", {},
-               [&presets] { presets.exportPreset(); });
-    menu->addSeparator();
-    QMenu *between = menu->addMenu(tr("&Reconstruction"));
-    m_reconstructions = new QActionGroup(this);
-    using render::Reconstruction;
-    const auto add = [&](const QString &text, const char *name, Reconstruction which) {
-        QAction *action = addCommand(between, text, name, {}, [this, which, text] {
-            render::Scene scene = m_document.scene();
-            if (scene.image.reconstruction == which)
-                return;
-            scene.image.reconstruction = which;
-            m_document.undoStack()->push(new EditScene(m_document, scene, tr("Reconstruction")));
-        });
-        action->setCheckable(true);
-        action->setActionGroup(m_reconstructions);
-        action->setData(int(which));
-    };
-    add(tr("&Cubic"), "cubicAction", Reconstruction::cubic);
-    add(tr("&Linear"), "linearAction", Reconstruction::linear);
-    add(tr("&Sharp (band-limited)"), "bandLimitedAction", Reconstruction::bandLimited);
-    m_film = addCommand(menu, tr("&Film (inverted)"), "filmAction", QKeySequence("I"), [this] {
-        render::Scene scene = m_document.scene();
-        scene.tone.inverted = !scene.tone.inverted;
-        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Film")));
-    });
-    m_film->setCheckable(true);
-    addCommand(menu, tr("&Automatic tone"), "automaticToneAction", {}, [this] {
-        render::Scene scene = m_document.scene();
-        scene.tone.low.reset();
-        scene.tone.high.reset();
-        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Automatic tone")));
-        m_projection->retakeTone();
-    });
-    m_windowMenu = menu->addMenu(tr("&Window of the planes"));
-    m_windowMenu->setObjectName("windowMenu");
-    const auto show = [this] {
-        for (QAction *action : m_reconstructions->actions())
-            action->setChecked(action->data().toInt() ==
-                               int(m_document.scene().image.reconstruction));
-        m_film->setChecked(m_document.scene().tone.inverted);
-    };
-    connect(&m_document, &Document::sceneChanged, this, show);
-    connect(&m_document, &Document::volumeChanged, this, show);
-    show();
 }
 
 void MainWindow::createToolsMenu() {

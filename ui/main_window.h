@@ -51,7 +51,6 @@ private:
     void createFileMenu();
     void createEditMenu();
     void createViewMenu();
-    void createLookMenu();
     void createToolsMenu();
     void createHelpMenu();
     void createToolBar();
@@ -82,8 +81,7 @@ private:
     PaneArea *m_panes = nullptr;
     StartPage *m_start = nullptr;
     QStackedWidget *m_stack = nullptr;
-    QActionGroup *m_tools = nullptr, *m_reconstructions = nullptr, *m_layouts = nullptr;
-    QAction *m_film = nullptr;
+    QActionGroup *m_tools = nullptr, *m_layouts = nullptr;
     QMenu *m_windowMenu = nullptr;
     QLabel *m_readout = nullptr, *m_engine = nullptr;
 };

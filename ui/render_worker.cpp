@@ -26,11 +26,11 @@ void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
 
 std::uint64_t RenderWorker::request(const render::Camera &camera,
                                     const render::ImageDefinition &image,
-                                    const Reduction &reduction) {
+                                    const shading::Shading &shading, const Reduction &reduction) {
     const std::lock_guard lock(m_mutex);
     if (!m_engine)
         return m_number;
-    m_next = Request{m_engine, m_generation, camera, image, reduction, ++m_number};
+    m_next = Request{m_engine, m_generation, camera, image, shading, reduction, ++m_number};
     m_wake.notify_one();
     return m_number;
 }
@@ -59,7 +59,8 @@ void RenderWorker::run(std::stop_token stop) {
             frame->generation = request.generation;
             frame->number = request.number;
             frame->draft = request.reduction.draft;
-            frame->image = request.engine->render(request.camera, request.image, &frame->times);
+            frame->image = request.engine->render(request.camera, request.image, request.shading,
+                                                  &frame->times);
             emit frameReady(std::move(frame));
         } catch (const std::exception &error) {
             emit failed(QString::fromUtf8(error.what()));

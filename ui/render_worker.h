@@ -42,7 +42,7 @@ public:
     };
     /// The number of the request, which its frame will carry.
     std::uint64_t request(const render::Camera &camera, const render::ImageDefinition &image,
-                          const Reduction &reduction);
+                          const shading::Shading &shading, const Reduction &reduction);
 
 signals:
     void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
@@ -54,6 +54,7 @@ private:
         std::uint64_t generation;
         render::Camera camera;
         render::ImageDefinition image;
+        shading::Shading shading;
         Reduction reduction;
         std::uint64_t number;
     };

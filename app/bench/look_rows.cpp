@@ -41,22 +41,8 @@ std::vector<double> exactImage(const LookSubject &subject, const classify::Shown
     return image;
 }
 
-// Times the frames of an engine in turns with those of the plain density: what both take depends on
-// the clock and the caches of the moment. The times of the plain frames, median.
-double fillTimesInTurns(Row &row, render::ProjectionEngine &engine, render::ProjectionEngine &plain,
-                        const LookSubject &subject) {
-    std::vector<double> plainMs;
-    fillTimes(row, engine, subject.scene, views, [&](const render::Camera &camera) {
-        const double start = millisecondsNow();
-        plain.render(camera, subject.scene.image);
-        plainMs.push_back(millisecondsNow() - start);
-    });
-    return median(plainMs);
-}
-
-std::string ratioText(const Row &row, double plainMs, const std::string &note) {
-    return fmt::format("{}{}{:.2f} times the plain frame of {:.2f} ms, in turns", note,
-                       note.empty() ? "" : "; ", *row.frameMs / plainMs, plainMs);
+std::string noted(const std::string &note, const Row &row, double plainMs) {
+    return note + (note.empty() ? "" : "; ") + ratioText(row, plainMs);
 }
 
 } // namespace
@@ -87,11 +73,12 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
                              prepared.plan, subject.scene, 0);
         row.prepareMs = millisecondsNow() - start;
         row.bytes = double(fields.channels.size()) * double(prepared.plan.spectrum.bytes());
-        const double plainMs = fillTimesInTurns(row, *prepared.engine, *plain.engine, subject);
+        const double plainMs =
+            fillTimesInTurns(row, *prepared.engine, *plain.engine, subject.scene, views);
         fillError(
             row, compare(prepared.engine->render(truthCamera(subject), subject.scene.image).samples,
                          exact));
-        row.note = ratioText(row, plainMs, note);
+        row.note = noted(note, row, plainMs);
         report(row);
     }
     double start = millisecondsNow();
@@ -109,10 +96,10 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
     Row kept = summed;
     kept.name = name + ", weights move";
     render::MixtureEngine engine(layers, mixture.shares);
-    const double plainMs = fillTimesInTurns(summed, engine, *plain.engine, subject);
+    const double plainMs = fillTimesInTurns(summed, engine, *plain.engine, subject.scene, views);
     fillError(summed,
               compare(engine.render(truthCamera(subject), subject.scene.image).samples, exact));
-    summed.note = ratioText(summed, plainMs, note);
+    summed.note = noted(note, summed, plainMs);
     report(summed);
 
     std::vector<double> first, later;
@@ -120,20 +107,21 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
     auto shares = mixture.shares;
     for (const glm::dquat &orientation : randomViews(stillViews)) {
         camera.orientation = orientation;
-        layers->render(camera, subject.scene.image, shares);
+        layers->render(camera, subject.scene.image, {}, shares);
         for (int change = 0; change < changes; ++change) {
             for (double &share : shares[std::size_t(change) % shares.size()])
                 share *= 0.98;
             start = millisecondsNow();
-            layers->render(camera, subject.scene.image, shares);
+            layers->render(camera, subject.scene.image, {}, shares);
             (change == 0 ? first : later).push_back(millisecondsNow() - start);
         }
     }
-    layers->render(truthCamera(subject), subject.scene.image, mixture.shares);
+    layers->render(truthCamera(subject), subject.scene.image, {}, mixture.shares);
     fillError(
         kept,
-        compare(layers->render(truthCamera(subject), subject.scene.image, mixture.shares).samples,
-                exact));
+        compare(
+            layers->render(truthCamera(subject), subject.scene.image, {}, mixture.shares).samples,
+            exact));
     kept.frameMs = median(later);
     kept.note = fmt::format("{}{}the first change at a view {:.1f} ms", note,
                             note.empty() ? "" : "; ", median(first));

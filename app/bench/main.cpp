@@ -64,6 +64,8 @@ void run(const std::string &suite, const pellucid::bench::Report &report,
         runScalingSuite(report, subject);
     else if (suite == "thesis")
         runThesisSuite(report);
+    else if (suite == "shading")
+        runShadingSuite(report);
     else if (suite == "classes")
         runClassesSuite(report);
     else
@@ -80,8 +82,8 @@ int main(int argc, char **argv) {
     std::string json, csv, file, reportFolder;
     app.add_option("--suite", suites, "What to measure; several with commas between")
         ->delimiter(',')
-        ->check(
-            CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka", "classes"}));
+        ->check(CLI::IsMember(
+            {"quick", "kernels", "hard", "scaling", "thesis", "totsuka", "classes", "shading"}));
     app.add_option("--volume", file,
                    "An NRRD volume in place of the fields of the suites kernels and scaling");
     app.add_option("--json", json, "Write the rows as JSON");

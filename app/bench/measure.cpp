@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/fourier/transform.h"
 
 namespace pellucid::bench {
@@ -150,7 +152,7 @@ void fillTimes(Row &row, render::ProjectionEngine &engine, const render::Scene &
             before(camera);
         render::FrameTimes times;
         const double start = millisecondsNow();
-        engine.render(camera, scene.image, &times);
+        engine.render(camera, scene.image, scene.shading, &times);
         frame.push_back(millisecondsNow() - start);
         slice.push_back(times.sliceMs);
         transform.push_back(times.transformMs);
@@ -158,6 +160,22 @@ void fillTimes(Row &row, render::ProjectionEngine &engine, const render::Scene &
     row.sliceMs = median(slice);
     row.transformMs = median(transform);
     row.frameMs = median(frame);
+}
+
+double fillTimesInTurns(Row &row, render::ProjectionEngine &engine, render::ProjectionEngine &plain,
+                        const render::Scene &scene, int views) {
+    std::vector<double> plainMs;
+    fillTimes(row, engine, scene, views, [&](const render::Camera &camera) {
+        const double start = millisecondsNow();
+        plain.render(camera, scene.image);
+        plainMs.push_back(millisecondsNow() - start);
+    });
+    return median(plainMs);
+}
+
+std::string ratioText(const Row &row, double plainMs) {
+    return fmt::format("{:.2f} times the plain frame of {:.2f} ms, in turns",
+                       *row.frameMs / plainMs, plainMs);
 }
 
 void fillError(Row &row, const ImageError &error) {
@@ -183,7 +201,7 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
 
     ImageError worst{0.0, 0.0, 1e9};
     for (int view = 0; view < truth.views(); ++view) {
-        const auto image = engine.render(truth.camera(view), how.scene.image);
+        const auto image = engine.render(truth.camera(view), how.scene.image, how.scene.shading);
         const ImageError error = compare(image.samples, truth.image(view, how.scene.image));
         worst = {std::max(worst.relativeL2, error.relativeL2),
                  std::max(worst.maximum, error.maximum), std::min(worst.psnrDb, error.psnrDb)};

@@ -77,6 +77,14 @@ void fillTimes(Row &row, render::ProjectionEngine &engine, const render::Scene &
                const std::function<void(const render::Camera &)> &before = {});
 void fillError(Row &row, const ImageError &error);
 
+/// Times the frames of an engine in turns with those of a plain one of the same camera, without cue
+/// and light: what both take depends on the clock and the caches of the moment. The times of the
+/// plain frames, median.
+double fillTimesInTurns(Row &row, render::ProjectionEngine &engine, render::ProjectionEngine &plain,
+                        const render::Scene &scene, int views);
+/// How many times the plain frame that is.
+std::string ratioText(const Row &row, double plainMs);
+
 /// The camera of an image of side x side pixels of the shortest step, for any lattice.
 render::Camera squareCamera(const volume::Lattice &lattice, int side);
 

@@ -46,7 +46,7 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
                 camera.orientation = views[std::size_t(round * viewsARound + std::max(0, view))];
                 render::FrameTimes times;
                 const double start = millisecondsNow();
-                with.render(camera, how.scene.image, &times);
+                with.render(camera, how.scene.image, {}, &times);
                 if (view < 0)
                     continue;
                 total.push_back(millisecondsNow() - start);

@@ -27,6 +27,8 @@ void runThesisSuite(const Report &report);
 /// Looks on 128^3 and 256^3: what weights, colours and control points cost in each of the three
 /// uses of linearity.
 void runClassesSuite(const Report &report);
+/// Depth cues and lights at 128^3 and 256^3, in turns with the plain frame.
+void runShadingSuite(const Report &report);
 /// Totsuka and Levoy 1993, table 1, and their adaptive filter.
 void runTotsukaSuite(const Report &report);
 

@@ -46,7 +46,7 @@ bool isEmpty(const classify::DensityField &field) {
 void run(const Options &o, const CLI::App &command, const Context &context) {
     const fs::path out(o.out);
     // Refused before any work is done.
-    checkOutput(out, classify::isGrey(lookFor(o.scene)));
+    checkOutput(out, classify::isGrey(lookFor(o.scene)) && shadingFor(o.scene, command).isGrey());
     if (o.engine == "gpu")
         throw Error(ErrorCode::noSuchDevice,
                     "--engine gpu: the GPU engine is not available in this version");
@@ -59,12 +59,15 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const Input input = openInput(o.path, o.series, context);
     const volume::Volume &volume = input.loaded.volume;
     render::Scene scene = sceneFor(o.scene, command, volume);
-    checkOutput(out, classify::isGrey(scene.look)); // the scene file may have brought colours
+    // The scene file may have brought colours.
+    checkOutput(out, classify::isGrey(scene.look) && scene.shading.isGrey());
     Stopwatch watch;
     const classify::FieldWindow window =
         scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
+    const std::size_t samples = volume.lattice().size().count();
     const std::size_t held =
-        volume.bytes() + classify::peakBytes(scene.look, volume.lattice().size().count());
+        volume.bytes() + classify::peakBytes(scene.look, samples) +
+        render::bytesForLight(scene.shading, samples, classify::mixesColors(scene.look) ? 3 : 1);
     if (command.count("--memory") > 0 && o.memory < held)
         throw Error(ErrorCode::outOfMemory,
                     fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
@@ -105,7 +108,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         warn("--bezier weighs the whole volume; beside --class it is not seen");
     if (command.count("--preset") > 0 &&
         (command.count("--class") > 0 || command.count("--bezier") > 0))
-        warn("what is shown is --class or --bezier; of the preset its window is left");
+        warn("what is shown is --class or --bezier; of the preset its window and light are left");
     if (command.count("--class") > 0 && volume.unit() != volume::ValueUnit::hounsfield)
         warn("the ranges of --class are Hounsfield units, which the values are not known to be");
     if (const auto preset = presetFor(o.scene))

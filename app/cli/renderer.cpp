@@ -9,59 +9,93 @@
 
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
+#include "core/reference/shaded_field.h"
 
 namespace pellucid::cli {
 
 using nlohmann::json;
 
-Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
-                   const render::Budget &budget, const Context &context)
-    : Renderer(scene, fields, render::summarise(fields.channels), budget, context) {}
+namespace {
+
+render::ShadedFields shadedFor(const render::Scene &scene, const classify::ShownFields &fields,
+                               const task::Progress &progress) {
+    return render::shadedFields(fields.channels, scene.shading,
+                                shading::shadingScale(fields.channels.front().values.lattice()),
+                                progress);
+}
+
+} // namespace
 
 Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
+                   const render::Budget &budget, const Context &context)
+    : Renderer(scene, fields, shadedFor(scene, fields, task::Progress(context.stop)), budget,
+               context) {}
+
+Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
+                   const render::ShadedFields &shaded, const render::Budget &budget,
+                   const Context &context)
+    : Renderer(scene, fields, shaded, render::summarise(shaded, scene.shading.cue), budget,
+               context) {}
+
+Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
+                   const render::ShadedFields &shaded,
                    const std::vector<render::FieldSummary> &summaries, const render::Budget &budget,
                    const Context &context)
-    : m_scene(scene), m_color(fields.color), m_channels(fields.channels.size()),
-      m_isGrey(fields.isGrey()),
-      m_fitting(render::planWithin(scene, fields.channels, summaries, budget,
-                                   task::Progress(context.stop))),
-      m_lattice(fields.channels.front().values.lattice()) {
-    const task::Progress progress(context.stop);
+    : m_scene(scene), m_fields(fields), m_progress(context.stop),
+      m_channels(std::size_t(render::imagesOf(fields.channels.size(), scene.shading))),
+      m_isGrey(fields.isGrey() && m_channels == 1),
+      m_fitting(render::planWithin(scene, shaded, summaries, budget, m_progress)),
+      m_lattice(shaded.fields.front().values.lattice()) {
     const render::RenderPlan &plan = m_fitting.plan;
     std::size_t exactBytes = 0;
-    for (const classify::DensityField &field : fields.channels)
-        exactBytes += reference::WideKernel::bytes(field.support) +
+    for (std::size_t c = 0; c < m_channels; ++c)
+        exactBytes += reference::WideKernel::bytes(shaded.fields.front().support) +
                       reference::sliceBytes(m_lattice, scene.camera, scene.image);
     if (plan.predictedError <= scene.tolerance || scene.interpolation != render::Interpolation() ||
         m_fitting.reduction > 1 || exactBytes > budget.bytes) {
-        const auto &sources =
-            m_fitting.reducedFields.empty() ? fields.channels : m_fitting.reducedFields;
-        m_lattice = sources.front().values.lattice();
-        m_engine = render::makeEngine(sources, fields.color, plan, progress);
-        m_fitting.reducedFields.clear();
+        const render::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
+        m_lattice = sources.fields.front().values.lattice();
+        m_engine = render::makeEngine(sources, fields.color, plan, m_progress);
+        m_fitting.reduced.reset();
         m_bytes = plan.bytes;
         m_predictedError = plan.predictedError;
         return;
     }
-    for (const classify::DensityField &field : fields.channels)
-        m_references.emplace_back(field.values, field.support, progress);
+    if (scene.shading == shading::Shading())
+        for (const classify::DensityField &field : fields.channels)
+            m_references.emplace_back(field.values, field.support, m_progress);
     m_bytes = exactBytes;
-    // Double precision leaves rounding, about 1e-10, and what is left of the roll-off's tails.
+    // Double precision leaves rounding, about 1e-10, or that of a shaded field's samples; and what
+    // is left of the roll-off's tails.
+    const double rounding = m_references.empty() ? 6e-8 : 1e-10;
     for (const render::FieldSummary &summary : summaries)
         m_predictedError = std::max(
             m_predictedError,
-            std::hypot(1e-10, reference::foldedTails(summary.lattice, scene.camera, scene.image,
-                                                     *summary.energy.spread)));
+            std::hypot(rounding, reference::foldedTails(summary.lattice, scene.camera, scene.image,
+                                                        *summary.energy.spread)));
 }
 
 render::ProjectionImage Renderer::image(const render::Camera &camera, render::FrameTimes &times) {
     if (m_engine)
-        return m_engine->render(camera, m_scene.image, &times);
+        return m_engine->render(camera, m_scene.image, m_scene.shading, &times);
     Stopwatch watch;
+    render::ProjectionImage image = exactImage(camera);
+    times = {watch.lapMs(), 0.0};
+    return image;
+}
+
+render::ProjectionImage Renderer::exactImage(const render::Camera &camera) const {
     std::vector<std::vector<double>> planes;
     for (const reference::WideKernel &exact : m_references)
         planes.push_back(exact.image(camera, m_scene.image));
-    times = {watch.lapMs(), 0.0};
+    for (std::size_t c = 0; planes.size() < m_channels; ++c) {
+        const auto shaded = reference::shadedField(
+            m_fields.channels[std::min(c, m_fields.channels.size() - 1)], m_scene.shading,
+            camera.axes(), int(c),
+            shading::shadingScale(m_fields.channels.front().values.lattice()), m_progress);
+        planes.push_back(reference::WideKernel(shaded.values, shaded.support, m_progress)
+                             .image(camera, m_scene.image));
+    }
     render::ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}};
     if (m_isGrey) {
         image.samples.assign(planes.front().begin(), planes.front().end());
@@ -69,11 +103,14 @@ render::ProjectionImage Renderer::image(const render::Camera &camera, render::Fr
     }
     image.channels = 3;
     image.samples.resize(3 * planes.front().size());
-    const std::array<double, 3> color{m_color.red, m_color.green, m_color.blue};
+    // The channels of a look have their colours already.
+    const classify::Color color =
+        m_fields.channels.size() == 1 ? m_fields.color : classify::Color{};
+    const std::array<double, 3> factors{color.red, color.green, color.blue};
     for (std::size_t c = 0; c < 3; ++c) {
         const std::vector<double> &plane = planes[std::min(c, planes.size() - 1)];
         for (std::size_t n = 0; n < plane.size(); ++n)
-            image.samples[3 * n + c] = float((planes.size() == 1 ? color[c] : 1.0) * plane[n]);
+            image.samples[3 * n + c] = float(factors[c] * plane[n]);
     }
     return image;
 }

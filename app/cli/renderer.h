@@ -19,7 +19,7 @@ namespace pellucid::cli {
 /// keeps the tolerance, unless the memory is short or the scene fixes the interpolation.
 class Renderer {
 public:
-    /// The scene must outlive it. *Throws* Error{outOfMemory}, Cancelled.
+    /// The scene and the fields must outlive it. *Throws* Error{outOfMemory}, Cancelled.
     Renderer(const render::Scene &scene, const classify::ShownFields &fields,
              const render::Budget &budget, const Context &context);
 
@@ -40,18 +40,24 @@ public:
 
 private:
     Renderer(const render::Scene &scene, const classify::ShownFields &fields,
-             const std::vector<render::FieldSummary> &summaries, const render::Budget &budget,
+             const render::ShadedFields &shaded, const render::Budget &budget,
              const Context &context);
+    Renderer(const render::Scene &scene, const classify::ShownFields &fields,
+             const render::ShadedFields &shaded, const std::vector<render::FieldSummary> &summaries,
+             const render::Budget &budget, const Context &context);
+    render::ProjectionImage exactImage(const render::Camera &camera) const;
 
     const render::Scene &m_scene;
-    classify::Color m_color;
+    const classify::ShownFields &m_fields;
+    task::Progress m_progress;
     std::size_t m_channels, m_bytes = 0;
     bool m_isGrey;
     render::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of what is rendered
     double m_predictedError = 0.0;
     std::shared_ptr<render::CpuEngine> m_engine;
-    std::vector<reference::WideKernel> m_references; ///< one each channel, in place of an engine
+    /// One each channel, in place of an engine; made for every image where each is shaded anew.
+    std::vector<reference::WideKernel> m_references;
 };
 
 } // namespace pellucid::cli

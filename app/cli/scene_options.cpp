@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "app/cli/input.h"
 #include "core/presets/preset_library.h"
@@ -111,6 +112,32 @@ classify::Look lookFor(const SceneOptions &options) {
     return look;
 }
 
+shading::Shading shadingFor(const SceneOptions &o, const CLI::App &command,
+                            const shading::Shading &former) {
+    shading::Shading shading = former;
+    if (const auto preset = presetFor(o))
+        shading = preset->shading;
+    const auto read = [](const char *option, const std::string &text, auto &&fromText) {
+        try {
+            return fromText(text);
+        } catch (const Error &error) {
+            throw Error(error.code(), std::string(option) + ": " + error.reason());
+        }
+    };
+    if (command.count("--depth-cue") > 0)
+        shading.cue = read("--depth-cue", o.depthCue, shading::cueFromText);
+    if (command.count("--ambient") > 0)
+        shading.ambient = o.ambient;
+    if (!o.lights.empty())
+        shading.lights.clear();
+    for (const std::string &text : o.lights)
+        shading.lights.push_back(read("--light", text, shading::lightFromText));
+    if (shading.lights.size() > shading::mostLights)
+        throw Error(ErrorCode::usage,
+                    fmt::format("--light: more than {} lights", shading::mostLights));
+    return shading;
+}
+
 void addSceneOptions(CLI::App &command, SceneOptions &options) {
     const CLI::Validator positive(
         [](std::string &text) {
@@ -156,6 +183,22 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         .add_option("--class", options.classes,
                     "NAME=WEIGHT[:#rrggbb]: show the classes named, by weight 0 to 2; repeat it")
         ->allow_extra_args(false);
+    command
+        .add_option("--depth-cue", options.depthCue,
+                    "none, linear:S, sine:S (S 0 to 1), or curve:c0,c1,.. from far to near, "
+                    "2 to 8 of 0 to 2")
+        ->check(notEmpty);
+    command
+        .add_option("--light", options.lights,
+                    "u,v,w[:#rrggbb[:S]]: a light from that direction (right, up, toward the "
+                    "viewer); repeat it")
+        ->allow_extra_args(false);
+    command
+        .add_option("--light-frame", options.lightFrame,
+                    "What the lights follow when the view turns, default viewer")
+        ->check(CLI::IsMember({"viewer", "patient"}));
+    command.add_option("--ambient", options.ambient, "The ambient light, 0 to 2, default 1")
+        ->check(CLI::Range(0.0, shading::largestAmbient));
     command.add_option("--reconstruction", options.reconstruction, "What lies between the samples")
         ->check(CLI::IsMember(names(reconstructions)));
     command
@@ -252,6 +295,18 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
         scene.look = presets::lookFor(
             *preset, scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)));
     change(scene.look, o);
+    scene.shading = shadingFor(o, command, scene.shading);
+    if (given("--light-frame")) {
+        if (o.lights.empty())
+            throw Error(ErrorCode::usage, "--light-frame says how a --light is meant");
+        // Directions are given as seen in the scene's view.
+        const glm::dmat3 axes = scene.camera.axes();
+        for (shading::Light &light : scene.shading.lights)
+            if (o.lightFrame == "patient") {
+                light.direction = axes * glm::normalize(light.direction);
+                light.frame = shading::LightFrame::patient;
+            }
+    }
     if (given("--reconstruction"))
         scene.image.reconstruction = reconstructions.at(o.reconstruction);
     if (given("--roll-off"))

@@ -17,10 +17,10 @@ namespace pellucid::cli {
 /// The options that say what a projection shows, as typed.
 struct SceneOptions {
     std::string scene, preset, view, orientation, size, window, bezier, reconstruction, quality,
-        kernel, storage;
-    std::vector<std::string> classes;
+        kernel, storage, depthCue, lightFrame;
+    std::vector<std::string> classes, lights;
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,
-           tolerance = 0.0, padding = 0.0;
+           tolerance = 0.0, padding = 0.0, ambient = 1.0;
 };
 
 /// Adds them to a command; `options` must outlive it.
@@ -36,6 +36,11 @@ std::optional<presets::Preset> presetFor(const SceneOptions &options);
 /// The look that --preset, --bezier and --class ask for, in the preset's own units; what is not
 /// given is plain. *Throws* as presetFor.
 classify::Look lookFor(const SceneOptions &options);
+
+/// The cue and lights that --preset, --depth-cue, --light and --ambient ask for, over `former`
+/// where they are not given. *Throws* as presetFor.
+shading::Shading shadingFor(const SceneOptions &options, const CLI::App &command,
+                            const shading::Shading &former = {});
 
 /// The scene they make of a volume: the scene file's, or the default one, changed by the preset and
 /// then by the options that were given. *Throws* Error{usage}, Error{unusable} for a file.

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/classify/look_json.h"
 
-#include <cmath>
-#include <limits>
-
 #include <nlohmann/json.hpp>
 
+#include "core/classify/json_values.h"
 #include "core/task/error.h"
 
 namespace pellucid::classify {
@@ -14,93 +12,61 @@ namespace {
 
 using nlohmann::json;
 using task::Error;
-using task::ErrorCode;
-
-[[noreturn]] void refuse(const std::string &where, const std::string &what) {
-    throw Error(ErrorCode::usage, where + ": " + what);
-}
-
-// Beyond this, differences of two numbers are no longer finite in single precision.
-constexpr double largest = 1e30;
-
-double number(const json &in, const std::string &where) {
-    if (!in.is_number())
-        refuse(where, "must be a number");
-    const double value = in.get<double>();
-    if (!(std::abs(value) <= largest))
-        refuse(where, "is out of range");
-    return value;
-}
-
-std::vector<double> numbers(const json &in, const std::string &where) {
-    if (!in.is_array())
-        refuse(where, "must be a list of numbers");
-    std::vector<double> values;
-    for (std::size_t n = 0; n < in.size(); ++n)
-        values.push_back(number(in[n], where + "/" + std::to_string(n)));
-    return values;
-}
-
-std::string text(const json &in, const std::string &where) {
-    if (!in.is_string())
-        refuse(where, "must be a text");
-    return in.get<std::string>();
-}
 
 // What checks a value says, said of where it stands.
 template <class F> auto at(const std::string &where, const F &check) {
     try {
         return check();
     } catch (const Error &error) {
-        refuse(where, error.reason());
+        refuseJson(where, error.reason());
     }
 }
 
 TransferFunction functionFromJson(const json &in, const std::string &where) {
-    const TransferFunction function{numbers(in, where)};
+    const TransferFunction function{jsonNumbers(in, where)};
     at(where, [&] { validate(function); });
     return function;
 }
 
 Step stepFromJson(const json &in, const std::string &where) {
     if (!in.is_object())
-        refuse(where, "must be an object with a kind");
+        refuseJson(where, "must be an object with a kind");
     if (!in.contains("kind"))
-        refuse(where, "has no kind");
-    Step step{text(in["kind"], where + "/kind"), {}};
+        refuseJson(where, "has no kind");
+    Step step{jsonText(in["kind"], where + "/kind"), {}};
     for (const auto &[key, value] : in.items())
         if (key != "kind")
-            step.parameters[key] = number(value, where + "/" + key);
+            step.parameters[key] = jsonNumber(value, where + "/" + key);
     at(where, [&] { validate(step); });
     return step;
 }
 
 TissueClass classFromJson(const json &in, const std::string &where) {
     if (!in.is_object())
-        refuse(where, "must be an object with a name and a range");
+        refuseJson(where, "must be an object with a name and a range");
     for (const char *key : {"name", "range"})
         if (!in.contains(key))
-            refuse(where, "has no " + std::string(key));
+            refuseJson(where, "has no " + std::string(key));
     TissueClass tissue;
-    tissue.name = text(in["name"], where + "/name");
-    const auto range = numbers(in["range"], where + "/range");
+    tissue.name = jsonText(in["name"], where + "/name");
+    const auto range = jsonNumbers(in["range"], where + "/range");
     if (range.size() != 2)
-        refuse(where + "/range", "must be two numbers");
+        refuseJson(where + "/range", "must be two numbers");
     tissue.low = range[0];
     tissue.high = range[1];
     if (in.contains("softness"))
-        tissue.softness = number(in["softness"], where + "/softness");
+        tissue.softness = jsonNumber(in["softness"], where + "/softness");
     if (in.contains("weight"))
-        tissue.weight = number(in["weight"], where + "/weight");
+        tissue.weight = jsonNumber(in["weight"], where + "/weight");
     if (in.contains("color"))
         tissue.color = at(where + "/color",
-                          [&] { return colorFromText(text(in["color"], where + "/color")); });
+                          [&] { return colorFromText(jsonText(in["color"], where + "/color")); });
     if (in.contains("transfer_function"))
         tissue.transferFunction =
             functionFromJson(in["transfer_function"], where + "/transfer_function");
     if (in.contains("steps")) {
         if (!in["steps"].is_array())
-            refuse(where + "/steps", "must be a list");
+            refuseJson(where + "/steps", "must be a list");
         for (std::size_t n = 0; n < in["steps"].size(); ++n)
             tissue.steps.push_back(
                 stepFromJson(in["steps"][n], where + "/steps/" + std::to_string(n)));
@@ -141,15 +107,15 @@ std::string toJson(const Look &look) {
 Look lookFromJson(const std::string &source) {
     const json in = json::parse(source, nullptr, false);
     if (!in.is_object())
-        refuse("", "must be an object");
+        refuseJson("", "must be an object");
     Look look;
     if (in.contains("transfer_function"))
         look.transferFunction = functionFromJson(in["transfer_function"], "/transfer_function");
     if (in.contains("classes")) {
         if (!in["classes"].is_array())
-            refuse("/classes", "must be a list");
+            refuseJson("/classes", "must be a list");
         if (in["classes"].size() > mostClasses)
-            refuse("/classes", "holds more than " + std::to_string(mostClasses) + " classes");
+            refuseJson("/classes", "holds more than " + std::to_string(mostClasses) + " classes");
         for (std::size_t n = 0; n < in["classes"].size(); ++n)
             look.classes.push_back(
                 classFromJson(in["classes"][n], "/classes/" + std::to_string(n)));

@@ -208,7 +208,12 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
     auto *const intermediate = reinterpret_cast<float *>(intermediateMemory.get());
     const ForwardTransform1d alongX(padded.i);
     const StripTransform alongY(padded.j), alongZ(padded.k);
-    std::vector<double> planeBounds(size.k), planeSums(size.k);
+    // The sum and the first moments about the wrap voxel.
+    struct PlaneSums {
+        double all = 0.0, alongI = 0.0, alongJ = 0.0;
+    };
+    std::vector<double> planeBounds(size.k);
+    std::vector<PlaneSums> planeSums(size.k);
     const std::size_t rowCells = std::size_t(blocks) * stripLanes;
     Scratch<float> realRows(padded.i);
     Scratch<Complex> planes(size.j * rowCells);
@@ -219,7 +224,8 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
             float *const real = realRows.local();
             Complex *const plane = planes.local();
             std::fill(real, real + padded.i, 0.0F);
-            double planeBound = 0.0, planeSum = 0.0;
+            double planeBound = 0.0;
+            PlaneSums sums;
             for (int j = 0; j < size.j; ++j) {
                 const auto *in =
                     samples.data() +
@@ -238,14 +244,20 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
                     sum += std::abs(real[i - middleI]);
                 }
                 planeBound += double(sum);
-                for (int i = 0; i < size.i; ++i)
-                    planeSum += double(in[i]);
+                double rowSum = 0.0, rowMoment = 0.0;
+                for (int i = 0; i < size.i; ++i) {
+                    rowSum += double(in[i]);
+                    rowMoment += double(in[i]) * (i - middleI);
+                }
+                sums.all += rowSum;
+                sums.alongI += rowMoment;
+                sums.alongJ += rowSum * (j - size.j / 2);
                 Complex *const row = plane + std::size_t(j) * rowCells;
                 alongX.run(real, row);
                 std::fill(row + padded.i / 2 + 1, row + rowCells, Complex());
             }
             planeBounds[k] = planeBound;
-            planeSums[k] = planeSum;
+            planeSums[k] = sums;
             float *const placed = strips.local();
             float *const column = placed + std::size_t(size.j) * stripFloats;
             float *const beside = column + std::size_t(padded.j) * stripFloats;
@@ -264,8 +276,14 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
     });
     progress.report(0.5);
 
-    for (const double plane : planeSums)
-        spectrum.m_mass += plane * field.lattice().cellVolumeMm3();
+    const double dv = field.lattice().cellVolumeMm3();
+    for (int k = 0; k < size.k; ++k) {
+        const PlaneSums &sums = planeSums[k];
+        spectrum.m_mass += dv * sums.all;
+        spectrum.m_moments[0] += dv * sums.alongI;
+        spectrum.m_moments[1] += dv * sums.alongJ;
+        spectrum.m_moments[2] += dv * sums.all * (k - size.k / 2);
+    }
     // No cell can exceed the sum of the magnitudes; a power of two scales without rounding.
     double scale = 1.0;
     if (layout.storage == Storage::binary16) {

@@ -78,6 +78,9 @@ public:
     double unit() const { return m_unit; }
     /// dV * sum f: the value at frequency 0 before any rounding or interpolation.
     double mass() const { return m_mass; }
+    /// dV * sum f (n - n_w): what the field times the distance from the wrap voxel is at frequency
+    /// 0, by axis. *Units*: of the mass, times samples.
+    const std::array<double, 3> &moments() const { return m_moments; }
     /// The value at a grid index: p in -apron..padded/2 + apron, q and r within apron of
     /// +-padded/2.
     std::complex<double> value(int p, int q, int r) const;
@@ -92,6 +95,7 @@ private:
     volume::PatientPoint m_wrapPoint;
     std::shared_ptr<std::byte[]> m_cells;
     double m_unit = 1.0, m_mass = 0.0;
+    std::array<double, 3> m_moments{};
 };
 
 } // namespace pellucid::fourier

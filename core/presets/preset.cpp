@@ -66,12 +66,13 @@ std::string mismatch(const Preset &preset, const volume::Volume &volume) {
     return {};
 }
 
-Preset presetOf(const std::string &name, const Look &look, const FieldWindow &window,
-                const volume::Volume &volume) {
+Preset presetOf(const std::string &name, const Look &look, const shading::Shading &shading,
+                const FieldWindow &window, const volume::Volume &volume) {
     Preset preset;
     preset.name = name;
     preset.modality = volume.notes().modality;
     preset.look = look;
+    preset.shading = shading;
     const double width = window.high - window.low;
     if (volume.unit() == volume::ValueUnit::hounsfield) {
         preset.window = window;

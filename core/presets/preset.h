@@ -7,6 +7,7 @@
 
 #include "core/classify/density_field.h"
 #include "core/classify/look.h"
+#include "core/shading/shading.h"
 
 namespace pellucid::presets {
 
@@ -23,6 +24,7 @@ struct Preset {
     std::optional<classify::FieldWindow> window; ///< none: the volume's own
     RangeUnit unit = RangeUnit::value;
     classify::Look look;
+    shading::Shading shading;
     std::string notes;
     /// The JSON that it was read from: keys that this version does not know are written again.
     std::string source = "{}";
@@ -37,7 +39,8 @@ std::string mismatch(const Preset &preset, const volume::Volume &volume);
 
 /// A look that is shown on a volume, as a preset: in HU for CT, by shares of the window otherwise.
 Preset presetOf(const std::string &name, const classify::Look &look,
-                const classify::FieldWindow &window, const volume::Volume &volume);
+                const shading::Shading &shading, const classify::FieldWindow &window,
+                const volume::Volume &volume);
 
 /// JSON, `"schema": "pellucid-preset/1"`.
 std::string toJson(const Preset &preset);

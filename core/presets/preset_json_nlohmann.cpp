@@ -186,6 +186,7 @@ Preset parsed(const json &in, const std::string &source) {
             refuse("/window", "must be two numbers, the lower first");
     }
     preset.look = classify::lookFromJson(source);
+    preset.shading = shading::shadingFromJson(source);
     preset.source = source;
     return preset;
 }
@@ -222,8 +223,8 @@ std::string toJson(const Preset &preset) {
     if (!out.is_object())
         out = json::object();
     json formerClasses = out.value("classes", json::array());
-    for (const char *known :
-         {"transfer_function", "classes", "window", "units", "modality", "notes"})
+    for (const char *known : {"transfer_function", "classes", "window", "units", "modality",
+                              "notes", "cue", "ambient", "lights"})
         out.erase(known);
     out["schema"] = schema;
     out["name"] = preset.name;
@@ -236,6 +237,7 @@ std::string toJson(const Preset &preset) {
     if (preset.window)
         out["window"] = {preset.window->low, preset.window->high};
     out.update(json::parse(classify::toJson(preset.look)));
+    out.update(json::parse(shading::toJson(preset.shading)));
     if (out.contains("classes"))
         for (json &tissue : out["classes"]) {
             const auto former =

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <new>
 #include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "core/fourier/page_memory.h"
 #include "core/render/frame_job.h"
@@ -146,6 +149,18 @@ struct CpuEngine::Workplace {
         channelRoom = channels;
     }
 
+    // Made for the first frame with a linear cue, in milliseconds.
+    const std::array<fourier::MomentKernel, 3> &
+    momentKernels(const fourier::SpectrumLayout &layout) {
+        const auto kernel = [&](int d) {
+            return fourier::MomentKernel(layout.kernels[std::size_t(d)],
+                                         double(layout.padded[d]) / layout.box.size()[d]);
+        };
+        if (!moments)
+            moments.emplace(std::array{kernel(0), kernel(1), kernel(2)});
+        return *moments;
+    }
+
     struct Framed {
         Camera camera; // but its orientation
         ImageDefinition image;
@@ -155,6 +170,7 @@ struct CpuEngine::Workplace {
     task::WorkerTeam team;
     std::vector<FrameScratch> scratch;
     std::optional<Framed> framed;
+    std::optional<std::array<fourier::MomentKernel, 3>> moments;
     // A draft and a full frame take turns while the hand moves: their tables are kept, and a third.
     std::unique_ptr<GridTables> tables;
     std::array<std::unique_ptr<GridTables>, 2> others;
@@ -168,51 +184,120 @@ struct CpuEngine::Workplace {
 
 namespace {
 
-// The spectra that have a share of a picture, and how many slices are made of them.
+// The spectra that have a share of a picture, how many sums are made of them, and how many images.
 struct Mixing {
-    Mixing(const std::vector<std::shared_ptr<const fourier::Spectrum>> &spectra,
-           const std::vector<ChannelShares> &shares) {
-        for (std::size_t n = 0; n < spectra.size(); ++n)
+    Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &shares,
+           const shading::SliceShading &shading)
+        : grey(areGrey(shares) && shading.isGrey()) {
+        std::vector<std::size_t> shown;
+        for (std::size_t n = 0; n < spectra.fields.size(); ++n)
             if (shares[n] != ChannelShares{0.0, 0.0, 0.0})
-                parts.push_back({spectra[n].get(), shares[n]});
-        grey = areGrey(shares);
-        if (parts.empty())
+                shown.push_back(n);
+        if (shown.empty())
             return;
-        unit = parts.front().spectrum->unit();
+        const fourier::Spectrum &first = *spectra.fields[shown.front()];
+        unit = first.unit();
         // One spectrum is one slice, in whatever colour: the colour is given to the image.
-        channels = grey || parts.size() == 1 ? 1 : FrameJob::mostChannels;
-        if (parts.size() == 1 && grey)
-            unit *= parts.front().shares[0];
-        else if (parts.size() == 1)
-            color = parts.front().shares;
-        for (const Part &part : parts) {
-            const double s = part.spectrum->unit() / parts.front().spectrum->unit();
-            sources.push_back({part.spectrum->cells(),
-                               {float(s * part.shares[0]), float(s * part.shares[1]),
-                                float(s * part.shares[2])}});
-            for (std::size_t c = 0; c < mass.size(); ++c)
-                mass[c] +=
-                    part.spectrum->mass() * (parts.size() == 1 && !grey ? 1.0 : part.shares[c]);
+        const bool alone = shown.size() == 1;
+        sums = alone || areGrey(shares) ? 1 : FrameJob::mostChannels;
+        channels = sums > 1 || !shading.isGrey() ? FrameJob::mostChannels : 1;
+        if (alone)
+            color = shares[shown.front()];
+        const bool isLit =
+            std::any_of(shading.channels.begin(), shading.channels.end(),
+                        [](const shading::SliceShading::Channel &c) { return c.magnitude != 0.0; });
+        for (const FrameKind kind : {FrameKind::field, FrameKind::gradient}) {
+            if (kind == FrameKind::gradient && !isLit)
+                break;
+            for (const std::size_t n : shown) {
+                const fourier::Spectrum &spectrum =
+                    kind == FrameKind::field ? *spectra.fields[n] : *spectra.gradients[n];
+                add(spectrum, kind, alone ? ChannelShares{1.0, 1.0, 1.0} : shares[n]);
+            }
         }
     }
 
-    struct Part {
-        const fourier::Spectrum *spectrum;
-        ChannelShares shares;
-    };
-    std::vector<Part> parts;
     std::vector<FrameSource> sources;
-    bool grey = true;
-    int channels = 1; ///< slices, hence transforms
-    double unit = 1.0;
-    ChannelShares color{1.0, 1.0, 1.0}, mass{};
+    bool grey;
+    int sums = 1, channels = 1;
+    double unit = 1.0; ///< of the sums
+    ChannelShares color{1.0, 1.0, 1.0};
+    struct Mass {
+        double value = 0.0;
+        glm::dvec3 moments{0.0};
+    };
+    std::array<std::array<Mass, 3>, 2> mass; ///< by kind and sum
+
+private:
+    void add(const fourier::Spectrum &spectrum, FrameKind kind, const ChannelShares &share) {
+        const double s = spectrum.unit() / unit;
+        sources.push_back({spectrum.cells(),
+                           {float(s * share[0]), float(s * share[1]), float(s * share[2])},
+                           kind});
+        const auto &moments = spectrum.moments();
+        for (std::size_t c = 0; c < share.size(); ++c) {
+            Mass &sum = mass[std::size_t(kind)][c];
+            sum.value += share[c] * spectrum.mass();
+            sum.moments += share[c] * glm::dvec3(moments[0], moments[1], moments[2]);
+        }
+    }
 };
+
+// A picture's shading in terms of cells and sums.
+FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mixing,
+                          const fourier::Spectrum &spectrum, const glm::dvec3 &toWrap,
+                          const glm::dvec3 &toViewer, double stepMm) {
+    const volume::Lattice &lattice = spectrum.lattice();
+    const glm::dmat3 rows =
+        glm::inverse(glm::dmat3(lattice.step(0), lattice.step(1), lattice.step(2))); // b_d
+    FrameShading frame;
+    frame.termCount = int(shading.terms.size());
+    frame.cued = shading.slope != 0.0;
+    // Moments are about the wrap voxel, depth is about the centre.
+    const double wrapDepth = glm::dot(toViewer, toWrap);
+    frame.base = float(1.0 + shading.slope * wrapDepth);
+    for (int d = 0; d < 3; ++d) {
+        const double depth = glm::dot(lattice.step(d), toViewer);
+        frame.perMoment[std::size_t(d)] = shading.slope * depth * spectrum.layout().padded[d];
+        for (std::size_t t = 0; t < shading.terms.size(); ++t)
+            frame.terms[t].cells[std::size_t(d)] =
+                shading.terms[t].offset * depth * spectrum.layout().padded[d];
+        const glm::dvec3 b(rows[0][d], rows[1][d], rows[2][d]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double gradient = stepMm * glm::dot(b, shading.channels[c].gradient);
+            frame.images[c].gradient[std::size_t(d)] = gradient;
+            frame.images[c].excess[std::size_t(d)] = gradient * shading.slope * depth;
+        }
+    }
+    for (std::size_t t = 0; t < shading.terms.size(); ++t)
+        frame.terms[t].weight = std::complex<float>(
+            shading.terms[t].weight *
+            std::polar(1.0, -2.0 * std::numbers::pi * shading.terms[t].offset * wrapDepth));
+    for (std::size_t c = 0; c < 3; ++c) {
+        FrameShading::Image &image = frame.images[c];
+        image.ambient = float(shading.channels[c].ambient);
+        image.magnitude = float(shading.channels[c].magnitude);
+        // Lights from opposite sides leave no gradient, but shine.
+        frame.lit = frame.lit || image.magnitude != 0.0F;
+        // Images of colour from one sum have it at once, unless they are one image.
+        if (mixing.sums == 1 && mixing.channels > 1) {
+            const double share = mixing.color[c];
+            image.ambient *= float(share);
+            image.magnitude *= float(share);
+            for (std::size_t d = 0; d < 3; ++d) {
+                image.gradient[d] *= share;
+                image.excess[d] *= share;
+            }
+        }
+    }
+    return frame;
+}
 
 struct Frame {
     FrameJob job;
     FrameScratch *scratch;
-    const ChannelShares &color;
-    float *image; ///< height x width x 3, if there are colours
+    ChannelShares color; ///< of a single image
+    float *image;        ///< height x width x 3, if there are colours
 };
 
 // 16 rows of the planes as pixels of red, green and blue.
@@ -224,13 +309,8 @@ void joinChannels(const Frame &frame, int group) {
         job.imageColumns;
     const std::array<float, 3> color{float(frame.color[0]), float(frame.color[1]),
                                      float(frame.color[2])};
-    const float *const r = job.samples[0], *const g = job.channels > 1 ? job.samples[1] : r,
-                       *const b = job.channels > 1 ? job.samples[2] : r;
-    for (std::size_t n = first; n < last; ++n) {
-        frame.image[3 * n] = color[0] * r[n];
-        frame.image[3 * n + 1] = color[1] * g[n];
-        frame.image[3 * n + 2] = color[2] * b[n];
-    }
+    const auto plane = [&](std::size_t c) { return job.samples[job.channels > 1 ? c : 0] + first; };
+    joinPlanes({plane(0), plane(1), plane(2)}, color, last - first, frame.image + 3 * first);
 }
 
 } // namespace
@@ -243,12 +323,11 @@ bool areGrey(std::span<const ChannelShares> shares) {
 
 CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
                      const std::optional<SliceRoom> &room, int threads)
-    : CpuEngine(std::vector{spectrum},
+    : CpuEngine({{spectrum}, {}, shading::shadingScale(spectrum->lattice())},
                 room ? *room : roomOfBox(spectrum->lattice(), spectrum->layout().box), threads) {}
 
-CpuEngine::CpuEngine(std::vector<std::shared_ptr<const fourier::Spectrum>> spectra,
-                     const SliceRoom &room, int threads)
-    : m_spectra(std::move(spectra)), m_shares(m_spectra.size(), {1.0, 1.0, 1.0}),
+CpuEngine::CpuEngine(EngineSpectra spectra, const SliceRoom &room, int threads)
+    : m_spectra(std::move(spectra)), m_shares(m_spectra.fields.size(), {1.0, 1.0, 1.0}),
       m_workplace(std::make_unique<Workplace>(threads)), m_room(room) {}
 
 CpuEngine::~CpuEngine() = default;
@@ -258,7 +337,15 @@ void CpuEngine::setShares(std::vector<ChannelShares> shares) {
 }
 
 std::size_t CpuEngine::bytes() const {
-    return m_spectra.size() * m_spectra.front()->bytes();
+    return (m_spectra.fields.size() + m_spectra.gradients.size()) *
+           m_spectra.fields.front()->bytes();
+}
+
+std::shared_ptr<CpuEngine> CpuEngine::withoutLight() const {
+    auto engine = std::make_shared<CpuEngine>(EngineSpectra{m_spectra.fields, {}, m_spectra.scale},
+                                              m_room, m_workplace->team.threads());
+    engine->setShares(m_shares);
+    return engine;
 }
 
 std::string CpuEngine::description() const {
@@ -268,12 +355,16 @@ std::string CpuEngine::description() const {
 }
 
 ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &image,
-                                  FrameTimes *times) {
+                                  const shading::Shading &shading, FrameTimes *times) {
     const double start = frameClockSeconds();
-    const fourier::Spectrum &spectrum = *m_spectra.front();
+    assert(takesLight() || !shading.isLit());
+    const fourier::Spectrum &spectrum = *m_spectra.fields.front();
     const fourier::SpectrumLayout &layout = spectrum.layout();
     const volume::Lattice &lattice = spectrum.lattice();
-    const Mixing mixing(m_spectra, m_shares);
+    const glm::dmat3 axes = camera.axes();
+    const shading::SliceShading sliceShading =
+        shading::sliceShading(shading, axes, m_spectra.scale);
+    const Mixing mixing(m_spectra, m_shares, sliceShading);
     const SliceGrid grid = m_workplace->gridFor(camera, m_room, lattice, image);
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}, mixing.grey ? 1 : 3};
@@ -286,7 +377,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         throw task::Error(task::ErrorCode::outOfMemory,
                           "not enough memory for an image of this size");
     }
-    if (mixing.parts.empty()) { // nothing is shown
+    if (mixing.sources.empty()) { // nothing is shown
         if (times != nullptr)
             *times = {};
         return result;
@@ -294,16 +385,19 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     Workplace &place = *m_workplace;
     const GridTables &tables = *place.tables;
 
-    const glm::dmat3 axes = camera.axes();
     const double du = 1.0 / (grid.columns * camera.pixelMm);
     const double dv = 1.0 / (grid.rows * camera.pixelMm);
-    Frame frame{{}, place.scratch.data(), mixing.color, result.samples.data()};
+    Frame frame{{},
+                place.scratch.data(),
+                mixing.channels == 1 ? mixing.color : ChannelShares{1.0, 1.0, 1.0},
+                result.samples.data()};
     FrameJob &job = frame.job;
     job.layout = &layout;
     job.cellLayout = &spectrum.cellLayout();
     job.sources = mixing.sources.data();
     job.sourceCount = int(mixing.sources.size());
     job.channels = mixing.channels;
+    job.sums = mixing.sums;
     job.image = image;
     job.columns = grid.columns;
     job.rows = grid.rows;
@@ -320,6 +414,12 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     job.rollOff = tables.rollOff.data();
     // exp(+i 2 pi s.(c - x_wrap)) and the position of the first pixel, split into u and v.
     const glm::dvec3 shift = lattice.center().mm - spectrum.wrapPoint().mm;
+    FrameShading frameShades =
+        frameShading(sliceShading, mixing, spectrum, -shift, axes[2], m_spectra.scale.stepMm);
+    if (frameShades.cued)
+        frameShades.kernels = &place.momentKernels(layout);
+    if (!sliceShading.isPlain())
+        job.shading = &frameShades;
     const double firstU = camera.panMm.x - 0.5 * (camera.width - 1) * camera.pixelMm;
     const double firstV = camera.panMm.y + 0.5 * (camera.height - 1) * camera.pixelMm;
     const int columns = job.stripCount * stripLanes;
@@ -330,7 +430,8 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         columnPhase[columns + n] = float(turnU[n].imag());
     }
     const auto turnV = rotations(grid.rows / 2 + 1, -dv * (glm::dot(axes[1], shift) + firstV));
-    const double unit = du * dv * mixing.unit;
+    // A single grey image has its share at once.
+    const double unit = du * dv * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
     for (std::size_t n = 0; n < turnV.size(); ++n)
         place.rowPhase[n] = Complex(unit * turnV[n]);
     job.columnPhase = columnPhase;
@@ -341,8 +442,16 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     for (std::size_t c = 0; c < std::size_t(job.channels); ++c) {
         job.lines[c] = reinterpret_cast<float *>(place.lines[c].get());
         job.samples[c] = mixing.grey ? result.samples.data() : place.planes[c].data();
-        job.zeroFrequency[c] = mixing.mass[c] * du * dv;
     }
+    for (std::size_t kind = 0; kind < 2; ++kind)
+        for (std::size_t c = 0; c < std::size_t(job.sums); ++c) {
+            const Mixing::Mass &mass = mixing.mass[kind][c];
+            double moment = 0.0;
+            for (int d = 0; d < 3; ++d)
+                moment +=
+                    frameShades.perMoment[std::size_t(d)] / layout.padded[d] * mass.moments[d];
+            job.zero[kind][c] = {mass.value / mixing.unit, moment / mixing.unit};
+        }
     for (FrameScratch &scratch : place.scratch)
         scratch.sliceSeconds = scratch.stripSeconds = 0.0;
 

@@ -11,6 +11,7 @@
 #include "core/fourier/spectrum.h"
 #include "core/render/projection_image.h"
 #include "core/render/render_plan.h"
+#include "core/shading/slice_shading.h"
 
 namespace pellucid::render {
 
@@ -27,9 +28,19 @@ public:
     virtual ~ProjectionEngine() = default;
     /// The engine and what it runs on, one line.
     virtual std::string description() const = 0;
-    /// Not safe to call from two threads at once. *Throws* Error{outOfMemory}.
+    /// Not safe to call from two threads at once. Lights shine only on what was prepared for them.
+    /// *Throws* Error{outOfMemory}.
     virtual ProjectionImage render(const Camera &camera, const ImageDefinition &image,
+                                   const shading::Shading &shading = {},
                                    FrameTimes *times = nullptr) = 0;
+};
+
+/// The spectra that an engine slices, of one layout.
+struct EngineSpectra {
+    using Spectra = std::vector<std::shared_ptr<const fourier::Spectrum>>;
+    Spectra fields;
+    Spectra gradients; ///< of the |g| of each field, for light; or none
+    shading::ShadingScale scale;
 };
 
 /// The projection-slice theorem on the processor: interpolates the central slice of the half
@@ -39,33 +50,40 @@ public:
 ///
 /// Several spectra are shown as their weighted sum: weights and places of the kernel are worked out
 /// once for all, and each channel is transformed once, whatever the number of spectra. A picture
-/// has one channel if all shares are alike, else three; a spectrum without a share costs nothing.
-/// *Source*: Cheng 2007, eq. 32 and 36.
+/// has one channel if all shares are alike and all lights are grey, else three; a spectrum without
+/// a share costs nothing. *Source*: Cheng 2007, eq. 32 and 36.
+///
+/// Cue and light are applied to the slice (`shading::SliceShading`): a linear cue reads moments
+/// from the cells that are read anyway; light needs one more slice whatever the number of lights.
 class CpuEngine final : public ProjectionEngine {
 public:
     /// `room`: the plan's; without one the spectrum's box is taken to be full. `threads`: 0 for as
     /// many as oneTBB may use.
     explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
                        const std::optional<SliceRoom> &room = std::nullopt, int threads = 0);
-    /// *Shape*: all spectra have one layout. Their shares are 1 until set.
-    CpuEngine(std::vector<std::shared_ptr<const fourier::Spectrum>> spectra, const SliceRoom &room,
-              int threads = 0);
+    /// The shares of the fields are 1 until set.
+    CpuEngine(EngineSpectra spectra, const SliceRoom &room, int threads = 0);
     ~CpuEngine() override;
 
-    /// *Shape*: one each spectrum.
+    /// *Shape*: one each field.
     void setShares(std::vector<ChannelShares> shares);
-    std::size_t spectrumCount() const { return m_spectra.size(); }
+    std::size_t fieldCount() const { return m_spectra.fields.size(); }
     /// Bytes of all spectra.
     std::size_t bytes() const;
+    /// Whether lights have what they shine on.
+    bool takesLight() const { return !m_spectra.gradients.empty(); }
+    /// The same without what lights need.
+    std::shared_ptr<CpuEngine> withoutLight() const;
 
     std::string description() const override;
     ProjectionImage render(const Camera &camera, const ImageDefinition &image,
+                           const shading::Shading &shading = {},
                            FrameTimes *times = nullptr) override;
 
 private:
     struct Workplace;
 
-    std::vector<std::shared_ptr<const fourier::Spectrum>> m_spectra;
+    EngineSpectra m_spectra;
     std::vector<ChannelShares> m_shares;
     std::unique_ptr<Workplace> m_workplace;
     SliceRoom m_room;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/volume/volume.h"
@@ -45,5 +46,24 @@ struct EnergyMarginals {
 };
 
 EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box);
+
+/// The products of a field's slabs across an axis: entry (a, b) is the sum over all lines along the
+/// axis of what they hold in slab a times what they hold in slab b. With a weight w by slab, the
+/// projection along the axis of the weighted field has the energy w^T C w: what an error that
+/// depends on the depth leaves of it, in phase or not.
+struct SlabProducts {
+    /// Slab n holds the samples from n * samples / slabs on.
+    int samples = 1, slabs = 1;
+    std::vector<double> products; ///< slabs x slabs, symmetric; the plain projection has energy 1
+
+    /// w^T C w.
+    double energy(std::span<const double> weights) const;
+};
+
+/// Of noise without a mean, whose slabs have nothing in common. *Shape*: the energy of each sample.
+SlabProducts evenSlabProducts(std::span<const double> energy);
+
+/// Of each axis of a box.
+std::array<SlabProducts, 3> slabProducts(const volume::Volume &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::render

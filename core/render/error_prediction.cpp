@@ -2,9 +2,12 @@
 #include "core/render/error_prediction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+
+#include <glm/geometric.hpp>
 
 namespace pellucid::render {
 
@@ -16,14 +19,10 @@ constexpr double viewMargin = 1.5;
 // The same of rounding, which a few cells can decide.
 constexpr double fewMargin = 3.0;
 
-} // namespace
-
-AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
-    // The amplitudes change slowly: some forty positions an axis are enough.
+// Calls use(e, brightest, x): some forty positions x (in periods) along an axis are enough, since
+// the amplitudes change slowly; e their energies, and the largest of a sample of each.
+template <class F> void forPositions(const std::vector<double> &energy, int padded, const F &use) {
     const int samples = int(energy.size()), bins = std::min(samples, 40);
-    double ghosts = 0.0, inPhase = 0.0, inverse = 0.0, mostEnergy = 0.0, brightest = 0.0;
-    for (const double e : energy)
-        mostEnergy = std::max(mostEnergy, e);
     for (int bin = 0; bin < bins; ++bin) {
         const int first = bin * samples / bins, last = (bin + 1) * samples / bins;
         double e = 0.0, moment = 0.0, here = 0.0;
@@ -32,28 +31,110 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
             e += energy[n];
             moment += energy[n] * (n - samples / 2);
         }
-        if (e == 0.0)
-            continue;
-        const double x = moment / e / padded;
+        if (e > 0.0)
+            use(e, here, moment / e / padded);
+    }
+}
+
+// What the taps that a frequency on the grid reads make of a sample at x. `Any`: a Kernel or a
+// MomentKernel.
+template <class Any> std::complex<double> onGrid(const Any &kernel, double x) {
+    const int width = kernel.width(), firstTap = -(width / 2);
+    std::complex<double> sum = 0.0;
+    for (int tap = firstTap; tap < firstTap + width; ++tap)
+        sum += kernel.value(tap) * std::polar(1.0, 2.0 * std::numbers::pi * tap * x);
+    return sum;
+}
+
+// The kernels' transforms fall at least as 1/m beyond.
+constexpr std::array<int, 6> ghostPeriods{-3, -2, -1, 1, 2, 3};
+
+} // namespace
+
+AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
+    AxisError error;
+    double inverse = 0.0;
+    const double mostEnergy = *std::max_element(energy.begin(), energy.end());
+    forPositions(energy, padded, [&](double e, double brightest, double x) {
         const double h = kernel.apodisation(x);
-        // The kernels' transforms fall at least as 1/m beyond.
         double squares = 0.0;
-        for (const int m : {-3, -2, -1, 1, 2, 3}) {
+        for (const int m : ghostPeriods) {
             const double r = kernel.apodisation(x + m) / h;
             squares += r * r;
         }
-        ghosts += e * squares;
-        const int width = kernel.width(), firstTap = -(width / 2);
-        std::complex<double> onGrid = 0.0;
-        for (int tap = firstTap; tap < firstTap + width; ++tap)
-            onGrid += kernel.value(tap) * std::polar(1.0, 2.0 * std::numbers::pi * tap * x);
-        inPhase += e * std::norm(onGrid / h - 1.0);
-        brightest = std::max(brightest, std::sqrt(squares * here / mostEnergy));
+        error.ghosts += e * squares;
+        error.inPhase += e * std::norm(onGrid(kernel, x) / h - 1.0);
+        error.brightest = std::max(error.brightest, std::sqrt(squares * brightest / mostEnergy));
         inverse += e / (h * h);
-    }
+    });
     // Cells of a few samples' spectrum are alike and round alike: nothing averages out.
-    const double noise = samples <= 4 ? 1.0 : kernel.energy() * inverse;
-    return {ghosts, inPhase, brightest, noise};
+    error.noise = energy.size() <= 4 ? 1.0 : kernel.energy() * inverse;
+    return error;
+}
+
+void addMomentError(AxisError &error, const fourier::Kernel &kernel,
+                    const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs) {
+    // Beyond the second ghost the responses fall fast.
+    constexpr std::array<int, 5> periods{0, -1, 1, -2, 2};
+    const auto count = std::size_t(slabs.slabs);
+    std::array<std::vector<double>, periods.size()> apart;
+    std::vector<double> real(count), imaginary(count);
+    for (auto &weights : apart)
+        weights.resize(count);
+    for (std::size_t n = 0; n < count; ++n) {
+        const double middle = (double(n) + 0.5) * slabs.samples / double(count) - 0.5;
+        const double x = (middle - slabs.samples / 2) / padded; // NOLINT: the wrap voxel is whole
+        const double h = kernel.apodisation(x);
+        double squares = 0.0;
+        for (std::size_t p = 0; p < periods.size(); ++p) {
+            const double ideal = periods[p] == 0 ? x : 0.0;
+            apart[p][n] = moment.response(x + periods[p]) / h - ideal;
+            squares += apart[p][n] * apart[p][n];
+        }
+        const std::complex<double> left = onGrid(moment, x) / h - std::complex<double>(0.0, x);
+        real[n] = left.real();
+        imaginary[n] = left.imag();
+        error.brightestMoment = std::max(error.brightestMoment, std::sqrt(squares));
+    }
+    double ghosts = 0.0;
+    for (const auto &weights : apart)
+        ghosts += slabs.energy(weights);
+    error.moment = std::max(ghosts, slabs.energy(real) + slabs.energy(imaginary));
+}
+
+CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice,
+                    const fourier::SpectrumLayout &layout,
+                    const std::array<std::vector<double>, 3> &energy) {
+    CueWeight weight;
+    if (!cue.isActive())
+        return weight;
+    const volume::VoxelBox &box = layout.box;
+    const std::array<int, 3> first{box.lo.i, box.lo.j, box.lo.k};
+    glm::dvec3 middle(0.0);
+    for (int d = 0; d < 3; ++d) {
+        const std::vector<double> &axis = energy[std::size_t(d)];
+        double all = 0.0;
+        for (std::size_t n = 0; n < axis.size(); ++n) {
+            middle[d] += axis[n] * (double(n) + first[std::size_t(d)]);
+            all += axis[n];
+        }
+        middle[d] /= std::max(all, 1e-300);
+    }
+    const double radius = lattice.radiusMm();
+    const double reach =
+        glm::distance(lattice.patient(volume::VoxelPoint{middle}).mm, lattice.center().mm) / radius;
+    // Seen from some side the middle lies at any depth up to that. A tenth is left for what else
+    // there is.
+    double least = 1.0;
+    for (int n = -8; n <= 8; ++n)
+        least = std::min(least, cue.at(reach * n / 8.0));
+    least = std::max(0.1, least);
+    weight.ghosts = shading::cueRms(cue) / least;
+    if (cue.kind == shading::CueKind::linear)
+        for (int d = 0; d < 3; ++d)
+            weight.moments[std::size_t(d)] =
+                cue.strength * lattice.spacingMm(d) * layout.padded[d] / radius / least;
+    return weight;
 }
 
 // A rounding error is evenly spread up to half a unit in the last place, 2^-11 of the leading power
@@ -62,30 +143,35 @@ static double relativeRounding(fourier::Storage storage) {
     return storage == fourier::Storage::binary16 ? 2.1e-4 : 3e-7;
 }
 
-double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage) {
-    double ghosts = 0.0, noise = 1.0;
-    for (const AxisError &axis : axes) {
-        ghosts += axis.brightest;
-        noise *= axis.noise;
+double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
+                      const CueWeight &cue) {
+    double ghosts = 0.0, moment = 0.0, noise = 1.0;
+    for (std::size_t d = 0; d < axes.size(); ++d) {
+        ghosts += axes[d].brightest;
+        moment = std::max(moment, cue.moments[d] * axes[d].brightestMoment);
+        noise *= axes[d].noise;
     }
     const double rounding = relativeRounding(storage);
-    return ghosts + 4.5 * std::sqrt(0.2 * rounding * rounding * noise);
+    return cue.ghosts * (ghosts + 4.5 * std::sqrt(0.2 * rounding * rounding * noise)) + moment;
 }
 
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                            const ImageShare &share) {
-    double all = 0.0, alongAxis = 0.0, noise = 1.0;
-    for (int d = 0; d < 3; ++d) {
+                            const ImageShare &share, const CueWeight &cue) {
+    double all = 0.0, alongAxis = 0.0, noise = 1.0, moment = 0.0;
+    for (std::size_t d = 0; d < axes.size(); ++d) {
         all += share.inImage[d] * axes[d].ghosts;
         noise *= axes[d].noise;
+        // Depth is along one direction, so that one axis's moment stands for all.
+        moment = std::max(moment, cue.moments[d] * cue.moments[d] * axes[d].moment);
     }
-    for (int d = 0; d < 3; ++d)
+    for (std::size_t d = 0; d < axes.size(); ++d)
         alongAxis = std::max(alongAxis, std::max(axes[d].ghosts, axes[d].inPhase) + all -
                                             share.inImage[d] * axes[d].ghosts);
-    const double ghosts = viewMargin * alongAxis;
+    const double weight = cue.ghosts * cue.ghosts;
+    const double ghosts = viewMargin * (weight * alongAxis + moment);
     const double rounding = relativeRounding(storage);
     // Rounding is spread as h^2 is, nearly all of it where the field is.
-    return std::sqrt(ghosts + fewMargin * rounding * rounding * noise);
+    return std::sqrt(ghosts + weight * fewMargin * rounding * rounding * noise);
 }
 
 } // namespace pellucid::render

@@ -4,7 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "core/fourier/moment_kernel.h"
 #include "core/fourier/spectrum.h"
+#include "core/render/energy_marginals.h"
+#include "core/shading/slice_shading.h"
 
 namespace pellucid::render {
 
@@ -20,10 +23,30 @@ struct AxisError {
     double brightest = 0.0;
     /// integral H^2 times sum_x e(x)/h(x)^2: how rounding of the cells reaches the image.
     double noise = 1.0;
+    /// Of the moment kernel of a linear cue, with k its response and w^T C w the energies of
+    /// `SlabProducts`: in views along the axis, w the difference of the sum over the taps and i x;
+    /// close to it, w = k(x)/h(x) - x and k(x + m)/h(x); the larger of the two. And the largest of
+    /// these amplitudes. *Units*: periods.
+    double moment = 0.0, brightestMoment = 0.0;
 };
 
 /// *Shape*: one energy per sample of the axis; *Units*: padded in samples.
 AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy);
+/// Adds what the kernel of a linear cue leaves.
+void addMomentError(AxisError &error, const fourier::Kernel &kernel,
+                    const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs);
+
+/// How a depth cue weighs the errors against the image.
+struct CueWeight {
+    /// Of ghosts: the root mean square of the cue where they lie, over the least that the cue can
+    /// leave of the image: its value at the middle of the field's energy, seen from any side.
+    double ghosts = 1.0;
+    /// Of the moments along each axis: how much depth a period is, times the cue's slope.
+    std::array<double, 3> moments{};
+};
+CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice,
+                    const fourier::SpectrumLayout &layout,
+                    const std::array<std::vector<double>, 3> &energy);
 
 /// How much of what the ghosts spread over the period falls into the image, relative to the share
 /// of the projection's energy that the image holds.
@@ -38,11 +61,12 @@ struct ImageShare {
 /// periods. Rounding to binary16 leaves 2.1e-4 of each cell, spread evenly over the period;
 /// rounding to float and summing 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                            const ImageShare &share);
+                            const ImageShare &share, const CueWeight &cue = {});
 
 /// The largest error of a pixel relative to the largest pixel, roughly: the brightest ghosts of the
 /// axes, and the rounding at 4.5 standard deviations of an image whose mean square is a fifth of
 /// its peak's. Beside metal it says what the relative L2 error hides.
-double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage);
+double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
+                      const CueWeight &cue = {});
 
 } // namespace pellucid::render

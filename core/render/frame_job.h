@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/fourier/moment_kernel.h"
 #include "core/fourier/spectrum.h"
 #include "core/fourier/strip_transform.h"
 #include "core/render/image_definition.h"
+#include "core/shading/shading.h"
 
 namespace pellucid::render {
 
@@ -30,12 +32,50 @@ struct alignas(64) FrequencyBatch {
     std::array<std::uint32_t, std::size_t(lanes) * fourier::Kernel::largestWidth> cell;
     std::array<float, lanes> factor; ///< reconstruction and roll-off
     std::array<float, lanes> sign;   ///< -1: the conjugate is meant
+
+    /// Of a linear cue: the weights of the moment along each axis, laid out as x, y, z.
+    std::array<float, std::size_t(lanes) * 8 + 16> momentX;
+    std::array<float, std::size_t(lanes) * fourier::Kernel::largestWidth> momentY, momentZ;
+    /// Of light, by image: the factor of i times the slice, and what the cue adds to it by changing
+    /// from sample to sample, see FrameShading.
+    std::array<std::array<float, lanes>, 3> gradient, excess;
 };
+
+/// What a spectrum is of.
+enum class FrameKind { field, gradient };
 
 /// A spectrum and its share of each channel of the slice.
 struct FrameSource {
     const std::byte *cells = nullptr;
     std::array<float, 3> shares{1.0F, 1.0F, 1.0F};
+    FrameKind kind = FrameKind::field;
+};
+
+/// A shading::SliceShading in terms of the spectra's cells. With F and G the slices of f and of |g|
+/// a term away from the centre, and F' = base F + moment of F, the slice of image c is the sum over
+/// terms of
+///   weight [(ambient + i sum_d gradient_d sin(2 pi q_d)) F' + magnitude G' - excess F],
+/// excess = sum_d excess_d cos(2 pi q_d): the cue is applied before the differences are taken,
+/// which adds half its change to both neighbours. *Source*: Totsuka 1993, eq. 12 to 14, for central
+/// differences.
+struct FrameShading {
+    struct Term {
+        std::array<double, 3> cells{}; ///< away from the central slice, by axis
+        std::complex<float> weight;
+    };
+    struct Image {
+        float ambient = 1.0F, magnitude = 0.0F;
+        std::array<double, 3> gradient{}, excess{};
+    };
+    /// The central one first.
+    std::array<Term, 2 * shading::mostCurveValues> terms;
+    int termCount = 1;
+    bool lit = false;  ///< some magnitude is not zero
+    bool cued = false; ///< there are moments
+    float base = 1.0F;
+    const std::array<fourier::MomentKernel, 3> *kernels = nullptr;
+    std::array<double, 3> perMoment{}; ///< cue per sum of a moment kernel, by axis
+    std::array<Image, 3> images;
 };
 
 /// What a frame's parts share: read by every thread, except what each part writes for itself.
@@ -46,8 +86,11 @@ struct FrameJob {
     const fourier::CellLayout *cellLayout = nullptr;
     const FrameSource *sources = nullptr;
     int sourceCount = 1;
-    /// How many images are made: one or three. A single source makes one, by a share of 1.
+    /// How many images are made: one or three.
     int channels = 1;
+    /// How many sums of the sources are: one that serves all images, or one each.
+    int sums = 1;
+    const FrameShading *shading = nullptr; ///< null: none
     ImageDefinition image;
     bool wraps = false; ///< some |a_d.s| of the disc exceeds 1/2
 
@@ -72,8 +115,12 @@ struct FrameJob {
     /// After the transform along image rows' direction: [group of 16 image rows][column][strip], of
     /// each channel.
     std::array<float *, mostChannels> lines{};
-    std::array<double, mostChannels> zeroFrequency{}; ///< what a slice is at frequency 0, exactly
-    std::array<float *, mostChannels> samples{};      ///< imageRows x imageColumns each
+    /// What the sums are at frequency 0, exactly, and their moments, by FrameKind.
+    struct Zero {
+        double value = 0.0, moment = 0.0;
+    };
+    std::array<std::array<Zero, mostChannels>, 2> zero{};
+    std::array<float *, mostChannels> samples{}; ///< imageRows x imageColumns each
 };
 
 /// Scratch of one thread: an array of `length` strips for each channel, one beside them, and a few
@@ -93,6 +140,9 @@ double frameClockSeconds();
 void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch);
 /// Transforms 16 image rows of a channel along the columns and stores what belongs to the image.
 void finishRows(const FrameJob &job, int channel, int group, FrameScratch &scratch);
+/// Three planes times a color each as pixels of red, green and blue. *Shape*: count samples each.
+void joinPlanes(const std::array<const float *, 3> &planes, const std::array<float, 3> &color,
+                std::size_t count, float *pixels);
 /// The instruction set in use.
 const char *instructionSet();
 

@@ -83,6 +83,21 @@ void finishSixteenRows(const FrameJob &job, int channel, int group, FrameScratch
     }
 }
 
+void joinThreePlanes(const std::array<const float *, 3> &planes, const std::array<float, 3> &color,
+                     std::size_t count, float *pixels) {
+    const hn::ScalableTag<float> d;
+    const std::size_t lanes = hn::Lanes(d);
+    std::size_t n = 0;
+    for (; n + lanes <= count; n += lanes)
+        hn::StoreInterleaved3(hn::Mul(hn::LoadU(d, planes[0] + n), hn::Set(d, color[0])),
+                              hn::Mul(hn::LoadU(d, planes[1] + n), hn::Set(d, color[1])),
+                              hn::Mul(hn::LoadU(d, planes[2] + n), hn::Set(d, color[2])), d,
+                              pixels + 3 * n);
+    for (; n < count; ++n)
+        for (std::size_t c = 0; c < 3; ++c)
+            pixels[3 * n + c] = planes[c][n] * color[c];
+}
+
 } // namespace pellucid::render::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -90,9 +105,15 @@ HWY_AFTER_NAMESPACE();
 namespace pellucid::render {
 
 HWY_EXPORT(finishSixteenRows);
+HWY_EXPORT(joinThreePlanes);
 
 void finishRows(const FrameJob &job, int channel, int group, FrameScratch &scratch) {
     HWY_DYNAMIC_DISPATCH(finishSixteenRows)(job, channel, group, scratch);
+}
+
+void joinPlanes(const std::array<const float *, 3> &planes, const std::array<float, 3> &color,
+                std::size_t count, float *pixels) {
+    HWY_DYNAMIC_DISPATCH(joinThreePlanes)(planes, color, count, pixels);
 }
 
 } // namespace pellucid::render

@@ -23,73 +23,55 @@ using fourier::StripTransform;
 #include "core/fourier/transpose_hwy.inc"
 #include "core/render/frame_sums_hwy.inc"
 #include "core/render/frame_weights_hwy.inc"
+// What uses both comes after them.
+#include "core/render/frame_shading_hwy.inc"
 
-// mixed[c] += share_c sums, or = for the first source.
-HWY_INLINE void mixSums(const FrameSource &source, int channels, bool isFirst, const float *sums,
-                        float (*mixed)[stripFloats]) {
-    const StripTag d;
-    for (int c = 0; c < channels; ++c) {
-        const auto share = hn::Set(d, source.shares[std::size_t(c)]);
-        for (std::size_t n = 0; n < std::size_t(stripFloats); n += hn::Lanes(d)) {
-            const auto sum = hn::Load(d, sums + n);
-            hn::Store(isFirst ? hn::Mul(sum, share)
-                              : hn::MulAdd(sum, share, hn::Load(d, mixed[c] + n)),
-                      d, mixed[c] + n);
-        }
-    }
-}
-
+// A strip of the slice of one spectrum, without cue and light: what most frames are.
 template <int W, class Cell>
-void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
+void interpolatePlain(const FrameJob &job, int strip, FrameScratch &scratch) {
     const StripBounds &bounds = job.strips[strip];
     const int column = strip * stripLanes;
-    const auto cellsOf = [&](int source) {
-        return reinterpret_cast<const Cell *>(job.sources[source].cells);
-    };
+    const auto *const cells = reinterpret_cast<const Cell *>(job.sources[0].cells);
     const auto batchOf = [&](int row) -> FrequencyBatch & {
         return scratch.batches[(row + job.rows) % (batchesAhead + 1)];
     };
     const auto prepare = [&](int row) {
         const int ring = std::abs(row) - bounds.innerRow - 1;
-        prepareBatch<W>(job, column, row,
-                        ring < 0 ? nullptr
-                                 : job.rollOff + bounds.rollOff + std::size_t(ring) * stripLanes,
-                        batchOf(row));
+        prepareBatch<W, false>(
+            job, column, row, 0,
+            ring < 0 ? nullptr : job.rollOff + bounds.rollOff + std::size_t(ring) * stripLanes,
+            batchOf(row));
     };
     const int first = -bounds.outerRow, last = bounds.outerRow;
     for (int row = first; row < first + batchesAhead && row <= last; ++row) {
         prepare(row);
-        for (int s = 0; s < job.sourceCount; ++s)
-            prefetchPart<W>(batchOf(row), cellsOf(s), 0, 1);
+        prefetchPart<W>(batchOf(row), cells, 0, 1);
     }
     HWY_ALIGN float sums[stripFloats];
-    // Weights and places are the same for all sources: they are worked out once.
-    HWY_ALIGN float mixed[FrameJob::mostChannels][stripFloats];
     for (int row = first; row <= last; ++row) {
         const int ahead = std::min(row + batchesAhead, last);
         if (ahead == row + batchesAhead)
             prepare(ahead);
-        const std::size_t to = std::size_t(row < 0 ? row + job.rows : row) * stripFloats;
-        if (job.sourceCount == 1) {
-            sumBatch<W>(batchOf(row), batchOf(ahead), cellsOf(0), sums);
-            finishBatch(job, batchOf(row), sums, column, row, scratch.strips[0] + to);
-            continue;
+        sumBatch<W, false>(batchOf(row), batchOf(ahead), cells, sums, nullptr);
+        if (strip == 0 && row == 0) {
+            sums[0] = float(job.zero[0][0].value);
+            sums[1] = 0.0F;
         }
-        for (int s = 0; s < job.sourceCount; ++s) {
-            sumBatch<W>(batchOf(row), batchOf(ahead), cellsOf(s), sums);
-            mixSums(job.sources[s], job.channels, s == 0, sums, mixed);
-        }
-        for (int c = 0; c < job.channels; ++c)
-            finishBatch(job, batchOf(row), mixed[c], column, row,
-                        scratch.strips[std::size_t(c)] + to);
+        finishBatch(job, batchOf(row), sums, column, row,
+                    scratch.strips[0] + std::size_t(row < 0 ? row + job.rows : row) * stripFloats);
     }
-    // The field's sum is known before any rounding, and decides the brightness of the whole image.
-    if (strip == 0)
-        for (int c = 0; c < job.channels; ++c) {
-            float *const zero = scratch.strips[std::size_t(c)];
-            zero[0] = float(job.zeroFrequency[std::size_t(c)]);
-            zero[stripLanes] = 0.0F;
-        }
+}
+
+template <int W, class Cell>
+void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
+    if (job.shading != nullptr && job.shading->cued)
+        interpolateMixed<W, true, true, Cell>(job, strip, scratch);
+    else if (job.shading != nullptr)
+        interpolateMixed<W, true, false, Cell>(job, strip, scratch);
+    else if (job.sourceCount > 1)
+        interpolateMixed<W, false, false, Cell>(job, strip, scratch);
+    else
+        interpolatePlain<W, Cell>(job, strip, scratch);
 }
 
 template <class Cell> void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {

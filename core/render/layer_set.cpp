@@ -2,6 +2,7 @@
 #include "core/render/layer_set.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <new>
 
@@ -34,10 +35,12 @@ LayerSet::LayerSet(std::shared_ptr<CpuEngine> engine, RenderPlan plan, int reduc
 
 std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t count,
                                             const FieldOf &fieldOf, const Budget &budget,
-                                            const task::Progress &progress) {
+                                            const task::Progress &progress,
+                                            const std::optional<shading::ShadingScale> &given) {
     std::vector<classify::DensityField> fields;
     std::vector<double> lost(count, 0.0); // of each, by joining samples
     int reduction = 1, longest = 0;
+    shading::ShadingScale scale; // of the volume, however coarse its layers become
     const auto reduce = [&](std::size_t n) {
         classify::DensityField coarse =
             classify::coarseField(fields[n], (longest + reduction - 1) / reduction);
@@ -56,6 +59,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t coun
         const volume::GridSize size = fields.back().values.lattice().size();
         if (n == 0) {
             longest = std::max({size.i, size.j, size.k});
+            scale = given.value_or(shading::shadingScale(fields.back().values.lattice()));
             reduction = leastReduction(size);
         }
         if (reduction > 1)
@@ -74,12 +78,13 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t coun
         progress.check();
         const std::size_t taken = held() + keptBytes;
         try {
-            RenderPlan plan = planRender(scene, summarise(fields), FrameJob::mostChannels,
+            RenderPlan plan = planRender(scene, summarise({fields, {}, scale}, scene.shading.cue),
+                                         FrameJob::mostChannels,
                                          {budget.bytes > taken ? budget.bytes - taken : 0});
-            std::vector<std::shared_ptr<const fourier::Spectrum>> spectra;
+            EngineSpectra spectra{{}, {}, scale};
             for (std::size_t n = 0; n < count; ++n) {
                 const double done = 0.5 + 0.5 * double(n) / double(count);
-                spectra.push_back(std::make_shared<const fourier::Spectrum>(
+                spectra.fields.push_back(std::make_shared<const fourier::Spectrum>(
                     fourier::Spectrum::prepare(fields[n].values, plan.spectrum,
                                                progress.part(done, done + 0.5 / double(count)))));
             }
@@ -104,7 +109,8 @@ void LayerSet::keep(std::size_t layer) {
     std::vector<ChannelShares> alone(count(), none);
     alone[layer] = {1.0, 1.0, 1.0};
     m_engine->setShares(std::move(alone));
-    m_kept->projections[layer] = std::move(m_engine->render(m_kept->camera, m_kept->image).samples);
+    m_kept->projections[layer] =
+        std::move(m_engine->render(m_kept->camera, m_kept->image, m_kept->shading).samples);
 }
 
 ProjectionImage LayerSet::sumOfKept(const std::vector<ChannelShares> &shares) const {
@@ -144,13 +150,16 @@ ProjectionImage LayerSet::sumOfKept(const std::vector<ChannelShares> &shares) co
 }
 
 ProjectionImage LayerSet::render(const Camera &camera, const ImageDefinition &image,
+                                 const shading::Shading &shading,
                                  const std::vector<ChannelShares> &shares, FrameTimes *times) {
-    const bool sameView = m_kept && m_kept->camera == camera && m_kept->image == image;
+    assert(!shading.isLit());
+    const bool sameView =
+        m_kept && m_kept->camera == camera && m_kept->image == image && m_kept->shading == shading;
     if (!sameView) {
         // The view moves: what would be kept now would not be asked for again.
-        m_kept = Kept{camera, image, std::vector<std::vector<float>>(count())};
+        m_kept = Kept{camera, image, shading, std::vector<std::vector<float>>(count())};
         m_engine->setShares(shares);
-        return m_engine->render(camera, image, times);
+        return m_engine->render(camera, image, shading, times);
     }
     const double start = frameClockSeconds();
     try {
@@ -176,8 +185,8 @@ std::string MixtureEngine::description() const {
 }
 
 ProjectionImage MixtureEngine::render(const Camera &camera, const ImageDefinition &image,
-                                      FrameTimes *times) {
-    return m_layers->render(camera, image, m_shares, times);
+                                      const shading::Shading &shading, FrameTimes *times) {
+    return m_layers->render(camera, image, shading, m_shares, times);
 }
 
 } // namespace pellucid::render

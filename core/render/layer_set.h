@@ -21,22 +21,26 @@ public:
     using FieldOf = std::function<classify::DensityField(std::size_t, const task::Progress &)>;
 
     /// Fields of more than 2^25 samples are halved until they are smaller, and further until all
-    /// spectra fit the budget: the layers serve the moving hand. *Throws* Error{outOfMemory} if 32
+    /// spectra fit the budget: the layers serve the moving hand. `scale`: of the volume, if the
+    /// fields are of a coarser one. *Throws* Error{outOfMemory} if 32
     /// samples a side do not fit, Cancelled.
-    static std::shared_ptr<LayerSet> prepare(const Scene &scene, std::size_t count,
-                                             const FieldOf &fieldOf, const Budget &budget,
-                                             const task::Progress &progress = {});
+    static std::shared_ptr<LayerSet>
+    prepare(const Scene &scene, std::size_t count, const FieldOf &fieldOf, const Budget &budget,
+            const task::Progress &progress = {},
+            const std::optional<shading::ShadingScale> &scale = std::nullopt);
 
     /// What holds for each layer alone: the error is that of the worst.
     const RenderPlan &plan() const { return m_plan; }
     /// How many samples an axis are one here; 1: none were joined.
     int reduction() const { return m_reduction; }
-    std::size_t count() const { return m_engine->spectrumCount(); }
+    std::size_t count() const { return m_engine->fieldCount(); }
     std::size_t bytes() const { return m_engine->bytes(); }
 
-    /// Not safe to call from two threads at once. *Shape*: shares, one each layer. *Throws*
-    /// Error{outOfMemory}.
+    /// Not safe to call from two threads at once. Without light, which is not linear in the layers:
+    /// the gradient of a sum is not as long as the sum of the gradients. *Shape*: shares, one each
+    /// layer. *Throws* Error{outOfMemory}.
     ProjectionImage render(const Camera &camera, const ImageDefinition &image,
+                           const shading::Shading &shading,
                            const std::vector<ChannelShares> &shares, FrameTimes *times = nullptr);
 
     std::string description() const { return m_engine->description(); }
@@ -53,6 +57,7 @@ private:
     struct Kept {
         Camera camera;
         ImageDefinition image;
+        shading::Shading shading;
         std::vector<std::vector<float>> projections;
     };
     std::optional<Kept> m_kept;
@@ -64,6 +69,7 @@ public:
     MixtureEngine(std::shared_ptr<LayerSet> layers, std::vector<ChannelShares> shares);
     std::string description() const override;
     ProjectionImage render(const Camera &camera, const ImageDefinition &image,
+                           const shading::Shading &shading = {},
                            FrameTimes *times = nullptr) override;
 
 private:

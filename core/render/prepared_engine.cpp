@@ -33,11 +33,12 @@ double lostDetail(const classify::DensityField &field, const classify::DensityFi
     return all > 0.0 ? std::sqrt(std::max(0.0, 1.0 - kept / all)) : 0.0;
 }
 
-FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityField> fields,
+FittingPlan planWithin(const Scene &scene, const ShadedFields &shaded,
                        std::span<const FieldSummary> summaries, const Budget &budget,
                        const task::Progress &progress) {
     validate(scene);
-    const int channels = int(fields.size());
+    const std::vector<classify::DensityField> &fields = shaded.fields;
+    const int channels = imagesOf(fields.size(), scene.shading);
     // An image too large for the memory stays so, however coarse the field.
     const SliceGrid least = sliceGrid(scene.camera, {{summaries.front().energy.spread}, 1.0},
                                       summaries.front().lattice, scene.image);
@@ -62,20 +63,28 @@ FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityFiel
                 progress.check();
                 reduced.push_back(
                     classify::coarseField(field, (longest + reduction - 1) / reduction));
-                held += reduced.back().values.bytes();
                 lost = std::max(lost, lostDetail(field, reduced.back()));
             }
+            // The gradient of the means, so that no sample turns darker than black.
+            ShadedFields coarse =
+                shadedFields(std::move(reduced), scene.shading, shaded.scale, progress);
+            for (const auto *const samples : {&coarse.fields, &coarse.gradients})
+                for (const classify::DensityField &field : *samples)
+                    held += field.values.bytes();
+            for (std::size_t g = 0; g < coarse.gradients.size(); ++g)
+                lost = std::max(lost, lostDetail(shaded.gradients[g], coarse.gradients[g]));
             if (held >= budget.bytes)
                 continue;
             try {
-                FittingPlan fitting{
-                    planRender(scene, summarise(reduced), channels, {budget.bytes - held}),
-                    std::move(reduced), reduction};
+                FittingPlan fitting{planRender(scene, summarise(coarse, scene.shading.cue),
+                                               channels, {budget.bytes - held}),
+                                    std::move(coarse), reduction};
                 RenderPlan &plan = fitting.plan;
                 plan.predictedError = std::hypot(plan.predictedError, lost);
                 plan.predictedMaximum = std::max(plan.predictedMaximum, lost);
                 plan.bytes += held;
-                const volume::GridSize size = fitting.reducedFields.front().values.lattice().size();
+                const volume::GridSize size =
+                    fitting.reduced->fields.front().values.lattice().size();
                 plan.reason = fmt::format("means, {} x {} x {} in place of {} x {} x {}: more does "
                                           "not fit the memory",
                                           size.i, size.j, size.k, n.i, n.j, n.k);
@@ -89,17 +98,23 @@ FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityFiel
     }
 }
 
-std::shared_ptr<CpuEngine> makeEngine(std::span<const classify::DensityField> channels,
-                                      const classify::Color &color, const RenderPlan &plan,
-                                      const task::Progress &progress) {
-    std::vector<std::shared_ptr<const fourier::Spectrum>> spectra;
-    for (std::size_t c = 0; c < channels.size(); ++c)
-        spectra.push_back(std::make_shared<const fourier::Spectrum>(
-            fourier::Spectrum::prepare(channels[c].values, plan.spectrum,
-                                       progress.part(double(c) / double(channels.size()),
-                                                     double(c + 1) / double(channels.size())))));
+std::shared_ptr<CpuEngine> makeEngine(const ShadedFields &channels, const classify::Color &color,
+                                      const RenderPlan &plan, const task::Progress &progress) {
+    EngineSpectra spectra{{}, {}, channels.scale};
+    const double count = double(channels.fields.size() + channels.gradients.size());
+    double done = 0.0;
+    const auto prepare = [&](const classify::DensityField &field) {
+        const task::Progress part = progress.part(done / count, (done + 1.0) / count);
+        done += 1.0;
+        return std::make_shared<const fourier::Spectrum>(
+            fourier::Spectrum::prepare(field.values, plan.spectrum, part));
+    };
+    for (const classify::DensityField &field : channels.fields)
+        spectra.fields.push_back(prepare(field));
+    for (const classify::DensityField &gradient : channels.gradients)
+        spectra.gradients.push_back(prepare(gradient));
     auto engine = std::make_shared<CpuEngine>(std::move(spectra), plan.room);
-    if (channels.size() == 1)
+    if (channels.fields.size() == 1)
         engine->setShares({{color.red, color.green, color.blue}});
     else
         engine->setShares({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
@@ -107,13 +122,25 @@ std::shared_ptr<CpuEngine> makeEngine(std::span<const classify::DensityField> ch
 }
 
 PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fields,
-                             const Budget &budget, const task::Progress &progress) {
+                             const Budget &budget, const task::Progress &progress,
+                             const std::optional<shading::ShadingScale> &scale) {
+    const ShadedFields shaded = shadedFields(
+        fields.channels, scene.shading,
+        scale.value_or(shading::shadingScale(fields.channels.front().values.lattice())),
+        progress.part(0.0, 0.1));
     FittingPlan fitting =
-        planWithin(scene, fields.channels, summarise(fields.channels), budget, progress);
-    const auto &sources = fitting.reducedFields.empty() ? fields.channels : fitting.reducedFields;
-    auto engine = makeEngine(sources, fields.color, fitting.plan, progress);
+        planWithin(scene, shaded, summarise(shaded, scene.shading.cue), budget, progress);
+    auto engine = makeEngine(fitting.reduced ? *fitting.reduced : shaded, fields.color,
+                             fitting.plan, progress.part(0.1, 1.0));
     const std::size_t bytes = engine->bytes();
-    return {std::move(engine), std::move(fitting.plan), bytes};
+    const bool takesLight = engine->takesLight();
+    return {std::move(engine), std::move(fitting.plan), bytes, takesLight};
+}
+
+PreparedEngine withoutLight(const PreparedEngine &prepared) {
+    auto engine = static_cast<const CpuEngine &>(*prepared.engine).withoutLight();
+    const std::size_t bytes = engine->bytes();
+    return {std::move(engine), prepared.plan, bytes, false};
 }
 
 } // namespace pellucid::render

@@ -2,28 +2,30 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/classify/shown_fields.h"
 #include "core/render/cpu_engine.h"
+#include "core/render/shaded_fields.h"
 
 namespace pellucid::render {
 
 /// A plan that fits the memory, if need be for fields of fewer samples.
 struct FittingPlan {
     RenderPlan plan;
-    /// The fields to render in place of the originals: means of up to `reduction` samples an axis.
-    std::vector<classify::DensityField> reducedFields;
+    /// What to render in place of the originals: means of up to `reduction` samples an axis.
+    std::optional<ShadedFields> reduced;
     int reduction = 1;
 };
 
 /// What fits is used; what does not is reduced in this order: storage, padding, resolution. The
 /// predicted error of a reduced field counts the detail that the means leave out, as its share of
-/// the field's energy: projections, which average too, lose less. *Shape*: fields on one lattice,
-/// as many summaries. *Throws* Error{outOfMemory} if 32 samples a side do not fit either, or if it
-/// is the image that is too large; Cancelled.
-FittingPlan planWithin(const Scene &scene, std::span<const classify::DensityField> fields,
+/// the field's energy: projections, which average too, lose less. *Shape*: the fields' summaries.
+/// *Throws* Error{outOfMemory} if 32 samples a side do not fit either, or if it is the image that
+/// is too large; Cancelled.
+FittingPlan planWithin(const Scene &scene, const ShadedFields &fields,
                        std::span<const FieldSummary> summaries, const Budget &budget,
                        const task::Progress &progress = {});
 
@@ -35,15 +37,20 @@ struct PreparedEngine {
     std::shared_ptr<ProjectionEngine> engine;
     RenderPlan plan;
     std::size_t bytes = 0; ///< of its spectra
+    bool takesLight = false;
 };
 
 /// An engine for the channels of a look whose spectra, of one layout, are prepared by a plan.
-std::shared_ptr<CpuEngine> makeEngine(std::span<const classify::DensityField> channels,
-                                      const classify::Color &color, const RenderPlan &plan,
-                                      const task::Progress &progress = {});
+std::shared_ptr<CpuEngine> makeEngine(const ShadedFields &channels, const classify::Color &color,
+                                      const RenderPlan &plan, const task::Progress &progress = {});
 
-/// Plans within the budget and prepares the spectra. *Throws* Error{outOfMemory}, Cancelled.
+/// Makes what the scene's light needs, plans within the budget and prepares the spectra. `scale`:
+/// of the volume, if the fields are of a coarser one. *Throws* Error{outOfMemory}, Cancelled.
 PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fields,
-                             const Budget &budget, const task::Progress &progress = {});
+                             const Budget &budget, const task::Progress &progress = {},
+                             const std::optional<shading::ShadingScale> &scale = std::nullopt);
+
+/// The same engine after the lights went out. *Shape*: one that prepareEngine made.
+PreparedEngine withoutLight(const PreparedEngine &prepared);
 
 } // namespace pellucid::render

@@ -61,7 +61,8 @@ std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fiel
         box = volume::united(box, field.support);
     std::vector<FieldSummary> summaries;
     for (const classify::DensityField &field : fields)
-        summaries.push_back({field.values.lattice(), box, energyMarginals(field.values, box)});
+        summaries.push_back(
+            {field.values.lattice(), box, energyMarginals(field.values, box), std::nullopt});
     return summaries;
 }
 
@@ -71,8 +72,9 @@ namespace {
 // milliseconds.
 class AxisCandidates {
 public:
-    AxisCandidates(int axis, std::span<const FieldSummary> fields)
-        : m_samples(fields.front().support.size()[axis]), m_axis(std::size_t(axis)),
+    /// `cued`: with the error of a linear cue's moments.
+    AxisCandidates(int axis, std::span<const FieldSummary> fields, bool cued)
+        : m_cued(cued), m_samples(fields.front().support.size()[axis]), m_axis(std::size_t(axis)),
           m_fields(fields), m_folded((std::size_t(m_samples) + 3) / 2, 0.0) {
         // From the wrap voxel, the middle one, outward.
         for (const FieldSummary &field : fields)
@@ -95,11 +97,22 @@ public:
             const double padding =
                 std::clamp(double(padded) / m_samples, 1.05, std::max(2.5, wanted));
             auto kernel = fourier::makeKernel(choice, padding, m_folded);
+            std::optional<fourier::MomentKernel> moment;
+            if (m_cued)
+                moment.emplace(kernel, double(padded) / m_samples);
             AxisError error{0.0, 0.0, 0.0, 0.0};
             for (const FieldSummary &field : m_fields) {
-                const AxisError e = axisError(kernel, padded, field.energy.axis[m_axis]);
-                error = {std::max(error.ghosts, e.ghosts), std::max(error.inPhase, e.inPhase),
-                         std::max(error.brightest, e.brightest), std::max(error.noise, e.noise)};
+                AxisError e = axisError(kernel, padded, field.energy.axis[m_axis]);
+                if (moment)
+                    addMomentError(e, kernel, *moment, padded,
+                                   field.slabs ? (*field.slabs)[m_axis]
+                                               : evenSlabProducts(field.energy.axis[m_axis]));
+                error = {std::max(error.ghosts, e.ghosts),
+                         std::max(error.inPhase, e.inPhase),
+                         std::max(error.brightest, e.brightest),
+                         std::max(error.noise, e.noise),
+                         std::max(error.moment, e.moment),
+                         std::max(error.brightestMoment, e.brightestMoment)};
             }
             slot = std::make_unique<Candidate>(Candidate{std::move(kernel), padded, error});
         }
@@ -107,6 +120,7 @@ public:
     }
 
 private:
+    bool m_cued;
     int m_samples;
     std::size_t m_axis;
     std::span<const FieldSummary> m_fields;
@@ -209,8 +223,11 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
         choices(scene.interpolation.padding, {1.25, 1.375, 1.5, 1.625, 1.75, 2.0});
     const auto storages = choices(scene.interpolation.storage,
                                   {fourier::Storage::binary16, fourier::Storage::float32});
-    std::array<AxisCandidates, 3> axes{AxisCandidates(0, fields), AxisCandidates(1, fields),
-                                       AxisCandidates(2, fields)};
+    const shading::DepthCue &cue = scene.shading.cue;
+    const bool cued = cue.isActive() && cue.kind == shading::CueKind::linear;
+    std::array<AxisCandidates, 3> axes{AxisCandidates(0, fields, cued),
+                                       AxisCandidates(1, fields, cued),
+                                       AxisCandidates(2, fields, cued)};
     const std::vector<PlannedGrid> grids = planGrids(scene, fields);
 
     const double leastFolded =
@@ -240,7 +257,8 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
     const auto predict = [&](const fourier::SpectrumLayout &layout,
                              const std::array<AxisError, 3> &errors, const PlannedGrid &grid) {
         return predictRelativeError(errors, layout.storage,
-                                    imageShare(scene.camera, field, layout, grid));
+                                    imageShare(scene.camera, field, layout, grid),
+                                    cueWeight(cue, field.lattice, layout, field.energy.axis));
     };
     // Kernels that no padding makes good enough are left out at first: making one takes
     // milliseconds.
@@ -280,9 +298,15 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
                 const bool unmet = std::isinf(bestTime);
                 if (meets ? time < bestTime
                           : unmet && (!best || predicted < best->predictedError)) {
-                    best = RenderPlan{layout,    planned.room,
-                                      predicted, predictMaximum(errors, storage) + planned.folded,
-                                      bytes,     {}};
+                    best = RenderPlan{
+                        layout,
+                        planned.room,
+                        predicted,
+                        predictMaximum(errors, storage,
+                                       cueWeight(cue, field.lattice, layout, field.energy.axis)) +
+                            planned.folded,
+                        bytes,
+                        {}};
                     if (meets)
                         bestTime = time;
                 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +21,8 @@ struct FieldSummary {
     volume::Lattice lattice;
     volume::VoxelBox support;
     EnergyMarginals energy;
+    /// For linear cues; without it the field is taken for noise.
+    std::optional<std::array<SlabProducts, 3>> slabs;
 };
 
 FieldSummary summarise(const classify::DensityField &field);

@@ -11,6 +11,7 @@
 #include "core/fourier/storage.h"
 #include "core/render/camera.h"
 #include "core/render/image_definition.h"
+#include "core/shading/shading.h"
 
 namespace pellucid::render {
 
@@ -37,6 +38,7 @@ struct Scene {
     /// The field's window; the volume's default if absent.
     std::optional<classify::FieldWindow> fieldWindow;
     classify::Look look;
+    shading::Shading shading;
     ImageDefinition image;
     /// Largest relative L2 error of the float image.
     double tolerance = 1.1e-3;

@@ -54,6 +54,7 @@ std::string toJson(const Scene &scene) {
     if (scene.fieldWindow)
         out["window"] = {scene.fieldWindow->low, scene.fieldWindow->high};
     out.update(json::parse(classify::toJson(scene.look)));
+    out.update(json::parse(shading::toJson(scene.shading)));
     if (scene.tone.low)
         out["tone"]["low"] = *scene.tone.low;
     if (scene.tone.high)
@@ -89,6 +90,7 @@ Scene sceneFromJson(const std::string &text) {
             scene.fieldWindow = classify::FieldWindow{window[0], window[1]};
         }
         scene.look = classify::lookFromJson(text);
+        scene.shading = shading::shadingFromJson(text);
         const std::string reconstruction = in.value("reconstruction", "cubic");
         const auto it = reconstructionNames().find(reconstruction);
         if (it == reconstructionNames().end())

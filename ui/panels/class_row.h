@@ -6,12 +6,12 @@
 #include "core/classify/tissue_class.h"
 #include "ui/commands.h"
 
-class QDoubleSpinBox;
 class QLabel;
-class QSlider;
 class QToolButton;
 
 namespace pellucid::ui {
+
+class ValueSlider;
 
 /// One class of the table: a dot in its color that shows or hides it, its name and range, a slider
 /// and the number for its weight.
@@ -29,7 +29,6 @@ signals:
     void menuRequested(int index, const QPoint &globalAt);
 
 protected:
-    bool eventFilter(QObject *watched, QEvent *event) override;
     void mousePressEvent(QMouseEvent *event) override;
     void mouseDoubleClickEvent(QMouseEvent *event) override;
     void contextMenuEvent(QContextMenuEvent *event) override;
@@ -38,9 +37,7 @@ private:
     int m_index;
     QToolButton *m_dot;
     QLabel *m_name, *m_range;
-    QSlider *m_slider;
-    QDoubleSpinBox *m_weight;
-    DragId m_drag = 0;
+    ValueSlider *m_weight;
 };
 
 } // namespace pellucid::ui

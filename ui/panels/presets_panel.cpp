@@ -161,12 +161,14 @@ void PresetsPanel::showCurrent() {
     const classify::FieldWindow shown = m_document.fieldWindow();
     m_gallery->setCurrentItem(nullptr);
     QString current = tr("Own look");
-    if (scene.look == classify::Look() && shown == m_document.defaultFieldWindow())
+    if (scene.look == classify::Look() && scene.shading == shading::Shading() &&
+        shown == m_document.defaultFieldWindow())
         current = tr("Plain density");
     for (const auto &entry : m_library.entries()) {
         const auto window = entry.preset.window.value_or(m_document.defaultFieldWindow());
         if (!suits(entry.preset) || !(window == shown) ||
-            !(presets::lookFor(entry.preset, window) == scene.look))
+            !(presets::lookFor(entry.preset, window) == scene.look) ||
+            !(entry.preset.shading == scene.shading))
             continue;
         current = QString::fromStdString(entry.preset.name);
         const auto items = m_gallery->findItems(current, Qt::MatchExactly);
@@ -185,6 +187,7 @@ void PresetsPanel::apply(QListWidgetItem *item) {
     scene.fieldWindow = entry->preset.window;
     scene.look = presets::lookFor(entry->preset,
                                   scene.fieldWindow.value_or(m_document.defaultFieldWindow()));
+    scene.shading = entry->preset.shading;
     if (!(scene == m_document.scene()))
         m_document.undoStack()->push(
             new EditScene(m_document, scene, tr("Preset %1").arg(item->text())));
@@ -213,7 +216,8 @@ void PresetsPanel::saveLook() {
         if (name.isEmpty())
             throw task::Error(task::ErrorCode::usage, tr("a look needs a name").toStdString());
         m_library.save(presets::presetOf(name.toStdString(), m_document.scene().look,
-                                         m_document.fieldWindow(), *m_document.volume()));
+                                         m_document.scene().shading, m_document.fieldWindow(),
+                                         *m_document.volume()));
         m_nameRow->hide();
         list();
         const auto items = m_gallery->findItems(name, Qt::MatchExactly);
@@ -276,6 +280,7 @@ void PresetsPanel::exportPreset() {
     const auto exported = entry != nullptr
                               ? entry->preset
                               : presets::presetOf(name.toStdString(), m_document.scene().look,
+                                                  m_document.scene().shading,
                                                   m_document.fieldWindow(), *m_document.volume());
     const QString path = QFileDialog::getSaveFileName(this, tr("Export preset"), name + ".json",
                                                       tr("Preset (*.json)"));

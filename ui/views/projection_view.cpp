@@ -90,6 +90,7 @@ ProjectionView::~ProjectionView() {
 void ProjectionView::setEngine(const render::PreparedEngine &prepared, EngineStage stage) {
     const auto &engine = prepared.engine;
     m_engine = engine;
+    m_takesLight = prepared.takesLight;
     m_predictedError = prepared.plan.predictedError;
     m_message.clear();
     // Weights that move change the brightness, and are meant to; another field, or the fine one
@@ -185,7 +186,10 @@ void ProjectionView::requestFrame(bool moving) {
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
     m_pending = true;
     const double finest = m_document.volume()->lattice().shortestStepMm() / samplesPerPixel;
-    m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image,
+    shading::Shading shading = m_document.scene().shading;
+    if (!m_takesLight) // it is being prepared
+        shading.lights.clear();
+    m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
                                    {.draft = draft, .finestPixelMm = finest});
     if (moving)
         m_rest.start();

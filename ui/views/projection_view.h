@@ -86,7 +86,7 @@ private:
     QString m_message, m_lookName;
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
     EngineStage m_stage = EngineStage::coarse;
-    bool m_pending = false;
+    bool m_pending = false, m_takesLight = false;
     std::uint64_t m_requested = 0, m_generation = 0;
     Qt::MouseButton m_button = Qt::NoButton;
     DragId m_drag = 0;

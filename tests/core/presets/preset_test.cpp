@@ -134,7 +134,7 @@ TEST(Preset, SharesOfTheWindowBecomeValuesAndBack) {
     // Kept from a volume without a scale it is in shares again, and the same.
     const volume::Volume volume(volume::Lattice(), std::vector<float>{0.0F},
                                 volume::ValueUnit::none);
-    const Preset kept = presets::presetOf("MR", look, window, volume);
+    const Preset kept = presets::presetOf("MR", look, {}, window, volume);
     EXPECT_EQ(kept.unit, presets::RangeUnit::window);
     EXPECT_FALSE(kept.window);
     const auto again = presets::lookFor(kept, window);

@@ -72,14 +72,15 @@ TEST_P(Layers, AllWeightsOneIsThePlainProjection) {
     const auto layers = layersOf(scene, {});
     const auto plain = classify::densityField(head(), window);
     // Under the layers' own plan: ghosts are linear too and cancel in the comparison.
-    const auto engine = render::makeEngine({&plain, 1}, {}, layers->plan());
+    const auto engine = render::makeEngine(
+        {{plain}, {}, shading::shadingScale(plain.values.lattice())}, {}, layers->plan());
     const auto expected = engine->render(scene.camera, scene.image).samples;
     const std::vector<ChannelShares> ones(6, {1.0, 1.0, 1.0});
-    const auto summed = layers->render(scene.camera, scene.image, ones);
+    const auto summed = layers->render(scene.camera, scene.image, {}, ones);
     EXPECT_EQ(summed.channels, 1);
     EXPECT_LE(test::relativeL2(summed.samples, expected), rounding);
     // Once more: now from the kept projections.
-    const auto kept = layers->render(scene.camera, scene.image, ones);
+    const auto kept = layers->render(scene.camera, scene.image, {}, ones);
     EXPECT_LE(test::relativeL2(kept.samples, expected), rounding);
 }
 
@@ -92,7 +93,7 @@ TEST_P(Layers, EachBasisProjectionIsWithinTheTolerance) {
         std::vector<ChannelShares> alone(6, {0.0, 0.0, 0.0});
         alone[n] = {1.0, 1.0, 1.0};
         const auto field = classify::layerField(head(), window, mixture.layers[n], nullptr);
-        const auto image = layers->render(scene.camera, scene.image, alone).samples;
+        const auto image = layers->render(scene.camera, scene.image, {}, alone).samples;
         EXPECT_LE(test::relativeL2(image, exactOf(field, scene)), scene.tolerance) << n;
     }
 }
@@ -105,7 +106,7 @@ TEST_P(Layers, SixteenAlternatingPointsAreWithinTheTolerance) {
     const auto shares = classify::mixtureOf(look).shares;
     for (const char *how : {"summed", "kept"})
         EXPECT_LE(
-            test::relativeL2(layers->render(scene.camera, scene.image, shares).samples, exact),
+            test::relativeL2(layers->render(scene.camera, scene.image, {}, shares).samples, exact),
             scene.tolerance)
             << how;
     const auto settled = render::prepareEngine(scene, fields, {});
@@ -121,16 +122,17 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
     const auto layers = layersOf(scene, look);
     const auto fresh = [&](const Look &of, const render::LayerSet &like) {
         const auto fields = classify::shownFields(head(), window, of, nullptr);
-        return render::makeEngine(fields.channels, fields.color, like.plan())
+        return render::makeEngine({fields.channels, {}, shading::shadingScale(head().lattice())},
+                                  fields.color, like.plan())
             ->render(scene.camera, scene.image);
     };
     const double allowed = GetParam() == fourier::Storage::binary16 ? 3e-4 : 1e-5;
-    layers->render(scene.camera, scene.image, classify::mixtureOf(look).shares);
+    layers->render(scene.camera, scene.image, {}, classify::mixtureOf(look).shares);
     for (const double weight : {0.4, 0.0, 1.7}) {
         look.classes[1].weight = weight;
         look.classes[2].weight = weight * 0.5;
         const auto image =
-            layers->render(scene.camera, scene.image, classify::mixtureOf(look).shares);
+            layers->render(scene.camera, scene.image, {}, classify::mixtureOf(look).shares);
         const auto expected = fresh(look, *layers);
         ASSERT_EQ(image.channels, expected.channels);
         EXPECT_LE(test::relativeL2(image.samples, expected.samples), allowed) << weight;
@@ -139,7 +141,7 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
     look.classes.resize(1);
     const auto single = layersOf(scene, look);
     const auto colored =
-        single->render(scene.camera, scene.image, classify::mixtureOf(look).shares);
+        single->render(scene.camera, scene.image, {}, classify::mixtureOf(look).shares);
     ASSERT_EQ(colored.channels, 3);
     const auto expected = fresh(look, *single);
     EXPECT_LE(test::relativeL2(colored.samples, expected.samples), allowed);
@@ -148,8 +150,8 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
 TEST(LayerSet, WithoutWeightsThePictureIsEmpty) {
     const render::Scene scene = sceneOf(head().lattice(), fourier::Storage::binary16);
     const auto layers = layersOf(scene, alternating(3));
-    const auto image =
-        layers->render(scene.camera, scene.image, std::vector<ChannelShares>(3, {0.0, 0.0, 0.0}));
+    const auto image = layers->render(scene.camera, scene.image, {},
+                                      std::vector<ChannelShares>(3, {0.0, 0.0, 0.0}));
     EXPECT_EQ(image.channels, 1);
     EXPECT_TRUE(
         std::all_of(image.samples.begin(), image.samples.end(), [](float f) { return f == 0.0F; }));

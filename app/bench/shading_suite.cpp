@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/bench/look_rows.h"
+#include "core/reference/shaded_field.h"
+#include "core/render/prepared_engine.h"
+
+namespace pellucid::bench {
+
+namespace {
+
+using shading::CueKind;
+using shading::Light;
+using shading::Shading;
+
+constexpr int views = 48;
+constexpr glm::dvec3 across{1, 0, 0}, oblique{1, 1, 0.7};
+
+struct Case {
+    const char *name;
+    Shading shading;
+};
+
+// Lights across the view, 120 degrees apart: figure 8 of Totsuka 1993.
+std::vector<Light> threeLights(bool colored) {
+    std::vector<Light> lights{{{1, 0, 0}}, {{-0.5, 0.866, 0}}, {{-0.5, -0.866, 0}}};
+    if (colored) {
+        lights[0].color = {1, 0, 0};
+        lights[1].color = {0, 1, 0};
+        lights[2].color = {0, 0, 1};
+    }
+    return lights;
+}
+
+std::vector<Case> cases() {
+    const shading::DepthCue linear{CueKind::linear, 1.0}, half{CueKind::linear, 0.5};
+    return {
+        {"default no cue, no light", {}},
+        {"default linear cue", {.cue = linear}},
+        {"default linear cue, half", {.cue = half}},
+        {"default sine cue", {.cue = {CueKind::sine, 1.0}}},
+        {"default middle slab", {.cue = {CueKind::curve, 1.0, {0.0, 2.0, 0.0}}}},
+        {"default one light", {.ambient = 0.3, .lights = {{across}}}},
+        {"default three lights", {.ambient = 0.3, .lights = threeLights(false)}},
+        {"default three lights of color", {.ambient = 0.3, .lights = threeLights(true)}},
+        {"default linear cue and light", {.cue = linear, .ambient = 0.3, .lights = {{oblique}}}},
+        {"default sine cue and light",
+         {.cue = {CueKind::sine, 1.0}, .ambient = 0.3, .lights = {{oblique}}}}};
+}
+
+// The exact picture, channels interleaved.
+std::vector<double> exactImage(const classify::DensityField &field, const render::Scene &scene) {
+    const int channels = render::imagesOf(1, scene.shading);
+    std::vector<std::vector<double>> planes;
+    for (int c = 0; c < channels; ++c) {
+        const auto shaded = reference::shadedField(field, scene.shading, scene.camera.axes(), c,
+                                                   shading::shadingScale(field.values.lattice()));
+        planes.push_back(
+            reference::WideKernel(shaded.values, shaded.support).image(scene.camera, scene.image));
+    }
+    std::vector<double> image;
+    for (std::size_t n = 0; n < planes.front().size(); ++n)
+        for (const auto &plane : planes)
+            image.push_back(plane[n]);
+    return image;
+}
+
+} // namespace
+
+void runShadingSuite(const Report &report) {
+    for (const int side : {128, 256}) {
+        const LookSubject subject(side);
+        const classify::ShownFields fields{{classify::densityField(subject.volume, subject.window)},
+                                           {}};
+        const auto plain = render::prepareEngine(subject.scene, fields, {});
+        for (const auto &[name, shading] : cases()) {
+            render::Scene scene = subject.scene;
+            scene.shading = shading;
+            const double start = millisecondsNow();
+            const auto prepared = render::prepareEngine(scene, fields, {});
+            Row row = plannedRow("shading", name, subject.volume.lattice().size(), prepared.plan,
+                                 scene, 0);
+            row.prepareMs = millisecondsNow() - start;
+            row.bytes = double(prepared.bytes);
+            const double plainMs =
+                fillTimesInTurns(row, *prepared.engine, *plain.engine, scene, views);
+            scene.camera.orientation = randomViews(1, 11).front();
+            fillError(row,
+                      compare(prepared.engine->render(scene.camera, scene.image, shading).samples,
+                              exactImage(fields.channels.front(), scene)));
+            row.note = ratioText(row, plainMs);
+            report(row);
+        }
+    }
+}
+
+} // namespace pellucid::bench

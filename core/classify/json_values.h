@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace pellucid::classify {
+
+/// Values read from JSON that somebody may have written by hand. `where` is the JSON pointer of the
+/// value; the reason of the Error{usage} that they throw begins with it and a colon.
+[[noreturn]] void refuseJson(const std::string &where, const std::string &what);
+/// Finite, and so that differences of two are finite in single precision.
+double jsonNumber(const nlohmann::json &in, const std::string &where);
+std::vector<double> jsonNumbers(const nlohmann::json &in, const std::string &where);
+std::string jsonText(const nlohmann::json &in, const std::string &where);
+
+} // namespace pellucid::classify

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/classify/json_values.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "core/task/error.h"
+
+namespace pellucid::classify {
+
+using nlohmann::json;
+
+void refuseJson(const std::string &where, const std::string &what) {
+    throw task::Error(task::ErrorCode::usage, where + ": " + what);
+}
+
+double jsonNumber(const json &in, const std::string &where) {
+    constexpr double largest = 1e30;
+    if (!in.is_number())
+        refuseJson(where, "must be a number");
+    const double value = in.get<double>();
+    if (!(std::abs(value) <= largest))
+        refuseJson(where, "is out of range");
+    return value;
+}
+
+std::vector<double> jsonNumbers(const json &in, const std::string &where) {
+    if (!in.is_array())
+        refuseJson(where, "must be a list of numbers");
+    std::vector<double> values;
+    for (std::size_t n = 0; n < in.size(); ++n)
+        values.push_back(jsonNumber(in[n], where + "/" + std::to_string(n)));
+    return values;
+}
+
+std::string jsonText(const json &in, const std::string &where) {
+    if (!in.is_string())
+        refuseJson(where, "must be a text");
+    return in.get<std::string>();
+}
+
+} // namespace pellucid::classify

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/reference/shaded_field.h"
+
+#include <new>
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/shading/gradient_magnitude.h"
+#include "core/task/error.h"
+
+namespace pellucid::reference {
+
+classify::DensityField shadedField(const classify::DensityField &field,
+                                   const shading::Shading &shading, const glm::dmat3 &axes,
+                                   int channel, const shading::ShadingScale &scale,
+                                   const task::Progress &progress) {
+    const classify::DensityField larger = shading::grown(field);
+    const volume::Lattice &lattice = larger.values.lattice();
+    const volume::GridSize size = lattice.size();
+    const glm::dvec3 center = lattice.center().mm;
+    struct Pole {
+        glm::dvec3 direction; // LPS
+        double intensity;
+    };
+    std::vector<Pole> poles;
+    for (const shading::Light &light : shading.lights) {
+        const glm::dvec3 along = glm::normalize(light.direction);
+        const double color = channel == 0   ? light.color.red
+                             : channel == 1 ? light.color.green
+                                            : light.color.blue;
+        poles.push_back({light.frame == shading::LightFrame::viewer ? axes * along : along,
+                         light.strength * color});
+    }
+    try {
+        std::vector<float> samples(size.count(), 0.0F);
+        tbb::parallel_for(0, size.k, [&](int k) {
+            progress.check();
+            for (int j = 0; j < size.j; ++j)
+                for (int i = 0; i < size.i; ++i) {
+                    const volume::VoxelIndex n{i, j, k};
+                    double shaded = shading.ambient * larger.values.value(n);
+                    if (!poles.empty()) {
+                        const glm::dvec3 g = shading::gradientAt(larger.values, n, scale.stepMm);
+                        for (const Pole &pole : poles)
+                            shaded += 0.5 * pole.intensity *
+                                      (glm::length(g) - glm::dot(g, pole.direction));
+                    }
+                    if (shaded == 0.0)
+                        continue;
+                    const double depth =
+                        glm::dot(axes[2], lattice.patient(n).mm - center) / scale.radiusMm;
+                    samples[(std::size_t(k) * size.j + j) * size.i + i] =
+                        float(shading.cue.at(depth) * shaded);
+                }
+        });
+        return classify::fieldOf(larger.values, std::move(samples));
+    } catch (const std::bad_alloc &) {
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          "not enough memory for the exact shaded field");
+    }
+}
+
+} // namespace pellucid::reference

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <glm/mat3x3.hpp>
+
+#include "core/classify/density_field.h"
+#include "core/shading/slice_shading.h"
+#include "core/task/progress.h"
+
+namespace pellucid::reference {
+
+/// The truth of cue and light: a channel's field shaded sample by sample as `shading::Shading`
+/// says, in double, for one view. Its plain image is the exact shaded image. On a lattice larger by
+/// one sample on every side, about the same centre. *Shape*: axes are [U V W]; channel 0 to 2 of
+/// the lights' colours. *Throws* Error{outOfMemory}, Cancelled.
+classify::DensityField shadedField(const classify::DensityField &field,
+                                   const shading::Shading &shading, const glm::dmat3 &axes,
+                                   int channel, const shading::ShadingScale &scale,
+                                   const task::Progress &progress = {});
+
+} // namespace pellucid::reference

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/shading/shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/task/error.h"
+
+namespace pellucid::shading {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void require(bool holds, const std::string &what) {
+    if (!holds)
+        throw task::Error(task::ErrorCode::usage, what);
+}
+
+// Numbers with commas between them.
+std::vector<double> numbersOf(const std::string &text, const std::string &what) {
+    std::vector<double> values;
+    for (std::size_t first = 0;;) {
+        const std::size_t comma = std::min(text.find(',', first), text.size());
+        const std::string part = text.substr(first, comma - first);
+        char *end = nullptr;
+        const double value = std::strtod(part.c_str(), &end);
+        require(end != part.c_str() && *end == '\0' && std::isfinite(value),
+                fmt::format("{}: '{}' is not a number", what, part));
+        values.push_back(value);
+        if (comma == text.size())
+            return values;
+        first = comma + 1;
+    }
+}
+
+double numberOf(const std::string &text, const std::string &what) {
+    const auto values = numbersOf(text, what);
+    require(values.size() == 1, fmt::format("{}: '{}' is not a number", what, text));
+    return values.front();
+}
+
+} // namespace
+
+bool DepthCue::isActive() const {
+    return kind != CueKind::none && strength != 0.0 &&
+           !(kind == CueKind::curve &&
+             std::all_of(curve.begin(), curve.end(), [](double c) { return c == 1.0; }));
+}
+
+double DepthCue::at(double t) const {
+    switch (kind) {
+    case CueKind::none:
+        break;
+    case CueKind::linear:
+        return 1.0 + strength * t;
+    case CueKind::sine:
+        return 1.0 + strength * std::sin(0.5 * pi * t);
+    case CueKind::curve: {
+        const std::vector<double> cosines = cosinesOf(curve);
+        double sum = 0.0;
+        for (std::size_t k = 0; k < cosines.size(); ++k)
+            sum += cosines[k] * std::cos(double(k) * pi * 0.5 * (t + 1.0));
+        return 1.0 + strength * (sum - 1.0);
+    }
+    }
+    return 1.0;
+}
+
+std::vector<double> cosinesOf(const std::vector<double> &values) {
+    const int last = int(values.size()) - 1;
+    std::vector<double> cosines(values.size());
+    for (int k = 0; k <= last; ++k) {
+        double sum = 0.0;
+        for (int n = 0; n <= last; ++n)
+            sum += (n == 0 || n == last ? 0.5 : 1.0) * values[std::size_t(n)] *
+                   std::cos(pi * k * n / last);
+        cosines[std::size_t(k)] = (k == 0 || k == last ? 1.0 : 2.0) / last * sum;
+        // Rounding is not worth two slices.
+        if (std::abs(cosines[std::size_t(k)]) < 1e-12)
+            cosines[std::size_t(k)] = 0.0;
+    }
+    return cosines;
+}
+
+bool Shading::isLit() const {
+    return std::any_of(lights.begin(), lights.end(), [](const Light &light) {
+        return light.strength != 0.0 && light.color != classify::Color{0.0, 0.0, 0.0};
+    });
+}
+
+bool Shading::isGrey() const {
+    return std::all_of(lights.begin(), lights.end(), [](const Light &light) {
+        const classify::Color &c = light.color;
+        return light.strength == 0.0 || (c.red == c.green && c.green == c.blue);
+    });
+}
+
+void validate(const Shading &shading) {
+    const DepthCue &cue = shading.cue;
+    require(cue.strength >= 0.0 && cue.strength <= 1.0,
+            "the strength of the depth cue must be within 0 to 1");
+    require(cue.curve.size() >= fewestCurveValues && cue.curve.size() <= mostCurveValues,
+            fmt::format("the curve of the depth cue must have {} to {} values", fewestCurveValues,
+                        mostCurveValues));
+    for (const double value : cue.curve)
+        require(value >= 0.0 && value <= largestCurveValue,
+                fmt::format("the values of the depth cue's curve must be within 0 to {}",
+                            largestCurveValue));
+    require(shading.ambient >= 0.0 && shading.ambient <= largestAmbient,
+            fmt::format("the ambient light must be within 0 to {}", largestAmbient));
+    require(shading.lights.size() <= mostLights, fmt::format("more than {} lights", mostLights));
+    for (const Light &light : shading.lights) {
+        const double length = glm::length(light.direction);
+        require(std::isfinite(length) && length > 1e-12, "the direction of a light must not be 0");
+        require(light.strength >= 0.0 && light.strength <= 1.0,
+                "the strength of a light must be within 0 to 1");
+        for (const double c : {light.color.red, light.color.green, light.color.blue})
+            require(c >= 0.0 && c <= 1.0, "the colour of a light must be within 0 to 1");
+    }
+}
+
+DepthCue cueFromText(const std::string &text) {
+    const std::string forms = "none, linear:S, sine:S or curve:c0,c1,...";
+    DepthCue cue;
+    if (text == "none")
+        return cue;
+    const auto colon = text.find(':');
+    const std::string kind = text.substr(0, colon);
+    require(colon != std::string::npos && (kind == "linear" || kind == "sine" || kind == "curve"),
+            "the depth cue '" + text + "' is none of " + forms);
+    const std::string values = text.substr(colon + 1);
+    if (kind == "curve") {
+        cue.kind = CueKind::curve;
+        cue.curve = numbersOf(values, "the depth cue '" + text + "'");
+    } else {
+        cue.kind = kind == "linear" ? CueKind::linear : CueKind::sine;
+        cue.strength = numberOf(values, "the depth cue '" + text + "'");
+    }
+    validate(Shading{.cue = cue});
+    return cue;
+}
+
+Light lightFromText(const std::string &text) {
+    const std::string what = "the light '" + text + "'";
+    Light light;
+    const auto color = text.find(':');
+    const auto direction = numbersOf(text.substr(0, color), what);
+    require(direction.size() == 3, what + " is not u,v,w[:#rrggbb[:S]]");
+    light.direction = {direction[0], direction[1], direction[2]};
+    if (color != std::string::npos) {
+        const auto strength = text.find(':', color + 1);
+        light.color = classify::colorFromText(text.substr(color + 1, strength - color - 1));
+        if (strength != std::string::npos)
+            light.strength = numberOf(text.substr(strength + 1), what);
+    }
+    validate(Shading{.lights = {light}});
+    return light;
+}
+
+} // namespace pellucid::shading

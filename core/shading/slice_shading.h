@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <complex>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+
+#include "core/shading/shading.h"
+#include "core/volume/lattice.h"
+
+namespace pellucid::shading {
+
+/// What cue and light are measured by; of the whole lattice of the volume, whatever part of it or
+/// coarser copy of it is rendered.
+struct ShadingScale {
+    double radiusMm = 1.0; ///< R, see Lattice::radiusMm
+    double stepMm = 1.0;   ///< the shortest step
+};
+ShadingScale shadingScale(const volume::Lattice &lattice);
+
+/// The shading of one view, as what is done to slices of the spectra of f and of |g|:
+///   d(x) = slope (W.x) + sum over terms of weight exp(-i 2 pi offset (W.x))
+/// where every term is a slice, `offset` away from the central one along W; and the image of
+/// channel c is that of
+///   d (ambient_c f + magnitude_c |g| + gradient_c . (stepMm grad f)).
+/// *Source*: Totsuka 1993, eq. 3 to 5, 11 and section 3.1 on sine waves.
+struct SliceShading {
+    struct Term {
+        double offset; ///< cycles per mm
+        std::complex<double> weight;
+    };
+    struct Channel {
+        double ambient = 1.0, magnitude = 0.0;
+        glm::dvec3 gradient{0.0}; ///< LPS
+        bool operator==(const Channel &) const = default;
+    };
+    std::vector<Term> terms{{0.0, 1.0}};
+    double slope = 0.0; ///< 1/mm
+    std::array<Channel, 3> channels;
+
+    /// f itself.
+    bool isPlain() const;
+    /// Whether all channels are alike.
+    bool isGrey() const;
+};
+
+/// *Shape*: axes are [U V W] of the camera.
+SliceShading sliceShading(const Shading &shading, const glm::dmat3 &axes,
+                          const ShadingScale &scale);
+
+/// The root mean square of d over all depths, far beyond the volume too, where ghosts lie: what the
+/// ghosts of the field are weighed with. Of a linear cue, whose own ghosts are counted apart, over
+/// the depths of the volume.
+double cueRms(const DepthCue &cue);
+
+} // namespace pellucid::shading

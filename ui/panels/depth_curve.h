@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "core/shading/shading.h"
+#include "ui/commands.h"
+#include "ui/theme.h"
+
+namespace pellucid::ui {
+
+/// A depth cue as a curve from the far end (left) to the near one (right), weight 0 to 2 above. The
+/// values of a curve are dragged up and down; a double-click makes one 1.
+class DepthCurve : public QWidget {
+    Q_OBJECT
+public:
+    explicit DepthCurve(const Theme &theme, QWidget *parent = nullptr);
+
+    void setCue(const shading::DepthCue &cue);
+    /// Where the handle of a value is drawn.
+    QPointF handleAt(int index) const;
+
+signals:
+    /// `drag`: the same number during one drag.
+    void valueChanged(int index, double value, pellucid::ui::DragId drag);
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+    void mousePressEvent(QMouseEvent *event) override;
+    void mouseMoveEvent(QMouseEvent *event) override;
+    void mouseDoubleClickEvent(QMouseEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+    QSize sizeHint() const override { return {150, 52}; }
+
+private:
+    QRectF plot() const;
+    double yOf(double value) const;
+    int nearest(const QPointF &point) const;
+
+    Theme m_theme;
+    shading::DepthCue m_cue;
+    int m_selected = 0;
+    DragId m_drag = 0;
+};
+
+} // namespace pellucid::ui

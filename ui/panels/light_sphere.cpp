@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/light_sphere.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace pellucid::ui {
+
+namespace {
+
+// Of the widget's half side: around the sphere is room for lights behind it.
+constexpr double sphereShare = 0.74;
+// How far beyond the rim a handle can be, in radii: a light nearly straight behind.
+constexpr double farthest = 1.3;
+constexpr double grabPixels = 9.0;
+constexpr double degreesPerKey = 5.0;
+
+} // namespace
+
+LightSphere::LightSphere(const Theme &theme, QWidget *parent) : QWidget(parent), m_theme(theme) {
+    setObjectName("lightSphere");
+    setAccessibleName(tr("Directions of the lights"));
+    setToolTip(tr("Drag a light over the sphere; beyond its rim it shines from behind"));
+    setFocusPolicy(Qt::StrongFocus);
+    setFixedSize(96, 96);
+}
+
+void LightSphere::setLights(const std::vector<shading::Light> &lights, double ambient,
+                            int selected) {
+    m_lights = lights;
+    m_ambient = ambient;
+    m_selected = selected;
+    update();
+}
+
+double LightSphere::radius() const {
+    return 0.5 * sphereShare * std::min(width(), height());
+}
+
+// At radius r from the middle the direction leaves the viewer's by asin r; beyond the rim, at
+// 2 - r, from behind.
+QPointF LightSphere::handleAt(int index) const {
+    const glm::dvec3 d = glm::normalize(m_lights[std::size_t(index)].direction);
+    const double across = std::hypot(d.x, d.y);
+    double shown = across;
+    if (d.z < 0.0)
+        shown = std::min(farthest, 2.0 - across);
+    const double scale = across > 1e-9 ? shown / across : 0.0;
+    return QPointF(0.5 * width() + radius() * scale * d.x, 0.5 * height() - radius() * scale * d.y);
+}
+
+glm::dvec3 LightSphere::directionAt(const QPointF &point) const {
+    const double x = (point.x() - 0.5 * width()) / radius(),
+                 y = (0.5 * height() - point.y()) / radius();
+    const double shown = std::min(std::hypot(x, y), farthest);
+    const double across = shown <= 1.0 ? shown : 2.0 - shown;
+    const double scale = shown > 1e-9 ? across / std::hypot(x, y) : 0.0;
+    const double toward = std::sqrt(std::max(0.0, 1.0 - across * across));
+    return {scale * x, scale * y, shown <= 1.0 ? toward : -toward};
+}
+
+QImage LightSphere::sphere() const {
+    const double ratio = devicePixelRatioF();
+    const int side = int(std::ceil(2.0 * radius() * ratio));
+    QImage image(side, side, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::transparent);
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const double x = 2.0 * (column + 0.5) / side - 1.0, y = 1.0 - 2.0 * (row + 0.5) / side;
+            const double r = x * x + y * y;
+            if (r >= 1.0)
+                continue;
+            const glm::dvec3 normal(x, y, std::sqrt(1.0 - r));
+            glm::dvec3 light(0.35 * m_ambient);
+            for (const shading::Light &one : m_lights)
+                light += one.strength * 0.5 *
+                         (1.0 + glm::dot(normal, glm::normalize(one.direction))) *
+                         glm::dvec3(one.color.red, one.color.green, one.color.blue);
+            const auto level = [](double l) { return int(std::lround(235.0 * std::min(1.0, l))); };
+            // The rim is smoothed over a pixel.
+            const double cover = std::clamp((1.0 - std::sqrt(r)) * 0.5 * side, 0.0, 1.0);
+            image.setPixelColor(
+                column, row,
+                QColor(level(light.x), level(light.y), level(light.z), int(255.0 * cover)));
+        }
+    image.setDevicePixelRatio(ratio);
+    return image;
+}
+
+void LightSphere::paintEvent(QPaintEvent *) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setOpacity(isEnabled() ? 1.0 : 0.4);
+    painter.drawImage(QPointF(0.5 * width() - radius(), 0.5 * height() - radius()), sphere());
+    painter.setBrush(Qt::NoBrush);
+    for (int n = 0; n < int(m_lights.size()); ++n) {
+        const QPointF at = handleAt(n);
+        const bool isBehind = m_lights[std::size_t(n)].direction.z < 0.0;
+        painter.setPen(QPen(QColor(0, 0, 0, 160), 3.5));
+        painter.drawEllipse(at, 5.0, 5.0);
+        painter.setPen(QPen(m_theme.color(n == m_selected ? "accent" : "muted"), 2.0,
+                            isBehind ? Qt::DotLine : Qt::SolidLine));
+        painter.drawEllipse(at, 5.0, 5.0);
+    }
+    if (hasFocus()) {
+        painter.setPen(QPen(m_theme.color("accent"), 1.0));
+        painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 5.0, 5.0);
+    }
+}
+
+void LightSphere::mousePressEvent(QMouseEvent *event) {
+    m_drag = nextDragId();
+    int nearest = -1;
+    double least = grabPixels;
+    for (int n = 0; n < int(m_lights.size()); ++n) {
+        const QPointF away = handleAt(n) - event->position();
+        if (std::hypot(away.x(), away.y()) < least) {
+            least = std::hypot(away.x(), away.y());
+            nearest = n;
+        }
+    }
+    if (nearest >= 0)
+        emit lightSelected(nearest);
+    else // the chosen light goes where the click is
+        mouseMoveEvent(event);
+}
+
+void LightSphere::mouseMoveEvent(QMouseEvent *event) {
+    if ((event->buttons() & Qt::LeftButton) != 0 && m_selected >= 0)
+        emit directionChanged(m_selected, directionAt(event->position()), m_drag);
+}
+
+void LightSphere::keyPressEvent(QKeyEvent *event) {
+    glm::dvec3 axis(0.0);
+    switch (event->key()) {
+    case Qt::Key_Left:
+        axis = {0, -1, 0};
+        break;
+    case Qt::Key_Right:
+        axis = {0, 1, 0};
+        break;
+    case Qt::Key_Up:
+        axis = {-1, 0, 0};
+        break;
+    case Qt::Key_Down:
+        axis = {1, 0, 0};
+        break;
+    default:
+        QWidget::keyPressEvent(event);
+        return;
+    }
+    if (m_selected >= 0)
+        emit directionChanged(m_selected,
+                              glm::angleAxis(glm::radians(degreesPerKey), axis) *
+                                  m_lights[std::size_t(m_selected)].direction,
+                              0);
+}
+
+} // namespace pellucid::ui

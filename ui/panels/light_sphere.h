@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <QWidget>
+
+#include <glm/vec3.hpp>
+
+#include "core/shading/shading.h"
+#include "ui/commands.h"
+#include "ui/theme.h"
+
+namespace pellucid::ui {
+
+/// A sphere as the lights shine on it, seen by the viewer. Each light has a handle where its pole
+/// is: on the sphere, or around its rim when it is behind; it is dragged, or moved with the arrow
+/// keys.
+class LightSphere : public QWidget {
+    Q_OBJECT
+public:
+    explicit LightSphere(const Theme &theme, QWidget *parent = nullptr);
+
+    /// Lights in the viewer's frame.
+    void setLights(const std::vector<shading::Light> &lights, double ambient, int selected);
+    /// Where the handle of a light is drawn.
+    QPointF handleAt(int index) const;
+
+signals:
+    void lightSelected(int index);
+    /// In the viewer's frame. `drag`: the same number during one drag.
+    void directionChanged(int index, const glm::dvec3 &direction, pellucid::ui::DragId drag);
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+    void mousePressEvent(QMouseEvent *event) override;
+    void mouseMoveEvent(QMouseEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+    QSize sizeHint() const override { return {96, 96}; }
+
+private:
+    double radius() const;
+    glm::dvec3 directionAt(const QPointF &point) const;
+    QImage sphere() const;
+
+    Theme m_theme;
+    std::vector<shading::Light> m_lights;
+    double m_ambient = 1.0;
+    int m_selected = -1;
+    DragId m_drag = 0;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <QWidget>
+
+#include "core/shading/shading.h"
+#include "ui/commands.h"
+#include "ui/theme.h"
+
+class QCheckBox;
+class QComboBox;
+class QPushButton;
+class QSpinBox;
+
+namespace pellucid::ui {
+
+class DepthCurve;
+class Document;
+class LightSphere;
+class ValueSlider;
+
+/// What gives the projection depth: the depth cue, the lights on a sphere, the ambient light.
+class ShadingPanel : public QWidget {
+    Q_OBJECT
+public:
+    ShadingPanel(Document &document, const Theme &theme, QWidget *parent = nullptr);
+
+    /// Stands beside the panel's heading: takes cue and lights away.
+    QWidget *corner();
+    /// What the menu does too.
+    void toggleCue();
+    void addLight();
+    void reset();
+
+private:
+    void showScene();
+    void showLights();
+    int selectedLight() const;
+    void chooseCue(int index);
+    void removeLight();
+    void chooseColor();
+    void setFollowsViewer(bool followsViewer);
+    void turnLight(int index, const glm::dvec3 &direction, DragId drag);
+    void change(const QString &what, DragId drag,
+                const std::function<void(shading::Shading &)> &edit);
+
+    Document &m_document;
+    LightSphere *m_sphere;
+    QComboBox *m_cue;
+    QSpinBox *m_curveValues;
+    DepthCurve *m_curve;
+    ValueSlider *m_strength, *m_light, *m_ambient;
+    QPushButton *m_reset, *m_add, *m_remove, *m_color;
+    QCheckBox *m_follows;
+    int m_selected = 0;
+};
+
+} // namespace pellucid::ui

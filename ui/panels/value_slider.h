@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "ui/commands.h"
+
+class QDoubleSpinBox;
+class QSlider;
+
+namespace pellucid::ui {
+
+/// A slider with its value beside it, which can be typed; a double-click brings back the usual one.
+class ValueSlider : public QWidget {
+    Q_OBJECT
+public:
+    struct Range {
+        double largest = 1.0; ///< from 0
+        double usual = 1.0;
+    };
+    /// The object names of the two controls.
+    ValueSlider(const Range &range, const QString &sliderName, const QString &valueName,
+                QWidget *parent = nullptr);
+
+    void setValue(double value);
+    void setNames(const QString &accessibleName, const QString &tip);
+
+signals:
+    /// `drag`: the same number during one drag.
+    void changed(double value, pellucid::ui::DragId drag);
+    void pressed();
+
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
+private:
+    Range m_range;
+    QSlider *m_slider;
+    QDoubleSpinBox *m_value;
+    DragId m_drag = 0;
+};
+
+} // namespace pellucid::ui
