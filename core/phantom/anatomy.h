@@ -21,6 +21,7 @@ volume::Volume makeMetal(const volume::Lattice &lattice, const task::Progress &p
 volume::Volume makeCube(const volume::Lattice &lattice, const task::Progress &progress);
 /// Bar patterns of 1 to 6 voxels along each axis.
 volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &progress);
+volume::Volume makeSphere(const volume::Lattice &lattice, const task::Progress &progress);
 volume::Volume makeEllipsoids(const volume::Lattice &lattice, const task::Progress &progress);
 
 } // namespace pellucid::phantom

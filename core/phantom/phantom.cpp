@@ -22,14 +22,15 @@ struct Entry {
     MakeVolume make;
 };
 
-const std::array<Entry, 6> &entries() {
-    static const std::array<Entry, 6> all{{
+const std::array<Entry, 7> &entries() {
+    static const std::array<Entry, 7> all{{
         {Kind::head, "head", {256, 256, 240}, {0.95, 0.95, 1.0}, makeHead},
         {Kind::chest, "chest", {288, 224, 180}, {1.4, 1.4, 2.0}, makeChest},
         {Kind::ellipsoids, "ellipsoids", {128, 128, 128}, {1.0, 1.0, 1.0}, makeEllipsoids},
         {Kind::metal, "metal", {128, 128, 128}, {1.0, 1.0, 1.0}, makeMetal},
         {Kind::cube, "cube", {64, 64, 64}, {1.0, 1.0, 1.0}, makeCube},
         {Kind::bars, "bars", {128, 128, 128}, {1.0, 1.0, 1.0}, makeBars},
+        {Kind::sphere, "sphere", {64, 64, 64}, {1.0, 1.0, 1.0}, makeSphere},
     }};
     return all;
 }

@@ -10,7 +10,7 @@
 
 namespace pellucid::phantom {
 
-enum class Kind { head, chest, ellipsoids, metal, cube, bars };
+enum class Kind { head, chest, ellipsoids, metal, cube, bars, sphere };
 
 /// What a phantom is sampled on. Absent entries are the kind's own.
 struct Sampling {

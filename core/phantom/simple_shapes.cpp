@@ -34,6 +34,12 @@ volume::Volume makeMetal(const volume::Lattice &lattice, const task::Progress &p
     return painter.finish(10.0, 7, phantomNotes("Metal phantom"));
 }
 
+volume::Volume makeSphere(const volume::Lattice &lattice, const task::Progress &progress) {
+    Painter painter(lattice, -1000.0, progress);
+    painter.paint(ellipsoid({0, 0, 0}, dvec3(0.8 * inscribedRadiusMm(lattice))), 1000.0);
+    return painter.finish(0.0, 0, phantomNotes("Sphere phantom"));
+}
+
 volume::Volume makeCube(const volume::Lattice &lattice, const task::Progress &progress) {
     progress.check();
     return {lattice, std::vector<std::int16_t>(lattice.size().count(), 1000),

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gtest/gtest.h>
+#include "tests/cli/cli.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
-#include "core/classify/shown_fields.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/scene.h"
 #include "core/volume/nrrd.h"
-#include "tests/support/command.h"
 #include "tests/support/fields.h"
 #include "tests/support/test_data.h"
 
@@ -22,58 +18,8 @@ namespace pellucid {
 
 namespace {
 
-namespace fs = std::filesystem;
+using namespace test;
 using nlohmann::json;
-using test::CommandResult;
-using test::run;
-
-CommandResult cli(const std::string &arguments, const std::string &before = "") {
-    return run(before + " " + PELLUCID_CLI + " " + arguments);
-}
-
-std::string quoted(const fs::path &path) {
-    return "'" + path.string() + "'";
-}
-
-std::vector<float> readNpy(const fs::path &path, int &height, int &width, int channels = 1) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    const std::string bytes = text.str();
-    const auto shape = bytes.find("'shape': (");
-    if (shape == std::string::npos ||
-        std::sscanf(bytes.c_str() + shape, "'shape': (%d, %d)", &height, &width) != 2)
-        return {};
-    std::vector<float> samples(std::size_t(height) * std::size_t(width) * std::size_t(channels));
-    std::memcpy(samples.data(), bytes.data() + bytes.size() - samples.size() * 4,
-                samples.size() * 4);
-    return samples;
-}
-
-std::size_t entries(const fs::path &folder) {
-    return std::size_t(std::distance(fs::directory_iterator(folder), {}));
-}
-
-/// One line that names the program, as every failure must end.
-void expectOneLine(const CommandResult &r, int code, const std::string &part) {
-    EXPECT_EQ(r.exitCode, code) << r.error;
-    EXPECT_EQ(std::count(r.error.begin(), r.error.end(), '\n'), 1) << r.error;
-    EXPECT_EQ(r.error.rfind("pellucid-cli: ", 0), 0U) << r.error;
-    EXPECT_NE(r.error.find(part), std::string::npos) << r.error;
-}
-
-class Cli : public testing::Test {
-protected:
-    test::TemporaryFolder folder;
-    fs::path phantomFolder(const std::string &options) {
-        const fs::path path = folder / ("phantom" + std::to_string(m_count++));
-        const auto r = cli("phantom " + quoted(path) + " " + options);
-        EXPECT_EQ(r.exitCode, 0) << r.error;
-        return path;
-    }
-
-private:
-    int m_count = 0;
-};
 
 struct RenderCase {
     const char *name, *phantom, *view;
@@ -209,132 +155,6 @@ TEST_F(Cli, VolumeWritesValuesAndField) {
 }
 
 // A look against the exact projection of its own fields, in grey and in colour.
-TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
-    const fs::path series = phantomFolder("--kind chest --size 56x48x40"),
-                   out = folder / "image.npy";
-    const auto catalogue = dicom::scan({series});
-    const auto volume = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
-    const auto window = classify::defaultFieldWindow(volume);
-    auto camera = render::defaultCamera(volume.lattice());
-    camera.orientation = render::viewOrientation(render::StandardView::front, {30, 0, 0});
-    const auto standard = [](const std::string &name, double weight, const char *color) {
-        for (classify::TissueClass tissue : classify::standardClasses())
-            if (tissue.name == name) {
-                tissue.weight = weight;
-                tissue.color = classify::colorFromText(color);
-                return tissue;
-            }
-        throw std::runtime_error(name);
-    };
-    const struct {
-        std::string options;
-        classify::Look look;
-    } cases[] = {{"--bezier 0,0.5,2,2", {{{0.0, 0.5, 2.0, 2.0}}, {}}},
-                 {"--bezier 0,2,0,2,0,2,0,2,0,2,0,2,0,2,0,2",
-                  {{{0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2}}, {}}},
-                 {"--class bone=1.5", {{}, {standard("bone", 1.5, "#ffffff")}}},
-                 {"--class bone=1:#ff8000 --class lung=2:#0040ff --class fat=0",
-                  {{}, {standard("bone", 1.0, "#ff8000"), standard("lung", 2.0, "#0040ff")}}}};
-    for (const auto &c : cases) {
-        const auto r = cli("render " + quoted(series) + " -o " + quoted(out) +
-                           " --azimuth 30 --json " + c.options);
-        ASSERT_EQ(r.exitCode, 0) << r.error;
-        const auto fields = classify::shownFields(volume, window, c.look, nullptr);
-        const int channels = fields.isGrey() ? 1 : 3;
-        int height = 0, width = 0;
-        const auto image = readNpy(out, height, width, channels);
-        std::vector<double> truth(image.size());
-        for (std::size_t n = 0; n < fields.channels.size(); ++n) {
-            const auto &field = fields.channels[n];
-            const auto plane = reference::WideKernel(field.values, field.support).image(camera, {});
-            for (std::size_t p = 0; p < plane.size(); ++p)
-                truth[p * std::size_t(channels) + n] = plane[p];
-        }
-        const double error = test::relativeL2(image, truth);
-        EXPECT_LE(error, 1.1e-3) << c.options;
-        EXPECT_LE(error, json::parse(r.out)["predicted_error"]["relative_l2"].get<double>());
-    }
-    const fs::path nrrd = folder / "class.nrrd";
-    const auto refused =
-        cli("render " + quoted(series) + " -o " + quoted(nrrd) + " --class bone=1:#ff0000");
-    EXPECT_EQ(refused.exitCode, 2);
-    EXPECT_NE(refused.error.find("coloured"), std::string::npos);
-    EXPECT_FALSE(fs::exists(nrrd));
-    EXPECT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --class bone").exitCode,
-              0);
-    const auto written = volume::readNrrd(nrrd);
-    const auto expected =
-        classify::classField(volume, window, standard("bone", 1.0, "#ffffff"), nullptr).values;
-    for (const volume::VoxelIndex at : {volume::VoxelIndex{28, 40, 20}, {3, 3, 3}, {28, 36, 10}})
-        EXPECT_EQ(written.value(at), expected.value(at));
-}
-
-TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
-    // A library of its own.
-    setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
-    const auto list = cli("preset list");
-    EXPECT_EQ(list.exitCode, 0);
-    EXPECT_NE(list.out.find("Bone over soft tissue"), std::string::npos);
-    EXPECT_GE(std::count(list.out.begin(), list.out.end(), '\n'), 15);
-    const fs::path file = folder / "bone.json";
-    ASSERT_EQ(cli("preset export Bone -o " + quoted(file)).exitCode, 0);
-    EXPECT_EQ(cli("preset validate " + quoted(file)).exitCode, 0);
-    EXPECT_NE(cli("preset show bone").out.find("pellucid-preset/1"), std::string::npos);
-    // What is built in stays; under another name it is kept, once.
-    EXPECT_EQ(cli("preset import " + quoted(file)).exitCode, 2);
-    EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine").exitCode, 0);
-    EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine").exitCode, 2);
-    EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine --replace").exitCode, 0);
-    EXPECT_NE(cli("preset list").out.find("Mine"), std::string::npos);
-
-    std::ofstream(folder / "bad.json") << "{\n  \"schema\": \"pellucid-preset/1\",\n"
-                                          "  \"name\": \"x\",\n  \"window\": [3]\n}\n";
-    const auto bad = cli("preset validate " + quoted(folder / "bad.json"));
-    EXPECT_EQ(bad.exitCode, 3);
-    EXPECT_NE(bad.error.find("bad.json: line 4: /window: must be two numbers"), std::string::npos)
-        << bad.error;
-    // One in the library is passed over with its reason; the others stay usable.
-    fs::copy_file(folder / "bad.json", folder / "data/pellucid/presets/bad.json");
-    const auto warned = cli("preset list");
-    EXPECT_EQ(warned.exitCode, 0);
-    EXPECT_NE(warned.error.find("bad.json: line 4"), std::string::npos) << warned.error;
-    EXPECT_NE(warned.out.find("Mine"), std::string::npos);
-    unsetenv("XDG_DATA_HOME");
-}
-
-TEST_F(Cli, APresetMakesThePictureThatItsClassesMake) {
-    const fs::path series = phantomFolder("--kind head --size 56x56x40");
-    const auto picture = [&](const std::string &options, const char *name) {
-        const fs::path out = folder / name;
-        const auto r = cli("render " + quoted(series) + " -o " + quoted(out) + " " + options);
-        EXPECT_EQ(r.exitCode, 0) << r.error;
-        int height = 0, width = 0, channels = 0;
-        return readNpy(out, height, width, channels);
-    };
-    std::ofstream(folder / "p.json")
-        << R"({"schema": "pellucid-preset/1", "name": "p", "window": [-900, 2000], "classes": [)"
-        << R"({"name": "Bone", "range": [250, 2500], "softness": 150, "weight": 0.7}]})";
-    EXPECT_EQ(picture("--preset " + quoted(folder / "p.json"), "preset.npy"),
-              picture("--class bone=0.7", "class.npy"));
-    const auto unknown = cli("render " + quoted(series) + " -o x.png --preset Bonee");
-    EXPECT_EQ(unknown.exitCode, 2);
-    EXPECT_EQ(cli("render " + quoted(series) + " -o x.png --preset /nowhere/x.json").exitCode, 3);
-    // Edges, with steps of a class: where Canny finds them and nowhere else.
-    const fs::path nrrd = folder / "edges.nrrd";
-    ASSERT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --edges").exitCode, 0);
-    const auto edges = volume::readNrrd(nrrd);
-    std::size_t some = 0, count = 0;
-    edges.visit([&](auto samples) {
-        for (const auto e : samples) {
-            EXPECT_TRUE(e >= 0 && e <= 1);
-            some += e > 0;
-            ++count;
-        }
-    });
-    EXPECT_GT(some, count / 200);
-    EXPECT_LT(some, count / 4);
-}
-
 TEST_F(Cli, ScenesTurntablesAndFormats) {
     const fs::path series = phantomFolder("--kind ellipsoids --size 32x32x32");
     ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(folder / "turn.png") +

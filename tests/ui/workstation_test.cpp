@@ -1,144 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The workstation as a person uses it: drops, drags, wheels and keys on the real window.
-#include <QtTest>
+#include "tests/ui/workstation.h"
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include <QComboBox>
-#include <QDialog>
-#include <QDoubleSpinBox>
-#include <QDropEvent>
 #include <QLabel>
-#include <QLineEdit>
 #include <QListWidget>
-#include <QMimeData>
 #include <QPushButton>
-#include <QSlider>
-#include <QStandardPaths>
-#include <QStyleOptionSlider>
 #include <QToolButton>
 #include <QTreeWidget>
 
-#include "core/dicom/write_series.h"
-#include "core/phantom/phantom.h"
-#include "tests/support/temporary_folder.h"
 #include "ui/kept_studies.h"
-#include "ui/main_window.h"
-#include "ui/panels/curve_editor.h"
 #include "ui/panels/series_panel.h"
 #include "ui/views/mpr_view.h"
-#include "ui/views/projection_view.h"
 
 namespace pellucid {
 
-namespace {
+using namespace test;
 
-constexpr int patienceMs = 60000;
-
-QString testData() {
-    return qEnvironmentVariable("PELLUCID_TEST_DATA");
-}
-
-void drop(QWidget &window, const QList<QUrl> &urls) {
-    QMimeData data;
-    data.setUrls(urls);
-    QDragEnterEvent enter(QPoint(400, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&window, &enter);
-    QVERIFY(enter.isAccepted());
-    QDropEvent dropped(QPointF(400, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&window, &dropped);
-}
-
-double meanGrey(const QImage &image) {
-    double sum = 0.0;
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x)
-            sum += qGray(image.pixel(x, y));
-    return sum / (double(image.width()) * image.height());
-}
-
-// The mean distance of the channels from each other.
-double colorfulness(const QImage &image) {
-    double sum = 0.0;
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            const QRgb p = image.pixel(x, y);
-            sum +=
-                std::max({qRed(p), qGreen(p), qBlue(p)}) - std::min({qRed(p), qGreen(p), qBlue(p)});
-        }
-    return sum / (double(image.width()) * image.height());
-}
-
-void moveMouse(QWidget *widget, QPoint to) {
-    QMouseEvent move(QEvent::MouseMove, to, widget->mapToGlobal(to), Qt::NoButton, Qt::NoButton,
-                     Qt::NoModifier);
-    QCoreApplication::sendEvent(widget, &move);
-}
-
-double meanGrey(const QImage &image, const QRect &area) {
-    return meanGrey(image.copy(area));
-}
-
-// Share of pixels that differ clearly.
-double changed(const QImage &a, const QImage &b) {
-    if (a.size() != b.size())
-        return 1.0;
-    qint64 count = 0;
-    for (int y = 0; y < a.height(); ++y)
-        for (int x = 0; x < a.width(); ++x)
-            count += std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y))) > 8 ? 1 : 0;
-    return double(count) / (double(a.width()) * a.height());
-}
-
-void dragMouse(QWidget *widget, Qt::MouseButton button, QPoint from, QPoint by) {
-    QTest::mousePress(widget, button, Qt::NoModifier, from);
-    for (int step = 1; step <= 8; ++step) {
-        // QTest's own moves carry no buttons; a person's do.
-        const QPoint at = from + by * step / 8;
-        QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button,
-                         Qt::NoModifier);
-        QCoreApplication::sendEvent(widget, &move);
-        QTest::qWait(5);
-    }
-    QTest::mouseRelease(widget, button, Qt::NoModifier, from + by);
-}
-
-void turnWheel(QWidget *widget, int steps) {
-    const QPointF at = widget->rect().center();
-    QWheelEvent event(at, widget->mapToGlobal(at), {}, QPoint(0, 120 * steps), Qt::NoButton,
-                      Qt::NoModifier, Qt::NoScrollPhase, false);
-    QCoreApplication::sendEvent(widget, &event);
-}
-
-} // namespace
-
-class WorkstationTest : public QObject {
+class WorkstationTest : public Workstation {
     Q_OBJECT
 private slots:
-    void initTestCase() {
-        QStandardPaths::setTestModeEnabled(true);
-        QSettings().clear();
-        // The user's own presets stay out of it.
-        qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "data").string()));
-        const auto lattice =
-            phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});
-        dicom::writeCtSeries(
-            m_folder / "head", phantom::makePhantom(phantom::Kind::head, lattice),
-            {.patientName = "Secret^Name", .windows = {{40, 100, ""}, {300, 1500, ""}}},
-            dicom::TransferSyntax::explicitLittle);
-    }
-
-    void init() {
-        m_window = std::make_unique<ui::MainWindow>(ui::Theme::named("dark"));
-        m_window->resize(1600, 1000);
-        m_window->show();
-        m_window->activateWindow();
-        QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
-    }
-    void cleanup() { m_window.reset(); }
-
     void showsTheStartPageAndNoPatientName() {
         QVERIFY(find<QWidget>("startPage")->isVisible());
         QVERIFY(!find<QWidget>("paneArea")->isVisible());
@@ -233,208 +117,6 @@ private slots:
         find<QAction>("undoAction")->trigger();
         QVERIFY(m_window->document().scene().tone == render::Tone());
         QVERIFY(!find<QAction>("filmAction")->isChecked());
-    }
-
-    void qualityIsAnUndoableChoiceThatShowsItsPrice() {
-        open(headPath());
-        const auto predicted = [&] {
-            return find<QLabel>("predictedErrorLabel")->text().section(' ', 0, 0).toDouble();
-        };
-        const double standard = predicted();
-        QVERIFY(standard > 0.0 && standard <= 0.11);
-        QVERIFY(find<QLabel>("planLabel")->text().startsWith("LS4"));
-        QVERIFY(find<QLabel>("frameTimeLabel")->text().endsWith("ms"));
-        const QImage before = projection()->picture();
-
-        auto *quality = find<QComboBox>("qualityBox");
-        quality->setCurrentIndex(quality->findText("Fine"));
-        emit quality->activated(quality->currentIndex());
-        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() <= 0.01, patienceMs);
-        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
-        QVERIFY(!find<QLabel>("planLabel")->text().startsWith("LS4"));
-        QCOMPARE(find<QLineEdit>("toleranceEdit")->text(), QString("0.01 %"));
-        // A tenth of a percent is below what the eye sees in 256 greys.
-        QVERIFY(changed(before, projection()->picture()) < 0.001);
-
-        // A kernel of the user's own choice is used though it misses the tolerance, and says so.
-        auto *kernel = find<QComboBox>("kernelBox");
-        kernel->setCurrentIndex(kernel->findText("trilinear"));
-        emit kernel->activated(kernel->currentIndex());
-        QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("planLabel")->text().startsWith("trilinear") &&
-                                     !m_window->jobs().isRunning(),
-                                 patienceMs);
-        QVERIFY(predicted() > 1.0);
-        QVERIFY(find<QLabel>("planReasonLabel")->text().startsWith("More error than allowed"));
-        save("quality_trilinear");
-
-        auto *tolerance = find<QLineEdit>("toleranceEdit");
-        tolerance->setText("not a number");
-        QTest::keyClick(tolerance, Qt::Key_Return);
-        QCOMPARE(tolerance->text(), QString("0.01 %")); // refused, what holds is shown again
-        QVERIFY(find<QLabel>("planReasonLabel")->text().contains("not a number"));
-
-        // A cancelled preparation leaves the former plan; choosing the same again makes up for it.
-        auto *padding = find<QComboBox>("paddingBox");
-        padding->setCurrentIndex(padding->findText("1.25"));
-        emit padding->activated(padding->currentIndex());
-        m_window->jobs().cancel();
-        QVERIFY(find<QLabel>("paddingLabel")->text().startsWith("2."));
-        emit padding->activated(padding->currentIndex());
-        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() &&
-                                     find<QLabel>("paddingLabel")->text().startsWith("1."),
-                                 patienceMs);
-        m_window->document().undoStack()->undo();
-
-        m_window->document().undoStack()->undo();
-        m_window->document().undoStack()->undo();
-        QCOMPARE(m_window->document().scene().tolerance, render::Scene().tolerance);
-        QCOMPARE(quality->currentText(), QString("Standard"));
-        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() == standard,
-                                 patienceMs);
-    }
-
-    void aBentSegmentIsShownUndoneSavedAndFoundAgain() {
-        open(headPath());
-        auto *editor = find<ui::CurveEditor>("curveEditor");
-        const QImage before = projection()->picture();
-        // The segment under the mouse is framed, and what the curve weighs there is told.
-        const QImage calm = editor->grab().toImage();
-        const QPoint handle = editor->handleAt(1).toPoint();
-        moveMouse(editor, handle);
-        QTRY_VERIFY(changed(calm, editor->grab().toImage()) > 0.005);
-        // Bone and the brain are dense: the second of six segments is skin and fat, the third
-        // water.
-        dragMouse(editor, Qt::LeftButton, editor->handleAt(2).toPoint(), {0, 200});
-        const auto &weights = m_window->document().scene().look.transferFunction.weights;
-        QCOMPARE(weights[2], 0.0);
-        QCOMPARE(m_window->document().undoStack()->count(), 1); // one drag, one step
-        settle();
-        QVERIFY(changed(before, projection()->picture()) > 0.02);
-        save("transfer_function");
-        // A typed weight, and a double-click that resets it.
-        auto *weight = find<QDoubleSpinBox>("weightBox");
-        weight->setFocus();
-        weight->selectAll();
-        QTest::keyClicks(weight, "1.45");
-        QTest::keyClick(weight, Qt::Key_Return);
-        QCOMPARE(weights[2], 1.45);
-        QTest::mouseDClick(editor, Qt::LeftButton, Qt::NoModifier, editor->handleAt(2).toPoint());
-        QCOMPARE(weights[2], 1.0);
-        find<QAction>("undoAction")->trigger();
-        find<QAction>("undoAction")->trigger();
-        QCOMPARE(weights[2], 0.0);
-        // More points hold the same curve.
-        find<QSpinBox>("pointsBox")->setValue(9);
-        QCOMPARE(int(weights.size()), 9);
-        settle();
-        find<QAction>("undoAction")->trigger();
-        QCOMPARE(int(weights.size()), 6);
-        // Copied, reset and pasted.
-        QTest::mouseClick(find<QPushButton>("copyCurveButton"), Qt::LeftButton);
-        QTest::mouseClick(find<QPushButton>("resetCurveButton"), Qt::LeftButton);
-        QVERIFY(m_window->document().scene().look == classify::Look());
-        QTest::mouseClick(find<QPushButton>("pasteCurveButton"), Qt::LeftButton);
-        QCOMPARE(weights[2], 0.0);
-        // Two clicks keep the look.
-        QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
-        QTest::mouseClick(find<QPushButton>("keepLookButton"), Qt::LeftButton);
-        auto *gallery = find<QListWidget>("presetGallery");
-        QCOMPARE(int(gallery->findItems("Own look 1", Qt::MatchExactly).size()), 1);
-        while (m_window->document().undoStack()->canUndo())
-            find<QAction>("undoAction")->trigger();
-        settle();
-        QVERIFY(changed(before, projection()->picture()) < 0.001);
-
-        // Another day: it is there, and shows the same.
-        cleanup();
-        init();
-        open(headPath());
-        gallery = find<QListWidget>("presetGallery");
-        const auto found = gallery->findItems("Own look 1", Qt::MatchExactly);
-        QCOMPARE(int(found.size()), 1);
-        gallery->scrollToItem(found.front());
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                          gallery->visualItemRect(found.front()).center());
-        QCOMPARE(m_window->document().scene().look.transferFunction.weights[2], 0.0);
-        settle();
-        QVERIFY(changed(before, projection()->picture()) > 0.02);
-        find<QAction>("undoAction")->trigger();
-        QVERIFY(m_window->document().scene().look == classify::Look());
-    }
-
-    void presetsShowClassesInColourAndTheirWeightsMoveThePicture() {
-        open(headPath());
-        auto *gallery = find<QListWidget>("presetGallery");
-        // Pictures of the open study come by themselves; MR presets are not offered for CT.
-        const auto item = [&](const char *name) {
-            const auto items = gallery->findItems(name, Qt::MatchExactly);
-            return items.isEmpty() ? nullptr : items.front();
-        };
-        QVERIFY(item("MR: brain") == nullptr);
-        QTRY_VERIFY_WITH_TIMEOUT(meanGrey(item("Bone")->icon().pixmap(60, 52).toImage()) > 3.0,
-                                 patienceMs);
-        gallery->scrollToItem(item("Bone over soft tissue"));
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                          gallery->visualItemRect(item("Bone over soft tissue")).center());
-        settle();
-        const QImage colored = projection()->picture();
-        QVERIFY2(colorfulness(colored) > 2.0, "bone is ivory, soft tissue blue");
-        QCOMPARE(int(m_window->document().scene().look.classes.size()), 2);
-
-        // The weight of soft tissue by its slider: the picture follows, one drag is one step.
-        auto *slider = find<QSlider>("classSlider1");
-        const int count = m_window->document().undoStack()->count();
-        QStyleOptionSlider option;
-        option.initFrom(slider);
-        option.minimum = slider->minimum();
-        option.maximum = slider->maximum();
-        option.sliderPosition = option.sliderValue = slider->value();
-        const QRect knob = slider->style()->subControlRect(QStyle::CC_Slider, &option,
-                                                           QStyle::SC_SliderHandle, slider);
-        dragMouse(slider, Qt::LeftButton, knob.center(), {40, 0});
-        QVERIFY(m_window->document().scene().look.classes[1].weight > 0.8);
-        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
-        settle();
-        QVERIFY(changed(colored, projection()->picture()) > 0.02);
-        save("classes");
-        // The dot hides it and brings it back as it was.
-        const double weight = m_window->document().scene().look.classes[1].weight;
-        QTest::mouseClick(find<QToolButton>("classEye1"), Qt::LeftButton);
-        QCOMPARE(m_window->document().scene().look.classes[1].weight, 0.0);
-        settle();
-        QVERIFY2(colorfulness(projection()->picture()) < colorfulness(colored), "bone alone");
-        QTest::mouseClick(find<QToolButton>("classEye1"), Qt::LeftButton);
-        QCOMPARE(m_window->document().scene().look.classes[1].weight, weight);
-
-        // A range is edited with a tint on the planes.
-        const QImage plane = grab("axialView");
-        QTest::mouseDClick(find<QWidget>("classRow0"), Qt::LeftButton, Qt::NoModifier, {40, 8});
-        auto *dialog = find<QDialog>("classDialog");
-        find<QDoubleSpinBox>("classLowBox")->setValue(-100.0);
-        QTRY_VERIFY(colorfulness(grab("axialView")) > colorfulness(plane) + 2.0);
-        save("class_tint");
-        dialog->accept();
-        QTRY_VERIFY(colorfulness(grab("axialView")) < colorfulness(plane) + 1.0);
-        QCOMPARE(m_window->document().scene().look.classes[0].low, -100.0);
-        settle();
-        while (m_window->document().undoStack()->canUndo())
-            find<QAction>("undoAction")->trigger();
-        QVERIFY(m_window->document().scene().look == classify::Look());
-        settle();
-        QVERIFY(colorfulness(projection()->picture()) < 0.01);
-    }
-
-    void aPresetThatCannotBeKeptIsRefusedAndNothingIsLost() {
-        open(headPath());
-        QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
-        auto *name = find<QLineEdit>("lookNameEdit");
-        name->setText("X-ray");
-        QTest::keyClick(name, Qt::Key_Return);
-        QVERIFY(find<QLabel>("presetSaid")->isVisible());
-        QVERIFY(find<QLabel>("presetSaid")->text().contains("comes with the program"));
-        QVERIFY(name->isVisible()); // still there, to be given another name
-        QTest::keyClick(name, Qt::Key_Escape);
-        QVERIFY(!name->isVisible());
     }
 
     void aStudyThatWasOpenComesBackAtOnceAsItWas() {
@@ -583,56 +265,12 @@ private slots:
         QVERIFY(changed(coronal, grab("coronalView")) > 0.1);
         save("chest_turned");
     }
-
-private:
-    QString headPath() const { return QString::fromStdString((m_folder / "head").string()); }
-
-    template <class T> T *find(const char *name) {
-        T *found = m_window->findChild<T *>(name);
-        if (found == nullptr)
-            qFatal("no %s", name);
-        return found;
-    }
-    ui::ProjectionView *projection() { return find<ui::ProjectionView>("projectionView"); }
-    QImage grab(const char *name) { return find<QWidget>(name)->grab().toImage(); }
-
-    void open(const QString &path) {
-        drop(*m_window, {QUrl::fromLocalFile(path)});
-        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
-                                 patienceMs);
-    }
-
-    // What the scene asks for is there.
-    void settle() {
-        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
-                                 patienceMs);
-    }
-
-    void save(const QString &name) {
-        const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS");
-        if (folder.isEmpty())
-            return;
-        QDir().mkpath(folder);
-        QVERIFY(m_window->grab().save(folder + "/workstation_" + name + ".png"));
-    }
-
-    test::TemporaryFolder m_folder;
-    std::unique_ptr<ui::MainWindow> m_window;
 };
 
 } // namespace pellucid
 
 int main(int argc, char **argv) {
-    QSurfaceFormat format;
-    format.setVersion(3, 3);
-    format.setProfile(QSurfaceFormat::CoreProfile);
-    QSurfaceFormat::setDefaultFormat(format);
-    QApplication application(argc, argv);
-    QApplication::setApplicationName("pellucid-test");
-    QApplication::setOrganizationName("pellucid-test");
-    pellucid::ui::Theme::named("dark").apply(application);
-    pellucid::WorkstationTest test;
-    return QTest::qExec(&test, argc, argv);
+    return pellucid::test::run<pellucid::WorkstationTest>(argc, argv);
 }
 
 #include "workstation_test.moc"

@@ -71,24 +71,32 @@ QImage LightSphere::sphere() const {
     const int side = int(std::ceil(2.0 * radius() * ratio));
     QImage image(side, side, QImage::Format_ARGB32_Premultiplied);
     image.fill(Qt::transparent);
+    const auto lightAt = [&](const glm::dvec3 &normal) {
+        glm::dvec3 light(0.2 * m_ambient);
+        for (const shading::Light &one : m_lights)
+            light += one.strength * 0.5 * (1.0 + glm::dot(normal, glm::normalize(one.direction))) *
+                     glm::dvec3(one.color.red, one.color.green, one.color.blue);
+        return light;
+    };
+    // The brightest point is as bright as it gets: two lights leave a shape too. A sum of poles is
+    // brightest where they point on the whole.
+    glm::dvec3 on(0.0, 0.0, 1e-6), most(0.0);
+    for (const shading::Light &one : m_lights)
+        on += one.strength * glm::normalize(one.direction);
+    most = lightAt(glm::normalize(on));
+    const double scale = 1.0 / std::max({1.0, most.x, most.y, most.z});
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column) {
             const double x = 2.0 * (column + 0.5) / side - 1.0, y = 1.0 - 2.0 * (row + 0.5) / side;
             const double r = x * x + y * y;
             if (r >= 1.0)
                 continue;
-            const glm::dvec3 normal(x, y, std::sqrt(1.0 - r));
-            glm::dvec3 light(0.35 * m_ambient);
-            for (const shading::Light &one : m_lights)
-                light += one.strength * 0.5 *
-                         (1.0 + glm::dot(normal, glm::normalize(one.direction))) *
-                         glm::dvec3(one.color.red, one.color.green, one.color.blue);
-            const auto level = [](double l) { return int(std::lround(235.0 * std::min(1.0, l))); };
+            const glm::dvec3 light = scale * lightAt({x, y, std::sqrt(1.0 - r)});
+            const auto level = [](double l) { return int(std::lround(230.0 * std::min(1.0, l))); };
             // The rim is smoothed over a pixel.
             const double cover = std::clamp((1.0 - std::sqrt(r)) * 0.5 * side, 0.0, 1.0);
-            image.setPixelColor(
-                column, row,
-                QColor(level(light.x), level(light.y), level(light.z), int(255.0 * cover)));
+            image.setPixelColor(column, row, QColor(level(light.x), level(light.y), level(light.z),
+                                                    int(255.0 * cover)));
         }
     image.setDevicePixelRatio(ratio);
     return image;

@@ -30,6 +30,8 @@ using shading::LightFrame;
 using shading::Shading;
 
 constexpr double usualCue = 0.6, usualLight = 0.8;
+// Beside the density as it is the light of surfaces is faint.
+constexpr double ambientUnderLight = 0.1;
 
 QPushButton *linkButton(const QString &text, const char *name, const QString &tip) {
     auto *button = new QPushButton(text);
@@ -72,7 +74,7 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
     for (const auto &[text, kind] : {std::pair{tr("No depth cue"), CueKind::none},
                                      {tr("Linear cue"), CueKind::linear},
                                      {tr("Sine cue"), CueKind::sine},
-                                     {tr("Cue by a curve"), CueKind::curve}})
+                                     {tr("By a curve"), CueKind::curve}})
         m_cue->addItem(text, int(kind));
     m_strength->setNames(tr("Strength of the depth cue"),
                          tr("Strength of the depth cue; double-click sets it to 0.6"));
@@ -95,7 +97,7 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
     const auto add = [&](const QString &text, ValueSlider *slider) {
         auto *row = new QHBoxLayout;
         auto *label = new QLabel(text);
-        label->setFixedWidth(48);
+        label->setFixedWidth(54);
         row->addWidget(label);
         row->addWidget(slider, 1);
         rows->addLayout(row);
@@ -246,14 +248,21 @@ void ShadingPanel::addLight() {
     if (count >= shading::mostLights)
         return;
     m_selected = int(count);
-    change(tr("Add a light"), 0, [&](Shading &s) { s.lights.push_back(newLight(count)); });
+    change(tr("Add a light"), 0, [&](Shading &s) {
+        if (s.lights.empty() && s.ambient == 1.0)
+            s.ambient = ambientUnderLight;
+        s.lights.push_back(newLight(count));
+    });
 }
 
 void ShadingPanel::removeLight() {
     const int index = selectedLight();
     if (index >= 0)
-        change(tr("Remove a light"), 0,
-               [&](Shading &s) { s.lights.erase(s.lights.begin() + index); });
+        change(tr("Remove a light"), 0, [&](Shading &s) {
+            s.lights.erase(s.lights.begin() + index);
+            if (s.lights.empty() && s.ambient == ambientUnderLight)
+                s.ambient = 1.0;
+        });
 }
 
 void ShadingPanel::reset() {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid::test {
+
+namespace fs = std::filesystem;
+
+inline CommandResult cli(const std::string &arguments, const std::string &before = "") {
+    return run(before + " " + PELLUCID_CLI + " " + arguments);
+}
+
+inline std::string quoted(const fs::path &path) {
+    return "'" + path.string() + "'";
+}
+
+inline std::vector<float> readNpy(const fs::path &path, int &height, int &width, int channels = 1) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    const std::string bytes = text.str();
+    const auto shape = bytes.find("'shape': (");
+    if (shape == std::string::npos ||
+        std::sscanf(bytes.c_str() + shape, "'shape': (%d, %d)", &height, &width) != 2)
+        return {};
+    std::vector<float> samples(std::size_t(height) * std::size_t(width) * std::size_t(channels));
+    std::memcpy(samples.data(), bytes.data() + bytes.size() - samples.size() * 4,
+                samples.size() * 4);
+    return samples;
+}
+
+inline std::size_t entries(const fs::path &folder) {
+    return std::size_t(std::distance(fs::directory_iterator(folder), {}));
+}
+
+/// One line that names the program, as every failure must end.
+inline void expectOneLine(const CommandResult &r, int code, const std::string &part) {
+    EXPECT_EQ(r.exitCode, code) << r.error;
+    EXPECT_EQ(std::count(r.error.begin(), r.error.end(), '\n'), 1) << r.error;
+    EXPECT_EQ(r.error.rfind("pellucid-cli: ", 0), 0U) << r.error;
+    EXPECT_NE(r.error.find(part), std::string::npos) << r.error;
+}
+
+class Cli : public testing::Test {
+protected:
+    TemporaryFolder folder;
+    fs::path phantomFolder(const std::string &options) {
+        const fs::path path = folder / ("phantom" + std::to_string(m_count++));
+        const auto r = cli("phantom " + quoted(path) + " " + options);
+        EXPECT_EQ(r.exitCode, 0) << r.error;
+        return path;
+    }
+
+private:
+    int m_count = 0;
+};
+
+} // namespace pellucid::test

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is shown and how, chosen in the panels at the right of the real window.
+#include "tests/ui/workstation.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QToolButton>
+
+#include "ui/panels/curve_editor.h"
+#include "ui/panels/depth_curve.h"
+#include "ui/panels/light_sphere.h"
+
+namespace pellucid {
+
+using namespace test;
+
+class LookTest : public Workstation {
+    Q_OBJECT
+private slots:
+    void qualityIsAnUndoableChoiceThatShowsItsPrice() {
+        open(headPath());
+        const auto predicted = [&] {
+            return find<QLabel>("predictedErrorLabel")->text().section(' ', 0, 0).toDouble();
+        };
+        const double standard = predicted();
+        QVERIFY(standard > 0.0 && standard <= 0.11);
+        QVERIFY(find<QLabel>("planLabel")->text().startsWith("LS4"));
+        QVERIFY(find<QLabel>("frameTimeLabel")->text().endsWith("ms"));
+        const QImage before = projection()->picture();
+
+        auto *quality = find<QComboBox>("qualityBox");
+        quality->setCurrentIndex(quality->findText("Fine"));
+        emit quality->activated(quality->currentIndex());
+        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() <= 0.01, patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        QVERIFY(!find<QLabel>("planLabel")->text().startsWith("LS4"));
+        QCOMPARE(find<QLineEdit>("toleranceEdit")->text(), QString("0.01 %"));
+        // A tenth of a percent is below what the eye sees in 256 greys.
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+
+        // A kernel of the user's own choice is used though it misses the tolerance, and says so.
+        auto *kernel = find<QComboBox>("kernelBox");
+        kernel->setCurrentIndex(kernel->findText("trilinear"));
+        emit kernel->activated(kernel->currentIndex());
+        QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("planLabel")->text().startsWith("trilinear") &&
+                                     !m_window->jobs().isRunning(),
+                                 patienceMs);
+        QVERIFY(predicted() > 1.0);
+        QVERIFY(find<QLabel>("planReasonLabel")->text().startsWith("More error than allowed"));
+        save("quality_trilinear");
+
+        auto *tolerance = find<QLineEdit>("toleranceEdit");
+        tolerance->setText("not a number");
+        QTest::keyClick(tolerance, Qt::Key_Return);
+        QCOMPARE(tolerance->text(), QString("0.01 %")); // refused, what holds is shown again
+        QVERIFY(find<QLabel>("planReasonLabel")->text().contains("not a number"));
+
+        // A cancelled preparation leaves the former plan; choosing the same again makes up for it.
+        auto *padding = find<QComboBox>("paddingBox");
+        padding->setCurrentIndex(padding->findText("1.25"));
+        emit padding->activated(padding->currentIndex());
+        m_window->jobs().cancel();
+        QVERIFY(find<QLabel>("paddingLabel")->text().startsWith("2."));
+        emit padding->activated(padding->currentIndex());
+        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() &&
+                                     find<QLabel>("paddingLabel")->text().startsWith("1."),
+                                 patienceMs);
+        m_window->document().undoStack()->undo();
+
+        m_window->document().undoStack()->undo();
+        m_window->document().undoStack()->undo();
+        QCOMPARE(m_window->document().scene().tolerance, render::Scene().tolerance);
+        QCOMPARE(quality->currentText(), QString("Standard"));
+        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() == standard,
+                                 patienceMs);
+    }
+
+    void aBentSegmentIsShownUndoneSavedAndFoundAgain() {
+        open(headPath());
+        auto *editor = find<ui::CurveEditor>("curveEditor");
+        const QImage before = projection()->picture();
+        // The segment under the mouse is framed, and what the curve weighs there is told.
+        const QImage calm = editor->grab().toImage();
+        const QPoint handle = editor->handleAt(1).toPoint();
+        moveMouse(editor, handle);
+        QTRY_VERIFY(changed(calm, editor->grab().toImage()) > 0.005);
+        // Bone and the brain are dense: the second of six segments is skin and fat, the third
+        // water.
+        dragMouse(editor, Qt::LeftButton, editor->handleAt(2).toPoint(), {0, 200});
+        const auto &weights = m_window->document().scene().look.transferFunction.weights;
+        QCOMPARE(weights[2], 0.0);
+        QCOMPARE(m_window->document().undoStack()->count(), 1); // one drag, one step
+        settle();
+        QVERIFY(changed(before, projection()->picture()) > 0.02);
+        save("transfer_function");
+        // A typed weight, and a double-click that resets it.
+        auto *weight = find<QDoubleSpinBox>("weightBox");
+        weight->setFocus();
+        weight->selectAll();
+        QTest::keyClicks(weight, "1.45");
+        QTest::keyClick(weight, Qt::Key_Return);
+        QCOMPARE(weights[2], 1.45);
+        QTest::mouseDClick(editor, Qt::LeftButton, Qt::NoModifier, editor->handleAt(2).toPoint());
+        QCOMPARE(weights[2], 1.0);
+        find<QAction>("undoAction")->trigger();
+        find<QAction>("undoAction")->trigger();
+        QCOMPARE(weights[2], 0.0);
+        // More points hold the same curve.
+        find<QSpinBox>("pointsBox")->setValue(9);
+        QCOMPARE(int(weights.size()), 9);
+        settle();
+        find<QAction>("undoAction")->trigger();
+        QCOMPARE(int(weights.size()), 6);
+        // Copied, reset and pasted.
+        QTest::mouseClick(find<QPushButton>("copyCurveButton"), Qt::LeftButton);
+        QTest::mouseClick(find<QPushButton>("resetCurveButton"), Qt::LeftButton);
+        QVERIFY(m_window->document().scene().look == classify::Look());
+        QTest::mouseClick(find<QPushButton>("pasteCurveButton"), Qt::LeftButton);
+        QCOMPARE(weights[2], 0.0);
+        // Two clicks keep the look.
+        QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
+        QTest::mouseClick(find<QPushButton>("keepLookButton"), Qt::LeftButton);
+        auto *gallery = find<QListWidget>("presetGallery");
+        QCOMPARE(int(gallery->findItems("Own look 1", Qt::MatchExactly).size()), 1);
+        while (m_window->document().undoStack()->canUndo())
+            find<QAction>("undoAction")->trigger();
+        settle();
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+
+        // Another day: it is there, and shows the same.
+        restart();
+        open(headPath());
+        gallery = find<QListWidget>("presetGallery");
+        const auto found = gallery->findItems("Own look 1", Qt::MatchExactly);
+        QCOMPARE(int(found.size()), 1);
+        gallery->scrollToItem(found.front());
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(found.front()).center());
+        QCOMPARE(m_window->document().scene().look.transferFunction.weights[2], 0.0);
+        settle();
+        QVERIFY(changed(before, projection()->picture()) > 0.02);
+        find<QAction>("undoAction")->trigger();
+        QVERIFY(m_window->document().scene().look == classify::Look());
+    }
+
+    void presetsShowClassesInColourAndTheirWeightsMoveThePicture() {
+        open(headPath());
+        auto *gallery = find<QListWidget>("presetGallery");
+        // Pictures of the open study come by themselves; MR presets are not offered for CT.
+        const auto item = [&](const char *name) {
+            const auto items = gallery->findItems(name, Qt::MatchExactly);
+            return items.isEmpty() ? nullptr : items.front();
+        };
+        QVERIFY(item("MR: brain") == nullptr);
+        QTRY_VERIFY_WITH_TIMEOUT(meanGrey(item("Bone")->icon().pixmap(60, 52).toImage()) > 3.0,
+                                 patienceMs);
+        gallery->scrollToItem(item("Bone over soft tissue"));
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(item("Bone over soft tissue")).center());
+        settle();
+        const QImage colored = projection()->picture();
+        QVERIFY2(colorfulness(colored) > 2.0, "bone is ivory, soft tissue blue");
+        QCOMPARE(int(m_window->document().scene().look.classes.size()), 2);
+
+        // The weight of soft tissue by its slider: the picture follows, one drag is one step.
+        auto *slider = find<QSlider>("classSlider1");
+        const int count = m_window->document().undoStack()->count();
+        dragSlider(slider, {40, 0});
+        QVERIFY(m_window->document().scene().look.classes[1].weight > 0.8);
+        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
+        settle();
+        QVERIFY(changed(colored, projection()->picture()) > 0.02);
+        save("classes");
+        // The dot hides it and brings it back as it was.
+        const double weight = m_window->document().scene().look.classes[1].weight;
+        QTest::mouseClick(find<QToolButton>("classEye1"), Qt::LeftButton);
+        QCOMPARE(m_window->document().scene().look.classes[1].weight, 0.0);
+        settle();
+        QVERIFY2(colorfulness(projection()->picture()) < colorfulness(colored), "bone alone");
+        QTest::mouseClick(find<QToolButton>("classEye1"), Qt::LeftButton);
+        QCOMPARE(m_window->document().scene().look.classes[1].weight, weight);
+
+        // A range is edited with a tint on the planes.
+        const QImage plane = grab("axialView");
+        QTest::mouseDClick(find<QWidget>("classRow0"), Qt::LeftButton, Qt::NoModifier, {40, 8});
+        auto *dialog = find<QDialog>("classDialog");
+        find<QDoubleSpinBox>("classLowBox")->setValue(-100.0);
+        QTRY_VERIFY(colorfulness(grab("axialView")) > colorfulness(plane) + 2.0);
+        save("class_tint");
+        dialog->accept();
+        QTRY_VERIFY(colorfulness(grab("axialView")) < colorfulness(plane) + 1.0);
+        QCOMPARE(m_window->document().scene().look.classes[0].low, -100.0);
+        settle();
+        while (m_window->document().undoStack()->canUndo())
+            find<QAction>("undoAction")->trigger();
+        QVERIFY(m_window->document().scene().look == classify::Look());
+        settle();
+        QVERIFY(colorfulness(projection()->picture()) < 0.01);
+    }
+
+    void aPresetThatCannotBeKeptIsRefusedAndNothingIsLost() {
+        open(headPath());
+        QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
+        auto *name = find<QLineEdit>("lookNameEdit");
+        name->setText("X-ray");
+        QTest::keyClick(name, Qt::Key_Return);
+        QVERIFY(find<QLabel>("presetSaid")->isVisible());
+        QVERIFY(find<QLabel>("presetSaid")->text().contains("comes with the program"));
+        QVERIFY(name->isVisible()); // still there, to be given another name
+        QTest::keyClick(name, Qt::Key_Escape);
+        QVERIFY(!name->isVisible());
+    }
+
+    void aDepthCueFollowsTheHandAndIsUndone() {
+        open(headPath());
+        const QImage plain = projection()->picture();
+        auto *kind = find<QComboBox>("cueBox");
+        auto *slider = find<QSlider>("cueSlider");
+        QVERIFY(!slider->isEnabled());
+        const auto choose = [&](int index) {
+            kind->setCurrentIndex(index);
+            emit kind->activated(index);
+            settle();
+        };
+        choose(1);
+        QVERIFY(slider->isEnabled());
+        QCOMPARE(shading().cue.kind, shading::CueKind::linear);
+        const QImage linear = projection()->picture();
+        QVERIFY(changed(plain, linear) > 0.05);
+        // One drag is one step.
+        const int count = m_window->document().undoStack()->count();
+        dragSlider(slider, {-30, 0});
+        QVERIFY(shading().cue.strength < 0.8);
+        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
+        settle();
+        QVERIFY(changed(linear, projection()->picture()) > 0.01);
+        choose(2);
+        QCOMPARE(shading().cue.kind, shading::CueKind::sine);
+        // A curve has values to drag.
+        auto *curve = find<ui::DepthCurve>("depthCurve");
+        QVERIFY(!curve->isVisible());
+        choose(3);
+        QVERIFY(curve->isVisible());
+        find<QDoubleSpinBox>("cueValue")->setValue(1.0);
+        settle();
+        QCOMPARE(shading().cue.curve, (std::vector<double>{0.0, 2.0, 0.0}));
+        save("depth_curve");
+        const QImage slab = projection()->picture();
+        dragMouse(curve, Qt::LeftButton, curve->handleAt(2).toPoint(), {0, -40});
+        QVERIFY(shading().cue.curve[2] > 1.5);
+        settle();
+        QVERIFY(changed(slab, projection()->picture()) > 0.01);
+        find<QSpinBox>("curveValuesBox")->setValue(5);
+        QCOMPARE(int(shading().cue.curve.size()), 5);
+        settle();
+        while (m_window->document().undoStack()->canUndo())
+            find<QAction>("undoAction")->trigger();
+        settle();
+        QVERIFY(shading() == shading::Shading());
+        QVERIFY(changed(plain, projection()->picture()) < 0.001);
+        QVERIFY(!find<QAction>("depthCueAction")->isChecked());
+        find<QAction>("depthCueAction")->trigger();
+        QCOMPARE(shading().cue.kind, shading::CueKind::linear);
+    }
+
+    void lightsAreAddedDraggedColoredAndTakenAway() {
+        open(headPath());
+        const QImage plain = projection()->picture();
+        find<QAction>("addLightAction")->trigger();
+        QCOMPARE(int(shading().lights.size()), 1);
+        settle();
+        const QImage lit = projection()->picture();
+        QVERIFY(changed(plain, lit) > 0.05);
+        save("light");
+        // A light is dragged over the sphere: the bright side follows it, one drag is one step.
+        auto *sphere = find<ui::LightSphere>("lightSphere");
+        const int count = m_window->document().undoStack()->count();
+        const QPoint from = sphere->handleAt(0).toPoint();
+        dragMouse(sphere, Qt::LeftButton, from,
+                  QPoint(sphere->width() / 2 + 30, sphere->height() / 2) - from);
+        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
+        QVERIFY(shading().lights[0].direction.x > 0.7);
+        QVERIFY(std::abs(shading().lights[0].direction.y) < 0.1);
+        settle();
+        const auto balance = [&] {
+            const QImage picture = projection()->picture();
+            const QSize half(picture.width() / 2, picture.height());
+            return meanGrey(picture, {{half.width(), 0}, half}) - meanGrey(picture, {{}, half});
+        };
+        const double fromRight = balance();
+        dragMouse(sphere, Qt::LeftButton, sphere->handleAt(0).toPoint(), {-60, 0});
+        QVERIFY(shading().lights[0].direction.x < -0.7);
+        settle();
+        QVERIFY2(balance() < fromRight - 1.0, "the left is brighter in light from the left");
+        // Fixed to the patient it stays there while the view turns.
+        QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
+        QCOMPARE(shading().lights[0].frame, shading::LightFrame::patient);
+        const QPointF before = sphere->handleAt(0);
+        projection()->showStandardView(render::StandardView::back);
+        QTRY_VERIFY((sphere->handleAt(0) - before).manhattanLength() > 30.0);
+        QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
+        QCOMPARE(shading().lights[0].frame, shading::LightFrame::viewer);
+        settle();
+        // Weights move under light, too: the picture follows in small and comes in full.
+        QTest::keyClick(find<ui::CurveEditor>("curveEditor"), Qt::Key_Up);
+        settle();
+        find<QAction>("undoAction")->trigger();
+        settle();
+        // Three colours make colour; what is saved as a look has its lights.
+        find<QPushButton>("addLightButton")->click();
+        find<QPushButton>("addLightButton")->click();
+        QCOMPARE(int(shading().lights.size()), 3);
+        find<QPushButton>("removeLightButton")->click();
+        QCOMPARE(int(shading().lights.size()), 2);
+        settle();
+        const shading::Shading kept = shading();
+        QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
+        find<QLineEdit>("lookNameEdit")->setText("Lit by a test");
+        QTest::keyClick(find<QLineEdit>("lookNameEdit"), Qt::Key_Return);
+        find<QPushButton>("resetShadingButton")->click();
+        QVERIFY(shading() == shading::Shading());
+        settle();
+        QVERIFY(changed(plain, projection()->picture()) < 0.001);
+        auto *gallery = find<QListWidget>("presetGallery");
+        const auto choose = [&](const char *name) {
+            auto *item = gallery->findItems(name, Qt::MatchExactly).front();
+            gallery->scrollToItem(item);
+            QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                              gallery->visualItemRect(item).center());
+            settle();
+        };
+        choose("Lit by a test");
+        QVERIFY(shading() == kept);
+        choose("Body in three lights");
+        QCOMPARE(int(shading().lights.size()), 3);
+        QVERIFY(colorfulness(projection()->picture()) > 2.0);
+        save("three_lights");
+    }
+
+private:
+    const shading::Shading &shading() { return m_window->document().scene().shading; }
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::LookTest>(argc, argv);
+}
+
+#include "look_test.moc"

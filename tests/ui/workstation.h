@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QtTest>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <QDropEvent>
+#include <QMimeData>
+#include <QSlider>
+#include <QStandardPaths>
+#include <QStyleOptionSlider>
+
+#include "core/dicom/write_series.h"
+#include "core/phantom/phantom.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/main_window.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid::test {
+
+constexpr int patienceMs = 60000;
+
+inline QString testData() {
+    return qEnvironmentVariable("PELLUCID_TEST_DATA");
+}
+
+inline void drop(QWidget &window, const QList<QUrl> &urls) {
+    QMimeData data;
+    data.setUrls(urls);
+    QDragEnterEvent enter(QPoint(400, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent dropped(QPointF(400, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &dropped);
+}
+
+inline double meanGrey(const QImage &image) {
+    double sum = 0.0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            sum += qGray(image.pixel(x, y));
+    return sum / (double(image.width()) * image.height());
+}
+
+// The mean distance of the channels from each other.
+inline double colorfulness(const QImage &image) {
+    double sum = 0.0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const QRgb p = image.pixel(x, y);
+            sum +=
+                std::max({qRed(p), qGreen(p), qBlue(p)}) - std::min({qRed(p), qGreen(p), qBlue(p)});
+        }
+    return sum / (double(image.width()) * image.height());
+}
+
+inline void moveMouse(QWidget *widget, QPoint to) {
+    QMouseEvent move(QEvent::MouseMove, to, widget->mapToGlobal(to), Qt::NoButton, Qt::NoButton,
+                     Qt::NoModifier);
+    QCoreApplication::sendEvent(widget, &move);
+}
+
+inline double meanGrey(const QImage &image, const QRect &area) {
+    return meanGrey(image.copy(area));
+}
+
+// Share of pixels that differ clearly.
+inline double changed(const QImage &a, const QImage &b) {
+    if (a.size() != b.size())
+        return 1.0;
+    qint64 count = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x)
+            count += std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y))) > 8 ? 1 : 0;
+    return double(count) / (double(a.width()) * a.height());
+}
+
+inline void dragMouse(QWidget *widget, Qt::MouseButton button, QPoint from, QPoint by) {
+    QTest::mousePress(widget, button, Qt::NoModifier, from);
+    for (int step = 1; step <= 8; ++step) {
+        // QTest's own moves carry no buttons; a person's do.
+        const QPoint at = from + by * step / 8;
+        QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button,
+                         Qt::NoModifier);
+        QCoreApplication::sendEvent(widget, &move);
+        QTest::qWait(5);
+    }
+    QTest::mouseRelease(widget, button, Qt::NoModifier, from + by);
+}
+
+inline void turnWheel(QWidget *widget, int steps) {
+    const QPointF at = widget->rect().center();
+    QWheelEvent event(at, widget->mapToGlobal(at), {}, QPoint(0, 120 * steps), Qt::NoButton,
+                      Qt::NoModifier, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(widget, &event);
+}
+
+// Drags the knob of a slider.
+inline void dragSlider(QSlider *slider, QPoint by) {
+    QStyleOptionSlider option;
+    option.initFrom(slider);
+    option.minimum = slider->minimum();
+    option.maximum = slider->maximum();
+    option.sliderPosition = option.sliderValue = slider->value();
+    const QRect knob = slider->style()->subControlRect(QStyle::CC_Slider, &option,
+                                                       QStyle::SC_SliderHandle, slider);
+    dragMouse(slider, Qt::LeftButton, knob.center(), by);
+}
+
+/// The real window, anew for each test, and a head to open in it.
+class Workstation : public QObject {
+    Q_OBJECT
+private slots:
+    void initTestCase() {
+        QStandardPaths::setTestModeEnabled(true);
+        QSettings().clear();
+        // The user's own presets stay out of it.
+        qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "data").string()));
+        const auto lattice =
+            phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});
+        dicom::writeCtSeries(
+            m_folder / "head", phantom::makePhantom(phantom::Kind::head, lattice),
+            {.patientName = "Secret^Name", .windows = {{40, 100, ""}, {300, 1500, ""}}},
+            dicom::TransferSyntax::explicitLittle);
+    }
+
+    void init() { restart(); }
+    void cleanup() { m_window.reset(); }
+
+protected:
+    // As if the program had ended and been started again.
+    void restart() {
+        m_window.reset();
+        m_window = std::make_unique<ui::MainWindow>(ui::Theme::named("dark"));
+        m_window->resize(1600, 1000);
+        m_window->show();
+        m_window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    }
+
+    QString headPath() const { return QString::fromStdString((m_folder / "head").string()); }
+
+    template <class T> T *find(const char *name) {
+        T *found = m_window->findChild<T *>(name);
+        if (found == nullptr)
+            qFatal("no %s", name);
+        return found;
+    }
+    ui::ProjectionView *projection() { return find<ui::ProjectionView>("projectionView"); }
+    QImage grab(const char *name) { return find<QWidget>(name)->grab().toImage(); }
+
+    void open(const QString &path) {
+        drop(*m_window, {QUrl::fromLocalFile(path)});
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
+                                 patienceMs);
+    }
+
+    // What the scene asks for is there.
+    void settle() {
+        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
+                                 patienceMs);
+    }
+
+    void save(const QString &name) {
+        const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS");
+        if (folder.isEmpty())
+            return;
+        QDir().mkpath(folder);
+        QVERIFY(m_window->grab().save(folder + "/workstation_" + name + ".png"));
+    }
+
+    test::TemporaryFolder m_folder;
+    std::unique_ptr<ui::MainWindow> m_window;
+};
+
+/// Runs the tests of a class in an application of their own.
+template <class Test> int run(int argc, char **argv) {
+    QSurfaceFormat format;
+    format.setVersion(3, 3);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    QSurfaceFormat::setDefaultFormat(format);
+    QApplication application(argc, argv);
+    QApplication::setApplicationName("pellucid-test");
+    QApplication::setOrganizationName("pellucid-test");
+    ui::Theme::named("dark").apply(application);
+    Test test;
+    return QTest::qExec(&test, argc, argv);
+}
+
+} // namespace pellucid::test
