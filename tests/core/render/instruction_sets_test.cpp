@@ -6,6 +6,7 @@
 
 #include <hwy/targets.h>
 
+#include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/cpu_engine.h"
 #include "core/render/frame_job.h"
@@ -42,6 +43,21 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     const double predicted = render::predictRelativeError(axes, storage, {});
     const auto room = render::roomOfBox(field.values.lattice(), field.support);
     EXPECT_LT(error, std::hypot(predicted, room.foldedTails)) << predicted;
+
+    // The same with a linear cue.
+    const shading::DepthCue cue{shading::CueKind::linear, 1.0};
+    for (int d = 0; d < 3; ++d)
+        render::addMomentError(axes[d], kernel,
+                               {kernel, double(layout.padded[d]) / field.support.size()[d]},
+                               layout.padded[d], render::evenSlabProducts(energy.axis[d]));
+    const auto shaded = reference::shadedField(field, {.cue = cue}, camera.axes(), 0,
+                                               shading::shadingScale(lattice));
+    const auto exactCued = reference::WideKernel(shaded.values, shaded.support).image(camera, {});
+    const double cuedError =
+        test::relativeL2(engine.render(camera, {}, {.cue = cue}).samples, exactCued);
+    const double predictedCued = render::predictRelativeError(
+        axes, storage, {}, render::cueWeight(cue, lattice, layout, energy.axis));
+    EXPECT_LT(cuedError, std::hypot(predictedCued, room.foldedTails)) << predictedCued;
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryWidth,
@@ -51,6 +67,22 @@ INSTANTIATE_TEST_SUITE_P(Kernels, EveryWidth,
                                           testing::Values(fourier::Storage::binary16,
                                                           fourier::Storage::float32)));
 
+// Every path of the vector code: one spectrum, moments, several slices, light of three colours. The
+// spectrum stands for that of its own gradient.
+const std::vector<shading::Shading> shadings{
+    {},
+    {.cue = {shading::CueKind::linear, 1.0}},
+    {.cue = {shading::CueKind::sine, 1.0}, .lights = {{{1, 1, 1}}}},
+    {.cue = {shading::CueKind::linear, 0.5},
+     .lights = {{{1, 0, 0}, {1.0, 0.0, 0.0}}, {{0, 1, 1}, {0.0, 1.0, 0.5}}}}};
+
+render::CpuEngine shadedEngine(const std::shared_ptr<const fourier::Spectrum> &spectrum,
+                               int threads) {
+    return {{{spectrum}, {spectrum}, shading::shadingScale(spectrum->lattice())},
+            render::roomOfBox(spectrum->lattice(), spectrum->layout().box),
+            threads};
+}
+
 // The promise of CpuEngine: 2e-6 of the largest value between instruction sets, which add in
 // different orders and fuse multiplications or do not.
 TEST(InstructionSets, AgreeWithinRounding) {
@@ -58,33 +90,35 @@ TEST(InstructionSets, AgreeWithinRounding) {
     const auto field = test::noiseField(lattice);
     render::Camera camera = render::defaultCamera(lattice);
     camera.orientation = render::viewOrientation(render::StandardView::front, {25, 35, 45});
-    for (const char *name : {"LS4", "LS6"})
-        for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
-            const auto kernel = fourier::makeKernel(fourier::kernelFromName(name), 1.5);
-            const auto spectrum =
-                std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
-                    field.values,
-                    {{kernel, kernel, kernel}, field.support, {48, 48, 28}, storage}));
-            std::vector<float> best;
-            float peak = 0.0F;
-            const std::int64_t all = hwy::SupportedTargets();
-            for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
-                hwy::SetSupportedTargetsForTest(rest & -rest);
-                hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-                const std::string set = render::instructionSet();
-                const auto image = render::CpuEngine(spectrum).render(camera, {}).samples;
-                if (best.empty()) {
-                    best = image;
-                    peak = *std::max_element(best.begin(), best.end());
+    for (const shading::Shading &shading : shadings)
+        for (const char *name : {"LS4", "LS6"})
+            for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
+                const auto kernel = fourier::makeKernel(fourier::kernelFromName(name), 1.5);
+                const auto spectrum =
+                    std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
+                        field.values,
+                        {{kernel, kernel, kernel}, field.support, {48, 48, 28}, storage}));
+                std::vector<float> best;
+                float peak = 0.0F;
+                const std::int64_t all = hwy::SupportedTargets();
+                for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {
+                    hwy::SetSupportedTargetsForTest(rest & -rest);
+                    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+                    const std::string set = render::instructionSet();
+                    const auto image =
+                        shadedEngine(spectrum, 0).render(camera, {}, shading).samples;
+                    if (best.empty()) {
+                        best = image;
+                        peak = *std::max_element(best.begin(), best.end());
+                    }
+                    float most = 0.0F;
+                    for (std::size_t n = 0; n < best.size(); ++n)
+                        most = std::max(most, std::abs(best[n] - image[n]));
+                    EXPECT_LT(most, 2e-6F * peak) << name << " " << set;
                 }
-                float most = 0.0F;
-                for (std::size_t n = 0; n < best.size(); ++n)
-                    most = std::max(most, std::abs(best[n] - image[n]));
-                EXPECT_LT(most, 2e-6F * peak) << name << " " << set;
+                hwy::SetSupportedTargetsForTest(0);
+                hwy::GetChosenTarget().Update(hwy::SupportedTargets());
             }
-            hwy::SetSupportedTargetsForTest(0);
-            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        }
 }
 
 TEST(InstructionSets, FourThreadsGiveTheBitsOfOne) {
@@ -95,9 +129,11 @@ TEST(InstructionSets, FourThreadsGiveTheBitsOfOne) {
         field.values, {{kernel, kernel, kernel}, field.support, {60, 60, 60}}));
     render::Camera camera = render::defaultCamera(lattice);
     camera.orientation = render::viewOrientation(render::StandardView::front, {25, 35, 45});
-    const auto one = render::CpuEngine(spectrum, std::nullopt, 1).render(camera, {}).samples;
-    EXPECT_EQ(render::CpuEngine(spectrum, std::nullopt, 2).render(camera, {}).samples, one);
-    EXPECT_EQ(render::CpuEngine(spectrum, std::nullopt, 4).render(camera, {}).samples, one);
+    for (const shading::Shading &shading : shadings) {
+        const auto one = shadedEngine(spectrum, 1).render(camera, {}, shading).samples;
+        EXPECT_EQ(shadedEngine(spectrum, 2).render(camera, {}, shading).samples, one);
+        EXPECT_EQ(shadedEngine(spectrum, 4).render(camera, {}, shading).samples, one);
+    }
 }
 
 } // namespace
