@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QHBoxLayout>
 #include <QMainWindow>
+#include <QScrollArea>
 #include <QToolButton>
 
 #include "ui/look_preparer.h"
@@ -20,6 +21,18 @@ namespace {
 
 constexpr int panelWidth = 300;
 
+// A panel that scrolls where the window is low: 720 pixels hold all docks.
+QWidget *scrolling(QWidget *panel) {
+    auto *area = new QScrollArea;
+    area->setObjectName(panel->objectName() + "Area");
+    area->setWidget(panel);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setMinimumHeight(48);
+    return area;
+}
+
 } // namespace
 
 LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer,
@@ -32,8 +45,8 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
     dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 165);
     dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(),
          200);
-    dock(window, tr("SHADING"), "shadingDock", m_shading, m_shading->corner(), 165);
-    dock(window, tr("QUALITY"), "qualityDock", m_quality, m_quality->corner(), 170);
+    dock(window, tr("SHADING"), "shadingDock", scrolling(m_shading), m_shading->corner(), 165);
+    dock(window, tr("QUALITY"), "qualityDock", scrolling(m_quality), m_quality->corner(), 170);
 
     connect(m_presets, &PresetsPanel::presetsListed, &m_previewer, &LookPreviewer::preview);
     connect(m_presets, &PresetsPanel::lookNamed, &projection, &ProjectionView::setLookName);
@@ -47,9 +60,10 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
 
 void LookDocks::unfold(QWidget &panel) {
     for (QDockWidget *dock : m_docks)
-        if (dock->widget() == &panel)
+        if (dock->isAncestorOf(&panel)) {
             dock->show();
-    panel.show();
+            dock->widget()->show();
+        }
 }
 
 void LookDocks::dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,

@@ -62,12 +62,14 @@ void LookMenu::addShading(QMenu &menu, LookDocks &docks) {
     m_cue = add(menu, tr("&Depth cue"), "depthCueAction", QKeySequence("D"),
                 [&shading] { shading.toggleCue(); });
     m_cue->setCheckable(true);
-    add(menu, tr("Add l&ight"), "addLightAction", QKeySequence("L"), [&docks, &shading] {
-        docks.unfold(shading);
-        shading.addLight();
-    });
-    add(menu, tr("Reset s&hading"), "resetShadingAction", QKeySequence("Shift+L"),
-        [&shading] { shading.reset(); });
+    QAction *light =
+        add(menu, tr("Add l&ight"), "addLightAction", QKeySequence("L"), [&docks, &shading] {
+            docks.unfold(shading);
+            shading.addLight();
+        });
+    QAction *none = add(menu, tr("Reset s&hading"), "resetShadingAction", QKeySequence("Shift+L"),
+                        [&shading] { shading.reset(); });
+    m_ofShading = {m_cue, light, none};
 }
 
 void LookMenu::addReconstructions(QMenu &menu) {
@@ -95,7 +97,9 @@ void LookMenu::showScene() {
     for (QAction *action : m_reconstructions->actions())
         action->setChecked(action->data().toInt() == int(scene.image.reconstruction));
     m_film->setChecked(scene.tone.inverted);
-    m_cue->setChecked(scene.shading.cue.kind != shading::CueKind::none);
+    m_cue->setChecked(scene.shading.cue.isActive());
+    for (QAction *action : m_ofShading)
+        action->setEnabled(m_document.volume().has_value());
 }
 
 } // namespace pellucid::ui

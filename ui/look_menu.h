@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include <QList>
 #include <QObject>
 
 class QAction;
@@ -35,6 +36,7 @@ private:
     Document &m_document;
     QActionGroup *m_reconstructions;
     QAction *m_film, *m_cue;
+    QList<QAction *> m_ofShading;
     QMenu *m_windowMenu;
 };
 

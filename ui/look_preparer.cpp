@@ -27,16 +27,15 @@ bool isLarge(const volume::Volume &volume) {
     return std::max({n.i, n.j, n.k}) > coarseSide;
 }
 
-// Strength and values rounded up to halves.
+// Strength and values rounded to halves, away from what changes nothing.
 shading::DepthCue plannedCue(const shading::DepthCue &cue) {
     if (!cue.isActive())
         return {};
-    const auto up = [](double value) { return std::ceil(2.0 * value) / 2.0; };
-    shading::DepthCue planned{cue.kind, up(cue.strength)};
+    shading::DepthCue planned{cue.kind, std::ceil(2.0 * cue.strength) / 2.0};
     if (cue.kind == shading::CueKind::curve) {
         planned.curve = cue.curve;
         for (double &value : planned.curve)
-            value = up(value);
+            value = (value < 1.0 ? std::floor(2.0 * value) : std::ceil(2.0 * value)) / 2.0;
     }
     return planned;
 }
@@ -47,8 +46,8 @@ render::Scene planningScene(const volume::Volume &volume, const PreparedFor &wan
     scene.tolerance = wanted.tolerance;
     scene.interpolation = wanted.interpolation;
     scene.shading.cue = wanted.cue;
-    if (wanted.isLit) // whatever the lights: their number and place cost nothing
-        scene.shading.lights.emplace_back();
+    if (wanted.isLit) // whatever the lights: their number and place cost nothing, colours a little
+        scene.shading.lights.push_back({.color = {1.0, 0.5, 0.0}});
     scene.camera.pixelMm = volume.lattice().shortestStepMm();
     scene.camera.width = scene.camera.height =
         int(std::clamp(2.0 * volume.lattice().radiusMm() / scene.camera.pixelMm, 2.0, 4096.0));
@@ -166,14 +165,20 @@ void LookPreparer::followScene() {
         wanted == m_underway || wanted == m_givenUp)
         return;
     if (wanted == m_prepared) {
-        // Back to what is there: nothing else is wanted any more.
+        // Back to what is there: nothing else is wanted any more, and may be wanted again.
+        m_givenUp.reset();
         m_rest.stop();
+        emit planHolds(true);
         if (m_underway)
             stopOwnJob();
         if (m_shown == EngineStage::live || m_shown == EngineStage::coarse)
             showFull();
         return;
     }
+    // The first picture of the same with other weights is on its way, and the next will follow it:
+    // a hand that moves would stop it again and again.
+    if (m_underway && m_coarseToCome && wanted.hasLayersOf(*m_underway))
+        return;
     if (m_prepared && wanted.showsSameAs(*m_prepared))
         followCueAndLight(wanted);
     else if (m_prepared && wanted.hasLayersOf(*m_prepared))
@@ -188,12 +193,16 @@ void LookPreparer::followCueAndLight(const PreparedFor &wanted) {
         PreparedFor unlit = *m_prepared;
         unlit.isLit = false;
         stopOwnJob();
+        m_givenUp.reset();
         adopt(unlit, render::withoutLight(*m_full));
         if (wanted == unlit)
             return;
     }
     // A cue is seen at once with what there is; a light needs more, first of a small volume.
-    startPreparing(wanted.isLit && !m_prepared->isLit);
+    const bool coarseFirst = wanted.isLit && !m_prepared->isLit;
+    if (!coarseFirst && (m_shown == EngineStage::live || m_shown == EngineStage::coarse))
+        showFull();
+    startPreparing(coarseFirst);
 }
 
 void LookPreparer::settle() {
@@ -205,10 +214,8 @@ void LookPreparer::settle() {
 
 void LookPreparer::followWeights(const PreparedFor &wanted) {
     if (wanted.isLit) {
-        // Under light the picture is no sum of layers: small pictures follow the hand, each as soon
-        // as the former is there.
-        if (!(m_underway && m_coarseToCome))
-            startPreparing(true);
+        // Under light the picture is no sum of layers: small pictures follow the hand.
+        startPreparing(true);
         return;
     }
     // An engine of a former sum is no longer wanted, and takes the hand's time.
@@ -271,6 +278,7 @@ void LookPreparer::startPreparing(bool coarseFirst) {
     const PreparedFor wanted(m_document);
     m_rest.stop();
     stopOwnJob();
+    emit planHolds(false);
     m_jobs.start(tr("Preparing the projection"),
                  [volume = *m_document.volume(), prepare = preparation(wanted, 0.0, coarseFirst)](
                      const Job &job) { prepare(job, volume); });
@@ -287,7 +295,7 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
         const render::Scene scene = planningScene(volume, wanted);
         const std::size_t needed =
             classify::peakBytes(wanted.look, volume.lattice().size().count()) +
-            render::bytesForLight(scene.shading, volume.lattice().size().count(),
+            render::bytesForLight(scene.shading, volume.lattice().size(),
                                   classify::mixesColors(wanted.look) ? 3 : 1);
         if (needed > task::availableMemoryBytes())
             throw task::Error(
@@ -320,7 +328,7 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
                 }
                 adopt(wanted, prepared);
                 // Of a small volume the first picture is the last.
-                if (wanted.isLit && PreparedFor(m_document) != wanted)
+                if (PreparedFor(m_document) != wanted)
                     followScene();
             });
         };

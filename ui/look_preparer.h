@@ -76,6 +76,8 @@ public:
 signals:
     void engineReady(const pellucid::render::PreparedEngine &engine,
                      pellucid::ui::EngineStage stage);
+    /// Whether the plan of the engine in use is made for what the scene asks for.
+    void planHolds(bool holds);
 
 private:
     /// Follows, but what was given up stays so.

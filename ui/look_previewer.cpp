@@ -35,11 +35,12 @@ render::Scene pictureScene(const volume::Lattice &lattice) {
 
 QImage pictureOf(const volume::Volume &volume, const classify::FieldWindow &window,
                  const classify::Look &look, const shading::Shading &shading,
-                 classify::StepRunner &steps, const task::Progress &progress) {
+                 const shading::ShadingScale &scale, classify::StepRunner &steps,
+                 const task::Progress &progress) {
     render::Scene scene = pictureScene(volume.lattice());
     scene.shading = shading;
     const auto fields = classify::shownFields(volume, window, look, &steps, progress);
-    const auto prepared = render::prepareEngine(scene, fields, {}, progress);
+    const auto prepared = render::prepareEngine(scene, fields, {}, progress, scale);
     const auto image = prepared.engine->render(scene.camera, scene.image, scene.shading);
     const auto rgba = render::compose(image, {});
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
@@ -72,8 +73,9 @@ void LookPreviewer::preview(const std::vector<presets::Preset> &presets) {
                 const classify::FieldWindow window = preset.window.value_or(own);
                 QImage picture;
                 try {
-                    picture = pictureOf(coarse, window, presets::lookFor(preset, window),
-                                        preset.shading, steps, job.progress());
+                    picture =
+                        pictureOf(coarse, window, presets::lookFor(preset, window), preset.shading,
+                                  shading::shadingScale(volume.lattice()), steps, job.progress());
                 } catch (const task::Error &) {
                     // A preset that cannot be shown small says why when it is chosen.
                 }

@@ -59,6 +59,7 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     createStatusBar();
     connect(&m_document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
     connect(&m_preparer, &LookPreparer::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(&m_preparer, &LookPreparer::planHolds, m_projection, &ProjectionView::setPlanHolds);
     connect(&m_opener, &StudyOpener::cameraKept, m_projection, &ProjectionView::adoptCamera);
     connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
     connect(&m_opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);

@@ -45,9 +45,12 @@ bool StudyOpener::showKept(int index) {
     scene.camera = m_document.scene().camera;
     scene.tolerance = m_document.scene().tolerance;
     scene.interpolation = m_document.scene().interpolation;
+    // The scene first: the brightness is taken from the engine's first frame.
+    m_preparer.setHeld(true);
+    m_document.setScene(scene);
+    m_preparer.setHeld(false);
     if (kept->engine)
         m_preparer.adopt(*kept->preparedFor, *kept->engine);
-    m_document.setScene(scene);
     m_document.setDisplayWindow(kept->displayWindow);
     m_document.setCrosshair(kept->crosshair);
     emit cameraKept(kept->scene.camera);

@@ -2,12 +2,12 @@
 #include "app/bench/look_rows.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include "core/classify/layers.h"
 #include "core/classify/shown_fields.h"
+#include "core/reference/shaded_field.h"
 #include "core/render/layer_set.h"
 
 namespace pellucid::bench {
@@ -22,23 +22,6 @@ render::Camera truthCamera(const LookSubject &subject) {
     render::Camera camera = subject.scene.camera;
     camera.orientation = randomViews(1, 11).front();
     return camera;
-}
-
-// The channels of the exact picture, interleaved.
-std::vector<double> exactImage(const LookSubject &subject, const classify::ShownFields &fields) {
-    const render::Camera camera = truthCamera(subject);
-    std::vector<std::vector<double>> planes;
-    for (const classify::DensityField &field : fields.channels)
-        planes.push_back(
-            reference::WideKernel(field.values, field.support).image(camera, subject.scene.image));
-    if (fields.isGrey())
-        return planes.front();
-    const std::array<double, 3> color{fields.color.red, fields.color.green, fields.color.blue};
-    std::vector<double> image;
-    for (std::size_t n = 0; n < planes.front().size(); ++n)
-        for (std::size_t c = 0; c < 3; ++c)
-            image.push_back(planes.size() == 1 ? color[c] * planes.front()[n] : planes[c][n]);
-    return image;
 }
 
 std::string noted(const std::string &note, const Row &row, double plainMs) {
@@ -59,7 +42,8 @@ LookSubject::LookSubject(int side)
 void reportLook(const Report &report, const std::string &suite, const std::string &name,
                 const LookSubject &subject, const classify::Look &look, const std::string &note) {
     const auto fields = classify::shownFields(subject.volume, subject.window, look, nullptr);
-    const std::vector<double> exact = exactImage(subject, fields);
+    const std::vector<double> exact =
+        reference::shadedImage(fields, {}, truthCamera(subject), subject.scene.image);
     const auto mixture = classify::mixtureOf(look);
     const auto plain = render::prepareEngine(
         subject.scene, {{classify::densityField(subject.volume, subject.window)}, {}}, {});

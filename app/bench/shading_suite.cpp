@@ -46,23 +46,6 @@ std::vector<Case> cases() {
          {.cue = {CueKind::sine, 1.0}, .ambient = 0.3, .lights = {{oblique}}}}};
 }
 
-// The exact picture, channels interleaved.
-std::vector<double> exactImage(const classify::DensityField &field, const render::Scene &scene) {
-    const int channels = render::imagesOf(1, scene.shading);
-    std::vector<std::vector<double>> planes;
-    for (int c = 0; c < channels; ++c) {
-        const auto shaded = reference::shadedField(field, scene.shading, scene.camera.axes(), c,
-                                                   shading::shadingScale(field.values.lattice()));
-        planes.push_back(
-            reference::WideKernel(shaded.values, shaded.support).image(scene.camera, scene.image));
-    }
-    std::vector<double> image;
-    for (std::size_t n = 0; n < planes.front().size(); ++n)
-        for (const auto &plane : planes)
-            image.push_back(plane[n]);
-    return image;
-}
-
 } // namespace
 
 void runShadingSuite(const Report &report) {
@@ -85,7 +68,7 @@ void runShadingSuite(const Report &report) {
             scene.camera.orientation = randomViews(1, 11).front();
             fillError(row,
                       compare(prepared.engine->render(scene.camera, scene.image, shading).samples,
-                              exactImage(fields.channels.front(), scene)));
+                              reference::shadedImage(fields, shading, scene.camera, scene.image)));
             row.note = ratioText(row, plainMs);
             report(row);
         }

@@ -65,9 +65,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const classify::FieldWindow window =
         scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
     const std::size_t samples = volume.lattice().size().count();
-    const std::size_t held =
-        volume.bytes() + classify::peakBytes(scene.look, samples) +
-        render::bytesForLight(scene.shading, samples, classify::mixesColors(scene.look) ? 3 : 1);
+    const std::size_t forLight = render::bytesForLight(scene.shading, volume.lattice().size(),
+                                                       classify::mixesColors(scene.look) ? 3 : 1);
+    const std::size_t held = volume.bytes() + classify::peakBytes(scene.look, samples) + forLight;
     if (command.count("--memory") > 0 && o.memory < held)
         throw Error(ErrorCode::outOfMemory,
                     fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
@@ -79,6 +79,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     steps.trim(0); // the picture asks for nothing twice
     // Asking for more than there is would end in the system killing the program.
     render::Budget budget{task::availableMemoryBytes()};
+    budget.bytes -= std::min(budget.bytes, forLight); // still to be asked for
     if (command.count("--memory") > 0)
         budget.bytes = std::min(budget.bytes, std::size_t(o.memory - held));
     const double fieldMs = watch.lapMs();
@@ -158,6 +159,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                     {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
                     {"series", input.seriesUid}}},
                   {"window", {window.low, window.high}},
+                  {"shading", json::parse(shading::toJson(scene.shading))},
                   {"milliseconds",
                    {{"scan", input.scanMs},
                     {"load", input.loadMs},

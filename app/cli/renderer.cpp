@@ -49,8 +49,10 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
     const render::RenderPlan &plan = m_fitting.plan;
     std::size_t exactBytes = 0;
     for (std::size_t c = 0; c < m_channels; ++c)
-        exactBytes += reference::WideKernel::bytes(shaded.fields.front().support) +
+        exactBytes += reference::WideKernel::bytes(summaries.front().support) +
                       reference::sliceBytes(m_lattice, scene.camera, scene.image);
+    if (!scene.shading.isPlain()) // the field, larger, and its shaded twin
+        exactBytes += 2 * m_lattice.size().count() * sizeof(float);
     if (plan.predictedError <= scene.tolerance || scene.interpolation != render::Interpolation() ||
         m_fitting.reduction > 1 || exactBytes > budget.bytes) {
         const render::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
@@ -61,7 +63,7 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
         m_predictedError = plan.predictedError;
         return;
     }
-    if (scene.shading == shading::Shading())
+    if (scene.shading.isPlain())
         for (const classify::DensityField &field : fields.channels)
             m_references.emplace_back(field.values, field.support, m_progress);
     m_bytes = exactBytes;
@@ -85,32 +87,28 @@ render::ProjectionImage Renderer::image(const render::Camera &camera, render::Fr
 }
 
 render::ProjectionImage Renderer::exactImage(const render::Camera &camera) const {
+    render::ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}};
+    image.channels = m_isGrey ? 1 : 3;
+    if (m_references.empty()) {
+        const auto exact =
+            reference::shadedImage(m_fields, m_scene.shading, camera, m_scene.image, m_progress);
+        image.samples.assign(exact.begin(), exact.end());
+        return image;
+    }
     std::vector<std::vector<double>> planes;
     for (const reference::WideKernel &exact : m_references)
         planes.push_back(exact.image(camera, m_scene.image));
-    for (std::size_t c = 0; planes.size() < m_channels; ++c) {
-        const auto shaded = reference::shadedField(
-            m_fields.channels[std::min(c, m_fields.channels.size() - 1)], m_scene.shading,
-            camera.axes(), int(c),
-            shading::shadingScale(m_fields.channels.front().values.lattice()), m_progress);
-        planes.push_back(reference::WideKernel(shaded.values, shaded.support, m_progress)
-                             .image(camera, m_scene.image));
-    }
-    render::ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}};
     if (m_isGrey) {
         image.samples.assign(planes.front().begin(), planes.front().end());
         return image;
     }
-    image.channels = 3;
     image.samples.resize(3 * planes.front().size());
-    // The channels of a look have their colours already.
-    const classify::Color color =
-        m_fields.channels.size() == 1 ? m_fields.color : classify::Color{};
-    const std::array<double, 3> factors{color.red, color.green, color.blue};
+    const classify::Color &of = m_fields.color;
+    const std::array<double, 3> color{of.red, of.green, of.blue};
     for (std::size_t c = 0; c < 3; ++c) {
         const std::vector<double> &plane = planes[std::min(c, planes.size() - 1)];
         for (std::size_t n = 0; n < plane.size(); ++n)
-            image.samples[3 * n + c] = float(factors[c] * plane[n]);
+            image.samples[3 * n + c] = float((planes.size() == 1 ? color[c] : 1.0) * plane[n]);
     }
     return image;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/classify/json_values.h"
+#include "core/classify/json_values_nlohmann.h"
 
 #include <cmath>
 

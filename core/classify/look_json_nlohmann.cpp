@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/classify/json_values.h"
+#include "core/classify/json_values_nlohmann.h"
 #include "core/task/error.h"
 
 namespace pellucid::classify {

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fourier/quadrature.h"
-
 namespace pellucid::fourier {
 
 namespace {
@@ -35,41 +33,11 @@ std::vector<double> fitPolynomial(int degree, const std::function<double(double)
     return monomials;
 }
 
-double horner(const std::vector<double> &p, double c) {
-    double sum = 0.0;
-    for (auto it = p.rbegin(); it != p.rend(); ++it)
-        sum = sum * c + *it;
-    return sum;
-}
-
 } // namespace
 
-Kernel::Kernel(std::string name, int width, std::vector<std::vector<double>> pieces)
-    : m_name(std::move(name)), m_width(width), m_pieces(std::move(pieces)) {
-    assert(width >= 1 && width <= largestWidth && int(m_pieces.size()) == width);
-    std::size_t most = 1;
-    for (const auto &p : m_pieces)
-        most = std::max(most, p.size());
-    m_terms = int(most + 1) / 2;
-    assert(m_terms <= largestTerms);
-    for (int k = 0; k < (width + 1) / 2; ++k)
-        for (const std::size_t parity : {std::size_t(0), std::size_t(1)})
-            for (int n = 0; n < m_terms; ++n) {
-                const std::size_t power = 2 * std::size_t(n) + parity;
-                m_pairs.push_back(power < m_pieces[k].size() ? float(m_pieces[k][power]) : 0.0F);
-            }
-    // Sixteen points a cell follow the cosine of a ghost five periods away to rounding.
-    static const GaussLegendre<double> quadrature(16);
-    for (int k = width / 2; k < width; ++k)
-        for (std::size_t n = 0; n < quadrature.at.size(); ++n) {
-            const double t = k - 0.5 * (width - 1) + quadrature.at[n];
-            const bool middle = 2 * k == width - 1; // its negative half stands for itself
-            m_nodes.push_back(2.0 * pi * t);
-            const double value = horner(m_pieces[k], quadrature.at[n]);
-            const double weight = (middle ? 1.0 : 2.0) * quadrature.weight[n];
-            m_weighted.push_back(weight * value);
-            m_energy += weight * value * value;
-        }
+Kernel::Kernel(std::string name, std::vector<std::vector<double>> pieces)
+    : m_name(std::move(name)), m_shape(std::move(pieces), Parity::even) {
+    assert(width() >= 1 && width() <= largestWidth && terms() <= largestTerms);
 }
 
 Kernel Kernel::fitted(std::string name, int width, int degree,
@@ -85,7 +53,7 @@ Kernel Kernel::fitted(std::string name, int width, int degree,
         for (int n = 1; n <= degree; n += 2)
             pieces[width - 1 - k][n] = -pieces[k][n];
     }
-    return Kernel(std::move(name), width, std::move(pieces));
+    return Kernel(std::move(name), std::move(pieces));
 }
 
 Kernel Kernel::nearest() {
@@ -136,21 +104,6 @@ Kernel Kernel::kaiserBessel(int width, double padding) {
         const double x = 2.0 * t / width;
         return std::cyl_bessel_i(0.0, b * std::sqrt(std::max(0.0, 1.0 - x * x))) / peak;
     });
-}
-
-double Kernel::value(double t) const {
-    const double half = 0.5 * m_width;
-    if (std::abs(t) > half)
-        return 0.0;
-    const int k = std::min(m_width - 1, int(std::floor(t + half)));
-    return horner(m_pieces[k], t - (k - 0.5 * (m_width - 1)));
-}
-
-double Kernel::apodisation(double x) const {
-    double sum = 0.0;
-    for (std::size_t n = 0; n < m_nodes.size(); ++n)
-        sum += m_weighted[n] * std::cos(m_nodes[n] * x);
-    return sum;
 }
 
 } // namespace pellucid::fourier

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/fourier/piecewise_kernel.h"
+
 namespace pellucid::fourier {
 
 /// An interpolation kernel on the frequency grid: even, of a whole width, a polynomial on every
@@ -47,35 +49,26 @@ public:
     static Kernel leastGhosts(int width, double padding, std::span<const double> energy = {});
 
     const std::string &name() const { return m_name; }
-    int width() const { return m_width; }
+    int width() const { return m_shape.width(); }
     /// H(t); zero for |t| > width/2. *Units*: t in grid cells.
-    double value(double t) const;
+    double value(double t) const { return m_shape.value(t); }
     /// h(x) = integral of H(t) cos(2 pi t x) dt: how the kernel darkens the volume at a distance of
     /// x from the wrap voxel. *Units*: x in padded periods.
-    double apodisation(double x) const;
+    double apodisation(double x) const { return m_shape.transform(x); }
     /// The integral of H^2.
-    double energy() const { return m_energy; }
+    double energy() const { return m_shape.energy(); }
 
-    /// The weights of all taps by symmetry: with e and o the polynomials of tap k in c^2, tap k
-    /// weighs e + c o and tap width-1-k weighs e - c o. *Shape*: for k = 0..(width-1)/2: `terms()`
-    /// coefficients of e, then of o, ascending.
-    int terms() const { return m_terms; }
-    const std::vector<float> &pairs() const { return m_pairs; }
+    /// The weights of all taps by symmetry, see PiecewiseKernel::pairs.
+    int terms() const { return m_shape.terms(); }
+    const std::vector<float> &pairs() const { return m_shape.pairs(); }
 
 private:
-    Kernel(std::string name, int width, std::vector<std::vector<double>> pieces);
+    Kernel(std::string name, std::vector<std::vector<double>> pieces);
     static Kernel fitted(std::string name, int width, int degree,
                          const std::function<double(double t)> &shape);
 
     std::string m_name;
-    int m_width;
-    int m_terms = 1;
-    // Ascending powers of c, by tap.
-    std::vector<std::vector<double>> m_pieces;
-    std::vector<float> m_pairs;
-    // The kernel at the nodes of a quadrature over its positive half, times the weights.
-    std::vector<double> m_nodes, m_weighted;
-    double m_energy = 0.0;
+    PiecewiseKernel m_shape;
 };
 
 /// A kernel as the user names it, independent of the padding it will be tuned for.

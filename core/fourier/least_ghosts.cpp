@@ -111,7 +111,7 @@ Kernel Kernel::leastGhosts(int width, double padding, std::span<const double> en
     const int degree = std::max(3, width);
     const PiecewiseBasis kernel(width, degree, Parity::even);
     const Vector a = leastGhostCoefficients(width, kernel, padding, energy);
-    return Kernel("LS" + std::to_string(width), width, kernel.pieces(a));
+    return Kernel("LS" + std::to_string(width), kernel.pieces(a));
 }
 
 } // namespace pellucid::fourier

@@ -2,11 +2,8 @@
 #include "core/fourier/moment_kernel.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "core/fourier/piecewise_basis.h"
-#include "core/fourier/quadrature.h"
 
 namespace pellucid::fourier {
 
@@ -49,49 +46,16 @@ Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, double
     return solveSymmetric(std::move(matrix), std::move(right));
 }
 
-double horner(const std::vector<double> &p, double c) {
-    double sum = 0.0;
-    for (auto it = p.rbegin(); it != p.rend(); ++it)
-        sum = sum * c + *it;
-    return sum;
+PiecewiseKernel momentKernel(const Kernel &kernel, double padding) {
+    const PiecewiseBasis basis(kernel.width(), std::max(3, kernel.width()), Parity::odd);
+    // Short axes are padded to more than they need.
+    const Vector best = coefficientsFor(basis, kernel, std::clamp(padding, 1.0, 2.5));
+    return {basis.pieces(best), Parity::odd};
 }
 
 } // namespace
 
-MomentKernel::MomentKernel(const Kernel &kernel, double padding) : m_width(kernel.width()) {
-    const int degree = std::max(3, m_width);
-    const PiecewiseBasis basis(m_width, degree, Parity::odd);
-    // Short axes are padded to more than they need.
-    m_pieces = basis.pieces(coefficientsFor(basis, kernel, std::clamp(padding, 1.0, 2.5)));
-    m_terms = (degree + 2) / 2;
-    for (int k = 0; k < (m_width + 1) / 2; ++k)
-        for (const std::size_t parity : {std::size_t(0), std::size_t(1)})
-            for (int n = 0; n < m_terms; ++n) {
-                const std::size_t power = 2 * std::size_t(n) + parity;
-                m_pairs.push_back(power < m_pieces[k].size() ? float(m_pieces[k][power]) : 0.0F);
-            }
-    static const GaussLegendre<double> quadrature(16);
-    for (int k = 0; k < m_width; ++k)
-        for (std::size_t n = 0; n < quadrature.at.size(); ++n) {
-            m_nodes.push_back(2.0 * std::numbers::pi *
-                              (k - 0.5 * (m_width - 1) + quadrature.at[n]));
-            m_weighted.push_back(quadrature.weight[n] * horner(m_pieces[k], quadrature.at[n]));
-        }
-}
-
-double MomentKernel::value(double t) const {
-    const double half = 0.5 * m_width;
-    if (std::abs(t) > half)
-        return 0.0;
-    const int k = std::min(m_width - 1, int(std::floor(t + half)));
-    return horner(m_pieces[k], t - (k - 0.5 * (m_width - 1)));
-}
-
-double MomentKernel::response(double x) const {
-    double sum = 0.0;
-    for (std::size_t n = 0; n < m_nodes.size(); ++n)
-        sum += m_weighted[n] * std::sin(m_nodes[n] * x);
-    return sum;
-}
+MomentKernel::MomentKernel(const Kernel &kernel, double padding)
+    : m_shape(momentKernel(kernel, padding)) {}
 
 } // namespace pellucid::fourier

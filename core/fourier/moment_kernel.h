@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/fourier/kernel.h"
+#include "core/fourier/piecewise_kernel.h"
 
 namespace pellucid::fourier {
 
@@ -19,22 +20,18 @@ public:
     /// `padding`: of the axis; the field ends at 1/(2 padding) of the period.
     MomentKernel(const Kernel &kernel, double padding);
 
-    int width() const { return m_width; }
+    int width() const { return m_shape.width(); }
     /// K(t), odd; zero for |t| > width/2. *Units*: t in grid cells.
-    double value(double t) const;
+    double value(double t) const { return m_shape.value(t); }
     /// k(x) = integral of K(t) sin(2 pi t x) dt, nearly x h(x). *Units*: x in padded periods.
-    double response(double x) const;
+    double response(double x) const { return m_shape.transform(x); }
 
-    /// The weights of all taps by symmetry, as of `Kernel`: tap k weighs e + c o and tap width-1-k
-    /// weighs c o - e; the middle tap c o.
-    int terms() const { return m_terms; }
-    const std::vector<float> &pairs() const { return m_pairs; }
+    /// The weights of all taps by symmetry, see PiecewiseKernel::pairs.
+    int terms() const { return m_shape.terms(); }
+    const std::vector<float> &pairs() const { return m_shape.pairs(); }
 
 private:
-    int m_width, m_terms;
-    std::vector<std::vector<double>> m_pieces; // ascending powers of c, by tap
-    std::vector<float> m_pairs;
-    std::vector<double> m_nodes, m_weighted; // of a quadrature, as of Kernel
+    PiecewiseKernel m_shape;
 };
 
 } // namespace pellucid::fourier

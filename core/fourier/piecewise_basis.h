@@ -4,10 +4,9 @@
 #include <utility>
 #include <vector>
 
-namespace pellucid::fourier {
+#include "core/fourier/piecewise_kernel.h"
 
-/// What a kernel is about its middle.
-enum class Parity { even, odd };
+namespace pellucid::fourier {
 
 /// The piecewise polynomials of one width, degree and parity, for fits of kernels by least squares:
 /// every Legendre polynomial of the taps left of the middle, those of the parity of the middle tap;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/reference/shaded_field.h"
 
+#include <algorithm>
+#include <array>
 #include <new>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/reference/wide_kernel.h"
 #include "core/shading/gradient_magnitude.h"
 #include "core/task/error.h"
 
@@ -19,6 +22,7 @@ classify::DensityField shadedField(const classify::DensityField &field,
     const volume::Lattice &lattice = larger.values.lattice();
     const volume::GridSize size = lattice.size();
     const glm::dvec3 center = lattice.center().mm;
+    const auto cue = shading::cueFunction(shading.cue);
     struct Pole {
         glm::dvec3 direction; // LPS
         double intensity;
@@ -51,7 +55,7 @@ classify::DensityField shadedField(const classify::DensityField &field,
                     const double depth =
                         glm::dot(axes[2], lattice.patient(n).mm - center) / scale.radiusMm;
                     samples[(std::size_t(k) * size.j + j) * size.i + i] =
-                        float(shading.cue.at(depth) * shaded);
+                        float(cue(depth) * shaded);
                 }
         });
         return classify::fieldOf(larger.values, std::move(samples));
@@ -59,6 +63,32 @@ classify::DensityField shadedField(const classify::DensityField &field,
         throw task::Error(task::ErrorCode::outOfMemory,
                           "not enough memory for the exact shaded field");
     }
+}
+
+std::vector<double> shadedImage(const classify::ShownFields &fields,
+                                const shading::Shading &shading, const render::Camera &camera,
+                                const render::ImageDefinition &image,
+                                const task::Progress &progress) {
+    const bool isGrey = fields.isGrey() && shading.isGrey();
+    const auto scale = shading::shadingScale(fields.channels.front().values.lattice());
+    std::vector<std::vector<double>> planes;
+    // Of one field in grey light the channels differ by its colour only.
+    const std::size_t count = fields.channels.size() == 1 && shading.isGrey() ? 1 : 3;
+    for (std::size_t c = 0; c < count; ++c) {
+        const auto shaded = shadedField(fields.channels[std::min(c, fields.channels.size() - 1)],
+                                        shading, camera.axes(), int(c), scale, progress);
+        planes.push_back(WideKernel(shaded.values, shaded.support, progress).image(camera, image));
+    }
+    if (isGrey)
+        return planes.front();
+    // The channels of a look have their colours already.
+    const classify::Color color = fields.channels.size() == 1 ? fields.color : classify::Color{};
+    const std::array<double, 3> factors{color.red, color.green, color.blue};
+    std::vector<double> result;
+    for (std::size_t n = 0; n < planes.front().size(); ++n)
+        for (std::size_t c = 0; c < 3; ++c)
+            result.push_back(factors[c] * planes[std::min(c, count - 1)][n]);
+    return result;
 }
 
 } // namespace pellucid::reference

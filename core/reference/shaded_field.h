@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <glm/mat3x3.hpp>
 
-#include "core/classify/density_field.h"
+#include "core/classify/shown_fields.h"
+#include "core/render/camera.h"
+#include "core/render/image_definition.h"
 #include "core/shading/slice_shading.h"
 #include "core/task/progress.h"
 
@@ -17,5 +21,12 @@ classify::DensityField shadedField(const classify::DensityField &field,
                                    const shading::Shading &shading, const glm::dmat3 &axes,
                                    int channel, const shading::ShadingScale &scale,
                                    const task::Progress &progress = {});
+
+/// The exact picture of a look with cue and light. *Shape*: camera.height x camera.width, times 3
+/// if the look or the light has colours. *Throws* Error{outOfMemory}, Cancelled.
+std::vector<double> shadedImage(const classify::ShownFields &fields,
+                                const shading::Shading &shading, const render::Camera &camera,
+                                const render::ImageDefinition &image,
+                                const task::Progress &progress = {});
 
 } // namespace pellucid::reference

@@ -24,7 +24,8 @@ inline constexpr double toneExponent = 1.0 / 1.4;
 
 /// Window, inversion, grey or colour. The brightest channel of a pixel takes the display curve and
 /// the others keep their ratio to it, so that bright colours stay what they are; a film of colours
-/// is their negative. *Shape*: height x width x 4, opaque.
+/// is their negative. What is below the range is black: below zero too, where a sharp band limit
+/// undershoots. *Shape*: height x width x 4, opaque.
 std::vector<std::uint8_t> compose(const ProjectionImage &image, const Tone &tone);
 
 } // namespace pellucid::render

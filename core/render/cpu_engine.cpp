@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <new>
 #include <numbers>
@@ -11,10 +10,9 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "core/fourier/page_memory.h"
-#include "core/render/frame_job.h"
+#include "core/render/frame_mixing.h"
 #include "core/task/error.h"
 #include "core/task/worker_team.h"
 
@@ -184,115 +182,6 @@ struct CpuEngine::Workplace {
 
 namespace {
 
-// The spectra that have a share of a picture, how many sums are made of them, and how many images.
-struct Mixing {
-    Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &shares,
-           const shading::SliceShading &shading)
-        : grey(areGrey(shares) && shading.isGrey()) {
-        std::vector<std::size_t> shown;
-        for (std::size_t n = 0; n < spectra.fields.size(); ++n)
-            if (shares[n] != ChannelShares{0.0, 0.0, 0.0})
-                shown.push_back(n);
-        if (shown.empty())
-            return;
-        const fourier::Spectrum &first = *spectra.fields[shown.front()];
-        unit = first.unit();
-        // One spectrum is one slice, in whatever colour: the colour is given to the image.
-        const bool alone = shown.size() == 1;
-        sums = alone || areGrey(shares) ? 1 : FrameJob::mostChannels;
-        channels = sums > 1 || !shading.isGrey() ? FrameJob::mostChannels : 1;
-        if (alone)
-            color = shares[shown.front()];
-        const bool isLit =
-            std::any_of(shading.channels.begin(), shading.channels.end(),
-                        [](const shading::SliceShading::Channel &c) { return c.magnitude != 0.0; });
-        for (const FrameKind kind : {FrameKind::field, FrameKind::gradient}) {
-            if (kind == FrameKind::gradient && !isLit)
-                break;
-            for (const std::size_t n : shown) {
-                const fourier::Spectrum &spectrum =
-                    kind == FrameKind::field ? *spectra.fields[n] : *spectra.gradients[n];
-                add(spectrum, kind, alone ? ChannelShares{1.0, 1.0, 1.0} : shares[n]);
-            }
-        }
-    }
-
-    std::vector<FrameSource> sources;
-    bool grey;
-    int sums = 1, channels = 1;
-    double unit = 1.0; ///< of the sums
-    ChannelShares color{1.0, 1.0, 1.0};
-    struct Mass {
-        double value = 0.0;
-        glm::dvec3 moments{0.0};
-    };
-    std::array<std::array<Mass, 3>, 2> mass; ///< by kind and sum
-
-private:
-    void add(const fourier::Spectrum &spectrum, FrameKind kind, const ChannelShares &share) {
-        const double s = spectrum.unit() / unit;
-        sources.push_back({spectrum.cells(),
-                           {float(s * share[0]), float(s * share[1]), float(s * share[2])},
-                           kind});
-        const auto &moments = spectrum.moments();
-        for (std::size_t c = 0; c < share.size(); ++c) {
-            Mass &sum = mass[std::size_t(kind)][c];
-            sum.value += share[c] * spectrum.mass();
-            sum.moments += share[c] * glm::dvec3(moments[0], moments[1], moments[2]);
-        }
-    }
-};
-
-// A picture's shading in terms of cells and sums.
-FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mixing,
-                          const fourier::Spectrum &spectrum, const glm::dvec3 &toWrap,
-                          const glm::dvec3 &toViewer, double stepMm) {
-    const volume::Lattice &lattice = spectrum.lattice();
-    const glm::dmat3 rows =
-        glm::inverse(glm::dmat3(lattice.step(0), lattice.step(1), lattice.step(2))); // b_d
-    FrameShading frame;
-    frame.termCount = int(shading.terms.size());
-    frame.cued = shading.slope != 0.0;
-    // Moments are about the wrap voxel, depth is about the centre.
-    const double wrapDepth = glm::dot(toViewer, toWrap);
-    frame.base = float(1.0 + shading.slope * wrapDepth);
-    for (int d = 0; d < 3; ++d) {
-        const double depth = glm::dot(lattice.step(d), toViewer);
-        frame.perMoment[std::size_t(d)] = shading.slope * depth * spectrum.layout().padded[d];
-        for (std::size_t t = 0; t < shading.terms.size(); ++t)
-            frame.terms[t].cells[std::size_t(d)] =
-                shading.terms[t].offset * depth * spectrum.layout().padded[d];
-        const glm::dvec3 b(rows[0][d], rows[1][d], rows[2][d]);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double gradient = stepMm * glm::dot(b, shading.channels[c].gradient);
-            frame.images[c].gradient[std::size_t(d)] = gradient;
-            frame.images[c].excess[std::size_t(d)] = gradient * shading.slope * depth;
-        }
-    }
-    for (std::size_t t = 0; t < shading.terms.size(); ++t)
-        frame.terms[t].weight = std::complex<float>(
-            shading.terms[t].weight *
-            std::polar(1.0, -2.0 * std::numbers::pi * shading.terms[t].offset * wrapDepth));
-    for (std::size_t c = 0; c < 3; ++c) {
-        FrameShading::Image &image = frame.images[c];
-        image.ambient = float(shading.channels[c].ambient);
-        image.magnitude = float(shading.channels[c].magnitude);
-        // Lights from opposite sides leave no gradient, but shine.
-        frame.lit = frame.lit || image.magnitude != 0.0F;
-        // Images of colour from one sum have it at once, unless they are one image.
-        if (mixing.sums == 1 && mixing.channels > 1) {
-            const double share = mixing.color[c];
-            image.ambient *= float(share);
-            image.magnitude *= float(share);
-            for (std::size_t d = 0; d < 3; ++d) {
-                image.gradient[d] *= share;
-                image.excess[d] *= share;
-            }
-        }
-    }
-    return frame;
-}
-
 struct Frame {
     FrameJob job;
     FrameScratch *scratch;
@@ -357,14 +246,15 @@ std::string CpuEngine::description() const {
 ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &image,
                                   const shading::Shading &shading, FrameTimes *times) {
     const double start = frameClockSeconds();
-    assert(takesLight() || !shading.isLit());
     const fourier::Spectrum &spectrum = *m_spectra.fields.front();
     const fourier::SpectrumLayout &layout = spectrum.layout();
     const volume::Lattice &lattice = spectrum.lattice();
     const glm::dmat3 axes = camera.axes();
-    const shading::SliceShading sliceShading =
-        shading::sliceShading(shading, axes, m_spectra.scale);
-    const Mixing mixing(m_spectra, m_shares, sliceShading);
+    shading::Shading shone = shading;
+    if (!takesLight())
+        shone.lights.clear();
+    const shading::SliceShading sliceShading = shading::sliceShading(shone, axes, m_spectra.scale);
+    const Mixing mixing(m_spectra, m_shares, sliceShading, shone.isGrey());
     const SliceGrid grid = m_workplace->gridFor(camera, m_room, lattice, image);
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}, mixing.grey ? 1 : 3};

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -102,38 +103,98 @@ void addMomentError(AxisError &error, const fourier::Kernel &kernel,
     error.moment = std::max(ghosts, slabs.energy(real) + slabs.energy(imaginary));
 }
 
-CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice,
-                    const fourier::SpectrumLayout &layout,
-                    const std::array<std::vector<double>, 3> &energy) {
-    CueWeight weight;
-    if (!cue.isActive())
-        return weight;
-    const volume::VoxelBox &box = layout.box;
+namespace {
+
+// The root mean square of a cue over all depths, far beyond the volume too, where ghosts lie. Of a
+// linear one, whose own ghosts are counted apart, over the depths of the volume.
+double cueRms(const shading::DepthCue &cue) {
+    const double square = cue.strength * cue.strength;
+    switch (cue.kind) {
+    case shading::CueKind::none:
+        break;
+    case shading::CueKind::linear:
+        return std::sqrt(1.0 + square / 3.0);
+    case shading::CueKind::sine:
+        return std::sqrt(1.0 + square / 2.0);
+    case shading::CueKind::curve: {
+        const std::vector<double> cosines = shading::cosinesOf(cue.curve);
+        const double mean = 1.0 + cue.strength * (cosines.front() - 1.0);
+        double sum = mean * mean;
+        for (std::size_t k = 1; k < cosines.size(); ++k)
+            sum += 0.5 * square * cosines[k] * cosines[k];
+        return std::sqrt(sum);
+    }
+    }
+    return 1.0;
+}
+
+// How far the middle of the energy lies from the centre, mm.
+double middleOffsetMm(const volume::Lattice &lattice, const volume::VoxelBox &box,
+                      const EnergyMarginals &energy) {
     const std::array<int, 3> first{box.lo.i, box.lo.j, box.lo.k};
     glm::dvec3 middle(0.0);
     for (int d = 0; d < 3; ++d) {
-        const std::vector<double> &axis = energy[std::size_t(d)];
         double all = 0.0;
+        const std::vector<double> &axis = energy.axis[std::size_t(d)];
         for (std::size_t n = 0; n < axis.size(); ++n) {
             middle[d] += axis[n] * (double(n) + first[std::size_t(d)]);
             all += axis[n];
         }
-        middle[d] /= std::max(all, 1e-300);
+        if (!(all > 0.0)) // an empty field has no middle, and no error
+            return 0.0;
+        middle[d] /= all;
     }
-    const double radius = lattice.radiusMm();
-    const double reach =
-        glm::distance(lattice.patient(volume::VoxelPoint{middle}).mm, lattice.center().mm) / radius;
-    // Seen from some side the middle lies at any depth up to that. A tenth is left for what else
-    // there is.
+    return glm::distance(lattice.patient(volume::VoxelPoint{middle}).mm, lattice.center().mm);
+}
+
+// The least root mean square of the cue over the depths of the energy, of the directions of its
+// profiles, which tell distances but not sides: both alike, or, of energy that lies at one side,
+// the darker one.
+double leastRms(const std::function<double(double)> &cue, const EnergySpread &spread,
+                double radiusMm, double offsetMm) {
     double least = 1.0;
-    for (int n = -8; n <= 8; ++n)
-        least = std::min(least, cue.at(reach * n / 8.0));
-    least = std::max(0.1, least);
-    weight.ghosts = shading::cueRms(cue) / least;
+    for (const auto &shares : spread.byDistance) {
+        double both = 0.0, darker = 0.0, all = 0.0, squares = 0.0;
+        for (std::size_t n = 0; n < shares.size(); ++n) {
+            const double mm = (double(n) + 0.5) * spread.distanceStepMm, t = mm / radiusMm;
+            const double near = cue(t) * cue(t), far = cue(-t) * cue(-t);
+            both += 0.5 * shares[n] * (near + far);
+            darker += shares[n] * std::min(near, far);
+            all += shares[n];
+            squares += shares[n] * mm * mm;
+        }
+        if (all > 0.0) {
+            const bool oneSided = offsetMm > 0.5 * std::sqrt(squares / all);
+            least = std::min(least, std::sqrt((oneSided ? darker : both) / all));
+        }
+    }
+    return least;
+}
+
+// What is left where the cue is darkest: neighbours are brighter.
+constexpr double darkest = 0.02;
+
+} // namespace
+
+CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
+                    const fourier::SpectrumLayout &layout, const EnergyMarginals &energy) {
+    CueWeight weight;
+    if (!cue.isActive())
+        return weight;
+    const auto value = shading::cueFunction(cue);
+    const double offset = middleOffsetMm(lattice, layout.box, energy);
+    double least = 1.0;
+    if (cue.kind == shading::CueKind::curve)
+        least = leastRms(value, *energy.spread, radiusMm, offset);
+    else
+        for (const double t : {-offset / radiusMm, offset / radiusMm}) // both are monotonic
+            least = std::min(least, value(t));
+    least = std::max(darkest, least);
+    weight.ghosts = cueRms(cue) / least;
     if (cue.kind == shading::CueKind::linear)
         for (int d = 0; d < 3; ++d)
             weight.moments[std::size_t(d)] =
-                cue.strength * lattice.spacingMm(d) * layout.padded[d] / radius / least;
+                cue.strength * lattice.spacingMm(d) * layout.padded[d] / radiusMm / least;
     return weight;
 }
 

@@ -39,14 +39,16 @@ void addMomentError(AxisError &error, const fourier::Kernel &kernel,
 /// How a depth cue weighs the errors against the image.
 struct CueWeight {
     /// Of ghosts: the root mean square of the cue where they lie, over the least that the cue can
-    /// leave of the image: its value at the middle of the field's energy, seen from any side.
+    /// leave of the image, seen from any side: its value at the middle of the field's energy, or,
+    /// of a curve, its root mean square over the depths of the energy.
     double ghosts = 1.0;
     /// Of the moments along each axis: how much depth a period is, times the cue's slope.
     std::array<double, 3> moments{};
 };
-CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice,
-                    const fourier::SpectrumLayout &layout,
-                    const std::array<std::vector<double>, 3> &energy);
+/// *Shape*: the energies of the samples of the layout's box, and where they lie; *Units*: radiusMm
+/// is the R of the cue.
+CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
+                    const fourier::SpectrumLayout &layout, const EnergyMarginals &energy);
 
 /// How much of what the ghosts spread over the period falls into the image, relative to the share
 /// of the projection's energy that the image holds.

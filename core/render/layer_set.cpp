@@ -2,7 +2,6 @@
 #include "core/render/layer_set.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <new>
 
@@ -152,7 +151,6 @@ ProjectionImage LayerSet::sumOfKept(const std::vector<ChannelShares> &shares) co
 ProjectionImage LayerSet::render(const Camera &camera, const ImageDefinition &image,
                                  const shading::Shading &shading,
                                  const std::vector<ChannelShares> &shares, FrameTimes *times) {
-    assert(!shading.isLit());
     const bool sameView =
         m_kept && m_kept->camera == camera && m_kept->image == image && m_kept->shading == shading;
     if (!sameView) {

@@ -36,9 +36,9 @@ public:
     std::size_t count() const { return m_engine->fieldCount(); }
     std::size_t bytes() const { return m_engine->bytes(); }
 
-    /// Not safe to call from two threads at once. Without light, which is not linear in the layers:
-    /// the gradient of a sum is not as long as the sum of the gradients. *Shape*: shares, one each
-    /// layer. *Throws* Error{outOfMemory}.
+    /// Not safe to call from two threads at once. Lights do not shine on layers, which light is not
+    /// linear in: the gradient of a sum is not as long as the sum of the gradients. *Shape*:
+    /// shares, one each layer. *Throws* Error{outOfMemory}.
     ProjectionImage render(const Camera &camera, const ImageDefinition &image,
                            const shading::Shading &shading,
                            const std::vector<ChannelShares> &shares, FrameTimes *times = nullptr);

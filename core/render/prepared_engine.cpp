@@ -66,11 +66,11 @@ FittingPlan planWithin(const Scene &scene, const ShadedFields &shaded,
                 lost = std::max(lost, lostDetail(field, reduced.back()));
             }
             // The gradient of the means, so that no sample turns darker than black.
-            ShadedFields coarse =
-                shadedFields(std::move(reduced), scene.shading, shaded.scale, progress);
+            ShadedFields coarse = shadedFields(std::move(reduced), scene.shading, shaded.scale);
             for (const auto *const samples : {&coarse.fields, &coarse.gradients})
                 for (const classify::DensityField &field : *samples)
                     held += field.values.bytes();
+            // A gradient over longer ways has less energy; a low pass leaves out no more than that.
             for (std::size_t g = 0; g < coarse.gradients.size(); ++g)
                 lost = std::max(lost, lostDetail(shaded.gradients[g], coarse.gradients[g]));
             if (held >= budget.bytes)
@@ -128,8 +128,10 @@ PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fi
         fields.channels, scene.shading,
         scale.value_or(shading::shadingScale(fields.channels.front().values.lattice())),
         progress.part(0.0, 0.1));
-    FittingPlan fitting =
-        planWithin(scene, shaded, summarise(shaded, scene.shading.cue), budget, progress);
+    const std::size_t light = bytesForLight(
+        scene.shading, fields.channels.front().values.lattice().size(), fields.channels.size());
+    FittingPlan fitting = planWithin(scene, shaded, summarise(shaded, scene.shading.cue),
+                                     {budget.bytes > light ? budget.bytes - light : 0}, progress);
     auto engine = makeEngine(fitting.reduced ? *fitting.reduced : shaded, fields.color,
                              fitting.plan, progress.part(0.1, 1.0));
     const std::size_t bytes = engine->bytes();
@@ -140,7 +142,9 @@ PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fi
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
     auto engine = static_cast<const CpuEngine &>(*prepared.engine).withoutLight();
     const std::size_t bytes = engine->bytes();
-    return {std::move(engine), prepared.plan, bytes, false};
+    RenderPlan plan = prepared.plan;
+    plan.bytes -= prepared.bytes - bytes;
+    return {std::move(engine), std::move(plan), bytes, false};
 }
 
 } // namespace pellucid::render

@@ -50,7 +50,8 @@ PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fi
                              const Budget &budget, const task::Progress &progress = {},
                              const std::optional<shading::ShadingScale> &scale = std::nullopt);
 
-/// The same engine after the lights went out. *Shape*: one that prepareEngine made.
+/// The same engine after the lights went out; its error is what it was with them, at most. *Shape*:
+/// one that prepareEngine made.
 PreparedEngine withoutLight(const PreparedEngine &prepared);
 
 } // namespace pellucid::render

@@ -62,7 +62,7 @@ std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fiel
     std::vector<FieldSummary> summaries;
     for (const classify::DensityField &field : fields)
         summaries.push_back(
-            {field.values.lattice(), box, energyMarginals(field.values, box), std::nullopt});
+            {field.values.lattice(), box, energyMarginals(field.values, box), {}, {}});
     return summaries;
 }
 
@@ -254,11 +254,24 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
         return fourier::SpectrumLayout{
             {i.kernel, j.kernel, k.kernel}, field.support, {i.padded, j.padded, k.padded}, storage};
     };
+    // The worst of the fields.
+    const auto weightOf = [&](const fourier::SpectrumLayout &layout) {
+        CueWeight worst;
+        for (const FieldSummary &one : fields) {
+            const CueWeight weight =
+                cueWeight(cue, one.lattice, one.depthRadiusMm.value_or(one.lattice.radiusMm()),
+                          layout, one.energy);
+            worst.ghosts = std::max(worst.ghosts, weight.ghosts);
+            for (std::size_t d = 0; d < worst.moments.size(); ++d)
+                worst.moments[d] = std::max(worst.moments[d], weight.moments[d]);
+        }
+        return worst;
+    };
     const auto predict = [&](const fourier::SpectrumLayout &layout,
                              const std::array<AxisError, 3> &errors, const PlannedGrid &grid) {
         return predictRelativeError(errors, layout.storage,
                                     imageShare(scene.camera, field, layout, grid),
-                                    cueWeight(cue, field.lattice, layout, field.energy.axis));
+                                    weightOf(layout));
     };
     // Kernels that no padding makes good enough are left out at first: making one takes
     // milliseconds.
@@ -302,9 +315,7 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
                         layout,
                         planned.room,
                         predicted,
-                        predictMaximum(errors, storage,
-                                       cueWeight(cue, field.lattice, layout, field.energy.axis)) +
-                            planned.folded,
+                        predictMaximum(errors, storage, weightOf(layout)) + planned.folded,
                         bytes,
                         {}};
                     if (meets)

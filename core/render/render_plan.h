@@ -23,6 +23,8 @@ struct FieldSummary {
     EnergyMarginals energy;
     /// For linear cues; without it the field is taken for noise.
     std::optional<std::array<SlabProducts, 3>> slabs;
+    /// What the depth of a cue is measured by; the lattice's own radius if absent.
+    std::optional<double> depthRadiusMm;
 };
 
 FieldSummary summarise(const classify::DensityField &field);

@@ -25,9 +25,10 @@ ShadedFields shadedFields(std::vector<classify::DensityField> fields,
     return result;
 }
 
-std::size_t bytesForLight(const shading::Shading &shading, std::size_t samples,
+std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSize &size,
                           std::size_t channels) {
-    return shading.isLit() ? 2 * channels * samples * sizeof(float) : 0;
+    const volume::GridSize larger{size.i + 2, size.j + 2, size.k + 2};
+    return shading.isLit() ? 2 * channels * larger.count() * sizeof(float) : 0;
 }
 
 std::vector<FieldSummary> summarise(const ShadedFields &fields, const shading::DepthCue &cue) {
@@ -37,6 +38,8 @@ std::vector<FieldSummary> summarise(const ShadedFields &fields, const shading::D
     if (cue.isActive() && cue.kind == shading::CueKind::linear)
         for (std::size_t n = 0; n < all.size(); ++n)
             summaries[n].slabs = slabProducts(all[n].values, summaries[n].support);
+    for (FieldSummary &summary : summaries)
+        summary.depthRadiusMm = fields.scale.radiusMm;
     return summaries;
 }
 

@@ -24,7 +24,7 @@ ShadedFields shadedFields(std::vector<classify::DensityField> fields,
                           const task::Progress &progress = {});
 
 /// Bytes held at once while they are made, beside the fields, at most.
-std::size_t bytesForLight(const shading::Shading &shading, std::size_t samples,
+std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSize &size,
                           std::size_t channels);
 
 /// Of fields, then gradients, with what the plan of a scene with this cue needs.

@@ -53,23 +53,28 @@ bool DepthCue::isActive() const {
              std::all_of(curve.begin(), curve.end(), [](double c) { return c == 1.0; }));
 }
 
-double DepthCue::at(double t) const {
-    switch (kind) {
+std::function<double(double)> cueFunction(const DepthCue &cue) {
+    const double strength = cue.strength;
+    switch (cue.kind) {
     case CueKind::none:
         break;
     case CueKind::linear:
-        return 1.0 + strength * t;
+        return [strength](double t) { return 1.0 + strength * t; };
     case CueKind::sine:
-        return 1.0 + strength * std::sin(0.5 * pi * t);
-    case CueKind::curve: {
-        const std::vector<double> cosines = cosinesOf(curve);
-        double sum = 0.0;
-        for (std::size_t k = 0; k < cosines.size(); ++k)
-            sum += cosines[k] * std::cos(double(k) * pi * 0.5 * (t + 1.0));
-        return 1.0 + strength * (sum - 1.0);
+        return [strength](double t) { return 1.0 + strength * std::sin(0.5 * pi * t); };
+    case CueKind::curve:
+        return [strength, cosines = cosinesOf(cue.curve)](double t) {
+            double sum = 0.0;
+            for (std::size_t k = 0; k < cosines.size(); ++k)
+                sum += cosines[k] * std::cos(double(k) * pi * 0.5 * (t + 1.0));
+            return 1.0 + strength * (sum - 1.0);
+        };
     }
-    }
-    return 1.0;
+    return [](double) { return 1.0; };
+}
+
+double DepthCue::at(double t) const {
+    return cueFunction(*this)(t);
 }
 
 std::vector<double> cosinesOf(const std::vector<double> &values) {
@@ -86,6 +91,10 @@ std::vector<double> cosinesOf(const std::vector<double> &values) {
             cosines[std::size_t(k)] = 0.0;
     }
     return cosines;
+}
+
+bool Shading::isPlain() const {
+    return !cue.isActive() && ambient == 1.0 && !isLit();
 }
 
 bool Shading::isLit() const {
@@ -117,7 +126,8 @@ void validate(const Shading &shading) {
     require(shading.lights.size() <= mostLights, fmt::format("more than {} lights", mostLights));
     for (const Light &light : shading.lights) {
         const double length = glm::length(light.direction);
-        require(std::isfinite(length) && length > 1e-12, "the direction of a light must not be 0");
+        require(std::isfinite(length) && length > 1e-12,
+                "the direction of a light must not be 0, nor beyond all numbers");
         require(light.strength >= 0.0 && light.strength <= 1.0,
                 "the strength of a light must be within 0 to 1");
         for (const double c : {light.color.red, light.color.green, light.color.blue})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,14 +31,18 @@ struct DepthCue {
 
     /// Whether it changes anything.
     bool isActive() const;
+    /// d at a depth, which may lie beyond the volume.
     double at(double t) const;
 };
+
+/// DepthCue::at made ready for many depths.
+std::function<double(double t)> cueFunction(const DepthCue &cue);
 
 /// Of a curve's values, 0 to 2: as many slices as twice their number cost what they cost.
 inline constexpr std::size_t fewestCurveValues = 2, mostCurveValues = 8;
 inline constexpr double largestCurveValue = 2.0;
 
-/// The coefficients c_k of the cosines through the values of a curve.
+/// The coefficients c_k of the cosines through the values of a curve. *Shape*: two values or more.
 std::vector<double> cosinesOf(const std::vector<double> &values);
 
 /// What a light's direction is fixed to.
@@ -69,6 +74,8 @@ struct Shading {
     std::vector<Light> lights;
     bool operator==(const Shading &) const = default;
 
+    /// Whether the fields are shown as they are.
+    bool isPlain() const;
     /// Whether a light shines: the |g| of the fields is needed.
     bool isLit() const;
     /// Whether all lights are grey: a grey field gives a grey picture.

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/classify/json_values.h"
+#include "core/classify/json_values_nlohmann.h"
 #include "core/shading/shading.h"
 #include "core/task/error.h"
 

@@ -70,26 +70,4 @@ SliceShading sliceShading(const Shading &shading, const glm::dmat3 &axes,
     return result;
 }
 
-double cueRms(const DepthCue &cue) {
-    if (!cue.isActive())
-        return 1.0;
-    switch (cue.kind) {
-    case CueKind::none:
-        break;
-    case CueKind::linear:
-        return std::sqrt(1.0 + cue.strength * cue.strength / 3.0);
-    case CueKind::sine:
-        return std::sqrt(1.0 + 0.5 * cue.strength * cue.strength);
-    case CueKind::curve: {
-        const std::vector<double> cosines = cosinesOf(cue.curve);
-        const double mean = 1.0 + cue.strength * (cosines.front() - 1.0);
-        double sum = mean * mean;
-        for (std::size_t k = 1; k < cosines.size(); ++k)
-            sum += 0.5 * cue.strength * cue.strength * cosines[k] * cosines[k];
-        return std::sqrt(sum);
-    }
-    }
-    return 1.0;
-}
-
 } // namespace pellucid::shading

@@ -18,6 +18,7 @@ struct ShadingScale {
     double radiusMm = 1.0; ///< R, see Lattice::radiusMm
     double stepMm = 1.0;   ///< the shortest step
 };
+/// Of a volume's own lattice.
 ShadingScale shadingScale(const volume::Lattice &lattice);
 
 /// The shading of one view, as what is done to slices of the spectra of f and of |g|:
@@ -46,13 +47,8 @@ struct SliceShading {
     bool isGrey() const;
 };
 
-/// *Shape*: axes are [U V W] of the camera.
+/// The shading as seen by a camera. *Shape*: axes are its [U V W].
 SliceShading sliceShading(const Shading &shading, const glm::dmat3 &axes,
                           const ShadingScale &scale);
-
-/// The root mean square of d over all depths, far beyond the volume too, where ghosts lie: what the
-/// ghosts of the field are weighed with. Of a linear cue, whose own ghosts are counted apart, over
-/// the depths of the volume.
-double cueRms(const DepthCue &cue);
 
 } // namespace pellucid::shading

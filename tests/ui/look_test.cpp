@@ -312,8 +312,13 @@ private slots:
         QCOMPARE(shading().lights[0].frame, shading::LightFrame::viewer);
         settle();
         // Weights move under light, too: the picture follows in small and comes in full.
-        QTest::keyClick(find<ui::CurveEditor>("curveEditor"), Qt::Key_Up);
+        const QImage beforeWeight = projection()->picture();
+        for (int n = 0; n < 12; ++n)
+            QTest::keyClick(find<ui::CurveEditor>("curveEditor"), Qt::Key_Up);
         settle();
+        QVERIFY(changed(beforeWeight, projection()->picture()) > 0.0);
+        for (int n = 1; n < 12; ++n)
+            find<QAction>("undoAction")->trigger();
         find<QAction>("undoAction")->trigger();
         settle();
         // Three colours make colour; what is saved as a look has its lights.

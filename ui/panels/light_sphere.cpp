@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -16,8 +17,8 @@ namespace pellucid::ui {
 namespace {
 
 // Of the widget's half side: around the sphere is room for lights behind it.
-constexpr double sphereShare = 0.74;
-// How far beyond the rim a handle can be, in radii: a light nearly straight behind.
+constexpr double sphereShare = 0.64;
+// How far from the middle a handle can be, in radii: a light straight behind.
 constexpr double farthest = 1.3;
 constexpr double grabPixels = 9.0;
 constexpr double degreesPerKey = 5.0;
@@ -34,6 +35,8 @@ LightSphere::LightSphere(const Theme &theme, QWidget *parent) : QWidget(parent),
 
 void LightSphere::setLights(const std::vector<shading::Light> &lights, double ambient,
                             int selected) {
+    if (lights != m_lights || ambient != m_ambient)
+        m_sphere = {};
     m_lights = lights;
     m_ambient = ambient;
     m_selected = selected;
@@ -44,29 +47,30 @@ double LightSphere::radius() const {
     return 0.5 * sphereShare * std::min(width(), height());
 }
 
-// At radius r from the middle the direction leaves the viewer's by asin r; beyond the rim, at
-// 2 - r, from behind.
+// On the sphere a handle lies where its light's pole is; from the rim to `farthest` the angle to
+// the viewer grows from a right one to a straight one.
 QPointF LightSphere::handleAt(int index) const {
     const glm::dvec3 d = glm::normalize(m_lights[std::size_t(index)].direction);
     const double across = std::hypot(d.x, d.y);
-    double shown = across;
-    if (d.z < 0.0)
-        shown = std::min(farthest, 2.0 - across);
-    const double scale = across > 1e-9 ? shown / across : 0.0;
-    return QPointF(0.5 * width() + radius() * scale * d.x, 0.5 * height() - radius() * scale * d.y);
+    const double beyond = std::atan2(-d.z, across) / (0.5 * std::numbers::pi); // of a right angle
+    const double shown = d.z < 0.0 ? 1.0 + beyond * (farthest - 1.0) : across;
+    // A light straight behind is nowhere on the rim: it is drawn above.
+    const double x = across > 1e-9 ? d.x / across : 0.0, y = across > 1e-9 ? d.y / across : 1.0;
+    return QPointF(0.5 * width() + radius() * shown * x, 0.5 * height() - radius() * shown * y);
 }
 
 glm::dvec3 LightSphere::directionAt(const QPointF &point) const {
     const double x = (point.x() - 0.5 * width()) / radius(),
                  y = (0.5 * height() - point.y()) / radius();
-    const double shown = std::min(std::hypot(x, y), farthest);
-    const double across = shown <= 1.0 ? shown : 2.0 - shown;
-    const double scale = shown > 1e-9 ? across / std::hypot(x, y) : 0.0;
-    const double toward = std::sqrt(std::max(0.0, 1.0 - across * across));
-    return {scale * x, scale * y, shown <= 1.0 ? toward : -toward};
+    const double distance = std::hypot(x, y);
+    if (distance <= 1.0)
+        return {x, y, std::sqrt(1.0 - distance * distance)};
+    const double beyond = std::min(1.0, (distance - 1.0) / (farthest - 1.0));
+    const double angle = 0.5 * std::numbers::pi * beyond, across = std::cos(angle) / distance;
+    return {across * x, across * y, -std::sin(angle)};
 }
 
-QImage LightSphere::sphere() const {
+QImage LightSphere::drawnSphere() const {
     const double ratio = devicePixelRatioF();
     const int side = int(std::ceil(2.0 * radius() * ratio));
     QImage image(side, side, QImage::Format_ARGB32_Premultiplied);
@@ -95,8 +99,9 @@ QImage LightSphere::sphere() const {
             const auto level = [](double l) { return int(std::lround(230.0 * std::min(1.0, l))); };
             // The rim is smoothed over a pixel.
             const double cover = std::clamp((1.0 - std::sqrt(r)) * 0.5 * side, 0.0, 1.0);
-            image.setPixelColor(column, row, QColor(level(light.x), level(light.y), level(light.z),
-                                                    int(255.0 * cover)));
+            image.setPixelColor(
+                column, row,
+                QColor(level(light.x), level(light.y), level(light.z), int(255.0 * cover)));
         }
     image.setDevicePixelRatio(ratio);
     return image;
@@ -106,7 +111,9 @@ void LightSphere::paintEvent(QPaintEvent *) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setOpacity(isEnabled() ? 1.0 : 0.4);
-    painter.drawImage(QPointF(0.5 * width() - radius(), 0.5 * height() - radius()), sphere());
+    if (m_sphere.isNull() || m_sphere.devicePixelRatio() != devicePixelRatioF())
+        m_sphere = drawnSphere();
+    painter.drawImage(QPointF(0.5 * width() - radius(), 0.5 * height() - radius()), m_sphere);
     painter.setBrush(Qt::NoBrush);
     for (int n = 0; n < int(m_lights.size()); ++n) {
         const QPointF at = handleAt(n);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <QImage>
 #include <QWidget>
 
 #include <glm/vec3.hpp>
@@ -41,12 +42,13 @@ protected:
 private:
     double radius() const;
     glm::dvec3 directionAt(const QPointF &point) const;
-    QImage sphere() const;
+    QImage drawnSphere() const;
 
     Theme m_theme;
     std::vector<shading::Light> m_lights;
     double m_ambient = 1.0;
     int m_selected = -1;
+    QImage m_sphere; ///< of these lights; null: to be drawn
     DragId m_drag = 0;
 };
 

@@ -47,9 +47,11 @@ QIcon colorIcon(const classify::Color &color) {
     return QIcon(pixmap);
 }
 
-// The first light comes from the upper left; each further one is a third of a turn away.
+// The first light comes from the upper left; each further one is a third of a turn away, and the
+// next three lie between them.
 Light newLight(std::size_t count) {
-    const double turn = 2.0 * std::numbers::pi * (0.35 + double(count) / 3.0);
+    const double turn =
+        2.0 * std::numbers::pi * (0.35 + double(count % 3) / 3.0 + double(count / 3) / 9.0);
     return {{0.75 * std::cos(turn), 0.75 * std::sin(turn), 0.66}, {}, usualLight};
 }
 
@@ -211,6 +213,7 @@ void ShadingPanel::showScene() {
         widget->setEnabled(index >= 0);
     m_color->setVisible(index >= 0);
     m_remove->setVisible(index >= 0);
+    m_follows->setVisible(index >= 0);
     m_add->setEnabled(shading.lights.size() < shading::mostLights);
     const Light light = index >= 0 ? shading.lights[std::size_t(index)] : Light{.strength = 0.0};
     m_light->setValue(light.strength);
@@ -238,8 +241,16 @@ void ShadingPanel::chooseCue(int index) {
 }
 
 void ShadingPanel::toggleCue() {
-    change(tr("Depth cue"), 0, [](Shading &s) {
-        s.cue.kind = s.cue.kind == CueKind::none ? CueKind::linear : CueKind::none;
+    change(tr("Depth cue"), 0, [this](Shading &s) {
+        if (s.cue.isActive()) {
+            m_lastCue = s.cue.kind;
+            s.cue.kind = CueKind::none;
+            return;
+        }
+        if (s.cue.kind == CueKind::none)
+            s.cue.kind = m_lastCue;
+        if (s.cue.strength == 0.0)
+            s.cue.strength = usualCue;
     });
 }
 

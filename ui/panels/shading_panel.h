@@ -55,6 +55,7 @@ private:
     QPushButton *m_reset, *m_add, *m_remove, *m_color;
     QCheckBox *m_follows;
     int m_selected = 0;
+    shading::CueKind m_lastCue = shading::CueKind::linear; ///< what was switched off
 };
 
 } // namespace pellucid::ui

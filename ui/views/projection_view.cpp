@@ -67,6 +67,7 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         m_engine.reset();
         m_worker.setEngine(nullptr, ++m_generation);
         m_frame.reset();
+        m_drawnShading = {};
         m_automaticTone.reset();
         m_message = m_document.volume() ? tr("Preparing the projection") : QString();
         m_canvas->setImage({});
@@ -76,6 +77,12 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
     });
     connect(&document, &Document::cameraChanged, this, [this] { m_overlay->update(); });
     connect(&document, &Document::sceneChanged, this, [this] {
+        // Another number of lights or kind of cue has a brightness of its own; what the hand drags
+        // keeps it.
+        const shading::Shading &shading = m_document.scene().shading;
+        if (shading.lights.size() != m_drawnShading.lights.size() ||
+            shading.cue.kind != m_drawnShading.cue.kind)
+            m_automaticTone.reset();
         updateTone();
         requestFrame(false);
         m_overlay->update();
@@ -91,6 +98,7 @@ void ProjectionView::setEngine(const render::PreparedEngine &prepared, EngineSta
     const auto &engine = prepared.engine;
     m_engine = engine;
     m_takesLight = prepared.takesLight;
+    m_planHolds = true;
     m_predictedError = prepared.plan.predictedError;
     m_message.clear();
     // Weights that move change the brightness, and are meant to; another field, or the fine one
@@ -140,6 +148,11 @@ void ProjectionView::retakeTone() {
     requestFrame(false);
 }
 
+void ProjectionView::setPlanHolds(bool holds) {
+    m_planHolds = holds;
+    m_overlay->update();
+}
+
 void ProjectionView::setMessage(const QString &message) {
     m_message = message;
     m_overlay->update();
@@ -187,8 +200,9 @@ void ProjectionView::requestFrame(bool moving) {
     m_pending = true;
     const double finest = m_document.volume()->lattice().shortestStepMm() / samplesPerPixel;
     shading::Shading shading = m_document.scene().shading;
-    if (!m_takesLight) // it is being prepared
-        shading.lights.clear();
+    if (shading.isLit() && !m_takesLight) // it is being prepared: all stays as it is till then
+        shading = m_drawnShading;
+    m_drawnShading = shading;
     m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
                                    {.draft = draft, .finestPixelMm = finest});
     if (moving)
@@ -385,8 +399,9 @@ void ProjectionView::paintOverlay(QPainter &painter) {
     if (!m_frame)
         return;
     const QString quality = m_stage == EngineStage::coarse ? tr("coarse")
-                            : m_stage == EngineStage::live
-                                ? tr("live")
+                            : m_stage == EngineStage::live ? tr("live")
+                            : !m_planHolds
+                                ? tr("error not known yet")
                                 : tr("error %1 %").arg(100.0 * m_predictedError, 0, 'f', 3);
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop,
              QString("CPU  %1 ms  %2")

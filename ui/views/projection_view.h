@@ -28,6 +28,8 @@ public:
     void setEngine(const render::PreparedEngine &prepared, EngineStage stage);
     /// The name of the look, shown below the pane's.
     void setLookName(const QString &name);
+    /// Whether the engine's predicted error is that of what is shown.
+    void setPlanHolds(bool holds);
     /// Takes the brightness anew from the next frame.
     void retakeTone();
     void setMessage(const QString &message);
@@ -84,9 +86,10 @@ private:
     std::shared_ptr<const RenderedFrame> m_frame;
     std::optional<render::ToneRange> m_automaticTone;
     QString m_message, m_lookName;
+    shading::Shading m_drawnShading; ///< of the last frame that was asked for
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
     EngineStage m_stage = EngineStage::coarse;
-    bool m_pending = false, m_takesLight = false;
+    bool m_pending = false, m_takesLight = false, m_planHolds = true;
     std::uint64_t m_requested = 0, m_generation = 0;
     Qt::MouseButton m_button = Qt::NoButton;
     DragId m_drag = 0;

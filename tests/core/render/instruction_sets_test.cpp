@@ -56,7 +56,7 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     const double cuedError =
         test::relativeL2(engine.render(camera, {}, {.cue = cue}).samples, exactCued);
     const double predictedCued = render::predictRelativeError(
-        axes, storage, {}, render::cueWeight(cue, lattice, layout, energy.axis));
+        axes, storage, {}, render::cueWeight(cue, lattice, lattice.radiusMm(), layout, energy));
     EXPECT_LT(cuedError, std::hypot(predictedCued, room.foldedTails)) << predictedCued;
 }
 

@@ -188,8 +188,8 @@ TEST(Shading, TheCorrectionOfCueAndLightMatters) {
 }
 
 // Invariants: a cue from behind undoes the cue, mirrored; lights from opposite sides leave no
-// gradient; what is off costs and changes nothing. Linear to the rounding of binary16, 3e-4; of
-// noise with a mean, so that nothing is small by chance.
+// gradient; what is off costs and changes nothing. Each picture is within its tolerance of the
+// exact ones, of which the invariants hold.
 TEST(Shading, CuesFromBothSidesAddUpToTwiceThePlainImage) {
     for (const DepthCue &cue : {linear, sine}) {
         Subject subject(headField(), {.cue = cue}, 1e-4);
@@ -241,7 +241,6 @@ TEST(Shading, WhatIsOffChangesNothingAndPreparesNothing) {
     EXPECT_EQ(off.prepared.bytes, plain.prepared.bytes);
     EXPECT_EQ(off.image(someViews().front()).samples, expected);
     Subject lit(headField(), {.lights = {across}});
-    EXPECT_EQ(lit.prepared.bytes % 2, 0U);
     EXPECT_TRUE(lit.prepared.takesLight);
     const auto out = render::withoutLight(lit.prepared);
     EXPECT_EQ(2 * out.bytes, lit.prepared.bytes);
@@ -293,6 +292,12 @@ TEST(Shading, ColoredLightsShineOnColoredTissue) {
             EXPECT_LE(test::relativeL2(channelOf(image, channel), truth), 1.1e-3);
         }
     }
+    // Colours that add up to white are colours still: the picture's shape does not hang on chance.
+    Subject white(headField(),
+                  {.lights = {{{1, 0, 0}, {1.0, 0.0, 0.0}}, {{1, 0, 0}, {0.0, 1.0, 1.0}}}});
+    const auto whiteImage = white.image(someViews().front());
+    ASSERT_EQ(whiteImage.channels, 3);
+    EXPECT_EQ(channelOf(whiteImage, 0), channelOf(whiteImage, 2));
     // Grey light leaves a grey field grey.
     Subject grey(headField(), {.lights = {across}});
     EXPECT_EQ(grey.image(someViews().front()).channels, 1);
@@ -331,14 +336,14 @@ TEST(Shading, EqualsTheSpatialFormsOfTheThesis) {
                 ofDepth[3].push_back(float(f));
                 ofNormal[3].push_back(float(glm::length(g)));
             }
-    const auto combined = [&](std::array<std::vector<float>, 4> &volumes, const glm::dvec3 &along,
-                              double half) {
+    const auto combined = [&](std::array<std::vector<float>, 4> &volumes,
+                              const glm::dvec3 &direction, double half) {
         std::vector<double> sum;
         for (std::size_t v = 0; v < volumes.size(); ++v) {
             const auto image =
                 cued.exactImage(classify::fieldOf(larger.values, std::move(volumes[v])));
-            const double weight =
-                v < 3 ? along[glm::length_t(v)] : half * (1.0 - along.x - along.y - along.z);
+            const double weight = v < 3 ? direction[glm::length_t(v)]
+                                        : half * (1.0 - direction.x - direction.y - direction.z);
             sum.resize(image.size());
             for (std::size_t n = 0; n < image.size(); ++n)
                 sum[n] += weight * image[n];
@@ -379,7 +384,9 @@ TEST(Shading, HardFieldsKeepTheTolerance) {
 TEST(Shading, AReducedVolumeIsShadedAlike) {
     Subject subject(headField(), {.cue = linear, .ambient = 0.2, .lights = {oblique}});
     const auto reduced =
-        render::prepareEngine(subject.scene, subject.fields, {subject.prepared.plan.bytes / 3});
+        render::prepareEngine(subject.scene, subject.fields,
+                              {subject.prepared.plan.bytes / 3 +
+                               render::bytesForLight(subject.scene.shading, {72, 70, 40}, 1)});
     ASSERT_LT(reduced.bytes, subject.prepared.bytes / 2);
     const auto fine = subject.image(someViews().front()).samples;
     const auto coarse =

@@ -8,6 +8,9 @@
 
 namespace pellucid::classify {
 
+/// For the *_nlohmann.cpp of this folder and of those that build on it; the only header that names
+/// the library, so that it is not written twice.
+///
 /// Values read from JSON that somebody may have written by hand. `where` is the JSON pointer of the
 /// value; the reason of the Error{usage} that they throw begins with it and a colon.
 [[noreturn]] void refuseJson(const std::string &where, const std::string &what);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/render/cpu_engine.h"
+#include "core/render/frame_job.h"
+
+namespace pellucid::render {
+
+/// The spectra that have a share of a picture, how many sums are made of them, and how many images.
+/// Without sources nothing is shown.
+struct Mixing {
+    /// `greyLight`: no light has a colour, whatever the lights add up to.
+    Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &shares,
+           const shading::SliceShading &shading, bool greyLight);
+
+    std::vector<FrameSource> sources;
+    bool grey; ///< the picture has one channel
+    int sums = 1, channels = 1;
+    double unit = 1.0;                  ///< of the sums
+    ChannelShares color{1.0, 1.0, 1.0}; ///< of a single source
+    /// What the sums are at frequency 0, and their first moments in samples from the wrap voxel.
+    struct Mass {
+        double value = 0.0;
+        glm::dvec3 moments{0.0};
+    };
+    std::array<std::array<Mass, 3>, 2> mass; ///< by kind and sum
+
+private:
+    void add(const fourier::Spectrum &spectrum, FrameKind kind, const ChannelShares &share);
+};
+
+/// A picture's shading in terms of cells and sums, but for the moment kernels. *Shape*: toWrap from
+/// the centre of rotation to the wrap voxel, mm; toViewer is W.
+FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mixing,
+                          const fourier::Spectrum &spectrum, const glm::dvec3 &toWrap,
+                          const glm::dvec3 &toViewer, double stepMm);
+
+} // namespace pellucid::render
