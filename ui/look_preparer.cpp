@@ -327,9 +327,11 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
                     m_shown.reset();
                 }
                 adopt(wanted, prepared);
-                // Of a small volume the first picture is the last.
-                if (PreparedFor(m_document) != wanted)
-                    followScene();
+                // Of a small volume the first picture is the last. What was waited for meanwhile is
+                // a look of its own, with its own brightness.
+                if (m_document.volume() && !m_document.isPreview() && !m_held &&
+                    PreparedFor(m_document) != wanted)
+                    startPreparing(true);
             });
         };
         // First of a small volume, on which steps take no time.
