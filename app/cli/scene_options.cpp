@@ -190,7 +190,8 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->check(notEmpty);
     command
         .add_option("--light", options.lights,
-                    "u,v,w[:#rrggbb[:S]]: a light of strength S, 0 to 1, from that direction (right, up, toward the "
+                    "u,v,w[:#rrggbb[:S]]: a light of strength S, 0 to 1, from that direction "
+                    "(right, up, toward the "
                     "viewer); repeat it")
         ->allow_extra_args(false);
     command
