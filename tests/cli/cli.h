@@ -62,6 +62,16 @@ protected:
         EXPECT_EQ(r.exitCode, 0) << r.error;
         return path;
     }
+    // A grey picture of a series, as numbers.
+    std::vector<float> picture(const fs::path &series, const std::string &options) {
+        const fs::path out = folder / "picture.npy";
+        const auto r = cli("render " + quoted(series) + " -o " + quoted(out) + " " + options);
+        EXPECT_EQ(r.exitCode, 0) << r.error;
+        int height = 0, width = 0;
+        auto samples = readNpy(out, height, width);
+        EXPECT_FALSE(samples.empty());
+        return samples;
+    }
 
 private:
     int m_count = 0;

@@ -118,20 +118,11 @@ TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
 
 TEST_F(Cli, APresetMakesThePictureThatItsClassesMake) {
     const fs::path series = phantomFolder("--kind head --size 56x56x40");
-    const auto picture = [&](const std::string &options, const char *name) {
-        const fs::path out = folder / name;
-        const auto r = cli("render " + quoted(series) + " -o " + quoted(out) + " " + options);
-        EXPECT_EQ(r.exitCode, 0) << r.error;
-        int height = 0, width = 0;
-        const auto samples = readNpy(out, height, width);
-        EXPECT_FALSE(samples.empty());
-        return samples;
-    };
     std::ofstream(folder / "p.json")
         << R"({"schema": "pellucid-preset/1", "name": "p", "window": [-900, 2000], "classes": [)"
         << R"({"name": "Bone", "range": [250, 2500], "softness": 150, "weight": 0.7}]})";
-    EXPECT_EQ(picture("--preset " + quoted(folder / "p.json"), "preset.npy"),
-              picture("--class bone=0.7", "class.npy"));
+    EXPECT_EQ(picture(series, "--preset " + quoted(folder / "p.json")),
+              picture(series, "--class bone=0.7"));
     const auto unknown = cli("render " + quoted(series) + " -o x.png --preset Bonee");
     EXPECT_EQ(unknown.exitCode, 2);
     EXPECT_EQ(cli("render " + quoted(series) + " -o x.png --preset /nowhere/x.json").exitCode, 3);
@@ -230,15 +221,6 @@ TEST_F(Cli, LightsFollowTheViewerOrThePatientThroughATurntable) {
 
 TEST_F(Cli, SceneAndPresetCarryCueAndLights) {
     const fs::path series = phantomFolder("--kind sphere --size 32x32x32");
-    const auto picture = [&](const std::string &options) {
-        const fs::path out = folder / "x.npy";
-        const auto r = cli("render " + quoted(series) + " -o " + quoted(out) + " " + options);
-        EXPECT_EQ(r.exitCode, 0) << r.error;
-        int height = 0, width = 0;
-        const auto samples = readNpy(out, height, width);
-        EXPECT_FALSE(samples.empty());
-        return samples;
-    };
     const std::string shading = R"("cue": {"kind": "linear", "strength": 0.5}, "ambient": 0.25,
         "lights": [{"direction": [-1, 1, 0.5], "strength": 0.9}])";
     const std::string options =
@@ -246,18 +228,19 @@ TEST_F(Cli, SceneAndPresetCarryCueAndLights) {
     std::ofstream(folder / "p.json") << R"({"schema": "pellucid-preset/1", "name": "p",
         "window": [-900, 2000], )" << shading
                                      << "}";
-    const auto expected = picture(options);
-    EXPECT_EQ(picture("--preset " + quoted(folder / "p.json")), expected);
+    const auto expected = picture(series, options);
+    EXPECT_EQ(picture(series, "--preset " + quoted(folder / "p.json")), expected);
     // An option takes the place of what the preset says.
-    EXPECT_EQ(picture("--preset " + quoted(folder / "p.json") + " --depth-cue none --ambient 1"),
-              picture("--light -1,1,0.5:#ffffff:0.9"));
+    EXPECT_EQ(
+        picture(series, "--preset " + quoted(folder / "p.json") + " --depth-cue none --ambient 1"),
+        picture(series, "--light -1,1,0.5:#ffffff:0.9"));
     render::Scene scene;
     const auto catalogue = dicom::scan({series});
     scene.camera = render::defaultCamera(
         dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume.lattice());
     scene.shading = shading::shadingFromJson("{" + shading + "}");
     std::ofstream(folder / "s.json") << render::toJson(scene);
-    EXPECT_EQ(picture("--scene " + quoted(folder / "s.json")), expected);
+    EXPECT_EQ(picture(series, "--scene " + quoted(folder / "s.json")), expected);
 }
 
 TEST_F(Cli, BadCuesAndLightsAreOneLine) {
