@@ -2,25 +2,30 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "gpu/handle.h"
 
 namespace pellucid::gpu {
 
-/// A linked program from two files below shaders/. `#include "..."` lines are replaced by the named
+/// What a shader's source is specialised by: macros and their values.
+using Defines = std::vector<std::pair<std::string, int>>;
+
+/// A linked program from files below shaders/. `#include "..."` lines are replaced by the named
 /// file. Belongs to the context that is current when it is made; move-only.
 class Program {
 public:
     /// *Throws* Error{internal} with the compiler's words, which name file and line.
     Program(const std::string &vertexFile, const std::string &fragmentFile);
-    ~Program();
-    Program(Program &&other) noexcept;
-    Program &operator=(Program &&other) noexcept;
+    /// A compute program.
+    explicit Program(const std::string &computeFile, const Defines &defines = {});
 
-    unsigned id() const { return m_id; }
+    unsigned id() const { return m_program.name(); }
     int uniform(const char *name) const;
 
 private:
-    unsigned m_id = 0;
+    ProgramName m_program;
 };
 
 /// The text of a shader with its includes in place and #line directives before each part; the part
@@ -29,6 +34,7 @@ struct ShaderText {
     std::string text;
     std::vector<std::string> files;
 };
-ShaderText assembledShader(const std::string &file);
+/// Defines come after the line with the version.
+ShaderText assembledShader(const std::string &file, const Defines &defines = {});
 
 } // namespace pellucid::gpu

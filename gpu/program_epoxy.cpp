@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gpu/program.h"
 
+#include <array>
+#include <span>
 #include <sstream>
-#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -13,7 +14,7 @@ namespace pellucid::gpu {
 
 namespace {
 
-void append(ShaderText &out, const std::string &file) {
+void append(ShaderText &out, const std::string &file, const Defines &defines) {
     const auto number = out.files.size();
     out.files.push_back(file);
     std::istringstream lines(shaderSource(file));
@@ -21,13 +22,18 @@ void append(ShaderText &out, const std::string &file) {
     for (std::string text; std::getline(lines, text);) {
         ++line;
         if (text.rfind("#include \"", 0) == 0) {
-            append(out, text.substr(10, text.rfind('"') - 10));
+            append(out, text.substr(10, text.rfind('"') - 10), {});
             out.text += "#line " + std::to_string(line + 1) + " " + std::to_string(number) + "\n";
-        } else {
-            // Nothing but comments may stand before #version.
-            if (line == 1 && number > 0)
-                out.text += "#line 1 " + std::to_string(number) + "\n";
-            out.text += text + "\n";
+            continue;
+        }
+        // Nothing but comments may stand before #version.
+        if (line == 1 && number > 0)
+            out.text += "#line 1 " + std::to_string(number) + "\n";
+        out.text += text + "\n";
+        if (line == 1 && !defines.empty()) {
+            for (const auto &[name, value] : defines)
+                out.text += "#define " + name + " " + std::to_string(value) + "\n";
+            out.text += "#line 2 " + std::to_string(number) + "\n";
         }
     }
 }
@@ -39,75 +45,64 @@ std::string fileNames(const ShaderText &shader) {
     return names;
 }
 
-unsigned compile(GLenum stage, const std::string &file) {
-    const ShaderText shader = assembledShader(file);
-    const unsigned id = glCreateShader(stage);
+ShaderName compile(GLenum stage, const std::string &file, const Defines &defines = {}) {
+    const ShaderText shader = assembledShader(file, defines);
+    ShaderName name(glCreateShader(stage));
     const char *const text = shader.text.c_str();
-    glShaderSource(id, 1, &text, nullptr);
-    glCompileShader(id);
+    glShaderSource(name.name(), 1, &text, nullptr);
+    glCompileShader(name.name());
     int good = 0;
-    glGetShaderiv(id, GL_COMPILE_STATUS, &good);
+    glGetShaderiv(name.name(), GL_COMPILE_STATUS, &good);
     if (good == 0) {
         std::string log(4096, '\0');
         int length = 0;
-        glGetShaderInfoLog(id, int(log.size()), &length, log.data());
+        glGetShaderInfoLog(name.name(), int(log.size()), &length, log.data());
         log.resize(std::size_t(length));
-        glDeleteShader(id);
         throw task::Error(task::ErrorCode::internal, "shader" + fileNames(shader) + ": " + log);
     }
-    return id;
+    return name;
+}
+
+ProgramName link(std::span<const ShaderName> shaders, const std::string &files) {
+    ProgramName program(glCreateProgram());
+    for (const ShaderName &shader : shaders)
+        glAttachShader(program.name(), shader.name());
+    glLinkProgram(program.name());
+    for (const ShaderName &shader : shaders)
+        glDetachShader(program.name(), shader.name());
+    int good = 0;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &good);
+    if (good == 0) {
+        std::string log(4096, '\0');
+        int length = 0;
+        glGetProgramInfoLog(program.name(), int(log.size()), &length, log.data());
+        log.resize(std::size_t(length));
+        throw task::Error(task::ErrorCode::internal, files + ": " + log);
+    }
+    return program;
 }
 
 } // namespace
 
-ShaderText assembledShader(const std::string &file) {
+ShaderText assembledShader(const std::string &file, const Defines &defines) {
     ShaderText shader;
-    append(shader, file);
+    append(shader, file, defines);
     return shader;
 }
 
 Program::Program(const std::string &vertexFile, const std::string &fragmentFile) {
-    const unsigned vertex = compile(GL_VERTEX_SHADER, vertexFile);
-    unsigned fragment = 0;
-    try {
-        fragment = compile(GL_FRAGMENT_SHADER, fragmentFile);
-    } catch (...) {
-        glDeleteShader(vertex);
-        throw;
-    }
-    m_id = glCreateProgram();
-    glAttachShader(m_id, vertex);
-    glAttachShader(m_id, fragment);
-    glLinkProgram(m_id);
-    glDeleteShader(vertex);
-    glDeleteShader(fragment);
-    int good = 0;
-    glGetProgramiv(m_id, GL_LINK_STATUS, &good);
-    if (good == 0) {
-        std::string log(4096, '\0');
-        int length = 0;
-        glGetProgramInfoLog(m_id, int(log.size()), &length, log.data());
-        log.resize(std::size_t(length));
-        glDeleteProgram(m_id);
-        throw task::Error(task::ErrorCode::internal,
-                          vertexFile + " with " + fragmentFile + ": " + log);
-    }
+    const std::array<ShaderName, 2> shaders{compile(GL_VERTEX_SHADER, vertexFile),
+                                            compile(GL_FRAGMENT_SHADER, fragmentFile)};
+    m_program = link(shaders, vertexFile + " with " + fragmentFile);
 }
 
-Program::~Program() {
-    if (m_id != 0)
-        glDeleteProgram(m_id);
-}
-
-Program::Program(Program &&other) noexcept : m_id(std::exchange(other.m_id, 0)) {}
-
-Program &Program::operator=(Program &&other) noexcept {
-    std::swap(m_id, other.m_id);
-    return *this;
+Program::Program(const std::string &computeFile, const Defines &defines) {
+    const std::array<ShaderName, 1> shaders{compile(GL_COMPUTE_SHADER, computeFile, defines)};
+    m_program = link(shaders, computeFile);
 }
 
 int Program::uniform(const char *name) const {
-    return glGetUniformLocation(m_id, name);
+    return glGetUniformLocation(m_program.name(), name);
 }
 
 } // namespace pellucid::gpu

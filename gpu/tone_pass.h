@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/render/compose.h"
+#include "gpu/frame_passes.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
 
@@ -13,19 +14,21 @@ class TonePass {
 public:
     /// *Throws* Error{internal} if the shaders do not compile.
     TonePass();
-    ~TonePass();
-    TonePass(const TonePass &) = delete;
-    TonePass &operator=(const TonePass &) = delete;
 
     void upload(const render::ProjectionImage &image);
     /// Stretches the last image over the viewport.
     void draw(const render::ToneRange &range, bool inverted) const;
+    /// The same of a picture that is on the card already.
+    void draw(const CardPicture &picture, const render::ToneRange &range, bool inverted) const;
 
 private:
+    void draw(unsigned texture, int layers, const std::array<float, 3> &color,
+              const render::ToneRange &range, bool inverted) const;
+
     Program m_program;
-    FloatTexture m_texture;
-    unsigned m_vertexArray = 0;
-    int m_range, m_inverted;
+    PixelTexture m_texture;
+    VertexArrayName m_vertexArray;
+    int m_range, m_inverted, m_layers, m_color;
 };
 
 } // namespace pellucid::gpu

@@ -6,29 +6,37 @@
 namespace pellucid::gpu {
 
 TonePass::TonePass()
-    : m_program("tone.vert", "tone.frag"), m_range(m_program.uniform("range")),
-      m_inverted(m_program.uniform("inverted")) {
-    // Core profiles draw nothing without a vertex array, even where no attribute is read.
-    glGenVertexArrays(1, &m_vertexArray);
-}
-
-TonePass::~TonePass() {
-    glDeleteVertexArrays(1, &m_vertexArray);
-}
+    : m_program("tone.vert", "tone.frag"), m_vertexArray(makeVertexArray()),
+      m_range(m_program.uniform("range")), m_inverted(m_program.uniform("inverted")),
+      m_layers(m_program.uniform("layers")), m_color(m_program.uniform("color")) {}
 
 void TonePass::upload(const render::ProjectionImage &image) {
     m_texture.upload(image.width, image.height, image.channels, image.samples.data());
 }
 
 void TonePass::draw(const render::ToneRange &range, bool inverted) const {
+    draw(m_texture.id(), 1, {1.0F, 1.0F, 1.0F}, range, inverted);
+}
+
+void TonePass::draw(const CardPicture &picture, const render::ToneRange &range,
+                    bool inverted) const {
+    draw(picture.texture(), picture.layers(), picture.color(), range, inverted);
+    picture.markDrawn();
+}
+
+void TonePass::draw(unsigned texture, int layers, const std::array<float, 3> &color,
+                    const render::ToneRange &range, bool inverted) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glUseProgram(m_program.id());
     glUniform2f(m_range, float(range.low), float(range.high));
     glUniform1i(m_inverted, inverted ? 1 : 0);
+    glUniform1i(m_layers, layers);
+    glUniform3fv(m_color, 1, color.data());
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, m_texture.id());
-    glBindVertexArray(m_vertexArray);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
+    // Core profiles draw nothing without a vertex array, even where no attribute is read.
+    glBindVertexArray(m_vertexArray.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);
     glUseProgram(0);

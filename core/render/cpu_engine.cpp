@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/fourier/page_memory.h"
+#include "core/render/frame_geometry.h"
 #include "core/render/frame_mixing.h"
 #include "core/task/error.h"
 #include "core/task/worker_team.h"
@@ -82,17 +82,6 @@ struct GridTables {
 struct CpuEngine::Workplace {
     explicit Workplace(int threads) : team(threads), scratch(team.slots()) {}
 
-    // A grid is sought, in a fraction of a millisecond, for each new framing only, not for each
-    // direction.
-    const SliceGrid &gridFor(const Camera &camera, const SliceRoom &around,
-                             const volume::Lattice &lattice, const ImageDefinition &image) {
-        Camera framing = camera;
-        framing.orientation = Camera().orientation;
-        if (!framed || framed->camera != framing || framed->image != image)
-            framed = Framed{framing, image, sliceGrid(camera, around, lattice, image)};
-        return framed->grid;
-    }
-
     // Makes ready for frames of a grid.
     void fit(const SliceGrid &grid, int channels, const ImageDefinition &image) {
         for (auto &kept : others)
@@ -148,27 +137,16 @@ struct CpuEngine::Workplace {
     }
 
     // Made for the first frame with a linear cue, in milliseconds.
-    const std::array<fourier::MomentKernel, 3> &
-    momentKernels(const fourier::SpectrumLayout &layout) {
-        const auto kernel = [&](int d) {
-            return fourier::MomentKernel(layout.kernels[std::size_t(d)],
-                                         double(layout.padded[d]) / layout.box.size()[d]);
-        };
+    const MomentKernels &kernelsFor(const fourier::SpectrumLayout &layout) {
         if (!moments)
-            moments.emplace(std::array{kernel(0), kernel(1), kernel(2)});
+            moments.emplace(momentKernels(layout));
         return *moments;
     }
 
-    struct Framed {
-        Camera camera; // but its orientation
-        ImageDefinition image;
-        SliceGrid grid;
-    };
-
     task::WorkerTeam team;
     std::vector<FrameScratch> scratch;
-    std::optional<Framed> framed;
-    std::optional<std::array<fourier::MomentKernel, 3>> moments;
+    FramedGrid framed;
+    std::optional<MomentKernels> moments;
     // A draft and a full frame take turns while the hand moves: their tables are kept, and a third.
     std::unique_ptr<GridTables> tables;
     std::array<std::unique_ptr<GridTables>, 2> others;
@@ -255,7 +233,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         shone.lights.clear();
     const shading::SliceShading sliceShading = shading::sliceShading(shone, axes, m_spectra.scale);
     const Mixing mixing(m_spectra, m_shares, sliceShading, shone.isGrey());
-    const SliceGrid grid = m_workplace->gridFor(camera, m_room, lattice, image);
+    const SliceGrid grid = m_workplace->framed.gridFor(camera, m_room, lattice, image);
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}, mixing.grey ? 1 : 3};
     try {
@@ -275,8 +253,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     Workplace &place = *m_workplace;
     const GridTables &tables = *place.tables;
 
-    const double du = 1.0 / (grid.columns * camera.pixelMm);
-    const double dv = 1.0 / (grid.rows * camera.pixelMm);
+    const FrameGeometry geometry(camera, grid, spectrum);
     Frame frame{{},
                 place.scratch.data(),
                 mixing.channels == 1 ? mixing.color : ChannelShares{1.0, 1.0, 1.0},
@@ -293,35 +270,29 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     job.rows = grid.rows;
     job.imageColumns = camera.width;
     job.imageRows = camera.height;
-    for (int d = 0; d < 3; ++d) {
-        // Image rows run downward, against V.
-        job.cellsPerColumn[d] = layout.padded[d] * glm::dot(lattice.step(d), axes[0]) * du;
-        job.cellsPerRow[d] = -layout.padded[d] * glm::dot(lattice.step(d), axes[1]) * dv;
-        job.wraps = job.wraps || lattice.spacingMm(d) > camera.pixelMm * (1.0 + 1e-9);
-    }
+    job.cellsPerColumn = geometry.cellsPerColumn;
+    job.cellsPerRow = geometry.cellsPerRow;
+    job.wraps = geometry.wraps;
     job.strips = tables.strips.data();
     job.stripCount = int(tables.strips.size());
     job.rollOff = tables.rollOff.data();
-    // exp(+i 2 pi s.(c - x_wrap)) and the position of the first pixel, split into u and v.
-    const glm::dvec3 shift = lattice.center().mm - spectrum.wrapPoint().mm;
-    FrameShading frameShades =
-        frameShading(sliceShading, mixing, spectrum, -shift, axes[2], m_spectra.scale.stepMm);
+    FrameShading frameShades = frameShading(sliceShading, mixing, spectrum, geometry.toWrap,
+                                            axes[2], m_spectra.scale.stepMm);
     if (frameShades.cued)
-        frameShades.kernels = &place.momentKernels(layout);
+        frameShades.kernels = &place.kernelsFor(layout);
     if (!sliceShading.isPlain())
         job.shading = &frameShades;
-    const double firstU = camera.panMm.x - 0.5 * (camera.width - 1) * camera.pixelMm;
-    const double firstV = camera.panMm.y + 0.5 * (camera.height - 1) * camera.pixelMm;
     const int columns = job.stripCount * stripLanes;
     auto *const columnPhase = reinterpret_cast<float *>(place.columnPhase.get());
-    const auto turnU = rotations(columns, du * (glm::dot(axes[0], shift) + firstU));
+    const auto turnU = rotations(columns, geometry.turnsPerColumn);
     for (int n = 0; n < columns; ++n) {
         columnPhase[n] = float(turnU[n].real());
         columnPhase[columns + n] = float(turnU[n].imag());
     }
-    const auto turnV = rotations(grid.rows / 2 + 1, -dv * (glm::dot(axes[1], shift) + firstV));
+    const auto turnV = rotations(grid.rows / 2 + 1, geometry.turnsPerRow);
     // A single grey image has its share at once.
-    const double unit = du * dv * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
+    const double unit =
+        geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
     for (std::size_t n = 0; n < turnV.size(); ++n)
         place.rowPhase[n] = Complex(unit * turnV[n]);
     job.columnPhase = columnPhase;
@@ -333,15 +304,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         job.lines[c] = reinterpret_cast<float *>(place.lines[c].get());
         job.samples[c] = mixing.grey ? result.samples.data() : place.planes[c].data();
     }
-    for (std::size_t kind = 0; kind < 2; ++kind)
-        for (std::size_t c = 0; c < std::size_t(job.sums); ++c) {
-            const Mixing::Mass &mass = mixing.mass[kind][c];
-            double moment = 0.0;
-            for (int d = 0; d < 3; ++d)
-                moment +=
-                    frameShades.perMoment[std::size_t(d)] / layout.padded[d] * mass.moments[d];
-            job.zero[kind][c] = {mass.value / mixing.unit, moment / mixing.unit};
-        }
+    job.zero = zeroSums(mixing, frameShades, layout);
     for (FrameScratch &scratch : place.scratch)
         scratch.sliceSeconds = scratch.stripSeconds = 0.0;
 

@@ -67,6 +67,9 @@ public:
 
     /// *Shape*: one each field.
     void setShares(std::vector<ChannelShares> shares);
+    const std::vector<ChannelShares> &shares() const { return m_shares; }
+    const EngineSpectra &spectra() const { return m_spectra; }
+    const SliceRoom &room() const { return m_room; }
     std::size_t fieldCount() const { return m_spectra.fields.size(); }
     /// Bytes of all spectra.
     std::size_t bytes() const;

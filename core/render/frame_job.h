@@ -41,12 +41,16 @@ struct alignas(64) FrequencyBatch {
     std::array<std::array<float, lanes>, 3> gradient, excess;
 };
 
+/// By axis.
+using MomentKernels = std::array<fourier::MomentKernel, 3>;
+
 /// What a spectrum is of.
 enum class FrameKind { field, gradient };
 
 /// A spectrum and its share of each channel of the slice.
 struct FrameSource {
     const std::byte *cells = nullptr;
+    std::size_t field = 0; ///< which of the engine's
     std::array<float, 3> shares{1.0F, 1.0F, 1.0F};
     FrameKind kind = FrameKind::field;
 };
@@ -73,10 +77,16 @@ struct FrameShading {
     bool lit = false;  ///< some magnitude is not zero
     bool cued = false; ///< there are moments
     float base = 1.0F;
-    const std::array<fourier::MomentKernel, 3> *kernels = nullptr;
+    const MomentKernels *kernels = nullptr;
     std::array<double, 3> perMoment{}; ///< cue per sum of a moment kernel, by axis
     std::array<Image, 3> images;
 };
+
+/// What the sums are at frequency 0, exactly, and their moments. *Shape*: by FrameKind and sum.
+struct ZeroSum {
+    double value = 0.0, moment = 0.0;
+};
+using ZeroSums = std::array<std::array<ZeroSum, 3>, 2>;
 
 /// What a frame's parts share: read by every thread, except what each part writes for itself.
 struct FrameJob {
@@ -115,11 +125,7 @@ struct FrameJob {
     /// After the transform along image rows' direction: [group of 16 image rows][column][strip], of
     /// each channel.
     std::array<float *, mostChannels> lines{};
-    /// What the sums are at frequency 0, exactly, and their moments, by FrameKind.
-    struct Zero {
-        double value = 0.0, moment = 0.0;
-    };
-    std::array<std::array<Zero, mostChannels>, 2> zero{};
+    ZeroSums zero{};
     std::array<float *, mostChannels> samples{}; ///< imageRows x imageColumns each
 };
 

@@ -35,15 +35,18 @@ Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &s
         for (const std::size_t n : shown) {
             const fourier::Spectrum &spectrum =
                 kind == FrameKind::field ? *spectra.fields[n] : *spectra.gradients[n];
-            add(spectrum, kind, alone ? ChannelShares{1.0, 1.0, 1.0} : shares[n]);
+            add(spectrum, kind, n, alone ? ChannelShares{1.0, 1.0, 1.0} : shares[n]);
         }
     }
 }
 
-void Mixing::add(const fourier::Spectrum &spectrum, FrameKind kind, const ChannelShares &share) {
+void Mixing::add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,
+                 const ChannelShares &share) {
     const double s = spectrum.unit() / unit;
-    sources.push_back(
-        {spectrum.cells(), {float(s * share[0]), float(s * share[1]), float(s * share[2])}, kind});
+    sources.push_back({spectrum.cells(),
+                       field,
+                       {float(s * share[0]), float(s * share[1]), float(s * share[2])},
+                       kind});
     const auto &moments = spectrum.moments();
     for (std::size_t c = 0; c < share.size(); ++c) {
         Mass &sum = mass[std::size_t(kind)][c];
@@ -99,6 +102,28 @@ FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mi
         }
     }
     return frame;
+}
+
+MomentKernels momentKernels(const fourier::SpectrumLayout &layout) {
+    const auto kernel = [&](int d) {
+        return fourier::MomentKernel(layout.kernels[std::size_t(d)],
+                                     double(layout.padded[d]) / layout.box.size()[d]);
+    };
+    return {kernel(0), kernel(1), kernel(2)};
+}
+
+ZeroSums zeroSums(const Mixing &mixing, const FrameShading &shading,
+                  const fourier::SpectrumLayout &layout) {
+    ZeroSums zero{};
+    for (std::size_t kind = 0; kind < zero.size(); ++kind)
+        for (std::size_t c = 0; c < std::size_t(mixing.sums); ++c) {
+            const Mixing::Mass &mass = mixing.mass[kind][c];
+            double moment = 0.0;
+            for (int d = 0; d < 3; ++d)
+                moment += shading.perMoment[std::size_t(d)] / layout.padded[d] * mass.moments[d];
+            zero[kind][c] = {mass.value / mixing.unit, moment / mixing.unit};
+        }
+    return zero;
 }
 
 } // namespace pellucid::render

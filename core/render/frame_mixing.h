@@ -26,7 +26,8 @@ struct Mixing {
     std::array<std::array<Mass, 3>, 2> mass; ///< by kind and sum
 
 private:
-    void add(const fourier::Spectrum &spectrum, FrameKind kind, const ChannelShares &share);
+    void add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,
+             const ChannelShares &share);
 };
 
 /// A picture's shading in terms of cells and sums, but for the moment kernels. *Shape*: toWrap from
@@ -34,5 +35,11 @@ private:
 FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mixing,
                           const fourier::Spectrum &spectrum, const glm::dvec3 &toWrap,
                           const glm::dvec3 &toViewer, double stepMm);
+
+MomentKernels momentKernels(const fourier::SpectrumLayout &layout);
+
+/// *Units*: of the mixing.
+ZeroSums zeroSums(const Mixing &mixing, const FrameShading &shading,
+                  const fourier::SpectrumLayout &layout);
 
 } // namespace pellucid::render

@@ -140,7 +140,7 @@ PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fi
 }
 
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
-    auto engine = static_cast<const CpuEngine &>(*prepared.engine).withoutLight();
+    auto engine = prepared.engine->withoutLight();
     const std::size_t bytes = engine->bytes();
     RenderPlan plan = prepared.plan;
     plan.bytes -= prepared.bytes - bytes;

@@ -34,7 +34,7 @@ double lostDetail(const classify::DensityField &field, const classify::DensityFi
 
 /// An engine, ready to render.
 struct PreparedEngine {
-    std::shared_ptr<ProjectionEngine> engine;
+    std::shared_ptr<CpuEngine> engine;
     RenderPlan plan;
     std::size_t bytes = 0; ///< of its spectra
     bool takesLight = false;
@@ -50,8 +50,7 @@ PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fi
                              const Budget &budget, const task::Progress &progress = {},
                              const std::optional<shading::ShadingScale> &scale = std::nullopt);
 
-/// The same engine after the lights went out; its error is what it was with them, at most. *Shape*:
-/// one that prepareEngine made.
+/// The same engine after the lights went out; its error is what it was with them, at most.
 PreparedEngine withoutLight(const PreparedEngine &prepared);
 
 } // namespace pellucid::render

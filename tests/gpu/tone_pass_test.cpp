@@ -8,8 +8,8 @@
 
 #include "core/task/error.h"
 #include "gpu/capabilities.h"
+#include "gpu/surfaceless_context.h"
 #include "gpu/tone_pass.h"
-#include "tests/support/surfaceless_context.h"
 
 namespace pellucid {
 
@@ -17,11 +17,9 @@ namespace {
 
 class TonePass : public testing::Test {
 protected:
-    void SetUp() override {
-        if (!context.isValid())
-            GTEST_SKIP() << "no surfaceless OpenGL here: " << context.reason();
-    }
-    test::SurfacelessContext context;
+    void SetUp() override { context.makeCurrent(); }
+    void TearDown() override { context.doneCurrent(); }
+    gpu::SurfacelessContext context;
 };
 
 std::vector<std::uint8_t> drawn(const render::ProjectionImage &image, const render::Tone &tone) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/render/frame_geometry.h"
+
+#include <glm/geometric.hpp>
+
+namespace pellucid::render {
+
+FrameGeometry::FrameGeometry(const Camera &camera, const SliceGrid &grid,
+                             const fourier::Spectrum &spectrum) {
+    const volume::Lattice &lattice = spectrum.lattice();
+    const glm::dmat3 axes = camera.axes();
+    const double du = 1.0 / (grid.columns * camera.pixelMm);
+    const double dv = 1.0 / (grid.rows * camera.pixelMm);
+    cellArea = du * dv;
+    for (int d = 0; d < 3; ++d) {
+        const int padded = spectrum.layout().padded[d];
+        cellsPerColumn[std::size_t(d)] = padded * glm::dot(lattice.step(d), axes[0]) * du;
+        cellsPerRow[std::size_t(d)] = -padded * glm::dot(lattice.step(d), axes[1]) * dv;
+        wraps = wraps || lattice.spacingMm(d) > camera.pixelMm * (1.0 + 1e-9);
+    }
+    toWrap = spectrum.wrapPoint().mm - lattice.center().mm;
+    const double firstU = camera.panMm.x - 0.5 * (camera.width - 1) * camera.pixelMm;
+    const double firstV = camera.panMm.y + 0.5 * (camera.height - 1) * camera.pixelMm;
+    turnsPerColumn = du * (firstU - glm::dot(axes[0], toWrap));
+    turnsPerRow = -dv * (firstV - glm::dot(axes[1], toWrap));
+}
+
+const SliceGrid &FramedGrid::gridFor(const Camera &camera, const SliceRoom &room,
+                                     const volume::Lattice &lattice, const ImageDefinition &image) {
+    Camera framing = camera;
+    framing.orientation = Camera().orientation;
+    if (!m_framed || m_framed->camera != framing || m_framed->image != image)
+        m_framed = Framed{framing, image, sliceGrid(camera, room, lattice, image)};
+    return m_framed->grid;
+}
+
+} // namespace pellucid::render

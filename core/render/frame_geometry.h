@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "core/fourier/spectrum.h"
+#include "core/render/slice_grid.h"
+
+namespace pellucid::render {
+
+/// How the slice of a view lies in a spectrum: what every engine starts from.
+struct FrameGeometry {
+    FrameGeometry(const Camera &camera, const SliceGrid &grid, const fourier::Spectrum &spectrum);
+
+    /// Cells of the spectrum per column and per row of the slice, by axis. Image rows run downward,
+    /// against V.
+    std::array<double, 3> cellsPerColumn{}, cellsPerRow{};
+    bool wraps = false; ///< some |a_d.s| of the disc exceeds 1/2
+    /// Turns of exp(+i 2 pi turns) per column and per row that move the wrap voxel and the first
+    /// pixel to where they are.
+    double turnsPerColumn = 0.0, turnsPerRow = 0.0;
+    double cellArea = 0.0;  ///< of the frequency grid, 1/mm^2
+    glm::dvec3 toWrap{0.0}; ///< from the centre of rotation to the wrap voxel, mm
+};
+
+/// A coordinate that reaches the far edge of a kernel by less than this counts as on it, and
+/// mirrored cells are read only where x lies further below 0: rounding alone must not decide which
+/// of two cells is read where a view meets the grid, since kernels may jump at their edges. *Units*:
+/// cells; above the rounding of 16 neighbours' float offsets.
+inline constexpr float edgeSlackCells = 4e-6F;
+
+/// The slice grid of the frames of one view after another: sought, in a fraction of a millisecond,
+/// for each new framing only, not for each direction.
+class FramedGrid {
+public:
+    /// *Throws* Error{outOfMemory} as `sliceGrid` does.
+    const SliceGrid &gridFor(const Camera &camera, const SliceRoom &room,
+                             const volume::Lattice &lattice, const ImageDefinition &image);
+
+private:
+    struct Framed {
+        Camera camera; // but its orientation
+        ImageDefinition image;
+        SliceGrid grid;
+    };
+    std::optional<Framed> m_framed;
+};
+
+} // namespace pellucid::render

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace pellucid::gpu::bindings {
+
+// As shaders/lib/bindings.glsl, which a test compares.
+inline constexpr int frameBlock = 0;
+inline constexpr int discRows = 0;
+inline constexpr int rotations = 1;
+inline constexpr int slice = 2;
+inline constexpr int lines = 3;
+inline constexpr int picture = 0;
+inline constexpr int firstSpectrum = 0;
+inline constexpr int mostSpectra = 64;
+inline constexpr int mostPages = 16;
+inline constexpr int mostTerms = 16;
+inline constexpr int mostPairs = 4;
+inline constexpr int mostPairVectors = 3;
+inline constexpr int threads = 128;
+
+} // namespace pellucid::gpu::bindings

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gpu/handle.h"
+
+#include <string>
+
+#include <epoxy/gl.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::gpu {
+
+void deleteBuffer(unsigned name) {
+    glDeleteBuffers(1, &name);
+}
+
+void deleteTexture(unsigned name) {
+    glDeleteTextures(1, &name);
+}
+
+void deleteProgram(unsigned name) {
+    glDeleteProgram(name);
+}
+
+void deleteShader(unsigned name) {
+    glDeleteShader(name);
+}
+
+void deleteVertexArray(unsigned name) {
+    glDeleteVertexArrays(1, &name);
+}
+
+void deleteQuery(unsigned name) {
+    glDeleteQueries(1, &name);
+}
+
+BufferName makeBuffer() {
+    unsigned name = 0;
+    glGenBuffers(1, &name);
+    return BufferName(name);
+}
+
+TextureName makeTexture() {
+    unsigned name = 0;
+    glGenTextures(1, &name);
+    return TextureName(name);
+}
+
+VertexArrayName makeVertexArray() {
+    unsigned name = 0;
+    glGenVertexArrays(1, &name);
+    return VertexArrayName(name);
+}
+
+QueryName makeQuery() {
+    unsigned name = 0;
+    glGenQueries(1, &name);
+    return QueryName(name);
+}
+
+void checkErrors(const char *doing) {
+    const GLenum first = glGetError();
+    if (first == GL_NO_ERROR)
+        return;
+    // A lost context answers for ever.
+    for (int n = 0; n < 16 && glGetError() != GL_NO_ERROR; ++n)
+        ;
+    if (first == GL_OUT_OF_MEMORY)
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          std::string("the graphics card has not enough memory for ") + doing);
+    throw task::Error(task::ErrorCode::internal, std::string("OpenGL error ") +
+                                                     std::to_string(first) + " with " + doing);
+}
+
+} // namespace pellucid::gpu

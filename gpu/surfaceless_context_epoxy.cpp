@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gpu/surfaceless_context.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <dlfcn.h>
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::gpu {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string &why) {
+    throw task::Error(task::ErrorCode::noSuchDevice, why);
+}
+
+bool has(const char *extensions, std::string_view name) {
+    return extensions != nullptr && std::string_view(extensions).find(name) != std::string::npos;
+}
+
+// libepoxy ends the program where the library is missing.
+bool isEglThere() {
+    void *const library = dlopen("libEGL.so.1", RTLD_LAZY);
+    return library != nullptr;
+}
+
+struct Candidate {
+    EGLDisplay display;
+    bool software;
+};
+
+// Cards first. Displays are the process's own and never terminated: another context may use them.
+std::vector<Candidate> candidates() {
+    std::vector<Candidate> found;
+    const char *const client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (has(client, "EGL_EXT_platform_device") && has(client, "EGL_EXT_device_enumeration") &&
+        has(client, "EGL_EXT_device_query")) {
+        std::array<EGLDeviceEXT, 16> devices{};
+        EGLint count = 0;
+        eglQueryDevicesEXT(EGLint(devices.size()), devices.data(), &count);
+        for (const bool software : {false, true})
+            for (EGLint n = 0; n < count; ++n) {
+                EGLDeviceEXT device = devices[std::size_t(n)];
+                const bool isSoftware = has(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS),
+                                            "EGL_MESA_device_software");
+                if (isSoftware == software)
+                    found.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device,
+                                                              nullptr),
+                                     software});
+            }
+    }
+    // The core name of this call aborts in libepoxy without a display; the extension's does not.
+    if (has(client, "EGL_MESA_platform_surfaceless"))
+        found.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA,
+                                                  EGL_DEFAULT_DISPLAY, nullptr),
+                         true});
+    return found;
+}
+
+// A context that says when the driver was reset, or one that does not.
+EGLContext contextOf(EGLDisplay display, int major, int minor) {
+    for (const bool isRobust : {true, false}) {
+        std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                       major,
+                                       EGL_CONTEXT_MINOR_VERSION,
+                                       minor,
+                                       EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+        if (isRobust)
+            attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                                 EGL_LOSE_CONTEXT_ON_RESET});
+        attributes.push_back(EGL_NONE);
+        const EGLContext context =
+            eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+        if (context != EGL_NO_CONTEXT)
+            return context;
+    }
+    return EGL_NO_CONTEXT;
+}
+
+} // namespace
+
+bool Context::isLost() const {
+    const bool tells = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
+    return tells && glGetGraphicsResetStatus() != GL_NO_ERROR;
+}
+
+SurfacelessContext::SurfacelessContext(bool software) {
+    if (!isEglThere())
+        refuse("there is no libEGL on this machine");
+    bool wasThere = false;
+    for (const Candidate &candidate : candidates()) {
+        if (candidate.display == EGL_NO_DISPLAY || (candidate.software && !software))
+            continue;
+        EGLint major = 0, minor = 0;
+        if (eglInitialize(candidate.display, &major, &minor) == EGL_FALSE ||
+            eglBindAPI(EGL_OPENGL_API) == EGL_FALSE)
+            continue;
+        wasThere = true;
+        for (const auto &[wanted, below] : {std::pair(4, 3), {3, 3}}) {
+            m_display = candidate.display;
+            m_context = contextOf(m_display, wanted, below);
+            if (m_context != EGL_NO_CONTEXT)
+                return;
+        }
+    }
+    refuse(wasThere   ? "EGL here makes no OpenGL 3.3 context"
+           : software ? "EGL finds no device here"
+                      : "there is no graphics card that EGL knows of");
+}
+
+SurfacelessContext::~SurfacelessContext() {
+    eglDestroyContext(m_display, m_context);
+}
+
+void SurfacelessContext::makeCurrent() {
+    // Which interface is meant is a thread's own affair.
+    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE ||
+        eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context) == EGL_FALSE)
+        refuse("EGL cannot use its context");
+}
+
+void SurfacelessContext::doneCurrent() {
+    eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+} // namespace pellucid::gpu

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a frequency is multiplied by. Series in place of the driver's sine, whose error nobody
+// promises.
+const float pi2 = 9.8696044;
+
+// sinc^2(r) for |r| <= 1/2 from its series in p = r^2, (-1)^k 2^(2k+1) (pi r)^(2k) / (2k+2)!, to
+// 3e-8.
+float sincSquared(float p) {
+    float x = pi2 * p;
+    float sum = -32768.0 / 20922789888000.0;
+    sum = sum * x + 8192.0 / 87178291200.0;
+    sum = sum * x - 2048.0 / 479001600.0;
+    sum = sum * x + 512.0 / 3628800.0;
+    sum = sum * x - 128.0 / 40320.0;
+    sum = sum * x + 32.0 / 720.0;
+    sum = sum * x - 8.0 / 24.0;
+    return sum * x + 1.0;
+}
+
+// sin(2 pi r) for |r| <= 1/2, to 6e-8.
+float sineOfTurn(float r) {
+    float size = abs(r);
+    float x = 6.28318531 * min(size, 0.5 - size), square = x * x;
+    float sum = -1.0 / 39916800.0;
+    sum = sum * square + 1.0 / 362880.0;
+    sum = sum * square - 1.0 / 5040.0;
+    sum = sum * square + 1.0 / 120.0;
+    sum = sum * square - 1.0 / 6.0;
+    sum = sum * square + 1.0;
+    return r < 0.0 ? -sum * x : sum * x;
+}
+
+float cosineOfTurn(float r) {
+    return sineOfTurn(0.25 - abs(r));
+}
+
+// A raised cosine from 1 at through = 0 to 0 at 1.
+float raisedCosine(float through) {
+    float halfway = 0.5 * clamp(through, 0.0, 1.0);
+    float p = halfway * halfway;
+    return max(0.0, 1.0 - pi2 * p * sincSquared(p));
+}
+
+// t(q), see core/render/image_definition.h; a sharp edge is a steep one.
+float rollOffFactor(float rollOff, float q) {
+    float steep = max(1e-5, rollOff);
+    return raisedCosine((q - (1.0 - steep)) / steep);
+}
+
+const int cubic = 0, linear = 1, bandLimited = 2;
+
+// The product of K(q) over the axes, q = a_d.s in cycles per sample.
+float reconstructionFactor(int reconstruction, bool wraps, float rollOff, vec3 q) {
+    float numerator = 1.0, denominator = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (reconstruction == bandLimited) {
+            numerator *= rollOffFactor(rollOff, 2.0 * abs(q[axis]));
+            continue;
+        }
+        float r = wraps ? q[axis] - round(q[axis]) : q[axis];
+        float p = r * r, sinc = sincSquared(p), top = sinc;
+        if (wraps && abs(q[axis]) > 0.5) {
+            // sinc^2(q) = sinc^2(r) r^2/q^2
+            float below = q[axis] * q[axis];
+            top = sinc * p;
+            denominator *= reconstruction == cubic ? below * below : below;
+        }
+        if (reconstruction == cubic) {
+            // 2 + cos 2 pi q = 3 - 2 sin^2 pi q
+            top *= top;
+            denominator *= 1.0 - 2.0 / 3.0 * pi2 * p * sinc;
+        }
+        numerator *= top;
+    }
+    return numerator / denominator;
+}

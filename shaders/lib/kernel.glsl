@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Interpolation of a spectrum. WIDTH: of the kernel; EVEN_TERMS, MOMENT_TERMS: coefficients of the
+// even and the odd part of a tap, of the kernel and of its moment's.
+const int pairs = (WIDTH + 1) / 2;
+
+// Even and odd part of a pair of taps at the square of the offset, see PiecewiseKernel::pairs.
+#define EVEN_AND_ODD(polynomials, axis, pair, terms, square, sum)                                  \
+    vec2 sum = vec2(0.0);                                                                          \
+    for (int n = terms - 1; n >= 0; --n) {                                                         \
+        vec4 two = polynomials[(axis * MOST_PAIRS + pair) * MOST_PAIR_VECTORS + n / 2];            \
+        sum = sum * square + (n % 2 == 0 ? two.xy : two.zw);                                       \
+    }
+
+// The weights of an axis for a centred offset.
+void kernelWeights(int axis, float c, out float weights[WIDTH]) {
+    for (int k = 0; k < pairs; ++k) {
+        EVEN_AND_ODD(frame.kernels, axis, k, EVEN_TERMS, c * c, part)
+        weights[k] = part.x + c * part.y;
+        if (2 * k != WIDTH - 1)
+            weights[WIDTH - 1 - k] = part.x - c * part.y;
+    }
+}
+
+#if CUED
+// Taps lie at grid index minus frequency, which turns an odd kernel's sign.
+void momentWeights(int axis, float c, out float weights[WIDTH]) {
+    float scale = -frame.perMoment[axis];
+    for (int k = 0; k < pairs; ++k) {
+        EVEN_AND_ODD(frame.momentKernels, axis, k, MOMENT_TERMS, c * c, part)
+        weights[k] = scale * (part.x + c * part.y);
+        if (2 * k != WIDTH - 1)
+            weights[WIDTH - 1 - k] = scale * (c * part.y - part.x);
+    }
+}
+#endif
+
+struct Taps {
+    ivec3 first; // the texel of the first tap
+    float x[WIDTH], y[WIDTH], z[WIDTH];
+#if CUED
+    float momentX[WIDTH], momentY[WIDTH], momentZ[WIDTH];
+#endif
+};
+
+// A weighted sum of cells, and of a linear cue the sum of its three products with the moment's
+// weights along one axis and the plain ones along the others.
+struct Sum {
+    vec2 value;
+#if CUED
+    vec2 moment;
+#endif
+};
+
+#if TRILINEAR
+// Two neighbouring taps of one sign are one filtered fetch between them: 8 for the 64 of width 4.
+// *Source*: Sigg and Hadwiger 2005 (GPU Gems 2, chapter 20).
+void pairUp(float weights[WIDTH], out float sums[pairs], out float places[pairs]) {
+    for (int j = 0; j < pairs; ++j) {
+        float second = 2 * j + 1 < WIDTH ? weights[min(2 * j + 1, WIDTH - 1)] : 0.0;
+        sums[j] = weights[2 * j] + second;
+        places[j] = float(2 * j) + (sums[j] > 0.0 ? second / sums[j] : 0.0);
+    }
+}
+
+Sum sumOfCells(sampler3D cells, Taps taps) {
+    float sumX[pairs], sumY[pairs], sumZ[pairs], placeX[pairs], placeY[pairs], placeZ[pairs];
+    pairUp(taps.x, sumX, placeX);
+    pairUp(taps.y, sumY, placeY);
+    pairUp(taps.z, sumZ, placeZ);
+    vec3 first = vec3(taps.first) + 0.5; // texels are centred between whole numbers
+    vec3 perTexel = 1.0 / vec3(textureSize(cells, 0));
+    Sum sum = Sum(vec2(0.0));
+    for (int k = 0; k < pairs; ++k)
+        for (int j = 0; j < pairs; ++j)
+            for (int i = 0; i < pairs; ++i) {
+                vec3 at = first + vec3(placeX[i], placeY[j], placeZ[k]);
+                sum.value += sumX[i] * sumY[j] * sumZ[k] *
+                             textureLod(cells, at * perTexel, 0.0).rg;
+            }
+    return sum;
+}
+#else
+Sum sumOfCells(sampler3D cells, Taps taps) {
+    Sum sum;
+    sum.value = vec2(0.0);
+#if CUED
+    sum.moment = vec2(0.0);
+#endif
+    for (int k = 0; k < WIDTH; ++k) {
+        vec2 plane = vec2(0.0);
+#if CUED
+        vec2 planeMoment = vec2(0.0);
+#endif
+        for (int j = 0; j < WIDTH; ++j) {
+            vec2 row = vec2(0.0);
+#if CUED
+            vec2 rowMoment = vec2(0.0);
+#endif
+            for (int i = 0; i < WIDTH; ++i) {
+                vec2 cell = texelFetch(cells, taps.first + ivec3(i, j, k), 0).rg;
+                row += taps.x[i] * cell;
+#if CUED
+                rowMoment += taps.momentX[i] * cell;
+#endif
+            }
+            plane += taps.y[j] * row;
+#if CUED
+            planeMoment += taps.y[j] * rowMoment + taps.momentY[j] * row;
+#endif
+        }
+        sum.value += taps.z[k] * plane;
+#if CUED
+        sum.moment += taps.z[k] * planeMoment + taps.momentZ[k] * plane;
+#endif
+    }
+    return sum;
+}
+#endif

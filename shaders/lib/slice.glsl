@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The slice at a frequency: as core/render/frame_*_hwy.inc, without and with cue and light.
+// PAGES: textures, each of one or more spectra on top of each other; SLABS: pages that a spectrum is
+// spread over; SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
+layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
+
+// The last row of each column within the band's disc; -1: none.
+layout(std430, binding = DISC_ROWS) readonly buffer DiscRows {
+    int discRows[];
+};
+
+const int kinds = LIT + 1; // fields, lengths of gradients
+// As core/render/frame_geometry.h.
+const float edgeSlackCells = 4e-6;
+
+Fixed placeOf(int column, int row) {
+    Fixed origin = Fixed(frame.originLow, frame.originHigh);
+    Fixed perColumn = Fixed(frame.columnLow, frame.columnHigh);
+    Fixed perRow = Fixed(frame.rowLow, frame.rowHigh);
+    return plus(plus(origin, times(perColumn, uint(column))),
+                times(perRow, uint(row + frame.grid.y / 2)));
+}
+
+// Where and with which weights is read; whether the conjugate of the mirrored frequency is meant.
+// q: a_d.s.
+Taps tapsAt(Fixed place, out vec3 q, out bool mirrored) {
+    ivec3 whole = wholeOf(place);
+    vec3 part = partOf(place);
+    q = (vec3(whole) + part) * frame.inversePadded.xyz;
+    // The spectrum is periodic; at half a period either copy will do.
+    whole -= ivec3(round(q)) * frame.padded.xyz;
+    mirrored = float(whole.x) + part.x < -edgeSlackCells;
+    if (mirrored) {
+        whole = -whole - 1;
+        part = 1.0 - part;
+    }
+    vec3 tap = ceil(part - (0.5 * float(WIDTH) + edgeSlackCells));
+    vec3 c = tap - part + 0.5 * float(WIDTH - 1);
+    Taps taps;
+    taps.first = whole + ivec3(tap) - frame.firstCell.xyz;
+    kernelWeights(0, c.x, taps.x);
+    kernelWeights(1, c.y, taps.y);
+    kernelWeights(2, c.z, taps.z);
+#if CUED
+    momentWeights(0, c.x, taps.momentX);
+    momentWeights(1, c.y, taps.momentY);
+    momentWeights(2, c.z, taps.momentZ);
+#endif
+    return taps;
+}
+
+// Of a spectrum in several slabs each holds what a kernel needs.
+Sum readSource(int source, Taps taps) {
+    ivec2 place = frame.places[source].xy;
+    if (SLABS > 1) {
+        int slab = min(taps.first.z / frame.padded.w, SLABS - 1);
+        place.x += slab;
+        taps.first.z -= slab * frame.padded.w;
+    }
+    taps.first.z += place.y;
+    Sum sum;
+    for (int page = 0; page < PAGES; ++page)
+        if (page == place.x)
+            sum = sumOfCells(pages[page], taps);
+    return sum;
+}
+
+#if SHADED
+// F, and base F + moment of F, as complex numbers.
+struct Shades {
+    vec2 plain, cued;
+};
+
+Shades shadesOf(Sum sum, float sign) {
+    Shades s;
+    s.plain = vec2(sum.value.x, sign * sum.value.y);
+    s.cued = s.plain;
+#if CUED
+    // -i z; where the mirrored frequency was read, +i conj z.
+    s.cued = frame.scales.z * s.plain + vec2(sum.moment.y, -sign * sum.moment.x);
+#endif
+    return s;
+}
+
+// A term of the shaded slice of an image, see core/render/frame_job.h. *Source*: Totsuka 1993,
+// eq. 3 to 5 and 12 to 14.
+vec2 shaded(int channel, Shades field, Shades gradient, vec3 q) {
+    vec2 slice = frame.shade[channel].x * field.cued;
+#if LIT
+    vec3 r = q - round(q);
+    vec3 sine = vec3(sineOfTurn(r.x), sineOfTurn(r.y), sineOfTurn(r.z));
+    slice += frame.shade[channel].y * gradient.cued;
+    slice += dot(frame.gradient[channel].xyz, sine) * quarterTurned(field.cued);
+#if CUED
+    vec3 cosine = vec3(cosineOfTurn(r.x), cosineOfTurn(r.y), cosineOfTurn(r.z));
+    slice -= dot(frame.excess[channel].xyz, cosine) * field.plain;
+#endif
+#endif
+    return slice;
+}
+#endif
+
+void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
+             inout vec2 slice[CHANNELS]) {
+    Sum sums[kinds * SUMS];
+    for (int s = 0; s < kinds * SUMS; ++s) {
+        sums[s].value = vec2(0.0);
+#if CUED
+        sums[s].moment = vec2(0.0);
+#endif
+    }
+    for (int source = 0; source < frame.counts.y; ++source) {
+        Sum sum = readSource(source, taps);
+        vec4 share = frame.shares[source];
+        int kind = LIT == 1 ? int(share.w) : 0;
+        for (int c = 0; c < SUMS; ++c) {
+            sums[kind * SUMS + c].value += share[c] * sum.value;
+#if CUED
+            sums[kind * SUMS + c].moment += share[c] * sum.moment;
+#endif
+        }
+    }
+    // Known before any rounding: it decides the brightness of the picture.
+    if (isCentre)
+        for (int s = 0; s < kinds * SUMS; ++s) {
+            vec4 zero = frame.zero[s / SUMS * 3 + s % SUMS];
+            sums[s].value = vec2(zero.x, 0.0);
+#if CUED
+            sums[s].moment = vec2(0.0, zero.y);
+#endif
+        }
+    float sign = mirrored ? -1.0 : 1.0;
+    for (int c = 0; c < CHANNELS; ++c) {
+        int of = SUMS == 1 ? 0 : c;
+#if SHADED
+        vec2 value = shaded(c, shadesOf(sums[of], sign),
+                            shadesOf(sums[(kinds - 1) * SUMS + of], sign), q);
+        slice[c] += multiplied(frame.termWeight[term].xy, value);
+#else
+        slice[c] += vec2(sums[of].value.x, sign * sums[of].value.y);
+#endif
+    }
+}
+
+// Rows from -rows/2 to rows/2 - 1; within the disc.
+void sliceAt(int column, int row, out vec2 slice[CHANNELS]) {
+    for (int c = 0; c < CHANNELS; ++c)
+        slice[c] = vec2(0.0);
+    Fixed centre = placeOf(column, row);
+    vec3 q, ofCentre;
+    bool mirrored;
+    for (int term = 0; term < frame.counts.x; ++term) {
+        // Of the picture's own factors the central slice's are taken.
+        Fixed place = plus(centre, Fixed(frame.termLow[term], frame.termHigh[term]));
+        Taps taps = tapsAt(place, q, mirrored);
+        if (term == 0)
+            ofCentre = q;
+        addTerm(term, taps, mirrored, term == 0 && column == 0 && row == 0, q, slice);
+    }
+    float radius = length(2.0 * vec2(column, row) / vec2(frame.grid.xy));
+    float factor = frame.scales.y * rollOffFactor(frame.scales.x, radius) *
+                   reconstructionFactor(frame.image.x, frame.image.y != 0, frame.scales.x, ofCentre);
+    float turns = turnsOf(centre);
+    vec2 phase = factor * vec2(cosineOfTurn(turns), sineOfTurn(turns));
+    for (int c = 0; c < CHANNELS; ++c)
+        slice[c] = multiplied(phase, slice[c]);
+}

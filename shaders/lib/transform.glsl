@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Inverse transforms of a line in shared memory, of any length up to ROOM: Stockham's, of mixed
+// radix, without a reordering pass.
+shared vec2 line[2 * ROOM];
+
+// One stage between two halves of `line`: `done` is the product of the radices before it.
+void stage(int radix, int done, int length, int from, int to, int table) {
+    int count = length / radix;
+    int turn = length / (done * radix);
+    for (int n = int(gl_LocalInvocationIndex); n < count; n += THREADS) {
+        int k = n % done;
+        vec2 v[8];
+        v[0] = line[from + n];
+        for (int q = 1; q < 8; ++q)
+            if (q < radix)
+                v[q] = multiplied(line[from + n + q * count], rotations[table + q * k * turn]);
+        inverseFew(radix, v);
+        int first = to + (n - k) * radix + k;
+        for (int q = 0; q < 8; ++q)
+            if (q < radix)
+                line[first + q * done] = v[q];
+    }
+}
+
+// Transforms line[0 .. length-1], which all threads have written; where the result begins.
+// `plan`: 0 along rows' direction, 1 the other.
+int transformLine(int length, int plan, int table) {
+    int from = 0, done = 1;
+    for (int s = 0; s < frame.stages[plan]; ++s) {
+        int radix = frame.radices[4 * plan + s / 4][s % 4];
+        barrier();
+        stage(radix, done, length, from, ROOM - from, table);
+        from = ROOM - from;
+        done *= radix;
+    }
+    barrier();
+    return from;
+}

@@ -1,0 +1,32 @@
+#version 430 core
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The slice of all images as [image][column][row], zero beyond the disc.
+#include "lib/bindings.glsl"
+#include "lib/frame.glsl"
+#include "lib/complex.glsl"
+#include "lib/fixed.glsl"
+#include "lib/factors.glsl"
+#include "lib/kernel.glsl"
+#include "lib/slice.glsl"
+
+layout(local_size_x = 8, local_size_y = 16) in;
+
+layout(std430, binding = SLICE) writeonly buffer Slice {
+    vec2 values[];
+};
+
+void main() {
+    int column = int(gl_GlobalInvocationID.x), n = int(gl_GlobalInvocationID.y);
+    int halfColumns = frame.grid.x / 2, rows = frame.grid.y;
+    if (column >= halfColumns || n >= rows)
+        return;
+    int row = n < rows / 2 ? n : n - rows;
+    vec2 slice[CHANNELS];
+    if (abs(row) <= discRows[column])
+        sliceAt(column, row, slice);
+    else
+        for (int c = 0; c < CHANNELS; ++c)
+            slice[c] = vec2(0.0);
+    for (int c = 0; c < CHANNELS; ++c)
+        values[(c * halfColumns + column) * rows + n] = slice[c];
+}

@@ -1,0 +1,37 @@
+#version 430 core
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One stage of the transforms of many lines that do not fit shared memory: [line][number].
+#include "lib/bindings.glsl"
+#include "lib/complex.glsl"
+#include "lib/rotations.glsl"
+#include "lib/butterflies.glsl"
+
+layout(local_size_x = THREADS) in;
+
+layout(std430, binding = SLICE) readonly buffer From {
+    vec2 from[];
+};
+layout(std430, binding = LINES) writeonly buffer To {
+    vec2 to[];
+};
+uniform ivec4 step_; // length, radix, product of the radices before it, table
+
+void main() {
+    int length = step_.x, radix = step_.y, done = step_.z;
+    int count = length / radix, n = int(gl_GlobalInvocationID.x);
+    if (n >= count)
+        return;
+    int begin = int(gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y) * length;
+    int k = n % done;
+    int turn = length / (done * radix);
+    vec2 v[8];
+    v[0] = from[begin + n];
+    for (int q = 1; q < 8; ++q)
+        if (q < radix)
+            v[q] = multiplied(from[begin + n + q * count], rotations[step_.w + q * k * turn]);
+    inverseFew(radix, v);
+    int first = begin + (n - k) * radix + k;
+    for (int q = 0; q < 8; ++q)
+        if (q < radix)
+            to[first + q * done] = v[q];
+}

@@ -1,0 +1,21 @@
+#version 430 core
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pixels of rows that did not fit shared memory: [image][row][number of two pixels] to the picture.
+#include "lib/bindings.glsl"
+#include "lib/frame.glsl"
+
+layout(local_size_x = THREADS) in;
+
+layout(std430, binding = SLICE) readonly buffer From {
+    vec2 from[];
+};
+layout(r32f, binding = PICTURE) writeonly uniform image2DArray picture;
+
+void main() {
+    int x = int(gl_GlobalInvocationID.x), y = int(gl_WorkGroupID.y), image = int(gl_WorkGroupID.z);
+    if (x >= frame.grid.z)
+        return;
+    int n = x % frame.grid.x, row = y % frame.grid.y;
+    vec2 two = from[(image * frame.counts.z + row) * (frame.grid.x / 2) + n / 2];
+    imageStore(picture, ivec3(x, y, image), vec4(n % 2 == 0 ? two.x : two.y));
+}

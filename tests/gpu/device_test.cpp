@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "core/task/error.h"
+#include "gpu/device.h"
+#include "gpu/surfaceless_context.h"
+
+namespace pellucid {
+
+namespace {
+
+// What a context is to a Device, with a driver that can be told to reset.
+class FragileContext final : public gpu::Context {
+public:
+    explicit FragileContext(std::shared_ptr<std::atomic<bool>> lost) : m_lost(std::move(lost)) {}
+    void makeCurrent() override { m_context.makeCurrent(); }
+    void doneCurrent() override { m_context.doneCurrent(); }
+    bool isLost() const override { return *m_lost || m_context.isLost(); }
+
+private:
+    gpu::SurfacelessContext m_context;
+    std::shared_ptr<std::atomic<bool>> m_lost;
+};
+
+// A context that never comes up.
+class NoContext final : public gpu::Context {
+public:
+    void makeCurrent() override {
+        throw task::Error(task::ErrorCode::noSuchDevice, "nothing here");
+    }
+    void doneCurrent() override {}
+};
+
+TEST(Device, SaysWhatItIs) {
+    const gpu::Device device(std::make_unique<gpu::SurfacelessContext>());
+    const gpu::Capabilities &c = device.capabilities();
+    EXPECT_TRUE(c.canRender());
+    EXPECT_FALSE(c.renderer.empty());
+    EXPECT_GE(c.largest3dTexture, 2048);
+    EXPECT_GE(c.sharedBytes, 32U << 10);
+    EXPECT_GE(c.textureUnits, 16);
+}
+
+TEST(Device, RunsOnItsOwnThreadAndPassesOnWhatIsThrown) {
+    gpu::Device device(std::make_unique<gpu::SurfacelessContext>());
+    std::thread::id first, second;
+    device.run([&] { first = std::this_thread::get_id(); });
+    device.run([&] { second = std::this_thread::get_id(); });
+    EXPECT_EQ(first, second);
+    EXPECT_NE(first, std::this_thread::get_id());
+    EXPECT_THROW(
+        device.run([] { throw task::Error(task::ErrorCode::outOfMemory, "too much"); }),
+        task::Error);
+    bool ran = false;
+    device.run([&] { ran = true; }); // and goes on
+    EXPECT_TRUE(ran);
+}
+
+TEST(Device, WhatWasPostedIsDoneBeforeItsEnd) {
+    int done = 0;
+    {
+        gpu::Device device(std::make_unique<gpu::SurfacelessContext>());
+        for (int n = 0; n < 100; ++n)
+            device.post([&] { ++done; });
+    }
+    EXPECT_EQ(done, 100);
+}
+
+TEST(Device, AContextThatFailsIsNamed) {
+    try {
+        gpu::Device device(std::make_unique<NoContext>());
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::noSuchDevice);
+        EXPECT_EQ(error.reason(), "nothing here");
+    }
+}
+
+TEST(Device, ALostCardStaysLost) {
+    auto lost = std::make_shared<std::atomic<bool>>(false);
+    gpu::Device device(std::make_unique<FragileContext>(lost));
+    device.run([] {});
+    EXPECT_FALSE(device.isLost());
+    const auto expectLost = [&] {
+        try {
+            device.run([] {});
+            ADD_FAILURE() << "runs on a lost card";
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), task::ErrorCode::noSuchDevice);
+        }
+        EXPECT_TRUE(device.isLost());
+    };
+    *lost = true;
+    expectLost();
+    *lost = false; // a driver that came back has none of what was on the card
+    expectLost();
+}
+
+TEST(Device, CompilesAProgramOnce) {
+    gpu::Device device(std::make_unique<gpu::SurfacelessContext>());
+    device.run([&] {
+        const gpu::Program &first = device.program("stage.comp");
+        EXPECT_EQ(&first, &device.program("stage.comp"));
+        EXPECT_NE(&device.program("rows.comp", {{"ROOM", 256}}),
+                  &device.program("rows.comp", {{"ROOM", 512}}));
+    });
+    EXPECT_EQ(device.programCount(), 3U);
+}
+
+} // namespace
+} // namespace pellucid

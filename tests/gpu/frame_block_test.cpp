@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <epoxy/gl.h>
+
+#include "core/fourier/padded_size.h"
+#include "gpu/frame_block.h"
+#include "gpu/program.h"
+#include "tests/gpu/card.h"
+
+namespace pellucid {
+
+namespace {
+
+class FrameBlock : public test::CardTest {};
+
+// The compiler's own layout of the block.
+TEST_F(FrameBlock, LiesWhereTheShadersReadIt) {
+    using gpu::FrameBlock;
+    const std::map<std::string, std::size_t> members{
+        {"originLow", offsetof(FrameBlock, originLow)},
+        {"originHigh", offsetof(FrameBlock, originHigh)},
+        {"columnLow", offsetof(FrameBlock, columnLow)},
+        {"columnHigh", offsetof(FrameBlock, columnHigh)},
+        {"rowLow", offsetof(FrameBlock, rowLow)},
+        {"rowHigh", offsetof(FrameBlock, rowHigh)},
+        {"termLow[0]", offsetof(FrameBlock, termLow)},
+        {"termHigh[0]", offsetof(FrameBlock, termHigh)},
+        {"termWeight[0]", offsetof(FrameBlock, termWeight)},
+        {"grid", offsetof(FrameBlock, grid)},
+        {"counts", offsetof(FrameBlock, counts)},
+        {"image", offsetof(FrameBlock, image)},
+        {"padded", offsetof(FrameBlock, padded)},
+        {"firstCell", offsetof(FrameBlock, firstCell)},
+        {"inversePadded", offsetof(FrameBlock, inversePadded)},
+        {"scales", offsetof(FrameBlock, scales)},
+        {"perMoment", offsetof(FrameBlock, perMoment)},
+        {"shares[0]", offsetof(FrameBlock, shares)},
+        {"places[0]", offsetof(FrameBlock, places)},
+        {"zero[0]", offsetof(FrameBlock, zero)},
+        {"shade[0]", offsetof(FrameBlock, shade)},
+        {"gradient[0]", offsetof(FrameBlock, gradient)},
+        {"excess[0]", offsetof(FrameBlock, excess)},
+        {"kernels[0]", offsetof(FrameBlock, kernels)},
+        {"momentKernels[0]", offsetof(FrameBlock, momentKernels)},
+        {"stages", offsetof(FrameBlock, stages)},
+        {"radices[0]", offsetof(FrameBlock, radices)},
+        {"tables", offsetof(FrameBlock, tables)}};
+    const gpu::Defines defines{{"WIDTH", 4},   {"EVEN_TERMS", 4}, {"MOMENT_TERMS", 4},
+                               {"PAGES", 1},   {"SLABS", 1},      {"SUMS", 1},
+                               {"CHANNELS", 1}, {"SHADED", 1},     {"CUED", 1},
+                               {"LIT", 1},     {"TRILINEAR", 0},  {"FUSED", 1},
+                               {"ROOM", 512}};
+    card->device().run([&] {
+        const unsigned program = card->device().program("columns.comp", defines).id();
+        for (const auto &[name, offset] : members) {
+            const std::string full = "Frame." + name;
+            const char *const text = full.c_str();
+            GLuint index = GL_INVALID_INDEX;
+            glGetUniformIndices(program, 1, &text, &index);
+            if (index == GL_INVALID_INDEX) { // not named after the block where it has an instance
+                const char *const plain = name.c_str();
+                glGetUniformIndices(program, 1, &plain, &index);
+            }
+            ASSERT_NE(index, GL_INVALID_INDEX) << name;
+            GLint found = -1;
+            glGetActiveUniformsiv(program, 1, &index, GL_UNIFORM_OFFSET, &found);
+            EXPECT_EQ(std::size_t(found), offset) << name;
+        }
+        GLint bytes = 0;
+        glGetActiveUniformBlockiv(program, glGetUniformBlockIndex(program, "Frame"),
+                                  GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
+        EXPECT_EQ(std::size_t(bytes), sizeof(FrameBlock));
+    });
+}
+
+TEST(Bindings, AreThoseOfTheShaders) {
+    std::ifstream file(PELLUCID_SHADERS "/lib/bindings.glsl");
+    std::map<std::string, int> defined;
+    for (std::string word; file >> word;)
+        if (word == "#define") {
+            std::string name;
+            int value = -1;
+            file >> name >> value;
+            defined[name] = value;
+        }
+    namespace bindings = gpu::bindings;
+    const std::map<std::string, int> expected{{"FRAME_BLOCK", bindings::frameBlock},
+                                              {"DISC_ROWS", bindings::discRows},
+                                              {"ROTATIONS", bindings::rotations},
+                                              {"SLICE", bindings::slice},
+                                              {"LINES", bindings::lines},
+                                              {"PICTURE", bindings::picture},
+                                              {"FIRST_SPECTRUM", bindings::firstSpectrum},
+                                              {"MOST_SPECTRA", bindings::mostSpectra},
+                                              {"MOST_PAGES", bindings::mostPages},
+                                              {"MOST_TERMS", bindings::mostTerms},
+                                              {"MOST_PAIRS", bindings::mostPairs},
+                                              {"MOST_PAIR_VECTORS", bindings::mostPairVectors},
+                                              {"THREADS", bindings::threads}};
+    EXPECT_EQ(defined, expected);
+}
+
+TEST(Bindings, HoldWhatThePlanMayAskFor) {
+    namespace bindings = gpu::bindings;
+    EXPECT_GE(bindings::mostTerms, int(2 * shading::mostCurveValues));
+    EXPECT_GE(2 * bindings::mostPairVectors, fourier::Kernel::largestTerms);
+    EXPECT_GE(2 * bindings::mostPairs, fourier::Kernel::largestWidth);
+    for (int n = 2; n <= 65536; n = fourier::smoothEvenSize(n + 1)) {
+        int product = 1;
+        const auto radices = gpu::radicesOf(n);
+        for (const int radix : radices)
+            product *= radix;
+        EXPECT_EQ(product, n);
+        EXPECT_LE(radices.size(), 16U) << n; // four vectors of stages
+    }
+}
+
+} // namespace
+} // namespace pellucid

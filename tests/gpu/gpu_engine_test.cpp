@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "app/bench/subjects.h"
+#include "core/render/prepared_engine.h"
+#include "core/task/error.h"
+#include "gpu/gpu_engine.h"
+#include "tests/gpu/card.h"
+#include "tests/support/fields.h"
+
+namespace pellucid {
+
+namespace {
+
+using fourier::Storage;
+using shading::CueKind;
+using shading::Shading;
+
+// What both engines promise of each other under the same plan.
+constexpr double withinFloat32 = 2e-5, withinBinary16 = 3e-4;
+
+class GpuEngine : public test::CardTest {
+protected:
+    static std::vector<glm::dquat> views() {
+        std::mt19937 random(3);
+        return {test::randomOrientation(random),
+                render::viewOrientation(render::StandardView::front),
+                render::viewOrientation(render::StandardView::left, {.azimuthDeg = 30.0})};
+    }
+
+    // The largest difference of the engines over the views, relative L2.
+    static double difference(const render::Scene &asked, const classify::ShownFields &fields,
+                             std::size_t mostTextureBytes = std::size_t(1) << 30) {
+        render::Scene scene = asked;
+        const auto prepared = render::prepareEngine(scene, fields, {});
+        gpu::GpuEngine engine(gpu::SpectrumTextures::upload(card, prepared.engine->spectra(), {},
+                                                            mostTextureBytes),
+                              prepared.engine->shares(), prepared.engine->room());
+        double worst = 0.0;
+        for (const glm::dquat &view : views()) {
+            scene.camera.orientation = view;
+            const auto expected =
+                prepared.engine->render(scene.camera, scene.image, scene.shading);
+            const auto found = engine.render(scene.camera, scene.image, scene.shading);
+            EXPECT_EQ(found.channels, expected.channels);
+            EXPECT_EQ(found.width, expected.width);
+            EXPECT_EQ(found.samples.size(), expected.samples.size());
+            worst = std::max(worst, test::relativeL2(found.samples, expected.samples));
+        }
+        return worst;
+    }
+
+    static classify::ShownFields tiltedNoise() {
+        return {{test::noiseField(test::tiltedLattice({36, 30, 21}, {0.8, 1.0, 2.1}, 20.0))}, {}};
+    }
+    static render::Scene sceneOf(const classify::ShownFields &fields) {
+        return {.camera = render::defaultCamera(fields.channels.front().values.lattice())};
+    }
+};
+
+class HardField : public GpuEngine, public testing::WithParamInterface<std::size_t> {};
+
+TEST_P(HardField, IsTheProcessorsPicture) {
+    const classify::ShownFields fields{{bench::hardSubjects()[GetParam()].make()}, {}};
+    render::Scene scene = sceneOf(fields);
+    scene.interpolation.storage = Storage::float32;
+    EXPECT_LE(difference(scene, fields), withinFloat32);
+    scene.interpolation.storage = Storage::binary16;
+    EXPECT_LE(difference(scene, fields), withinBinary16);
+}
+
+std::string nameOf(const testing::TestParamInfo<std::size_t> &info) {
+    std::string name = bench::hardSubjects()[info.param].name;
+    for (char &c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0)
+            c = '_';
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Fields, HardField,
+                         testing::Range(std::size_t(0), bench::hardSubjects().size()), nameOf);
+
+TEST_F(GpuEngine, EveryWidthAndFamilyOfKernels) {
+    const auto fields = tiltedNoise();
+    for (const char *kernel : {"nearest", "trilinear", "catmull-rom", "b-spline", "hamming-sinc",
+                               "ES6", "KB4", "LS2", "LS3", "LS4", "LS5", "LS7"}) {
+        render::Scene scene = sceneOf(fields);
+        scene.interpolation.kernel = fourier::kernelFromName(kernel);
+        scene.interpolation.padding = 2.0;
+        scene.interpolation.storage = Storage::float32;
+        EXPECT_LE(difference(scene, fields), withinFloat32) << kernel;
+    }
+}
+
+TEST_F(GpuEngine, EveryReconstructionAndFraming) {
+    const auto fields = tiltedNoise();
+    const render::Camera whole = sceneOf(fields).camera;
+    render::Camera fine = whole, moved = whole, wide = whole, tiny = whole;
+    fine.pixelMm *= 0.4; // frequencies beyond the samples' own: the spectrum is periodic
+    moved.panMm = {7.3, -4.1};
+    moved.width = 31;
+    wide.width = 201; // odd, and larger than the period
+    wide.height = 167;
+    tiny.width = tiny.height = 1;
+    for (const auto reconstruction :
+         {render::Reconstruction::cubic, render::Reconstruction::linear,
+          render::Reconstruction::bandLimited})
+        for (const double rollOff : {0.0, 0.05, 1.0})
+            for (const render::Camera &camera : {whole, fine, moved, wide, tiny}) {
+                render::Scene scene = sceneOf(fields);
+                scene.camera = camera;
+                scene.image = {reconstruction, rollOff};
+                scene.interpolation.storage = Storage::float32;
+                EXPECT_LE(difference(scene, fields), withinFloat32)
+                    << int(reconstruction) << " " << rollOff << " " << camera.width << " x "
+                    << camera.height << ", pan " << camera.panMm.x;
+            }
+}
+
+TEST_F(GpuEngine, CuesAndLights) {
+    const auto fields = tiltedNoise();
+    const shading::DepthCue linear{CueKind::linear, 0.9}, sine{CueKind::sine, 1.0};
+    const shading::DepthCue curve{CueKind::curve, 0.8, {0.2, 1.5, 0.4, 1.0}};
+    const std::vector<shading::Light> grey{{{1, 1, 0.6}}};
+    const std::vector<shading::Light> colored{{{1, 0, 0}, {1.0, 0.2, 0.0}},
+                                              {{0, 1, 1}, {0.0, 1.0, 0.5}, 0.7}};
+    const std::vector<shading::Light> opposite{{{1, 0, 0}}, {{-1, 0, 0}}};
+    for (const Shading &shading :
+         {Shading{.cue = linear}, Shading{.cue = sine}, Shading{.cue = curve},
+          Shading{.ambient = 0.3}, Shading{.ambient = 0.3, .lights = grey},
+          Shading{.ambient = 0.0, .lights = colored}, Shading{.lights = opposite},
+          Shading{.cue = linear, .ambient = 0.5, .lights = grey},
+          Shading{.cue = linear, .ambient = 0.5, .lights = colored},
+          Shading{.cue = sine, .ambient = 0.5, .lights = colored}})
+        for (const Storage storage : {Storage::float32, Storage::binary16}) {
+            render::Scene scene = sceneOf(fields);
+            scene.shading = shading;
+            scene.interpolation.storage = storage;
+            EXPECT_LE(difference(scene, fields),
+                      storage == Storage::float32 ? withinFloat32 : withinBinary16)
+                << shading::toJson(shading);
+        }
+}
+
+// Three channels of their own, a single field in a colour, and both under coloured light.
+TEST_F(GpuEngine, Colors) {
+    const auto lattice = test::tiltedLattice({36, 30, 21}, {0.8, 1.0, 2.1}, 20.0);
+    const classify::ShownFields channels{
+        {test::noiseField(lattice, 1), test::noiseField(lattice, 2), test::noiseField(lattice, 3)},
+        {}};
+    const classify::ShownFields colored{{test::noiseField(lattice, 1)}, {1.0, 0.4, 0.1}};
+    const std::vector<shading::Light> light{{{1, 0, 0.3}, {0.2, 1.0, 0.7}}};
+    for (const auto &fields : {channels, colored})
+        for (const Shading &shading :
+             {Shading{}, Shading{.cue = {CueKind::linear, 1.0}}, Shading{.lights = light}}) {
+            render::Scene scene = sceneOf(fields);
+            scene.shading = shading;
+            scene.interpolation.storage = Storage::float32;
+            EXPECT_LE(difference(scene, fields), withinFloat32) << shading::toJson(shading);
+        }
+}
+
+// As many layers as the card reads at once, with shares that move.
+TEST_F(GpuEngine, LayersWithMovingShares) {
+    const auto lattice = test::tiltedLattice({20, 22, 15}, {0.8, 1.0, 2.1}, 20.0);
+    std::vector<classify::DensityField> fields;
+    for (unsigned n = 0; n < 16; ++n)
+        fields.push_back(test::noiseField(lattice, n));
+    render::Scene scene{.camera = render::defaultCamera(lattice)};
+    const auto plan = render::planRender(scene, render::summarise(fields), 3);
+    render::EngineSpectra spectra;
+    for (const auto &field : fields)
+        spectra.fields.push_back(std::make_shared<const fourier::Spectrum>(
+            fourier::Spectrum::prepare(field.values, plan.spectrum)));
+    spectra.scale = shading::shadingScale(lattice);
+    render::CpuEngine processor(spectra, plan.room);
+    const auto engine = gpu::copyToCard(card, processor);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> uniform(0.0, 2.0);
+    for (const bool grey : {true, false}) {
+        std::vector<render::ChannelShares> shares(fields.size());
+        for (auto &share : shares) {
+            share = {uniform(random), uniform(random), uniform(random)};
+            if (grey)
+                share[1] = share[2] = share[0];
+        }
+        shares[5] = {0.0, 0.0, 0.0}; // costs nothing, and must not be read
+        processor.setShares(shares);
+        const auto expected = processor.render(scene.camera, scene.image);
+        const auto found = engine->withShares(shares)->render(scene.camera, scene.image);
+        EXPECT_EQ(found.channels, grey ? 1 : 3);
+        EXPECT_LE(test::relativeL2(found.samples, expected.samples), withinBinary16);
+    }
+    // Nothing is shown.
+    const std::vector<render::ChannelShares> none(fields.size(), {0.0, 0.0, 0.0});
+    const auto dark = engine->withShares(none)->render(scene.camera, scene.image);
+    EXPECT_EQ(dark.samples.size(), std::size_t(dark.width) * std::size_t(dark.height));
+    EXPECT_EQ(*std::max_element(dark.samples.begin(), dark.samples.end()), 0.0F);
+}
+
+TEST_F(GpuEngine, ASpectrumInSeveralTextures) {
+    const auto fields = tiltedNoise();
+    render::Scene scene = sceneOf(fields);
+    scene.interpolation.storage = Storage::float32;
+    const auto prepared = render::prepareEngine(scene, fields, {});
+    const auto whole = gpu::SpectrumTextures::upload(card, prepared.engine->spectra());
+    ASSERT_EQ(whole->layout().slabs, 1);
+    const std::size_t bytes = whole->bytes();
+    for (const std::size_t parts : {2U, 5U}) {
+        const auto slabs =
+            gpu::SpectrumTextures::upload(card, prepared.engine->spectra(), {}, bytes / parts);
+        EXPECT_GE(slabs->layout().slabs, int(parts));
+        EXPECT_EQ(slabs->fieldPages(), slabs->layout().slabs);
+        EXPECT_LE(difference(scene, fields, bytes / parts), withinFloat32) << parts;
+    }
+    scene.shading = {.cue = {CueKind::linear, 1.0}, .lights = {{{1, 0, 0}}}};
+    EXPECT_LE(difference(scene, fields, bytes / 2), withinFloat32);
+}
+
+// Images whose lines are longer than the card's shared memory, both ways.
+TEST_F(GpuEngine, LongImages) {
+    const auto fields = tiltedNoise();
+    render::Scene scene = sceneOf(fields);
+    scene.interpolation.storage = Storage::float32;
+    scene.camera.width = 9000;
+    scene.camera.height = 5;
+    EXPECT_LE(difference(scene, fields), withinFloat32);
+    std::swap(scene.camera.width, scene.camera.height);
+    EXPECT_LE(difference(scene, fields), withinFloat32);
+}
+
+TEST_F(GpuEngine, LightsGoOut) {
+    const auto fields = tiltedNoise();
+    render::Scene scene = sceneOf(fields);
+    scene.shading.lights.push_back({{1, 0, 0}});
+    const auto prepared = render::prepareEngine(scene, fields, {});
+    const auto lit = gpu::copyToCard(card, *prepared.engine);
+    const auto unlit = lit->withoutLight();
+    EXPECT_LT(unlit->textures().bytes(), lit->textures().bytes());
+    const auto expected =
+        prepared.engine->withoutLight()->render(scene.camera, scene.image, scene.shading);
+    const auto found = unlit->render(scene.camera, scene.image, scene.shading);
+    EXPECT_LE(test::relativeL2(found.samples, expected.samples), withinBinary16);
+}
+
+// What is shown is not written over while it is held.
+TEST_F(GpuEngine, PicturesKeepTheirPixels) {
+    const auto fields = tiltedNoise();
+    render::Scene scene = sceneOf(fields);
+    const auto prepared = render::prepareEngine(scene, fields, {});
+    const auto engine = gpu::copyToCard(card, *prepared.engine);
+    std::vector<std::shared_ptr<const gpu::CardPicture>> held;
+    std::vector<std::vector<float>> first;
+    for (int n = 0; n < 7; ++n) {
+        scene.camera.orientation = render::viewOrientation(render::StandardView::front,
+                                                           {.azimuthDeg = 10.0 * n});
+        held.push_back(engine->renderOnCard(scene.camera, scene.image));
+        first.push_back(held.back()->download().samples);
+    }
+    for (std::size_t n = 0; n < held.size(); ++n) {
+        EXPECT_EQ(held[n]->download().samples, first[n]);
+        if (n > 0) {
+            EXPECT_NE(first[n], first[n - 1]);
+        }
+    }
+}
+
+TEST_F(GpuEngine, WhatIsTooLargeIsRefused) {
+    const auto fields = tiltedNoise();
+    render::Scene scene = sceneOf(fields);
+    const auto prepared = render::prepareEngine(scene, fields, {});
+    const auto expectTooLarge = [](const std::function<void()> &what) {
+        try {
+            what();
+            ADD_FAILURE() << "was not refused";
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), task::ErrorCode::outOfMemory) << error.what();
+        }
+    };
+    // More textures than there are units.
+    expectTooLarge([&] {
+        gpu::SpectrumTextures::upload(card, prepared.engine->spectra(), {}, std::size_t(1) << 15);
+    });
+    // A slice beyond a buffer, and then the engine still works.
+    const auto engine = gpu::copyToCard(card, *prepared.engine);
+    render::Camera large = scene.camera;
+    large.pixelMm /= 400.0;
+    large.width = large.height = 8192;
+    expectTooLarge([&] { engine->renderOnCard(large, scene.image); });
+    const auto expected = prepared.engine->render(scene.camera, scene.image);
+    EXPECT_LE(test::relativeL2(engine->render(scene.camera, scene.image).samples, expected.samples),
+              withinBinary16);
+}
+
+TEST_F(GpuEngine, CopyingCanBeCancelled) {
+    const auto fields = tiltedNoise();
+    const auto prepared = render::prepareEngine(sceneOf(fields), fields, {});
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(gpu::copyToCard(card, *prepared.engine, gpu::Fetch::exact,
+                                 task::Progress(stop.get_token())),
+                 task::Cancelled);
+}
+
+} // namespace
+} // namespace pellucid
