@@ -49,12 +49,13 @@ double pairNoise(const fourier::Kernel &kernel, double padding) {
 
 } // namespace
 
-FetchPlan planFetch(const render::RenderPlan &plan, double tolerance, int filterBits) {
+FetchPlan planFetch(const render::RenderPlan &plan, double tolerance,
+                    const shading::Shading &shading) {
     const auto &layout = plan.spectrum;
     const FetchPlan exact{Fetch::exact, plan.predictedError};
-    if (layout.width() < 2)
-        return exact; // one cell is read as it is
-    const double rounding = std::ldexp(1.0, -filterBits) / std::sqrt(12.0);
+    if (layout.width() < 2 || !shading.isPlain()) // one cell is read as it is
+        return exact;
+    const double rounding = std::ldexp(1.0, -8) / std::sqrt(12.0);
     double noise = 0.0;
     for (int d = 0; d < 3; ++d) {
         const fourier::Kernel &kernel = layout.kernels[std::size_t(d)];
@@ -147,7 +148,7 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const render::Camera 
     command.channels = channels;
     command.width = layout.width();
     command.evenTerms = layout.kernels.front().terms();
-    command.fetch = shades.cued ? Fetch::exact : m_fetch;
+    command.fetch = command.shaded ? Fetch::exact : m_fetch;
     // A single colour is given to the picture; three images have theirs.
     if (!mixing.grey && mixing.channels == 1)
         command.color = {float(mixing.color[0]), float(mixing.color[1]), float(mixing.color[2])};

@@ -17,11 +17,12 @@ struct FetchPlan {
 };
 
 /// The filtered fetches where a plan has room for what their coarse weights leave, else exact ones.
-/// A weight of b fraction bits is wrong by 2^-b/sqrt(12) on average, times the difference of two
+/// Cards weigh with 8 fraction bits, which are wrong by 2^-8/sqrt(12) on average, times the difference of two
 /// neighbouring cells: relative to the image by the root of the mean of 4 sin^2(pi x), x the
 /// distance from the wrap voxel in periods, for each axis and each pair of taps by its weight.
-/// Kernels with taps of different signs cannot be paired.
-FetchPlan planFetch(const render::RenderPlan &plan, double tolerance, int filterBits = 8);
+/// Kernels with negative taps cannot be paired; with cue or light all fetches are exact.
+FetchPlan planFetch(const render::RenderPlan &plan, double tolerance,
+                    const shading::Shading &shading = {});
 
 class GpuEngine;
 
@@ -49,7 +50,7 @@ public:
                                    const render::ImageDefinition &image,
                                    const shading::Shading &shading = {},
                                    render::FrameTimes *times = nullptr) override;
-    /// Leaves it on the card. A cue takes exact fetches. *Throws* as render.
+    /// Leaves it on the card. Cue and light take exact fetches. *Throws* as render.
     std::shared_ptr<const CardPicture> renderOnCard(const render::Camera &camera,
                                                     const render::ImageDefinition &image,
                                                     const shading::Shading &shading = {},

@@ -47,9 +47,6 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const fs::path out(o.out);
     // Refused before any work is done.
     checkOutput(out, classify::isGrey(lookFor(o.scene)) && shadingFor(o.scene, command).isGrey());
-    if (o.engine == "gpu")
-        throw Error(ErrorCode::noSuchDevice,
-                    "--engine gpu: the GPU engine is not available in this version");
     if (o.turntable != (o.frames > 0))
         throw Error(ErrorCode::usage, "--frames and --turntable go together");
     std::optional<tbb::global_control> threads;
@@ -96,6 +93,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         }
     };
     Renderer renderer = prepared();
+    renderer.chooseEngine(engineFromText(o.engine), o.frames);
     const double prepareMs = watch.lapMs();
     std::vector<std::string> warnings = volume.notes().warnings;
     const auto warn = [&](const std::string &text) {
@@ -148,7 +146,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const volume::Lattice &l = volume.lattice();
     std::puts(
         jsonText({{"engine", renderer.description()},
-                  {"device", "cpu"},
+                  {"device", renderer.isOnCard() ? "gpu" : "cpu"},
+                  {"engine_reason", renderer.engineReason()},
                   {"size", {scene.camera.width, scene.camera.height}},
                   {"pixel_mm", scene.camera.pixelMm},
                   {"frames", frames},

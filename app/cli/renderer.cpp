@@ -10,12 +10,27 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "core/reference/shaded_field.h"
+#include "core/task/error.h"
+#include "gpu/surfaceless_context.h"
 
 namespace pellucid::cli {
 
 using nlohmann::json;
 
+EngineChoice engineFromText(const std::string &text) {
+    return text == "gpu"   ? EngineChoice::card
+           : text == "cpu" ? EngineChoice::processor
+                           : EngineChoice::automatic;
+}
+
 namespace {
+
+// What is said where the card was asked for: it is too small, or else not there for us.
+task::Error cardRefused(const task::Error &error) {
+    const bool isTooSmall = error.code() == task::ErrorCode::outOfMemory;
+    return {isTooSmall ? error.code() : task::ErrorCode::noSuchDevice,
+            "--engine gpu: " + error.reason()};
+}
 
 render::ShadedFields shadedFor(const render::Scene &scene, const classify::ShownFields &fields,
                                const task::Progress &progress) {
@@ -77,7 +92,47 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
                                                         *summary.energy.spread)));
 }
 
+void Renderer::chooseEngine(EngineChoice choice, int frames) {
+    const bool isAsked = m_isCardAsked = choice == EngineChoice::card;
+    if (choice == EngineChoice::processor)
+        return;
+    if (!m_engine) {
+        m_engineReason = "no engine keeps the tolerance: the exact reference does";
+        if (isAsked)
+            throw cardRefused({task::ErrorCode::noSuchDevice, m_engineReason + ", on the processor"});
+        return;
+    }
+    if (!isAsked && frames < 2) {
+        m_engineReason = "one image is made sooner than a graphics card has its spectra";
+        return;
+    }
+    try {
+        auto passes = std::make_shared<gpu::FramePasses>(
+            std::make_shared<gpu::Device>(std::make_unique<gpu::SurfacelessContext>(isAsked)));
+        const gpu::FetchPlan plan = gpu::planFetch(m_fitting.plan, m_scene.tolerance, m_scene.shading);
+        m_card = gpu::copyToCard(passes, *m_engine, plan.fetch, m_progress);
+        m_predictedError = plan.predictedError;
+        m_engineReason = isAsked ? "the graphics card was asked for" : "there is a graphics card";
+    } catch (const task::Error &error) {
+        if (isAsked)
+            throw cardRefused(error);
+        m_engineReason = error.reason();
+    }
+}
+
 render::ProjectionImage Renderer::image(const render::Camera &camera, render::FrameTimes &times) {
+    if (m_card) {
+        try {
+            return m_card->render(camera, m_scene.image, m_scene.shading, &times);
+        } catch (const task::Error &error) {
+            // The card is gone, or too small for this image: the processor goes on, unless the
+            // card was asked for.
+            if (m_isCardAsked)
+                throw cardRefused(error);
+            m_engineReason = error.reason();
+            m_card.reset();
+        }
+    }
     if (m_engine)
         return m_engine->render(camera, m_scene.image, m_scene.shading, &times);
     Stopwatch watch;
@@ -114,6 +169,8 @@ render::ProjectionImage Renderer::exactImage(const render::Camera &camera) const
 }
 
 std::string Renderer::description() const {
+    if (m_card)
+        return m_card->description();
     return m_engine ? m_engine->description() : "exact reference, double precision";
 }
 

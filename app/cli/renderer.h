@@ -12,8 +12,13 @@
 #include "core/classify/shown_fields.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/prepared_engine.h"
+#include "gpu/gpu_engine.h"
 
 namespace pellucid::cli {
+
+/// Which engine is asked for.
+enum class EngineChoice { automatic, processor, card };
+EngineChoice engineFromText(const std::string &text);
 
 /// Images of one scene within a tolerance: by the engine, or by the exact reference where no plan
 /// keeps the tolerance, unless the memory is short or the scene fixes the interpolation.
@@ -22,6 +27,15 @@ public:
     /// The scene and the fields must outlive it. *Throws* Error{outOfMemory}, Cancelled.
     Renderer(const render::Scene &scene, const classify::ShownFields &fields,
              const render::Budget &budget, const Context &context);
+
+    /// Renders `frames` images by the engine that is asked for. Left to itself the card is taken if
+    /// it is none of software and there is more than one image to make: a single one is over on the
+    /// processor before a card has its spectra. *Throws* Error{noSuchDevice} with the reason if the
+    /// card is asked for and there is none, or none that is large enough.
+    void chooseEngine(EngineChoice choice, int frames);
+    /// Why it is that engine, a line.
+    const std::string &engineReason() const { return m_engineReason; }
+    bool isOnCard() const { return m_card != nullptr; }
 
     /// `times`: of this image, all channels.
     render::ProjectionImage image(const render::Camera &camera, render::FrameTimes &times);
@@ -56,6 +70,9 @@ private:
     volume::Lattice m_lattice; ///< of what is rendered
     double m_predictedError = 0.0;
     std::shared_ptr<render::CpuEngine> m_engine;
+    std::shared_ptr<gpu::GpuEngine> m_card; ///< its twin, if that is used
+    bool m_isCardAsked = false;
+    std::string m_engineReason = "the processor was asked for";
     /// One each channel, in place of an engine; made for every image where each is shaded anew.
     std::vector<reference::WideKernel> m_references;
 };
