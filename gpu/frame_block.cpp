@@ -126,15 +126,15 @@ FrameBlock frameBlock(const render::SliceGrid &grid, const render::ImageDefiniti
         block.inversePadded[axis] = 1.0F / float(layout.padded[d]);
         packPairs(layout.kernels[axis], d, block.kernels);
     }
-    block.counts[1] = std::int32_t(mixing.sources.size());
+    block.counts[3] = std::int32_t(mixing.sources.size());
     for (std::size_t s = 0; s < mixing.sources.size(); ++s) {
         const render::FrameSource &source = mixing.sources[s];
-        block.shares[s] = {source.shares[0], source.shares[1], source.shares[2],
-                           float(int(source.kind))};
-        // The pages of gradients come after those of fields.
+        block.shares[s] = {source.shares[0], source.shares[1], source.shares[2]};
+        // Fields come first, and so do their pages.
+        const bool isField = source.kind == render::FrameKind::field;
+        block.counts[1] += isField ? 1 : 0;
         const auto [page, plane] = texels.placeOf(source.field);
-        block.places[s] = {page + (source.kind == render::FrameKind::gradient ? fieldPages : 0),
-                           plane};
+        block.places[s] = {page + (isField ? 0 : fieldPages), plane};
     }
     render::FrameShading plain;
     const render::FrameShading &shades = shading != nullptr ? *shading : plain;

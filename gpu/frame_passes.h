@@ -51,7 +51,7 @@ struct FrameCommand {
     render::SliceGrid grid;
     FrameBlock block; ///< but the tables, which the passes have
     std::vector<unsigned> pages; ///< textures
-    int slabs = 1, sums = 1, layers = 1, channels = 1;
+    int fieldPages = 1, slabs = 1, sums = 1, layers = 1, channels = 1;
     int width = 4, evenTerms = 1, momentTerms = 1;
     bool shaded = false, cued = false, lit = false;
     Fetch fetch = Fetch::exact;

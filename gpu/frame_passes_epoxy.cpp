@@ -42,6 +42,7 @@ Defines sliceDefines(const FrameCommand &c) {
     return {{"WIDTH", c.width},
             {"EVEN_TERMS", c.evenTerms},
             {"MOMENT_TERMS", c.momentTerms},
+            {"FIELD_PAGES", c.fieldPages},
             {"PAGES", int(c.pages.size())},
             {"SLABS", c.slabs},
             {"SUMS", c.sums},

@@ -69,11 +69,12 @@ FetchPlan planFetch(const render::RenderPlan &plan, double tolerance,
 }
 
 std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
-                                      const render::CpuEngine &engine, Fetch fetch,
+                                      const render::ProjectionEngine &engine, Fetch fetch,
                                       const task::Progress &progress) {
+    render::EngineParts parts = engine.parts();
     return std::make_shared<GpuEngine>(
-        SpectrumTextures::upload(std::move(passes), engine.spectra(), progress), engine.shares(),
-        engine.room(), fetch);
+        SpectrumTextures::upload(std::move(passes), std::move(parts.spectra), progress),
+        std::move(parts.shares), parts.room, fetch);
 }
 
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
@@ -88,6 +89,10 @@ GpuEngine::withShares(std::vector<render::ChannelShares> shares) const {
 
 std::shared_ptr<GpuEngine> GpuEngine::withoutLight() const {
     return std::make_shared<GpuEngine>(m_textures->withoutLight(), m_shares, m_room, m_fetch);
+}
+
+render::EngineParts GpuEngine::parts() const {
+    return {m_textures->spectra(), m_shares, m_room};
 }
 
 std::string GpuEngine::description() const {
@@ -142,6 +147,7 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const render::Camera 
     command.block = frameBlock(command.grid, image, geometry, mixing, command.shaded ? &shades : nullptr,
                                layout, m_textures->layout(), m_textures->fieldPages());
     command.pages = m_textures->pages(shades.lit);
+    command.fieldPages = m_textures->fieldPages();
     command.slabs = m_textures->layout().slabs;
     command.sums = mixing.sums;
     command.layers = mixing.channels;

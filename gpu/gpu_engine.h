@@ -28,7 +28,8 @@ class GpuEngine;
 
 /// The engine's twin on the card. *Throws* as SpectrumTextures::upload.
 std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
-                                      const render::CpuEngine &engine, Fetch fetch = Fetch::exact,
+                                      const render::ProjectionEngine &engine,
+                                      Fetch fetch = Fetch::exact,
                                       const task::Progress &progress = {});
 
 /// What `CpuEngine` does, on the card: the same plan, the same cells, the same picture within 2e-5
@@ -45,6 +46,7 @@ public:
     std::shared_ptr<GpuEngine> withoutLight() const;
 
     std::string description() const override;
+    render::EngineParts parts() const override;
     /// Reads the picture back. *Throws* Error{outOfMemory}, Error{noSuchDevice}.
     render::ProjectionImage render(const render::Camera &camera,
                                    const render::ImageDefinition &image,

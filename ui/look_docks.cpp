@@ -7,6 +7,7 @@
 #include <QScrollArea>
 #include <QToolButton>
 
+#include "ui/card_copier.h"
 #include "ui/look_preparer.h"
 #include "ui/panels/classes_panel.h"
 #include "ui/panels/presets_panel.h"
@@ -36,7 +37,7 @@ QWidget *scrolling(QWidget *panel) {
 } // namespace
 
 LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer,
-                     ProjectionView &projection, const Theme &theme)
+                     CardCopier &copier, ProjectionView &projection, const Theme &theme)
     : QObject(&window), m_previewer(document), m_presets(new PresetsPanel(document)),
       m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document, theme)),
       m_shading(new ShadingPanel(document, theme)), m_quality(new QualityPanel(document)) {
@@ -53,7 +54,7 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
     connect(&m_previewer, &LookPreviewer::pictureReady, m_presets, &PresetsPanel::setPicture);
     connect(&m_previewer, &LookPreviewer::histogramReady, m_function,
             &TransferFunctionPanel::setHistogram);
-    connect(&preparer, &LookPreparer::engineReady, m_quality, &QualityPanel::showPlan);
+    connect(&copier, &CardCopier::engineReady, m_quality, &QualityPanel::showPlan);
     connect(m_quality, &QualityPanel::chosenAgain, &preparer, &LookPreparer::prepareAgain);
     connect(&projection, &ProjectionView::frameShown, m_quality, &QualityPanel::showFrame);
 }

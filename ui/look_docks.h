@@ -12,6 +12,7 @@ class QMainWindow;
 namespace pellucid::ui {
 
 class ClassesPanel;
+class CardCopier;
 class LookPreparer;
 class PresetsPanel;
 class ProjectionView;
@@ -24,7 +25,7 @@ class TransferFunctionPanel;
 class LookDocks : public QObject {
     Q_OBJECT
 public:
-    LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer,
+    LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer, CardCopier &copier,
               ProjectionView &projection, const Theme &theme);
 
     const std::vector<QDockWidget *> &docks() const { return m_docks; }

@@ -38,14 +38,14 @@ namespace pellucid::ui {
 
 MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     : QMainWindow(parent), m_theme(theme), m_preparer(m_document, m_jobs),
-      m_opener(m_document, m_jobs, m_preparer) {
+      m_copier(m_document, m_jobs, m_card), m_opener(m_document, m_jobs, m_preparer) {
     setObjectName("mainWindow");
     setWindowTitle("Pellucid");
     setAcceptDrops(true);
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
     createPanes();
     createStudyDock();
-    m_look = new LookDocks(*this, m_document, m_preparer, *m_projection, m_theme);
+    m_look = new LookDocks(*this, m_document, m_preparer, m_copier, *m_projection, m_theme);
     connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
     createFileMenu();
     createEditMenu();
@@ -58,7 +58,13 @@ MainWindow::MainWindow(const Theme &theme, QWidget *parent)
     createToolBar();
     createStatusBar();
     connect(&m_document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
-    connect(&m_preparer, &LookPreparer::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(&m_preparer, &LookPreparer::engineReady, &m_copier, &CardCopier::show);
+    connect(&m_copier, &CardCopier::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(m_projection, &ProjectionView::cardFailed, &m_card, &GraphicsCard::giveUp);
+    connect(&m_card, &GraphicsCard::changed, this, [this] {
+        if (!m_document.volume())
+            m_engine->setText(m_card.reason());
+    });
     connect(&m_preparer, &LookPreparer::planHolds, m_projection, &ProjectionView::setPlanHolds);
     connect(&m_opener, &StudyOpener::cameraKept, m_projection, &ProjectionView::adoptCamera);
     connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
@@ -196,9 +202,29 @@ void MainWindow::createViewMenu() {
     layout(tr("1 + 3"), "onePlusThreeAction", PaneLayout::onePlusThree)->setChecked(true);
     layout(tr("2 x 2"), "twoByTwoAction", PaneLayout::twoByTwo);
     menu->addSeparator();
+    addEngineMenu(*menu->addMenu(tr("Projection &engine")));
+    menu->addSeparator();
     QAction *full = addCommand(menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"),
                                [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
     full->setCheckable(true);
+}
+
+void MainWindow::addEngineMenu(QMenu &menu) {
+    auto *engines = new QActionGroup(this);
+    const struct {
+        QString text;
+        const char *name;
+        EngineChoice choice;
+    } choices[] = {{tr("&Automatic"), "automaticEngineAction", EngineChoice::automatic},
+                   {tr("&Processor"), "processorEngineAction", EngineChoice::processor},
+                   {tr("&Graphics card"), "cardEngineAction", EngineChoice::card}};
+    for (const auto &c : choices) {
+        QAction *action =
+            addCommand(&menu, c.text, c.name, {}, [this, choice = c.choice] { m_card.choose(choice); });
+        action->setCheckable(true);
+        action->setActionGroup(engines);
+        action->setChecked(m_card.choice() == c.choice);
+    }
 }
 
 void MainWindow::createToolsMenu() {
@@ -282,7 +308,7 @@ void MainWindow::createStatusBar() {
     connect(m_projection, &ProjectionView::engineDescribed, m_engine, &QLabel::setText);
     for (MprView *view : m_mpr)
         connect(view, &MprView::readoutChanged, m_readout, &QLabel::setText);
-    m_engine->setText(m_projection->canvasDescription());
+    m_engine->setText(m_card.reason());
 }
 
 void MainWindow::showVolumeState() {
@@ -334,7 +360,8 @@ void MainWindow::chooseFolder() {
 }
 
 void MainWindow::savePicture() {
-    const QImage picture = m_projection->picture();
+    QImage picture;
+    attempt([&] { picture = m_projection->picture(); });
     if (picture.isNull()) {
         statusBar()->showMessage(tr("There is no projection to save yet"), 4000);
         return;

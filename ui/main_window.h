@@ -6,7 +6,9 @@
 
 #include <QMainWindow>
 
+#include "ui/card_copier.h"
 #include "ui/document.h"
+#include "ui/graphics_card.h"
 #include "ui/job_runner.h"
 #include "ui/look_preparer.h"
 #include "ui/study_opener.h"
@@ -38,6 +40,7 @@ public:
 
     Document &document() { return m_document; }
     JobRunner &jobs() { return m_jobs; }
+    GraphicsCard &graphicsCard() { return m_card; }
 
 protected:
     void dragEnterEvent(QDragEnterEvent *event) override;
@@ -51,6 +54,7 @@ private:
     void createFileMenu();
     void createEditMenu();
     void createViewMenu();
+    void addEngineMenu(QMenu &menu);
     void createToolsMenu();
     void createHelpMenu();
     void createToolBar();
@@ -74,6 +78,8 @@ private:
     Document m_document;
     JobRunner m_jobs;
     LookPreparer m_preparer;
+    GraphicsCard m_card;
+    CardCopier m_copier;
     StudyOpener m_opener;
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/task/error.h"
+
 namespace pellucid::ui {
 
 RenderWorker::RenderWorker(QObject *parent)
@@ -17,20 +19,23 @@ RenderWorker::~RenderWorker() {
 }
 
 void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
-                             std::uint64_t generation) {
+                             std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation) {
     const std::lock_guard lock(m_mutex);
     m_engine = std::move(engine);
+    m_onCard = std::move(onCard);
     m_generation = generation;
     m_next.reset();
 }
 
 std::uint64_t RenderWorker::request(const render::Camera &camera,
                                     const render::ImageDefinition &image,
-                                    const shading::Shading &shading, const Reduction &reduction) {
+                                    const shading::Shading &shading, const Reduction &reduction,
+                                    bool wantsTone) {
     const std::lock_guard lock(m_mutex);
     if (!m_engine)
         return m_number;
-    m_next = Request{m_engine, m_generation, camera, image, shading, reduction, ++m_number};
+    m_next = Request{m_engine, m_onCard,  m_generation, camera, image,
+                     shading,  reduction, wantsTone,    ++m_number};
     m_wake.notify_one();
     return m_number;
 }
@@ -54,18 +59,41 @@ void RenderWorker::run(std::stop_token stop) {
             camera.height = std::max(1, int(std::lround(camera.height / factor)));
             camera.pixelMm *= factor;
         }
+        makeFrame(request);
+    }
+}
+
+void RenderWorker::makeFrame(const Request &request) {
+    try {
+        auto frame = std::make_shared<RenderedFrame>();
+        frame->generation = request.generation;
+        frame->number = request.number;
+        frame->draft = request.reduction.draft;
+        renderInto(*frame, request);
+        if (request.wantsTone)
+            frame->automaticTone =
+                render::toneRange(frame->onCard ? frame->onCard->download() : frame->image, {});
+        emit frameReady(std::move(frame));
+    } catch (const std::exception &error) {
+        emit failed(QString::fromUtf8(error.what()));
+    }
+}
+
+void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
+    if (request.onCard) {
         try {
-            auto frame = std::make_shared<RenderedFrame>();
-            frame->generation = request.generation;
-            frame->number = request.number;
-            frame->draft = request.reduction.draft;
-            frame->image = request.engine->render(request.camera, request.image, request.shading,
-                                                  &frame->times);
-            emit frameReady(std::move(frame));
-        } catch (const std::exception &error) {
-            emit failed(QString::fromUtf8(error.what()));
+            gpu::CardTimes times;
+            frame.onCard = request.onCard->renderOnCard(request.camera, request.image,
+                                                        request.shading, &times);
+            frame.times = {times.sliceMs, times.transformMs};
+            return;
+        } catch (const task::Error &error) {
+            // Lost, or out of memory: the picture goes on without it.
+            emit cardFailed(QString::fromStdString(error.reason()));
         }
     }
+    frame.image =
+        request.engine->render(request.camera, request.image, request.shading, &frame.times);
 }
 
 } // namespace pellucid::ui

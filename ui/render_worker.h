@@ -10,7 +10,8 @@
 
 #include <QObject>
 
-#include "core/render/cpu_engine.h"
+#include "core/render/compose.h"
+#include "gpu/gpu_engine.h"
 
 namespace pellucid::ui {
 
@@ -19,6 +20,10 @@ struct RenderedFrame {
     /// Of the request: frames of what is no longer shown are dropped.
     std::uint64_t generation = 0;
     render::ProjectionImage image;
+    /// In place of the image, where the graphics card made it.
+    std::shared_ptr<const gpu::CardPicture> onCard;
+    /// What an automatic tone makes of it, if that was asked for.
+    std::optional<render::ToneRange> automaticTone;
     render::FrameTimes times;
     std::uint64_t number = 0; ///< of the request it answers
     bool draft = false;
@@ -32,8 +37,10 @@ public:
     explicit RenderWorker(QObject *parent = nullptr);
     ~RenderWorker() override;
 
-    /// `generation`: what its frames will carry.
-    void setEngine(std::shared_ptr<render::ProjectionEngine> engine, std::uint64_t generation);
+    /// `onCard`: its twin, or none, which is used until it fails. `generation`: what its frames
+    /// will carry.
+    void setEngine(std::shared_ptr<render::ProjectionEngine> engine,
+                   std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation);
     /// How a frame is made smaller than it is shown.
     struct Reduction {
         bool draft = false; ///< half the pixels a side: the central part of the same spectrum
@@ -42,25 +49,33 @@ public:
     };
     /// The number of the request, which its frame will carry.
     std::uint64_t request(const render::Camera &camera, const render::ImageDefinition &image,
-                          const shading::Shading &shading, const Reduction &reduction);
+                          const shading::Shading &shading, const Reduction &reduction,
+                          bool wantsTone);
 
 signals:
     void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
     void failed(const QString &reason);
+    /// The frame was made on the processor instead.
+    void cardFailed(const QString &reason);
 
 private:
     struct Request {
         std::shared_ptr<render::ProjectionEngine> engine;
+        std::shared_ptr<gpu::GpuEngine> onCard;
         std::uint64_t generation;
         render::Camera camera;
         render::ImageDefinition image;
         shading::Shading shading;
         Reduction reduction;
+        bool wantsTone;
         std::uint64_t number;
     };
     void run(std::stop_token stop);
+    void makeFrame(const Request &request);
+    void renderInto(RenderedFrame &frame, const Request &request);
 
     std::shared_ptr<render::ProjectionEngine> m_engine;
+    std::shared_ptr<gpu::GpuEngine> m_onCard;
     std::uint64_t m_generation = 0;
     std::mutex m_mutex;
     std::condition_variable_any m_wake;

@@ -29,6 +29,9 @@ void runThesisSuite(const Report &report);
 void runClassesSuite(const Report &report);
 /// Depth cues and lights at 128^3 and 256^3, in turns with the plain frame.
 void runShadingSuite(const Report &report);
+/// The engine on the graphics card at 128^3 to 512^3 beside the processor's and a ray sum on the
+/// same card. *Throws* Error{noSuchDevice}.
+void runGpuSuite(const Report &report);
 /// Totsuka and Levoy 1993, table 1, and their adaptive filter.
 void runTotsukaSuite(const Report &report);
 

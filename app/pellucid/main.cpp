@@ -12,6 +12,7 @@
 #include "core/files/user_folders.h"
 #include "core/fourier/wisdom.h"
 #include "core/task/error.h"
+#include "ui/graphics_card.h"
 #include "ui/main_window.h"
 #include "ui/theme.h"
 
@@ -21,6 +22,9 @@ int main(int argc, char **argv) {
     CLI::App options("Pellucid: DICOM studies, transparent", "pellucid");
     std::vector<std::string> paths;
     options.set_version_flag("--version", "pellucid " PELLUCID_VERSION);
+    std::string engine;
+    options.add_option("--engine", engine, "What makes the projections: auto, cpu or gpu")
+        ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     options.add_option("PATH", paths, "Files, folders, a DICOMDIR or NRRD files to open");
     try {
         options.parse(argc, argv);
@@ -46,10 +50,16 @@ int main(int argc, char **argv) {
     });
     if (const auto cache = files::userCacheFolder())
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
+    // The engine's context shares with those of the windows: its pictures stay on the card.
+    QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
     QApplication application(argc, argv);
     QApplication::setApplicationName("pellucid");
     QApplication::setOrganizationName("pellucid");
     QApplication::setApplicationVersion(PELLUCID_VERSION);
+    if (!engine.empty())
+        ui::GraphicsCard::chooseForThisRun(engine == "gpu"   ? ui::EngineChoice::card
+                                           : engine == "cpu" ? ui::EngineChoice::processor
+                                                             : ui::EngineChoice::automatic);
     try {
         const ui::Theme theme = ui::Theme::named(QSettings().value("theme", "dark").toString());
         theme.apply(application);

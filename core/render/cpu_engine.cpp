@@ -208,13 +208,6 @@ std::size_t CpuEngine::bytes() const {
            m_spectra.fields.front()->bytes();
 }
 
-std::shared_ptr<CpuEngine> CpuEngine::withoutLight() const {
-    auto engine = std::make_shared<CpuEngine>(EngineSpectra{m_spectra.fields, {}, m_spectra.scale},
-                                              m_room, m_workplace->team.threads());
-    engine->setShares(m_shares);
-    return engine;
-}
-
 std::string CpuEngine::description() const {
     const int threads = m_workplace->team.threads();
     return fmt::format("CPU engine, {}, {} thread{}", instructionSet(), threads,

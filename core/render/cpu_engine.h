@@ -21,6 +21,21 @@ using ChannelShares = std::array<double, 3>;
 /// Whether all channels are alike, hence one is enough.
 bool areGrey(std::span<const ChannelShares> shares);
 
+/// The spectra that an engine slices, of one layout.
+struct EngineSpectra {
+    using Spectra = std::vector<std::shared_ptr<const fourier::Spectrum>>;
+    Spectra fields;
+    Spectra gradients; ///< of the |g| of each field, for light; or none
+    shading::ShadingScale scale;
+};
+
+/// What an engine makes its pictures of; another engine makes the same of it.
+struct EngineParts {
+    EngineSpectra spectra;
+    std::vector<ChannelShares> shares; ///< one each field
+    SliceRoom room;
+};
+
 /// Makes projections of prepared fields. Engines are interchangeable: under the same plan they
 /// give the same image within a stated rounding bound.
 class ProjectionEngine {
@@ -33,14 +48,7 @@ public:
     virtual ProjectionImage render(const Camera &camera, const ImageDefinition &image,
                                    const shading::Shading &shading = {},
                                    FrameTimes *times = nullptr) = 0;
-};
-
-/// The spectra that an engine slices, of one layout.
-struct EngineSpectra {
-    using Spectra = std::vector<std::shared_ptr<const fourier::Spectrum>>;
-    Spectra fields;
-    Spectra gradients; ///< of the |g| of each field, for light; or none
-    shading::ShadingScale scale;
+    virtual EngineParts parts() const = 0;
 };
 
 /// The projection-slice theorem on the processor: interpolates the central slice of the half
@@ -67,18 +75,14 @@ public:
 
     /// *Shape*: one each field.
     void setShares(std::vector<ChannelShares> shares);
-    const std::vector<ChannelShares> &shares() const { return m_shares; }
-    const EngineSpectra &spectra() const { return m_spectra; }
-    const SliceRoom &room() const { return m_room; }
     std::size_t fieldCount() const { return m_spectra.fields.size(); }
     /// Bytes of all spectra.
     std::size_t bytes() const;
     /// Whether lights have what they shine on.
     bool takesLight() const { return !m_spectra.gradients.empty(); }
-    /// The same without what lights need.
-    std::shared_ptr<CpuEngine> withoutLight() const;
 
     std::string description() const override;
+    EngineParts parts() const override { return {m_spectra, m_shares, m_room}; }
     ProjectionImage render(const Camera &camera, const ImageDefinition &image,
                            const shading::Shading &shading = {},
                            FrameTimes *times = nullptr) override;

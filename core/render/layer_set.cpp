@@ -175,6 +175,12 @@ ProjectionImage LayerSet::render(const Camera &camera, const ImageDefinition &im
     }
 }
 
+EngineParts LayerSet::parts(const std::vector<ChannelShares> &shares) const {
+    EngineParts parts = m_engine->parts();
+    parts.shares = shares;
+    return parts;
+}
+
 MixtureEngine::MixtureEngine(std::shared_ptr<LayerSet> layers, std::vector<ChannelShares> shares)
     : m_layers(std::move(layers)), m_shares(std::move(shares)) {}
 

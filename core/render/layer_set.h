@@ -44,6 +44,8 @@ public:
                            const std::vector<ChannelShares> &shares, FrameTimes *times = nullptr);
 
     std::string description() const { return m_engine->description(); }
+    /// With these shares.
+    EngineParts parts(const std::vector<ChannelShares> &shares) const;
 
 private:
     LayerSet(std::shared_ptr<CpuEngine> engine, RenderPlan plan, int reduction);
@@ -71,6 +73,7 @@ public:
     ProjectionImage render(const Camera &camera, const ImageDefinition &image,
                            const shading::Shading &shading = {},
                            FrameTimes *times = nullptr) override;
+    EngineParts parts() const override { return m_layers->parts(m_shares); }
 
 private:
     std::shared_ptr<LayerSet> m_layers;

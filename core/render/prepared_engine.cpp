@@ -140,7 +140,10 @@ PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fi
 }
 
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
-    auto engine = prepared.engine->withoutLight();
+    EngineParts parts = prepared.engine->parts();
+    parts.spectra.gradients.clear();
+    auto engine = std::make_shared<CpuEngine>(std::move(parts.spectra), parts.room);
+    engine->setShares(std::move(parts.shares));
     const std::size_t bytes = engine->bytes();
     RenderPlan plan = prepared.plan;
     plan.bytes -= prepared.bytes - bytes;

@@ -34,7 +34,7 @@ double lostDetail(const classify::DensityField &field, const classify::DensityFi
 
 /// An engine, ready to render.
 struct PreparedEngine {
-    std::shared_ptr<CpuEngine> engine;
+    std::shared_ptr<ProjectionEngine> engine;
     RenderPlan plan;
     std::size_t bytes = 0; ///< of its spectra
     bool takesLight = false;

@@ -10,14 +10,14 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     uvec4 termLow[MOST_TERMS], termHigh[MOST_TERMS];
     vec4 termWeight[MOST_TERMS]; // xy: complex
     ivec4 grid;                  // columns, rows; columns and rows of the picture
-    ivec4 counts;                // terms; sources; rows of the picture within the period; -
+    ivec4 counts;                // terms; fields; rows of the picture within the period; sources
     ivec4 image;                 // reconstruction; wraps; -; -
     ivec4 padded;                // by axis; planes between the beginnings of slabs
     ivec4 firstCell;             // index of the first texel by axis
     vec4 inversePadded;
     vec4 scales;                 // roll-off; unit of the slice; base of a linear cue
     vec4 perMoment;
-    vec4 shares[MOST_SPECTRA];   // of a source; .w: kind
+    vec4 shares[MOST_SPECTRA];   // of a source
     ivec4 places[MOST_SPECTRA];  // of a source: page and first plane in it
     vec4 zero[6];                // by kind and sum: value, moment
     vec4 shade[3];               // of an image: ambient, magnitude

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The slice at a frequency: as core/render/frame_*_hwy.inc, without and with cue and light.
-// PAGES: textures, each of one or more spectra on top of each other; SLABS: pages that a spectrum is
-// spread over; SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
+// FIELD_PAGES, PAGES: textures of fields, and with those of gradients after them, each of one or more
+// spectra on top of each other; SLABS: pages that a spectrum is spread over; SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
 layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
 
 // The last row of each column within the band's disc; -1: none.
@@ -49,8 +49,8 @@ Taps tapsAt(Fixed place, out vec3 q, out bool mirrored) {
     return taps;
 }
 
-// Of a spectrum in several slabs each holds what a kernel needs.
-Sum readSource(int source, Taps taps) {
+// Of a spectrum in several slabs each holds what a kernel needs. Pages of its kind alone are asked.
+Sum readSource(int source, Taps taps, int firstPage, int endPage) {
     ivec2 place = frame.places[source].xy;
     if (SLABS > 1) {
         int slab = min(taps.first.z / frame.padded.w, SLABS - 1);
@@ -59,7 +59,7 @@ Sum readSource(int source, Taps taps) {
     }
     taps.first.z += place.y;
     Sum sum;
-    for (int page = 0; page < PAGES; ++page)
+    for (int page = firstPage; page < endPage; ++page)
         if (page == place.x)
             sum = sumOfCells(pages[page], taps);
     return sum;
@@ -100,6 +100,16 @@ vec2 shaded(int channel, Shades field, Shades gradient, vec3 q) {
 }
 #endif
 
+void addSource(int source, Sum sum, int first, inout Sum sums[kinds * SUMS]) {
+    vec4 share = frame.shares[source];
+    for (int c = 0; c < SUMS; ++c) {
+        sums[first + c].value += share[c] * sum.value;
+#if CUED
+        sums[first + c].moment += share[c] * sum.moment;
+#endif
+    }
+}
+
 void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
              inout vec2 slice[CHANNELS]) {
     Sum sums[kinds * SUMS];
@@ -109,17 +119,14 @@ void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
         sums[s].moment = vec2(0.0);
 #endif
     }
-    for (int source = 0; source < frame.counts.y; ++source) {
-        Sum sum = readSource(source, taps);
-        vec4 share = frame.shares[source];
-        int kind = LIT == 1 ? int(share.w) : 0;
-        for (int c = 0; c < SUMS; ++c) {
-            sums[kind * SUMS + c].value += share[c] * sum.value;
-#if CUED
-            sums[kind * SUMS + c].moment += share[c] * sum.moment;
+    // The kinds one after the other, so that no index into the sums is known at run time only: such
+    // arrays leave the registers.
+    for (int source = 0; source < frame.counts.y; ++source)
+        addSource(source, readSource(source, taps, 0, FIELD_PAGES), 0, sums);
+#if LIT
+    for (int source = frame.counts.y; source < frame.counts.w; ++source)
+        addSource(source, readSource(source, taps, FIELD_PAGES, PAGES), SUMS, sums);
 #endif
-        }
-    }
     // Known before any rounding: it decides the brightness of the picture.
     if (isCentre)
         for (int s = 0; s < kinds * SUMS; ++s) {

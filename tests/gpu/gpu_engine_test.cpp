@@ -35,9 +35,10 @@ protected:
                              std::size_t mostTextureBytes = std::size_t(1) << 30) {
         render::Scene scene = asked;
         const auto prepared = render::prepareEngine(scene, fields, {});
-        gpu::GpuEngine engine(gpu::SpectrumTextures::upload(card, prepared.engine->spectra(), {},
-                                                            mostTextureBytes),
-                              prepared.engine->shares(), prepared.engine->room());
+        const render::EngineParts parts = prepared.engine->parts();
+        gpu::GpuEngine engine(
+            gpu::SpectrumTextures::upload(card, parts.spectra, {}, mostTextureBytes), parts.shares,
+            parts.room);
         double worst = 0.0;
         for (const glm::dquat &view : views()) {
             scene.camera.orientation = view;
@@ -209,12 +210,12 @@ TEST_F(GpuEngine, ASpectrumInSeveralTextures) {
     render::Scene scene = sceneOf(fields);
     scene.interpolation.storage = Storage::float32;
     const auto prepared = render::prepareEngine(scene, fields, {});
-    const auto whole = gpu::SpectrumTextures::upload(card, prepared.engine->spectra());
+    const auto whole = gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra);
     ASSERT_EQ(whole->layout().slabs, 1);
     const std::size_t bytes = whole->bytes();
     for (const std::size_t parts : {2U, 5U}) {
         const auto slabs =
-            gpu::SpectrumTextures::upload(card, prepared.engine->spectra(), {}, bytes / parts);
+            gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra, {}, bytes / parts);
         EXPECT_GE(slabs->layout().slabs, int(parts));
         EXPECT_EQ(slabs->fieldPages(), slabs->layout().slabs);
         EXPECT_LE(difference(scene, fields, bytes / parts), withinFloat32) << parts;
@@ -244,7 +245,7 @@ TEST_F(GpuEngine, LightsGoOut) {
     const auto unlit = lit->withoutLight();
     EXPECT_LT(unlit->textures().bytes(), lit->textures().bytes());
     const auto expected =
-        prepared.engine->withoutLight()->render(scene.camera, scene.image, scene.shading);
+        render::withoutLight(prepared).engine->render(scene.camera, scene.image, scene.shading);
     const auto found = unlit->render(scene.camera, scene.image, scene.shading);
     EXPECT_LE(test::relativeL2(found.samples, expected.samples), withinBinary16);
 }
@@ -285,7 +286,7 @@ TEST_F(GpuEngine, WhatIsTooLargeIsRefused) {
     };
     // More textures than there are units.
     expectTooLarge([&] {
-        gpu::SpectrumTextures::upload(card, prepared.engine->spectra(), {}, std::size_t(1) << 15);
+        gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra, {}, std::size_t(1) << 15);
     });
     // A slice beyond a buffer, and then the engine still works.
     const auto engine = gpu::copyToCard(card, *prepared.engine);

@@ -231,12 +231,12 @@ void QualityPanel::clearPlan() {
     m_reason->clear();
 }
 
-void QualityPanel::showPlan(const render::PreparedEngine &prepared, EngineStage stage) {
+void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     const bool coarse = stage == EngineStage::coarse;
-    const render::RenderPlan &plan = prepared.plan;
+    const render::RenderPlan &plan = shown.prepared.plan;
     const auto &spectrum = plan.spectrum;
-    const bool missed = plan.predictedError > m_document.scene().tolerance;
-    m_error->setText(percent(plan.predictedError));
+    const bool missed = shown.predictedError > m_document.scene().tolerance;
+    m_error->setText(percent(shown.predictedError));
     m_largest->setText(percent(plan.predictedMaximum));
     const volume::GridSize box = spectrum.box.size();
     const auto padding = [&](int d) {

@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include "ui/look_preparer.h"
+#include "ui/shown_engine.h"
 
 class QComboBox;
 class QLabel;
@@ -24,7 +25,7 @@ public:
 
     /// Stands beside the panel's heading: shows what experts choose.
     QWidget *corner();
-    void showPlan(const render::PreparedEngine &prepared, EngineStage stage);
+    void showPlan(const ShownEngine &shown, EngineStage stage);
     void showFrame(const render::FrameTimes &times, bool draft);
 
 signals:

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/task/error.h"
-#include "gpu/capabilities.h"
-#include "gpu/tone_pass.h"
-
 #include "ui/views/projection_canvas.h"
 
-#include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
 #include <QOpenGLWidget>
 #include <QPainter>
 
+#include "core/task/error.h"
+#include "gpu/tone_pass.h"
+#include "ui/gl_probe.h"
 #include "ui/theme.h"
 
 namespace pellucid::ui {
@@ -19,8 +17,7 @@ namespace {
 
 class GlCanvas final : public QOpenGLWidget, public ProjectionCanvas {
 public:
-    GlCanvas(QWidget *parent, QString description)
-        : QOpenGLWidget(parent), m_description(std::move(description)) {
+    explicit GlCanvas(QWidget *parent) : QOpenGLWidget(parent) {
         setObjectName("projectionCanvas");
     }
     ~GlCanvas() override {
@@ -33,7 +30,13 @@ public:
     QWidget *widget() override { return this; }
     void setImage(const render::ProjectionImage &image) override {
         m_image = image;
+        m_picture.reset();
         m_fresh = true;
+        update();
+    }
+    void setPicture(std::shared_ptr<const gpu::CardPicture> picture) override {
+        m_picture = std::move(picture);
+        m_image = {};
         update();
     }
     void setTone(const render::ToneRange &range, bool inverted) override {
@@ -41,7 +44,6 @@ public:
         m_inverted = inverted;
         update();
     }
-    QString description() const override { return m_description; }
 
 protected:
     void initializeGL() override {
@@ -50,9 +52,8 @@ protected:
         connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { release(); });
         try {
             m_pass = std::make_unique<gpu::TonePass>();
-        } catch (const task::Error &error) {
+        } catch (const task::Error &) {
             // A driver that does not take the shader: the picture is composed on the processor.
-            m_description = QString::fromStdString(error.reason());
         }
         m_fresh = true;
     }
@@ -60,6 +61,12 @@ protected:
         QOpenGLFunctions *gl = context()->functions();
         gl->glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         gl->glClear(GL_COLOR_BUFFER_BIT);
+        if (m_pass && m_picture) {
+            m_pass->draw(*m_picture, m_range, m_inverted);
+            return;
+        }
+        if (m_picture)
+            readBack();
         if (m_image.samples.empty())
             return;
         if (!m_pass) {
@@ -83,19 +90,26 @@ private:
         doneCurrent();
     }
 
-    QString m_description;
+    void readBack() {
+        try {
+            m_image = m_picture->download();
+            m_fresh = true;
+        } catch (const task::Error &) {
+            // The card is gone; the next frame comes from the processor.
+        }
+        m_picture.reset();
+    }
+
     std::unique_ptr<gpu::TonePass> m_pass;
     render::ProjectionImage m_image;
+    std::shared_ptr<const gpu::CardPicture> m_picture;
     render::ToneRange m_range;
     bool m_inverted = false, m_fresh = false;
 };
 
 class RasterCanvas final : public QWidget, public ProjectionCanvas {
 public:
-    RasterCanvas(QWidget *parent, QString description)
-        : QWidget(parent), m_description(std::move(description)) {
-        setObjectName("projectionCanvas");
-    }
+    explicit RasterCanvas(QWidget *parent) : QWidget(parent) { setObjectName("projectionCanvas"); }
 
     QWidget *widget() override { return this; }
     void setImage(const render::ProjectionImage &image) override {
@@ -103,12 +117,14 @@ public:
         m_stale = true;
         update();
     }
+    void setPicture(std::shared_ptr<const gpu::CardPicture> picture) override {
+        setImage(picture->download());
+    }
     void setTone(const render::ToneRange &range, bool inverted) override {
         m_tone = {range.low, range.high, inverted};
         m_stale = true;
         update();
     }
-    QString description() const override { return m_description; }
 
 protected:
     void paintEvent(QPaintEvent *) override {
@@ -133,7 +149,6 @@ private:
             QImage(rgba.data(), m_image.width, m_image.height, QImage::Format_RGBA8888).copy();
     }
 
-    QString m_description;
     render::ProjectionImage m_image;
     render::Tone m_tone;
     QImage m_picture;
@@ -143,22 +158,11 @@ private:
 } // namespace
 
 std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent) {
-    const auto tr = [](const char *text) { return QObject::tr(text); };
-    QOffscreenSurface surface;
-    surface.create();
-    QOpenGLContext context;
-    if (!surface.isValid() || !context.create() || !context.makeCurrent(&surface))
-        return std::make_unique<RasterCanvas>(parent, tr("no OpenGL here"));
-    const gpu::Capabilities capabilities = gpu::currentCapabilities();
-    context.doneCurrent();
     // Qt may silently give a lower version than asked for.
-    if (!capabilities.canShowImages())
-        return std::make_unique<RasterCanvas>(parent, tr("OpenGL here is %1.%2; 3.3 is needed")
-                                                          .arg(capabilities.version / 10)
-                                                          .arg(capabilities.version % 10));
-    return std::make_unique<GlCanvas>(parent, capabilities.software
-                                                  ? tr("OpenGL here is a software renderer")
-                                                  : QString::fromStdString(capabilities.renderer));
+    const auto &capabilities = windowCapabilities();
+    if (capabilities && capabilities->canShowImages())
+        return std::make_unique<GlCanvas>(parent);
+    return std::make_unique<RasterCanvas>(parent);
 }
 
 } // namespace pellucid::ui

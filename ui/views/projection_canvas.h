@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include "core/render/compose.h"
+#include "gpu/frame_passes.h"
 
 namespace pellucid::ui {
 
@@ -16,9 +17,9 @@ public:
     virtual QWidget *widget() = 0;
     /// An empty image shows black.
     virtual void setImage(const render::ProjectionImage &image) = 0;
+    /// The same of a picture on the graphics card, for a canvas that can draw it.
+    virtual void setPicture(std::shared_ptr<const gpu::CardPicture> picture) = 0;
     virtual void setTone(const render::ToneRange &range, bool inverted) = 0;
-    /// How the picture gets to the screen, for the status bar.
-    virtual QString description() const = 0;
 };
 
 /// A canvas on OpenGL 3.3 or newer with the GLSL tone pass, or, where there is none, on the

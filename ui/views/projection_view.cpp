@@ -60,12 +60,13 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         m_pending = false;
         setMessage(reason);
     });
+    connect(&m_worker, &RenderWorker::cardFailed, this, &ProjectionView::cardFailed);
     connect(&document, &Document::volumeChanged, this, [this] {
         if (m_document.volume() && m_document.isPreview())
             return;
         // What was projected belongs to another volume.
         m_engine.reset();
-        m_worker.setEngine(nullptr, ++m_generation);
+        m_worker.setEngine(nullptr, nullptr, ++m_generation);
         m_frame.reset();
         m_drawnShading = {};
         m_automaticTone.reset();
@@ -94,12 +95,11 @@ ProjectionView::~ProjectionView() {
     m_canvas.reset();
 }
 
-void ProjectionView::setEngine(const render::PreparedEngine &prepared, EngineStage stage) {
-    const auto &engine = prepared.engine;
-    m_engine = engine;
-    m_takesLight = prepared.takesLight;
+void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
+    m_engine = shown.prepared.engine;
+    m_takesLight = shown.prepared.takesLight;
     m_planHolds = true;
-    m_predictedError = prepared.plan.predictedError;
+    m_predictedError = shown.predictedError;
     m_message.clear();
     // Weights that move change the brightness, and are meant to; another field, or the fine one
     // after the coarse one, has a brightness of its own.
@@ -112,9 +112,12 @@ void ProjectionView::setEngine(const render::PreparedEngine &prepared, EngineSta
     if (stage != EngineStage::live || m_stage != EngineStage::live)
         ++m_generation;
     m_stage = stage;
-    m_worker.setEngine(engine, m_generation);
-    emit engineDescribed(
-        tr("%1: %2").arg(QString::fromStdString(engine->description()), m_canvas->description()));
+    m_worker.setEngine(m_engine, shown.onCard, m_generation);
+    const std::string used =
+        shown.onCard ? shown.onCard->description() : m_engine->description();
+    emit engineDescribed(shown.reason.isEmpty()
+                             ? QString::fromStdString(used)
+                             : tr("%1: %2").arg(QString::fromStdString(used), shown.reason));
     requestFrame(false);
 }
 
@@ -204,7 +207,7 @@ void ProjectionView::requestFrame(bool moving) {
         shading = m_drawnShading;
     m_drawnShading = shading;
     m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
-                                   {.draft = draft, .finestPixelMm = finest});
+                                   {.draft = draft, .finestPixelMm = finest}, !m_automaticTone);
     if (moving)
         m_rest.start();
 }
@@ -219,8 +222,11 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         m_fullFrameMs = frame->times.totalMs();
     // The automatic range is taken once: brightness that follows the view would flicker.
     if (!m_automaticTone)
-        m_automaticTone = render::toneRange(frame->image, {});
-    m_canvas->setImage(frame->image);
+        m_automaticTone = frame->automaticTone;
+    if (frame->onCard)
+        m_canvas->setPicture(frame->onCard);
+    else
+        m_canvas->setImage(frame->image);
     updateTone();
     m_overlay->update();
     emit frameShown(frame->times, frame->draft);
@@ -243,9 +249,10 @@ QImage ProjectionView::picture() const {
     const render::ToneRange range = m_automaticTone.value_or(render::ToneRange());
     tone.low = tone.low.value_or(range.low);
     tone.high = tone.high.value_or(range.high);
-    const auto rgba = render::compose(m_frame->image, tone);
-    return QImage(rgba.data(), m_frame->image.width, m_frame->image.height, QImage::Format_RGBA8888)
-        .copy();
+    const render::ProjectionImage image =
+        m_frame->onCard ? m_frame->onCard->download() : m_frame->image;
+    const auto rgba = render::compose(image, tone);
+    return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
 }
 
 void ProjectionView::resizeEvent(QResizeEvent *) {
@@ -404,7 +411,8 @@ void ProjectionView::paintOverlay(QPainter &painter) {
                                 ? tr("error not known yet")
                                 : tr("error %1 %").arg(100.0 * m_predictedError, 0, 'f', 3);
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop,
-             QString("CPU  %1 ms  %2")
+             QString("%1  %2 ms  %3")
+                 .arg(m_frame->onCard ? "GPU" : "CPU")
                  .arg(m_frame->times.totalMs(), 0, 'f', 1)
                  .arg(m_frame->draft ? tr("draft") : quality),
              colors.text);

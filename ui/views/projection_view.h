@@ -7,10 +7,10 @@
 #include <QTimer>
 #include <QWidget>
 
-#include "core/render/prepared_engine.h"
 #include "ui/commands.h"
 #include "ui/look_preparer.h"
 #include "ui/render_worker.h"
+#include "ui/shown_engine.h"
 #include "ui/views/projection_canvas.h"
 
 namespace pellucid::ui {
@@ -25,7 +25,7 @@ public:
     explicit ProjectionView(Document &document, QWidget *parent = nullptr);
     ~ProjectionView() override;
 
-    void setEngine(const render::PreparedEngine &prepared, EngineStage stage);
+    void setEngine(const ShownEngine &shown, EngineStage stage);
     /// The name of the look, shown below the pane's.
     void setLookName(const QString &name);
     /// Whether the engine's predicted error is that of what is shown.
@@ -40,17 +40,19 @@ public:
     void jobStarted();
     void showStandardView(render::StandardView view);
     void resetView();
-    /// The picture as it is seen, without annotations.
+    /// The picture as it is seen, without annotations. *Throws* Error{noSuchDevice} if the graphics
+    /// card that holds it is gone.
     QImage picture() const;
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
     bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
-    QString canvasDescription() const { return m_canvas->description(); }
 
 signals:
     void maximizeRequested(QWidget *pane);
     /// Engine and reason for the status bar.
     void engineDescribed(const QString &text);
     void finalImageShown();
+    /// The graphics card failed; the processor goes on.
+    void cardFailed(const QString &reason);
     /// A frame is on the screen; what it took to make.
     void frameShown(const pellucid::render::FrameTimes &times, bool draft);
 

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "app/bench/card_ray_sum.h"
+#include "app/bench/suites.h"
+#include "core/reference/shaded_field.h"
+#include "core/render/prepared_engine.h"
+#include "gpu/gpu_engine.h"
+#include "gpu/surfaceless_context.h"
+
+namespace pellucid::bench {
+
+namespace {
+
+constexpr int views = 64, viewsOfSoftware = 8;
+
+struct Timed {
+    std::vector<double> slice, transform, card, submit, wall;
+    int dispatches = 0;
+};
+
+// Frames that stay on the card, from random views; the first ones compile and warm up.
+Timed timeFrames(gpu::GpuEngine &engine, const render::Scene &scene, int count) {
+    Timed timed;
+    render::Camera camera = scene.camera;
+    int toCome = -2;
+    for (const glm::dquat &orientation : randomViews(count + 2)) {
+        camera.orientation = orientation;
+        gpu::CardTimes times;
+        const double start = millisecondsNow();
+        engine.renderOnCard(camera, scene.image, scene.shading, &times);
+        const double wall = millisecondsNow() - start;
+        if (toCome++ < 0)
+            continue;
+        timed.slice.push_back(times.sliceMs);
+        timed.transform.push_back(times.transformMs);
+        timed.card.push_back(times.sliceMs + times.transformMs);
+        timed.submit.push_back(times.submitMs);
+        timed.wall.push_back(wall);
+        timed.dispatches = times.dispatches;
+    }
+    return timed;
+}
+
+// A frame of one pixel: what asking and answering cost, whatever is computed.
+Timed timeLeast(gpu::GpuEngine &engine, const render::Scene &scene, int count) {
+    render::Scene least = scene;
+    least.camera.pixelMm *= 64.0;
+    least.camera.width = least.camera.height = 1;
+    return timeFrames(engine, least, count);
+}
+
+struct Case {
+    std::string name;
+    double tolerance;
+    std::optional<fourier::Storage> storage;
+    shading::Shading shading;
+};
+
+class Size {
+public:
+    Size(const Report &report, const std::shared_ptr<gpu::FramePasses> &card, int side)
+        : m_report(report), m_card(card),
+          m_subject(phantomSubject(fmt::format("head {}", side), phantom::Kind::head,
+                                   {.size = volume::GridSize{side, side, side}})),
+          m_camera(squareCamera(m_subject.field.values.lattice(), side)),
+          m_truth(m_subject, m_camera, side > 256 ? 1 : 2),
+          m_views(card->device().capabilities().software ? viewsOfSoftware : views) {
+        castRays();
+    }
+
+    void measureCase(const Case &of) {
+        const classify::ShownFields fields{{m_subject.field}, {}};
+        render::Scene scene{.camera = m_camera, .shading = of.shading, .tolerance = of.tolerance};
+        scene.interpolation.storage = of.storage;
+        const auto prepared = render::prepareEngine(scene, fields, {});
+        Row row = plannedRow("gpu", of.name + " " + m_subject.name,
+                             m_subject.field.values.lattice().size(), prepared.plan, scene, 0);
+        fillTimes(row, *prepared.engine, scene, m_views);
+        const double processorMs = *row.frameMs;
+        Row onProcessor = row;
+        onProcessor.note = "the processor, same plan";
+        const std::vector<std::vector<double>> truths = truthsOf(fields, scene);
+        fillError(onProcessor, worstError(*prepared.engine, scene, truths));
+        m_report(onProcessor);
+
+        const gpu::FetchPlan fetch =
+            gpu::planFetch(prepared.plan, of.tolerance, of.shading);
+        for (const gpu::Fetch how : {gpu::Fetch::exact, gpu::Fetch::trilinear}) {
+            if (how == gpu::Fetch::trilinear && fetch.fetch != how)
+                continue;
+            const double start = millisecondsNow();
+            const auto engine = gpu::copyToCard(m_card, *prepared.engine, how);
+            const double uploadMs = millisecondsNow() - start;
+            const Timed timed = timeFrames(*engine, scene, m_views);
+            const Timed least = timeLeast(*engine, scene, m_views);
+            Row onCard = row;
+            onCard.engine = "gpu";
+            onCard.name += how == gpu::Fetch::trilinear ? ", filtered fetches" : "";
+            onCard.taps = how == gpu::Fetch::trilinear ? filteredTaps(prepared.plan) : row.taps;
+            onCard.predictedError = how == gpu::Fetch::trilinear ? fetch.predictedError
+                                                                 : prepared.plan.predictedError;
+            onCard.prepareMs = uploadMs;
+            onCard.sliceMs = median(timed.slice);
+            onCard.transformMs = median(timed.transform);
+            onCard.frameMs = median(timed.card);
+            onCard.bytes = double(engine->textures().bytes());
+            onCard.raySumMs = m_rayMs;
+            onCard.raySumRelativeL2 = m_rayError;
+            fillError(onCard, worstError(*engine, scene, truths));
+            onCard.note = fmt::format(
+                "card: {:.1f} us in {} dispatches (a frame of one pixel {:.1f}); asked for in "
+                "{:.1f} us, there after {:.1f}; copied in {:.0f} ms; {:.1f} times the card's ray "
+                "sum ({:.2f} ms), {:.2f} times the processor's frame",
+                1e3 * *onCard.frameMs, timed.dispatches, 1e3 * median(least.card),
+                1e3 * median(timed.submit), 1e3 * median(timed.wall), uploadMs,
+                m_rayMs / *onCard.frameMs, m_rayMs, processorMs / *onCard.frameMs);
+            m_report(onCard);
+        }
+    }
+
+private:
+    void castRays() {
+        CardRaySum rays(m_card, m_subject.field.values);
+        const double step = m_subject.field.values.lattice().shortestStepMm();
+        std::vector<double> cast;
+        render::Camera camera = m_camera;
+        for (const glm::dquat &orientation : randomViews(m_views)) {
+            camera.orientation = orientation;
+            cast.push_back(rays.render(camera, step).cardMs);
+        }
+        m_rayMs = median(cast);
+        for (int view = 0; view < m_truth.views(); ++view)
+            m_rayError = std::max(
+                m_rayError,
+                compare(rays.render(m_truth.camera(view), step).samples,
+                        m_truth.image(view, {render::Reconstruction::linear, 0.05}))
+                    .relativeL2);
+    }
+
+    static int filteredTaps(const render::RenderPlan &plan) {
+        const int pairs = (plan.spectrum.width() + 1) / 2;
+        return pairs * pairs * pairs;
+    }
+
+    // Of the views of the truth; of a shaded field, which is another from each view, of one.
+    std::vector<std::vector<double>> truthsOf(const classify::ShownFields &fields,
+                                              const render::Scene &scene) {
+        if (!scene.shading.isPlain())
+            return {reference::shadedImage(fields, scene.shading, m_truth.camera(0), scene.image)};
+        std::vector<std::vector<double>> truths;
+        for (int view = 0; view < m_truth.views(); ++view)
+            truths.push_back(m_truth.image(view, scene.image));
+        return truths;
+    }
+
+    ImageError worstError(render::ProjectionEngine &engine, const render::Scene &scene,
+                          const std::vector<std::vector<double>> &truths) {
+        ImageError worst{0.0, 0.0, 1e9};
+        for (std::size_t view = 0; view < truths.size(); ++view) {
+            const auto image =
+                engine.render(m_truth.camera(int(view)), scene.image, scene.shading);
+            const ImageError error = compare(image.samples, truths[view]);
+            worst = {std::max(worst.relativeL2, error.relativeL2),
+                     std::max(worst.maximum, error.maximum), std::min(worst.psnrDb, error.psnrDb)};
+        }
+        return worst;
+    }
+
+    const Report &m_report;
+    std::shared_ptr<gpu::FramePasses> m_card;
+    Subject m_subject;
+    render::Camera m_camera;
+    Truth m_truth;
+    int m_views;
+    double m_rayMs = 0.0, m_rayError = 0.0;
+};
+
+} // namespace
+
+void runGpuSuite(const Report &report) {
+    const auto card = std::make_shared<gpu::FramePasses>(
+        std::make_shared<gpu::Device>(std::make_unique<gpu::SurfacelessContext>()));
+    const gpu::Capabilities &what = card->device().capabilities();
+    std::printf("%s, OpenGL %d.%d%s\n", what.renderer.c_str(), what.version / 10, what.version % 10,
+                what.software ? ": software, so figures say nothing of a graphics card" : "");
+    const shading::DepthCue cue{shading::CueKind::linear, 1.0};
+    const std::vector<shading::Light> light{{{1, 1, 0.7}}};
+    const std::vector<Case> cases{
+        {"default", 1.1e-3, {}, {}},
+        {"interactive", 1e-2, {}, {}},
+        {"float32", 1.1e-3, fourier::Storage::float32, {}},
+        {"linear cue", 1.1e-3, {}, {.cue = cue}},
+        {"light", 1.1e-3, {}, {.ambient = 0.3, .lights = light}}};
+    for (const int side : {128, 256, 512}) {
+        if (what.software && side > 256)
+            break;
+        Size size(report, card, side);
+        for (const Case &of : cases) // the truth of a shaded 512^3 takes more than there is
+            if (side <= 256 || of.shading.isPlain())
+                size.measureCase(of);
+    }
+}
+
+} // namespace pellucid::bench

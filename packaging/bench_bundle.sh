@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Packs pellucid-bench with every library it needs but glibc and OpenGL, which belong to the machine
+# it will run on. Unpack it anywhere and run pellucid-bench/pellucid-bench.
+#   bench_bundle.sh PROGRAM OUT.tar.gz
+set -euo pipefail
+program=$1 out=$2
+most_megabytes=60
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+folder=$work/pellucid-bench
+mkdir -p "$folder/lib"
+strip -o "$folder/pellucid-bench" "$program"
+ldd "$program" | while read -r name _ path _; do
+    [[ $path == /* ]] || continue
+    case $name in
+        libc.so.* | libm.so.* | libdl.so.* | librt.so.* | libpthread.so.* | libresolv.so.*) ;;
+        libGL* | libEGL* | libOpenGL*) ;;
+        *) cp -L "$path" "$folder/lib/$name" ;;
+    esac
+done
+tar -C "$work" -czf "$out" pellucid-bench
+megabytes=$(($(stat -c %s "$out") / 1000000))
+if ((megabytes >= most_megabytes)); then
+    echo "bench_bundle: $out has $megabytes MB, $most_megabytes are allowed" >&2
+    exit 1
+fi
+echo "bench_bundle: $out, $megabytes MB"

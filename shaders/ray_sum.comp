@@ -1,0 +1,30 @@
+#version 430 core
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The honest peer in space: parallel rays through the pixel centres, one trilinear sample each step
+// and nothing but their sum.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 0) uniform sampler3D field; // zero beyond its border
+layout(r32f, binding = 0) writeonly uniform image2DArray picture;
+// In texture coordinates: the first pixel, and from one to the next.
+uniform vec3 corner, perColumn, perRow, perStep;
+uniform ivec2 size;
+uniform float stepLength;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, size)))
+        return;
+    vec3 origin = corner + float(pixel.x) * perColumn + float(pixel.y) * perRow;
+    // Half a voxel beyond the samples the filter has fallen to zero.
+    vec3 margin = 0.5 / vec3(textureSize(field, 0));
+    vec3 slope = mix(perStep, vec3(1e-20), lessThan(abs(perStep), vec3(1e-20)));
+    vec3 a = (-margin - origin) / slope, b = (1.0 + margin - origin) / slope;
+    vec3 near = min(a, b), far = max(a, b);
+    int first = int(ceil(max(near.x, max(near.y, near.z))));
+    int last = int(floor(min(far.x, min(far.y, far.z))));
+    float sum = 0.0;
+    for (int n = first; n <= last; ++n)
+        sum += textureLod(field, origin + float(n) * perStep, 0.0).r;
+    imageStore(picture, ivec3(pixel, 0), vec4(stepLength * sum));
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/graphics_card.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <QSettings>
+
+#include "core/task/error.h"
+#include "ui/gl_probe.h"
+#include "ui/shared_context.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr const char *settingsKey = "engine";
+
+std::optional<EngineChoice> &choiceOfThisRun() {
+    static std::optional<EngineChoice> choice;
+    return choice;
+}
+
+} // namespace
+
+GraphicsCard::GraphicsCard(QObject *parent)
+    : QObject(parent),
+      m_choice(choiceOfThisRun().value_or(EngineChoice(
+          std::clamp(QSettings().value(settingsKey, 0).toInt(), 0, int(EngineChoice::card))))) {
+    open();
+}
+
+void GraphicsCard::chooseForThisRun(EngineChoice choice) {
+    choiceOfThisRun() = choice;
+}
+
+void GraphicsCard::choose(EngineChoice choice) {
+    m_choice = choice;
+    QSettings().setValue(settingsKey, int(choice));
+    open();
+    emit changed();
+}
+
+void GraphicsCard::giveUp(const QString &reason) {
+    if (!m_passes)
+        return;
+    m_passes.reset();
+    m_reason = reason;
+    emit changed();
+}
+
+void GraphicsCard::open() {
+    m_passes.reset();
+    m_reason.clear();
+    const auto &window = windowCapabilities();
+    if (m_choice == EngineChoice::processor)
+        m_reason = tr("the processor was chosen");
+    else if (!window)
+        m_reason = tr("no OpenGL here");
+    else if (!window->canShowImages())
+        m_reason = tr("OpenGL here is %1.%2; 3.3 is needed to show pictures with it")
+                       .arg(window->version / 10)
+                       .arg(window->version % 10);
+    else if (m_choice == EngineChoice::automatic && window->software)
+        m_reason = tr("OpenGL here is a software renderer");
+    if (!m_reason.isEmpty())
+        return;
+    try {
+        m_passes = std::make_shared<gpu::FramePasses>(
+            std::make_shared<gpu::Device>(std::make_unique<SharedContext>()));
+    } catch (const task::Error &error) {
+        m_reason = QString::fromStdString(error.reason());
+    }
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include <QObject>
+
+#include "gpu/frame_passes.h"
+
+namespace pellucid::ui {
+
+/// Which engine the user wants.
+enum class EngineChoice { automatic, processor, card };
+
+/// The graphics card that projections may be made on, if there is one and it is wanted. Left to
+/// itself it takes any but those that are made of software.
+class GraphicsCard : public QObject {
+    Q_OBJECT
+public:
+    explicit GraphicsCard(QObject *parent = nullptr);
+
+    EngineChoice choice() const { return m_choice; }
+    /// Begins anew, also after the card was given up, and is remembered.
+    void choose(EngineChoice choice);
+    /// Of this run alone.
+    static void chooseForThisRun(EngineChoice choice);
+    /// Nothing more is made on it, for this reason, until it is chosen again.
+    void giveUp(const QString &reason);
+
+    /// None: the processor makes the projections, for `reason`.
+    const std::shared_ptr<gpu::FramePasses> &passes() const { return m_passes; }
+    const QString &reason() const { return m_reason; }
+
+signals:
+    void changed();
+
+private:
+    void open();
+
+    EngineChoice m_choice;
+    std::shared_ptr<gpu::FramePasses> m_passes;
+    QString m_reason;
+};
+
+} // namespace pellucid::ui
