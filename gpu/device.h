@@ -18,7 +18,8 @@
 namespace pellucid::gpu {
 
 /// A graphics card that computes: a context on a thread of its own, where all that is done on it is
-/// done in turn. Whoever holds what lies on the card holds the device too.
+/// done in turn. What its driver has to say goes to the log. Whoever holds what lies on the card
+/// holds the device too.
 class Device {
 public:
     /// *Throws* Error{noSuchDevice} with the reason if the context does not come up or has no
@@ -32,8 +33,6 @@ public:
     const Capabilities &capabilities() const { return m_capabilities; }
     /// Whether the card is gone with all that was on it; for good.
     bool isLost() const { return m_lost; }
-    /// What the driver had to say last that was not mere advice.
-    std::string driverMessage() const;
 
     /// Runs it on the device's thread and waits. *Throws* what it throws, Error{noSuchDevice} if
     /// the device is lost, before it or by it.
@@ -52,10 +51,9 @@ private:
     Capabilities m_capabilities;
     std::atomic<bool> m_lost = false;
     std::map<std::string, Program> m_programs;
-    mutable std::mutex m_mutex;
+    std::mutex m_mutex;
     std::condition_variable_any m_wake;
     std::deque<std::function<void()>> m_work;
-    std::string m_driverMessage;
     std::jthread m_thread;
 };
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/task/error.h"
+#include "core/task/log.h"
 
 namespace pellucid::gpu {
 
@@ -20,17 +21,16 @@ Device::Device(std::unique_ptr<Context> context) : m_context(std::move(context))
                               fmt::format("OpenGL here is {}.{} ({}); the GPU engine needs 4.3",
                                           m_capabilities.version / 10, m_capabilities.version % 10,
                                           m_capabilities.renderer));
+        task::log(fmt::format("OpenGL {}.{}, {}", m_capabilities.version / 10,
+                              m_capabilities.version % 10, m_capabilities.renderer));
         glEnable(GL_DEBUG_OUTPUT);
         glDebugMessageCallback(
             [](GLenum, GLenum, GLuint, GLenum severity, GLsizei length, const GLchar *text,
-               const void *device) {
-                if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM)
-                    return;
-                auto *const self = const_cast<Device *>(static_cast<const Device *>(device));
-                const std::lock_guard lock(self->m_mutex);
-                self->m_driverMessage.assign(text, std::size_t(length));
+               const void *) {
+                if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
+                    task::log("OpenGL: " + std::string(text, std::size_t(length)));
             },
-            this);
+            nullptr);
     };
     try {
         run(begin);
@@ -43,11 +43,6 @@ Device::Device(std::unique_ptr<Context> context) : m_context(std::move(context))
 Device::~Device() {
     m_thread.request_stop();
     m_thread.join();
-}
-
-std::string Device::driverMessage() const {
-    const std::lock_guard lock(m_mutex);
-    return m_driverMessage;
 }
 
 void Device::run(const std::function<void()> &work) {
@@ -98,8 +93,6 @@ void Device::live(std::stop_token stop) {
         work();
     }
     m_programs.clear();
-    if (m_capabilities.canRender())
-        glDebugMessageCallback(nullptr, nullptr);
     m_context->doneCurrent();
 }
 
@@ -108,8 +101,9 @@ const Program &Device::program(const std::string &file, const Defines &defines) 
     for (const auto &[name, value] : defines)
         key += fmt::format(" {}={}", name, value);
     const auto found = m_programs.find(key);
-    return found != m_programs.end() ? found->second
-                                     : m_programs.emplace(key, Program(file, defines)).first->second;
+    return found != m_programs.end()
+               ? found->second
+               : m_programs.emplace(key, Program(file, defines)).first->second;
 }
 
 } // namespace pellucid::gpu

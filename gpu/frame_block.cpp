@@ -41,10 +41,9 @@ void packPairs(const Kernel &kernel, int axis,
     const std::vector<float> &pairs = kernel.pairs();
     for (std::size_t pair = 0; pair < pairs.size() / (2 * terms); ++pair)
         for (std::size_t n = 0; n < terms; ++n) {
-            auto &vector =
-                vectors[(std::size_t(axis) * bindings::mostPairs + pair) *
-                            bindings::mostPairVectors +
-                        n / 2];
+            auto &vector = vectors[(std::size_t(axis) * bindings::mostPairs + pair) *
+                                       bindings::mostPairVectors +
+                                   n / 2];
             vector[n % 2 * 2] = pairs[pair * 2 * terms + n];
             vector[n % 2 * 2 + 1] = pairs[pair * 2 * terms + terms + n];
         }

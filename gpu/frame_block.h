@@ -67,9 +67,7 @@ struct TexelLayout {
     std::array<int, 2> placeOf(std::size_t n) const {
         return {int(n) / perPage * slabs, int(n) % perPage * planes};
     }
-    int pagesOf(std::size_t count) const {
-        return (int(count) + perPage - 1) / perPage * slabs;
-    }
+    int pagesOf(std::size_t count) const { return (int(count) + perPage - 1) / perPage * slabs; }
 };
 
 /// The slice of a frame as the shaders see it. `fieldPages`: those before the gradients' pages.

@@ -49,7 +49,7 @@ private:
 struct FrameCommand {
     render::Camera camera;
     render::SliceGrid grid;
-    FrameBlock block; ///< but the tables, which the passes have
+    FrameBlock block;            ///< but the tables, which the passes have
     std::vector<unsigned> pages; ///< textures
     int fieldPages = 1, slabs = 1, sums = 1, layers = 1, channels = 1;
     int width = 4, evenTerms = 1, momentTerms = 1;

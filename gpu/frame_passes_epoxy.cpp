@@ -136,9 +136,8 @@ FramePasses::FramePasses(std::shared_ptr<Device> device) : m_device(std::move(de
 
 FramePasses::~FramePasses() {
     m_targets.clear();
-    m_device->post([place = std::shared_ptr<Place>(std::move(m_place))]() mutable {
-        place.reset();
-    });
+    m_device->post(
+        [place = std::shared_ptr<Place>(std::move(m_place))]() mutable { place.reset(); });
 }
 
 std::shared_ptr<CardPicture> FramePasses::pictureFor(const render::Camera &camera, int layers) {
@@ -213,8 +212,7 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
         TransformPasses::Lines lines = transform.sharedLines(block);
         int dispatches = 1;
         if (isFused) {
-            defines.insert(defines.end(),
-                           {{"FUSED", 1}, {"ROOM", TransformPasses::roomFor(rows)}});
+            defines.insert(defines.end(), {{"FUSED", 1}, {"ROOM", TransformPasses::roomFor(rows)}});
             glUseProgram(m_device->program("columns.comp", defines).id());
             transform.lines().bindStorage(bindings::lines);
             dispatchGroups(halfColumns, 1, 1);
@@ -232,8 +230,7 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
         const double submitted = now();
         // Whoever shows it next need not wait; and the processor has nothing to do meanwhile.
         const GLsync done = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-        const GLenum waited =
-            glClientWaitSync(done, GL_SYNC_FLUSH_COMMANDS_BIT, longestWaitNs);
+        const GLenum waited = glClientWaitSync(done, GL_SYNC_FLUSH_COMMANDS_BIT, longestWaitNs);
         glDeleteSync(done);
         checkErrors("a frame");
         if (waited != GL_ALREADY_SIGNALED && waited != GL_CONDITION_SATISFIED)

@@ -63,8 +63,7 @@ FetchPlan planFetch(const render::RenderPlan &plan, double tolerance,
             return exact;
         noise += pairNoise(kernel, double(layout.padded[d]) / layout.box.size()[d]);
     }
-    const double predicted =
-        std::hypot(plan.predictedError, rounding * std::sqrt(noise));
+    const double predicted = std::hypot(plan.predictedError, rounding * std::sqrt(noise));
     return predicted <= tolerance ? FetchPlan{Fetch::trilinear, predicted} : exact;
 }
 
@@ -82,8 +81,7 @@ GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
                      Fetch fetch)
     : m_textures(std::move(textures)), m_shares(std::move(shares)), m_room(room), m_fetch(fetch) {}
 
-std::shared_ptr<GpuEngine>
-GpuEngine::withShares(std::vector<render::ChannelShares> shares) const {
+std::shared_ptr<GpuEngine> GpuEngine::withShares(std::vector<render::ChannelShares> shares) const {
     return std::make_shared<GpuEngine>(m_textures, std::move(shares), m_room, m_fetch);
 }
 
@@ -133,8 +131,8 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const render::Camera 
     FrameCommand command{.camera = camera,
                          .grid = m_framed.gridFor(camera, m_room, spectrum.lattice(), image)};
     const render::FrameGeometry geometry(camera, command.grid, spectrum);
-    render::FrameShading shades = render::frameShading(sliceShading, mixing, spectrum,
-                                                       geometry.toWrap, axes[2], spectra.scale.stepMm);
+    render::FrameShading shades = render::frameShading(
+        sliceShading, mixing, spectrum, geometry.toWrap, axes[2], spectra.scale.stepMm);
     if (shades.cued) {
         if (!m_moments)
             m_moments.emplace(render::momentKernels(layout));
@@ -144,8 +142,9 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const render::Camera 
     command.shaded = !sliceShading.isPlain();
     command.cued = shades.cued;
     command.lit = shades.lit;
-    command.block = frameBlock(command.grid, image, geometry, mixing, command.shaded ? &shades : nullptr,
-                               layout, m_textures->layout(), m_textures->fieldPages());
+    command.block =
+        frameBlock(command.grid, image, geometry, mixing, command.shaded ? &shades : nullptr,
+                   layout, m_textures->layout(), m_textures->fieldPages());
     command.pages = m_textures->pages(shades.lit);
     command.fieldPages = m_textures->fieldPages();
     command.slabs = m_textures->layout().slabs;

@@ -17,10 +17,11 @@ struct FetchPlan {
 };
 
 /// The filtered fetches where a plan has room for what their coarse weights leave, else exact ones.
-/// Cards weigh with 8 fraction bits, which are wrong by 2^-8/sqrt(12) on average, times the difference of two
-/// neighbouring cells: relative to the image by the root of the mean of 4 sin^2(pi x), x the
-/// distance from the wrap voxel in periods, for each axis and each pair of taps by its weight.
-/// Kernels with negative taps cannot be paired; with cue or light all fetches are exact.
+/// Cards weigh with 8 fraction bits, which are wrong by 2^-8/sqrt(12) on average, times the
+/// difference of two neighbouring cells: relative to the image by the root of the mean of 4
+/// sin^2(pi x), x the distance from the wrap voxel in periods, for each axis and each pair of taps
+/// by its weight. Kernels with negative taps cannot be paired; with cue or light all fetches are
+/// exact.
 FetchPlan planFetch(const render::RenderPlan &plan, double tolerance,
                     const shading::Shading &shading = {});
 

@@ -67,8 +67,8 @@ void checkErrors(const char *doing) {
     if (first == GL_OUT_OF_MEMORY)
         throw task::Error(task::ErrorCode::outOfMemory,
                           std::string("the graphics card has not enough memory for ") + doing);
-    throw task::Error(task::ErrorCode::internal, std::string("OpenGL error ") +
-                                                     std::to_string(first) + " with " + doing);
+    throw task::Error(task::ErrorCode::internal,
+                      std::string("OpenGL error ") + std::to_string(first) + " with " + doing);
 }
 
 } // namespace pellucid::gpu

@@ -19,8 +19,7 @@ constexpr std::size_t bytesAtOnce = std::size_t(8) << 20;
 constexpr std::size_t spareBytes = std::size_t(128) << 20;
 
 std::size_t planeBytes(const TexelLayout &layout, fourier::Storage storage) {
-    return std::size_t(layout.columns) * std::size_t(layout.rows) *
-           fourier::bytesPerCell(storage);
+    return std::size_t(layout.columns) * std::size_t(layout.rows) * fourier::bytesPerCell(storage);
 }
 
 // The cells of planes in rows, out of the columns that overlap.
@@ -78,8 +77,8 @@ SpectrumTextures::SpectrumTextures(std::shared_ptr<FramePasses> passes,
         m_layout.planes = m_layout.slabStep + overlap;
     }
     const std::size_t sources = m_spectra.fields.size() + m_spectra.gradients.size();
-    const int pages = m_layout.pagesOf(m_spectra.fields.size()) +
-                      m_layout.pagesOf(m_spectra.gradients.size());
+    const int pages =
+        m_layout.pagesOf(m_spectra.fields.size()) + m_layout.pagesOf(m_spectra.gradients.size());
     const int units = std::min(bindings::mostPages, card.textureUnits);
     if (pages > units || sources > std::size_t(bindings::mostSpectra))
         throw task::Error(task::ErrorCode::outOfMemory,
@@ -107,9 +106,8 @@ SpectrumTextures::upload(std::shared_ptr<FramePasses> passes, render::EngineSpec
     return textures;
 }
 
-SpectrumTextures::Pages
-SpectrumTextures::uploadAll(const render::EngineSpectra::Spectra &spectra,
-                            const task::Progress &progress) const {
+SpectrumTextures::Pages SpectrumTextures::uploadAll(const render::EngineSpectra::Spectra &spectra,
+                                                    const task::Progress &progress) const {
     if (spectra.empty())
         return {};
     Device &device = m_passes->device();

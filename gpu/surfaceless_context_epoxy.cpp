@@ -50,28 +50,26 @@ std::vector<Candidate> candidates() {
                 const bool isSoftware = has(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS),
                                             "EGL_MESA_device_software");
                 if (isSoftware == software)
-                    found.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device,
-                                                              nullptr),
-                                     software});
+                    found.push_back(
+                        {eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
+                         software});
             }
     }
     // The core name of this call aborts in libepoxy without a display; the extension's does not.
     if (has(client, "EGL_MESA_platform_surfaceless"))
-        found.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA,
-                                                  EGL_DEFAULT_DISPLAY, nullptr),
-                         true});
+        found.push_back(
+            {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+             true});
     return found;
 }
 
 // A context that says when the driver was reset, or one that does not.
 EGLContext contextOf(EGLDisplay display, int major, int minor) {
     for (const bool isRobust : {true, false}) {
-        std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                       major,
-                                       EGL_CONTEXT_MINOR_VERSION,
-                                       minor,
-                                       EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+        std::vector<EGLint> attributes{
+            EGL_CONTEXT_MAJOR_VERSION,       major,
+            EGL_CONTEXT_MINOR_VERSION,       minor,
+            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
         if (isRobust)
             attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
                                                  EGL_LOSE_CONTEXT_ON_RESET});

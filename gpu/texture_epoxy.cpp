@@ -25,8 +25,7 @@ PixelTexture::PixelTexture() : m_name(makeTexture()) {
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
-void PixelTexture::allocate(int width, int height, int layers, int channels,
-                            const float *samples) {
+void PixelTexture::allocate(int width, int height, int layers, int channels, const float *samples) {
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_SWIZZLE_G, channels == 1 ? GL_RED : GL_GREEN);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_SWIZZLE_B, channels == 1 ? GL_RED : GL_BLUE);
     glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, channels == 1 ? GL_R32F : GL_RGB32F, width, height, layers,

@@ -43,7 +43,9 @@ public:
     int takeDispatches();
 
 private:
-    const Buffer &other(const Buffer &buffer) const { return &buffer == &m_slice ? m_lines : m_slice; }
+    const Buffer &other(const Buffer &buffer) const {
+        return &buffer == &m_slice ? m_lines : m_slice;
+    }
     const Buffer *runStages(const Buffer *from, int length, int lines, int images, int table);
     void dispatch(int x, int y, int z);
 

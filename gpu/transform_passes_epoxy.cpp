@@ -30,8 +30,8 @@ void dispatchGroups(int x, int y, int z) {
 
 TransformPasses::TransformPasses(Device &device)
     : m_device(device),
-      m_longest(std::min(mostShared, int(std::bit_floor(unsigned(
-                                         device.capabilities().sharedBytes / (2 * numberBytes)))))) {}
+      m_longest(std::min(mostShared, int(std::bit_floor(unsigned(device.capabilities().sharedBytes /
+                                                                 (2 * numberBytes)))))) {}
 
 int TransformPasses::roomFor(int length) {
     return std::max(leastRoom, int(std::bit_ceil(unsigned(length))));

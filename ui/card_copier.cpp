@@ -79,16 +79,15 @@ std::shared_ptr<gpu::GpuEngine> CardCopier::copyOf(const render::EngineParts &pa
 
 void CardCopier::announce(EngineStage stage) {
     const render::PreparedEngine &engine = m_current->engine;
-    ShownEngine shown{engine, copyOf(engine.engine->parts()), engine.plan.predictedError, {}};
+    ShownEngine shown{engine, copyOf(engine.engine->parts()), engine.plan.predictedError,
+                      m_card.reason()};
     if (shown.onCard)
-        shown.predictedError = std::max(
-            shown.predictedError,
-            gpu::planFetch(engine.plan, m_document.scene().tolerance, m_document.scene().shading)
-                .predictedError);
-    else
-        shown.reason = !m_card.passes() ? m_card.reason()
-                       : m_isGivenUp    ? m_reason
-                                        : tr("not on the graphics card yet");
+        shown.predictedError =
+            std::max(shown.predictedError, gpu::planFetch(engine.plan, m_document.scene().tolerance,
+                                                          m_document.scene().shading)
+                                               .predictedError);
+    else if (m_card.passes())
+        shown.reason = m_isGivenUp ? m_reason : tr("not on the graphics card yet");
     emit engineReady(shown, stage);
 }
 
@@ -102,30 +101,30 @@ void CardCopier::copyWhenIdle() {
     const auto engine = m_current->engine.engine;
     const gpu::Fetch fetch =
         gpu::planFetch(m_current->engine.plan, m_document.scene().tolerance).fetch;
-    m_jobs.start(tr("Copying to the graphics card"), [this, engine, fetch,
-                                                      passes = m_card.passes()](const Job &job) {
-        std::shared_ptr<gpu::GpuEngine> copy;
-        QString reason;
-        try {
-            copy = gpu::copyToCard(passes, *engine, fetch, job.progress());
-        } catch (const task::Error &error) {
-            reason = QString::fromStdString(error.reason());
-        }
-        job.deliver([this, engine, copy, passes, reason] {
-            m_isCopying = false;
-            if (passes != m_card.passes())
-                return;
-            if (copy)
-                m_copies.insert(m_copies.begin(), copy);
-            if (!m_current)
-                return;
-            m_isGivenUp = !copy && m_current->engine.engine == engine;
-            m_reason = reason;
-            // The picture is the same: it keeps its brightness.
-            announce(m_current->stage == EngineStage::live ? EngineStage::live
-                                                           : EngineStage::settled);
-        });
-    });
+    m_jobs.start(tr("Copying to the graphics card"),
+                 [this, engine, fetch, passes = m_card.passes()](const Job &job) {
+                     std::shared_ptr<gpu::GpuEngine> copy;
+                     QString reason;
+                     try {
+                         copy = gpu::copyToCard(passes, *engine, fetch, job.progress());
+                     } catch (const task::Error &error) {
+                         reason = QString::fromStdString(error.reason());
+                     }
+                     job.deliver([this, engine, copy, passes, reason] {
+                         m_isCopying = false;
+                         if (passes != m_card.passes())
+                             return;
+                         if (copy)
+                             m_copies.insert(m_copies.begin(), copy);
+                         if (!m_current)
+                             return;
+                         m_isGivenUp = !copy && m_current->engine.engine == engine;
+                         m_reason = reason;
+                         // The picture is the same: it keeps its brightness.
+                         announce(m_current->stage == EngineStage::live ? EngineStage::live
+                                                                        : EngineStage::settled);
+                     });
+                 });
     m_isCopying = true;
 }
 

@@ -68,6 +68,8 @@ void GraphicsCard::open() {
     try {
         m_passes = std::make_shared<gpu::FramePasses>(
             std::make_shared<gpu::Device>(std::make_unique<SharedContext>()));
+        m_reason = m_choice == EngineChoice::card ? tr("the graphics card was chosen")
+                                                  : tr("there is a graphics card");
     } catch (const task::Error &error) {
         m_reason = QString::fromStdString(error.reason());
     }

@@ -27,8 +27,9 @@ public:
     /// Nothing more is made on it, for this reason, until it is chosen again.
     void giveUp(const QString &reason);
 
-    /// None: the processor makes the projections, for `reason`.
+    /// None: the processor makes the projections.
     const std::shared_ptr<gpu::FramePasses> &passes() const { return m_passes; }
+    /// Why it is that one.
     const QString &reason() const { return m_reason; }
 
 signals:

@@ -20,6 +20,7 @@
 #include <QToolBar>
 
 #include "core/task/error.h"
+#include "core/task/log.h"
 #include "ui/commands.h"
 #include "ui/look_docks.h"
 #include "ui/look_menu.h"
@@ -219,8 +220,8 @@ void MainWindow::addEngineMenu(QMenu &menu) {
                    {tr("&Processor"), "processorEngineAction", EngineChoice::processor},
                    {tr("&Graphics card"), "cardEngineAction", EngineChoice::card}};
     for (const auto &c : choices) {
-        QAction *action =
-            addCommand(&menu, c.text, c.name, {}, [this, choice = c.choice] { m_card.choose(choice); });
+        QAction *action = addCommand(&menu, c.text, c.name, {},
+                                     [this, choice = c.choice] { m_card.choose(choice); });
         action->setCheckable(true);
         action->setActionGroup(engines);
         action->setChecked(m_card.choice() == c.choice);
@@ -305,7 +306,11 @@ void MainWindow::createStatusBar() {
             m_document.setCurrentSource(-1);
     });
     connect(&m_jobs, &JobRunner::failed, this, &MainWindow::report);
-    connect(m_projection, &ProjectionView::engineDescribed, m_engine, &QLabel::setText);
+    connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
+        if (text != m_engine->text())
+            task::log(text.toStdString());
+        m_engine->setText(text);
+    });
     for (MprView *view : m_mpr)
         connect(view, &MprView::readoutChanged, m_readout, &QLabel::setText);
     m_engine->setText(m_card.reason());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <QCoreApplication>
 #include <QPainter>
 #include <QPainterPath>
 
@@ -122,6 +123,10 @@ void drawOrientationCube(QPainter &painter, QPointF center, double radius, const
                          QString(QChar(face.letter)));
     }
     painter.restore();
+}
+
+QString millisecondsText(double ms) {
+    return QCoreApplication::translate("overlay", "%1 ms").arg(ms, 0, 'f', ms < 1.0 ? 2 : 1);
 }
 
 } // namespace pellucid::ui

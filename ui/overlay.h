@@ -35,4 +35,7 @@ void drawOrientationCube(QPainter &painter, QPointF center, double radius, const
 void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
               const QColor &color);
 
+/// "1.2 ms", with two decimals below a millisecond.
+QString millisecondsText(double ms);
+
 } // namespace pellucid::ui

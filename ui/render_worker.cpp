@@ -34,7 +34,7 @@ std::uint64_t RenderWorker::request(const render::Camera &camera,
     const std::lock_guard lock(m_mutex);
     if (!m_engine)
         return m_number;
-    m_next = Request{m_engine, m_onCard,  m_generation, camera, image,
+    m_next = Request{m_engine, m_onCard,  m_generation, camera,    image,
                      shading,  reduction, wantsTone,    ++m_number};
     m_wake.notify_one();
     return m_number;

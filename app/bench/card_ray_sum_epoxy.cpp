@@ -25,7 +25,8 @@ CardRaySum::CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::V
     samples.reserve(n.count());
     field.visit([&](auto values) {
         for (const auto f : values)
-            samples.push_back(std::uint16_t(std::lround(65535.0 * std::clamp(double(f), 0.0, 1.0))));
+            samples.push_back(
+                std::uint16_t(std::lround(65535.0 * std::clamp(double(f), 0.0, 1.0))));
     });
     m_passes->device().run([&] {
         m_place = std::make_unique<Place>();
@@ -49,8 +50,8 @@ CardRaySum::~CardRaySum() {
 
 CardRaySum::Image CardRaySum::render(const render::Camera &camera, double stepMm) {
     const glm::dmat3 axes = camera.axes();
-    const glm::dmat3 toVoxels = glm::inverse(
-        glm::dmat3(m_lattice.step(0), m_lattice.step(1), m_lattice.step(2)));
+    const glm::dmat3 toVoxels =
+        glm::inverse(glm::dmat3(m_lattice.step(0), m_lattice.step(1), m_lattice.step(2)));
     const volume::GridSize n = m_lattice.size();
     const glm::dvec3 size(n.i, n.j, n.k);
     // The centre of the lattice is the middle of the texture.

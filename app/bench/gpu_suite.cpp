@@ -88,8 +88,7 @@ public:
         fillError(onProcessor, worstError(*prepared.engine, scene, truths));
         m_report(onProcessor);
 
-        const gpu::FetchPlan fetch =
-            gpu::planFetch(prepared.plan, of.tolerance, of.shading);
+        const gpu::FetchPlan fetch = gpu::planFetch(prepared.plan, of.tolerance, of.shading);
         for (const gpu::Fetch how : {gpu::Fetch::exact, gpu::Fetch::trilinear}) {
             if (how == gpu::Fetch::trilinear && fetch.fetch != how)
                 continue;
@@ -102,8 +101,8 @@ public:
             onCard.engine = "gpu";
             onCard.name += how == gpu::Fetch::trilinear ? ", filtered fetches" : "";
             onCard.taps = how == gpu::Fetch::trilinear ? filteredTaps(prepared.plan) : row.taps;
-            onCard.predictedError = how == gpu::Fetch::trilinear ? fetch.predictedError
-                                                                 : prepared.plan.predictedError;
+            onCard.predictedError =
+                how == gpu::Fetch::trilinear ? fetch.predictedError : prepared.plan.predictedError;
             onCard.prepareMs = uploadMs;
             onCard.sliceMs = median(timed.slice);
             onCard.transformMs = median(timed.transform);
@@ -136,10 +135,9 @@ private:
         m_rayMs = median(cast);
         for (int view = 0; view < m_truth.views(); ++view)
             m_rayError = std::max(
-                m_rayError,
-                compare(rays.render(m_truth.camera(view), step).samples,
-                        m_truth.image(view, {render::Reconstruction::linear, 0.05}))
-                    .relativeL2);
+                m_rayError, compare(rays.render(m_truth.camera(view), step).samples,
+                                    m_truth.image(view, {render::Reconstruction::linear, 0.05}))
+                                .relativeL2);
     }
 
     static int filteredTaps(const render::RenderPlan &plan) {
@@ -162,8 +160,7 @@ private:
                           const std::vector<std::vector<double>> &truths) {
         ImageError worst{0.0, 0.0, 1e9};
         for (std::size_t view = 0; view < truths.size(); ++view) {
-            const auto image =
-                engine.render(m_truth.camera(int(view)), scene.image, scene.shading);
+            const auto image = engine.render(m_truth.camera(int(view)), scene.image, scene.shading);
             const ImageError error = compare(image.samples, truths[view]);
             worst = {std::max(worst.relativeL2, error.relativeL2),
                      std::max(worst.maximum, error.maximum), std::min(worst.psnrDb, error.psnrDb)};
@@ -190,12 +187,11 @@ void runGpuSuite(const Report &report) {
                 what.software ? ": software, so figures say nothing of a graphics card" : "");
     const shading::DepthCue cue{shading::CueKind::linear, 1.0};
     const std::vector<shading::Light> light{{{1, 1, 0.7}}};
-    const std::vector<Case> cases{
-        {"default", 1.1e-3, {}, {}},
-        {"interactive", 1e-2, {}, {}},
-        {"float32", 1.1e-3, fourier::Storage::float32, {}},
-        {"linear cue", 1.1e-3, {}, {.cue = cue}},
-        {"light", 1.1e-3, {}, {.ambient = 0.3, .lights = light}}};
+    const std::vector<Case> cases{{"default", 1.1e-3, {}, {}},
+                                  {"interactive", 1e-2, {}, {}},
+                                  {"float32", 1.1e-3, fourier::Storage::float32, {}},
+                                  {"linear cue", 1.1e-3, {}, {.cue = cue}},
+                                  {"light", 1.1e-3, {}, {.ambient = 0.3, .lights = light}}};
     for (const int side : {128, 256, 512}) {
         if (what.software && side > 256)
             break;

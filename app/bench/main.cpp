@@ -84,8 +84,8 @@ int main(int argc, char **argv) {
     std::string json, csv, file, reportFolder;
     app.add_option("--suite", suites, "What to measure; several with commas between")
         ->delimiter(',')
-        ->check(CLI::IsMember(
-            {"quick", "kernels", "hard", "scaling", "thesis", "totsuka", "classes", "shading", "gpu"}));
+        ->check(CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka",
+                               "classes", "shading", "gpu"}));
     app.add_option("--volume", file,
                    "An NRRD volume in place of the fields of the suites kernels and scaling");
     app.add_option("--json", json, "Write the rows as JSON");

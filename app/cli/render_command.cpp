@@ -49,6 +49,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     checkOutput(out, classify::isGrey(lookFor(o.scene)) && shadingFor(o.scene, command).isGrey());
     if (o.turntable != (o.frames > 0))
         throw Error(ErrorCode::usage, "--frames and --turntable go together");
+    const CardChoice card = chooseCard(o.engine, o.frames);
     std::optional<tbb::global_control> threads;
     if (o.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(o.threads));
@@ -93,7 +94,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         }
     };
     Renderer renderer = prepared();
-    renderer.chooseEngine(engineFromText(o.engine), o.frames);
+    renderer.use(card);
     const double prepareMs = watch.lapMs();
     std::vector<std::string> warnings = volume.notes().warnings;
     const auto warn = [&](const std::string &text) {

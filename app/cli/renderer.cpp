@@ -17,12 +17,6 @@ namespace pellucid::cli {
 
 using nlohmann::json;
 
-EngineChoice engineFromText(const std::string &text) {
-    return text == "gpu"   ? EngineChoice::card
-           : text == "cpu" ? EngineChoice::processor
-                           : EngineChoice::automatic;
-}
-
 namespace {
 
 // What is said where the card was asked for: it is too small, or else not there for us.
@@ -40,6 +34,26 @@ render::ShadedFields shadedFor(const render::Scene &scene, const classify::Shown
 }
 
 } // namespace
+
+CardChoice chooseCard(const std::string &engine, int frames) {
+    CardChoice choice{engine == "gpu", nullptr, "the graphics card was asked for"};
+    if (engine == "cpu")
+        choice.reason = "the processor was asked for";
+    else if (engine == "auto" && frames < 2)
+        choice.reason = "one image is made sooner than a graphics card has its spectra";
+    else
+        try {
+            choice.passes = std::make_shared<gpu::FramePasses>(std::make_shared<gpu::Device>(
+                std::make_unique<gpu::SurfacelessContext>(choice.isAsked)));
+            if (!choice.isAsked)
+                choice.reason = "there is a graphics card";
+        } catch (const task::Error &error) {
+            if (choice.isAsked)
+                throw cardRefused(error);
+            choice.reason = error.reason();
+        }
+    return choice;
+}
 
 Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
                    const render::Budget &budget, const Context &context)
@@ -92,31 +106,23 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
                                                         *summary.energy.spread)));
 }
 
-void Renderer::chooseEngine(EngineChoice choice, int frames) {
-    const bool isAsked = m_isCardAsked = choice == EngineChoice::card;
-    if (choice == EngineChoice::processor)
+void Renderer::use(const CardChoice &card) {
+    m_choice = card;
+    if (!m_engine)
+        m_choice.reason = "no engine keeps the tolerance: the exact reference does";
+    if (!m_engine && card.isAsked)
+        throw cardRefused({task::ErrorCode::noSuchDevice, m_choice.reason + ", on the processor"});
+    if (!m_engine || !card.passes)
         return;
-    if (!m_engine) {
-        m_engineReason = "no engine keeps the tolerance: the exact reference does";
-        if (isAsked)
-            throw cardRefused({task::ErrorCode::noSuchDevice, m_engineReason + ", on the processor"});
-        return;
-    }
-    if (!isAsked && frames < 2) {
-        m_engineReason = "one image is made sooner than a graphics card has its spectra";
-        return;
-    }
     try {
-        auto passes = std::make_shared<gpu::FramePasses>(
-            std::make_shared<gpu::Device>(std::make_unique<gpu::SurfacelessContext>(isAsked)));
-        const gpu::FetchPlan plan = gpu::planFetch(m_fitting.plan, m_scene.tolerance, m_scene.shading);
-        m_card = gpu::copyToCard(passes, *m_engine, plan.fetch, m_progress);
+        const gpu::FetchPlan plan =
+            gpu::planFetch(m_fitting.plan, m_scene.tolerance, m_scene.shading);
+        m_card = gpu::copyToCard(card.passes, *m_engine, plan.fetch, m_progress);
         m_predictedError = plan.predictedError;
-        m_engineReason = isAsked ? "the graphics card was asked for" : "there is a graphics card";
     } catch (const task::Error &error) {
-        if (isAsked)
+        if (card.isAsked)
             throw cardRefused(error);
-        m_engineReason = error.reason();
+        m_choice.reason = error.reason();
     }
 }
 
@@ -127,9 +133,9 @@ render::ProjectionImage Renderer::image(const render::Camera &camera, render::Fr
         } catch (const task::Error &error) {
             // The card is gone, or too small for this image: the processor goes on, unless the
             // card was asked for.
-            if (m_isCardAsked)
+            if (m_choice.isAsked)
                 throw cardRefused(error);
-            m_engineReason = error.reason();
+            m_choice.reason = error.reason();
             m_card.reset();
         }
     }

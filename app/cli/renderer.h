@@ -16,9 +16,17 @@
 
 namespace pellucid::cli {
 
-/// Which engine is asked for.
-enum class EngineChoice { automatic, processor, card };
-EngineChoice engineFromText(const std::string &text);
+/// The graphics card that images are to be made on, if it is one.
+struct CardChoice {
+    bool isAsked = false;
+    std::shared_ptr<gpu::FramePasses> passes; ///< none: the processor makes them
+    std::string reason;                       ///< why it is that one, a line
+};
+/// `engine`: "auto", "cpu" or "gpu". Left to itself the card is taken if it is none of software and
+/// there is more than one image to make: a single one is over on the processor before a card has
+/// its spectra. *Throws* Error{noSuchDevice} with the reason if the card is asked for and there is
+/// none.
+CardChoice chooseCard(const std::string &engine, int frames);
 
 /// Images of one scene within a tolerance: by the engine, or by the exact reference where no plan
 /// keeps the tolerance, unless the memory is short or the scene fixes the interpolation.
@@ -28,13 +36,11 @@ public:
     Renderer(const render::Scene &scene, const classify::ShownFields &fields,
              const render::Budget &budget, const Context &context);
 
-    /// Renders `frames` images by the engine that is asked for. Left to itself the card is taken if
-    /// it is none of software and there is more than one image to make: a single one is over on the
-    /// processor before a card has its spectra. *Throws* Error{noSuchDevice} with the reason if the
-    /// card is asked for and there is none, or none that is large enough.
-    void chooseEngine(EngineChoice choice, int frames);
+    /// Makes the images on the card. *Throws* Error{noSuchDevice}, Error{outOfMemory} with the
+    /// reason if it was asked for and cannot be used.
+    void use(const CardChoice &card);
     /// Why it is that engine, a line.
-    const std::string &engineReason() const { return m_engineReason; }
+    const std::string &engineReason() const { return m_choice.reason; }
     bool isOnCard() const { return m_card != nullptr; }
 
     /// `times`: of this image, all channels.
@@ -71,8 +77,7 @@ private:
     double m_predictedError = 0.0;
     std::shared_ptr<render::CpuEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_card; ///< its twin, if that is used
-    bool m_isCardAsked = false;
-    std::string m_engineReason = "the processor was asked for";
+    CardChoice m_choice;
     /// One each channel, in place of an engine; made for every image where each is shaded anew.
     std::vector<reference::WideKernel> m_references;
 };

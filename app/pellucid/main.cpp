@@ -9,9 +9,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/pellucid/log_spdlog.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/wisdom.h"
 #include "core/task/error.h"
+#include "core/task/log.h"
 #include "ui/graphics_card.h"
 #include "ui/main_window.h"
 #include "ui/theme.h"
@@ -48,8 +50,11 @@ int main(int argc, char **argv) {
         if (type == QtWarningMsg || type == QtCriticalMsg)
             std::fprintf(stderr, "%s\n", qPrintable(text));
     });
-    if (const auto cache = files::userCacheFolder())
+    if (const auto cache = files::userCacheFolder()) {
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
+        keepLogIn(*cache / "log" / "pellucid.log");
+    }
+    task::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
     // The engine's context shares with those of the windows: its pictures stay on the card.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
     QApplication application(argc, argv);

@@ -284,8 +284,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     }
     const auto turnV = rotations(grid.rows / 2 + 1, geometry.turnsPerRow);
     // A single grey image has its share at once.
-    const double unit =
-        geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
+    const double unit = geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
     for (std::size_t n = 0; n < turnV.size(); ++n)
         place.rowPhase[n] = Complex(unit * turnV[n]);
     job.columnPhase = columnPhase;

@@ -28,8 +28,8 @@ struct FrameGeometry {
 
 /// A coordinate that reaches the far edge of a kernel by less than this counts as on it, and
 /// mirrored cells are read only where x lies further below 0: rounding alone must not decide which
-/// of two cells is read where a view meets the grid, since kernels may jump at their edges. *Units*:
-/// cells; above the rounding of 16 neighbours' float offsets.
+/// of two cells is read where a view meets the grid, since kernels may jump at their edges.
+/// *Units*: cells; above the rounding of 16 neighbours' float offsets.
 inline constexpr float edgeSlackCells = 4e-6F;
 
 /// The slice grid of the frames of one view after another: sought, in a fraction of a millisecond,

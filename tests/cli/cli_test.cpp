@@ -201,6 +201,42 @@ TEST_F(Cli, TheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(one, image(4));
 }
 
+TEST_F(Cli, BothEnginesGiveOnePicture) {
+    const fs::path series = phantomFolder("--kind head --size 48x52x40 --tilt 12");
+    for (const char *options : {"", "--depth-cue linear:1 --light 1,0,0.5 --ambient 0.4",
+                                "--quality draft --azimuth 40"}) {
+        const std::string asked = std::string(" --view left ") + options;
+        const auto processor = picture(series, "--engine cpu" + asked);
+        const auto card = picture(series, "--engine gpu" + asked);
+        EXPECT_LE(test::relativeL2(card, processor), 3e-4) << options;
+    }
+    const std::string out = " -o " + quoted(folder / "one.png");
+    const auto said = cli("render " + quoted(series) + out + " --engine gpu --json");
+    EXPECT_EQ(said.exitCode, 0) << said.error;
+    const json told = json::parse(said.out);
+    EXPECT_EQ(told["device"], "gpu");
+    EXPECT_EQ(told["engine"].get<std::string>().rfind("GPU engine, ", 0), 0U);
+    EXPECT_EQ(told["engine_reason"], "the graphics card was asked for");
+    // Left to itself, a picture is the processor's, and so are many where the card is of software.
+    const auto many = cli("render " + quoted(series) + out + " --frames 2 --turntable --json");
+    EXPECT_EQ(json::parse(many.out)["device"], "cpu");
+    EXPECT_FALSE(json::parse(many.out)["engine_reason"].get<std::string>().empty());
+}
+
+TEST_F(Cli, WithoutACardTheProcessorGoesOnOrSaysWhy) {
+    const fs::path series = phantomFolder("--kind cube --size 16x16x16");
+    const fs::path out = folder / "one.png";
+    const std::string command = "render " + quoted(series) + " -o " + quoted(out);
+    const std::string old =
+        "MESA_GL_VERSION_OVERRIDE=3.3 MESA_EXTENSION_OVERRIDE=-GL_ARB_compute_shader";
+    expectOneLine(cli(command + " --engine gpu", old), 5, "OpenGL here is 3.3");
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_EQ(cli(command, old).exitCode, 0);
+    // The reference is no engine's.
+    expectOneLine(cli(command + " --engine gpu --quality reference"), 5, "reference");
+    EXPECT_EQ(cli(command + " --frames 2 --turntable", old).exitCode, 0);
+}
+
 TEST_F(Cli, UsageErrorsNameTheOption) {
     const std::string out = " -o " + (folder / "o.png").string();
     expectOneLine(cli(""), 2, "subcommand");
@@ -213,7 +249,7 @@ TEST_F(Cli, UsageErrorsNameTheOption) {
     expectOneLine(cli("render /tmp -o /tmp/x.dcm"), 2, ".dcm");
     expectOneLine(cli("render /tmp -o /tmp/x.bmp"), 2, "x.bmp");
     expectOneLine(cli("render /tmp" + out + " --frames 3"), 2, "--turntable");
-    expectOneLine(cli("render /tmp" + out + " --engine gpu"), 5, "gpu");
+    expectOneLine(cli("render /tmp" + out + " --engine fast"), 2, "--engine");
     expectOneLine(cli("phantom " + (folder / "p").string() + " --kind torso"), 2, "--kind");
     expectOneLine(cli("phantom " + (folder / "p").string() + " --transfer-syntax gif"), 2, "gif");
     expectOneLine(cli("phantom " + (folder / "p").string() + " --spacing 1,2"), 2, "--spacing");

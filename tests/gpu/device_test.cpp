@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <epoxy/gl.h>
+
 #include "core/task/error.h"
+#include "core/task/log.h"
 #include "gpu/device.h"
 #include "gpu/surfaceless_context.h"
 
@@ -48,9 +51,8 @@ TEST(Device, RunsOnItsOwnThreadAndPassesOnWhatIsThrown) {
     device.run([&] { second = std::this_thread::get_id(); });
     EXPECT_EQ(first, second);
     EXPECT_NE(first, std::this_thread::get_id());
-    EXPECT_THROW(
-        device.run([] { throw task::Error(task::ErrorCode::outOfMemory, "too much"); }),
-        task::Error);
+    EXPECT_THROW(device.run([] { throw task::Error(task::ErrorCode::outOfMemory, "too much"); }),
+                 task::Error);
     bool ran = false;
     device.run([&] { ran = true; }); // and goes on
     EXPECT_TRUE(ran);
@@ -64,6 +66,20 @@ TEST(Device, WhatWasPostedIsDoneBeforeItsEnd) {
             device.post([&] { ++done; });
     }
     EXPECT_EQ(done, 100);
+}
+
+TEST(Device, WhatTheDriverSaysGoesToTheLog) {
+    std::vector<std::string> lines;
+    task::setLogSink([&](const std::string &line) { lines.push_back(line); });
+    {
+        gpu::Device device(std::make_unique<gpu::SurfacelessContext>());
+        device.run([] { glBindBuffer(GL_ARRAY_BUFFER + 12345, 0); }); // an enumerant that is none
+        device.run([] { EXPECT_EQ(glGetError(), unsigned(GL_INVALID_ENUM)); });
+    }
+    task::setLogSink({});
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[0].rfind("OpenGL 4.", 0), 0U) << lines[0];
+    EXPECT_NE(lines[1].find("INVALID_ENUM"), std::string::npos) << lines[1];
 }
 
 TEST(Device, AContextThatFailsIsNamed) {

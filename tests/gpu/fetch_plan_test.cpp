@@ -62,8 +62,7 @@ TEST_F(FetchPlan, TheRoundingOfTheFilterIsPredicted) {
         const auto plan = planFor(fields, name);
         fourier::SpectrumLayout layout = plan.spectrum;
         layout.storage = fourier::Storage::float32;
-        const auto spectrum =
-            fourier::Spectrum::prepare(fields.channels.front().values, layout);
+        const auto spectrum = fourier::Spectrum::prepare(fields.channels.front().values, layout);
         std::mt19937 random(12);
         std::uniform_real_distribution<double> uniform(-0.45, 0.45);
         const int width = layout.width();
@@ -88,8 +87,8 @@ TEST_F(FetchPlan, TheRoundingOfTheFilterIsPredicted) {
             for (std::size_t z = 0; z < exact[2].size(); ++z)
                 for (std::size_t y = 0; y < exact[1].size(); ++y)
                     for (std::size_t x = 0; x < exact[0].size(); ++x) {
-                        const auto cell = spectrum.value(first[0] + int(x), first[1] + int(y),
-                                                         first[2] + int(z));
+                        const auto cell =
+                            spectrum.value(first[0] + int(x), first[1] + int(y), first[2] + int(z));
                         should += exact[0][x] * exact[1][y] * exact[2][z] * cell;
                         is += rounded[0][x] * rounded[1][y] * rounded[2][z] * cell;
                     }
@@ -109,8 +108,8 @@ TEST_F(FetchPlan, TheRoundingOfTheFilterIsPredicted) {
 TEST_F(FetchPlan, FilteredFetchesKeepWhatIsPredicted) {
     const auto fields = noise();
     for (const char *kernel : {"trilinear", "LS2", "LS3", "LS4", "ES5", "b-spline", "KB6"}) {
-        render::Scene scene{
-            .camera = render::defaultCamera(fields.channels.front().values.lattice())};
+        render::Scene scene{.camera =
+                                render::defaultCamera(fields.channels.front().values.lattice())};
         scene.interpolation.kernel = fourier::kernelFromName(kernel);
         scene.interpolation.storage = fourier::Storage::float32;
         const auto prepared = render::prepareEngine(scene, fields, {});
@@ -120,9 +119,9 @@ TEST_F(FetchPlan, FilteredFetchesKeepWhatIsPredicted) {
         const auto filtered = gpu::copyToCard(card, *prepared.engine, plan.fetch);
         std::mt19937 random(4);
         scene.camera.orientation = test::randomOrientation(random);
-        const auto truth = reference::WideKernel(fields.channels.front().values,
-                                                 fields.channels.front().support)
-                               .image(scene.camera, scene.image);
+        const auto truth =
+            reference::WideKernel(fields.channels.front().values, fields.channels.front().support)
+                .image(scene.camera, scene.image);
         const auto image = filtered->render(scene.camera, scene.image).samples;
         const double floor = std::sqrt(plan.predictedError * plan.predictedError -
                                        prepared.plan.predictedError * prepared.plan.predictedError);

@@ -42,8 +42,7 @@ protected:
         double worst = 0.0;
         for (const glm::dquat &view : views()) {
             scene.camera.orientation = view;
-            const auto expected =
-                prepared.engine->render(scene.camera, scene.image, scene.shading);
+            const auto expected = prepared.engine->render(scene.camera, scene.image, scene.shading);
             const auto found = engine.render(scene.camera, scene.image, scene.shading);
             EXPECT_EQ(found.channels, expected.channels);
             EXPECT_EQ(found.width, expected.width);
@@ -105,7 +104,8 @@ TEST_F(GpuEngine, EveryReconstructionAndFraming) {
     wide.width = 201; // odd, and larger than the period
     wide.height = 167;
     tiny.width = tiny.height = 1;
-    const auto expectAlike = [&](const render::Camera &camera, const render::ImageDefinition &image) {
+    const auto expectAlike = [&](const render::Camera &camera,
+                                 const render::ImageDefinition &image) {
         render::Scene scene = sceneOf(fields);
         scene.camera = camera;
         scene.image = image;
@@ -140,6 +140,9 @@ TEST_F(GpuEngine, CuesAndLights) {
           Shading{.cue = linear, .ambient = 0.5, .lights = colored},
           Shading{.cue = sine, .ambient = 0.5, .lights = colored}})
         for (const Storage storage : {Storage::float32, Storage::binary16}) {
+            // A software renderer compiles for each format anew, which takes seconds.
+            if (storage == Storage::binary16 && shading.lights.size() != 1)
+                continue;
             render::Scene scene = sceneOf(fields);
             scene.shading = shading;
             scene.interpolation.storage = storage;
@@ -214,13 +217,13 @@ TEST_F(GpuEngine, ASpectrumInSeveralTextures) {
     ASSERT_EQ(whole->layout().slabs, 1);
     const std::size_t bytes = whole->bytes();
     for (const std::size_t parts : {2U, 5U}) {
-        const auto slabs =
-            gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra, {}, bytes / parts);
+        const auto slabs = gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra, {},
+                                                         bytes / parts);
         EXPECT_GE(slabs->layout().slabs, int(parts));
         EXPECT_EQ(slabs->fieldPages(), slabs->layout().slabs);
         EXPECT_LE(difference(scene, fields, bytes / parts), withinFloat32) << parts;
     }
-    scene.shading = {.cue = {CueKind::linear, 1.0}, .lights = {{{1, 0, 0}}}};
+    scene.shading.lights.push_back({{1, 0, 0}});
     EXPECT_LE(difference(scene, fields, bytes / 2), withinFloat32);
 }
 
@@ -259,8 +262,8 @@ TEST_F(GpuEngine, PicturesKeepTheirPixels) {
     std::vector<std::shared_ptr<const gpu::CardPicture>> held;
     std::vector<std::vector<float>> first;
     for (int n = 0; n < 7; ++n) {
-        scene.camera.orientation = render::viewOrientation(render::StandardView::front,
-                                                           {.azimuthDeg = 10.0 * n});
+        scene.camera.orientation =
+            render::viewOrientation(render::StandardView::front, {.azimuthDeg = 10.0 * n});
         held.push_back(engine->renderOnCard(scene.camera, scene.image));
         first.push_back(held.back()->download().samples);
     }
@@ -286,7 +289,8 @@ TEST_F(GpuEngine, WhatIsTooLargeIsRefused) {
     };
     // More textures than there are units.
     expectTooLarge([&] {
-        gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra, {}, std::size_t(1) << 15);
+        gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra, {},
+                                      std::size_t(1) << 15);
     });
     // A slice beyond a buffer, and then the engine still works.
     const auto engine = gpu::copyToCard(card, *prepared.engine);

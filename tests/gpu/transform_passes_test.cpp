@@ -36,7 +36,8 @@ protected:
         // Of a real image: column 0 is the conjugate of its mirror.
         for (int image = 0; image < images; ++image)
             for (int row = 0; row <= grid.rows / 2; ++row) {
-                auto &value = at(image, 0, row), &mirror = at(image, 0, (grid.rows - row) % grid.rows);
+                auto &value = at(image, 0, row),
+                     &mirror = at(image, 0, (grid.rows - row) % grid.rows);
                 if (&value == &mirror)
                     value = value.real();
                 else
@@ -73,9 +74,9 @@ protected:
             exact.run(half.data(), pixels.data());
             for (int y = 0; y < imageRows; ++y)
                 for (int x = 0; x < imageColumns; ++x)
-                    expected.push_back(pixels[std::size_t(y % grid.rows) *
-                                                  std::size_t(grid.columns) +
-                                              std::size_t(x % grid.columns)]);
+                    expected.push_back(
+                        pixels[std::size_t(y % grid.rows) * std::size_t(grid.columns) +
+                               std::size_t(x % grid.columns)]);
         }
         return test::relativeL2(found, expected);
     }
@@ -97,9 +98,13 @@ TEST_F(TransformPasses, EverySizeAlongBothDirections) {
 }
 
 TEST_F(TransformPasses, LinesBeyondTheSharedMemory) {
-    for (const auto &[columns, rows] :
-         {std::pair(8192, 6), {16384, 10}, {26250, 4}, {65536, 2}, {10, 5000}, {4, 65536},
-          {4374, 2100}})
+    for (const auto &[columns, rows] : {std::pair(8192, 6),
+                                        {16384, 10},
+                                        {26250, 4},
+                                        {65536, 2},
+                                        {10, 5000},
+                                        {4, 65536},
+                                        {4374, 2100}})
         EXPECT_LT(error({columns, rows}, 1, std::min(columns, 16384), std::min(rows, 600)),
                   rounding)
             << columns << " x " << rows;

@@ -14,6 +14,7 @@
 
 #include "ui/commands.h"
 #include "ui/document.h"
+#include "ui/overlay.h"
 
 namespace pellucid::ui {
 
@@ -262,7 +263,7 @@ void QualityPanel::say(const QString &text, bool isWarning) {
 }
 
 void QualityPanel::showFrame(const render::FrameTimes &times, bool draft) {
-    const QString text = tr("%1 ms").arg(times.totalMs(), 0, 'f', 1);
+    const QString text = millisecondsText(times.totalMs());
     m_time->setText(draft ? tr("%1, draft").arg(text) : text);
 }
 

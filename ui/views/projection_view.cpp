@@ -113,11 +113,8 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
         ++m_generation;
     m_stage = stage;
     m_worker.setEngine(m_engine, shown.onCard, m_generation);
-    const std::string used =
-        shown.onCard ? shown.onCard->description() : m_engine->description();
-    emit engineDescribed(shown.reason.isEmpty()
-                             ? QString::fromStdString(used)
-                             : tr("%1: %2").arg(QString::fromStdString(used), shown.reason));
+    const std::string used = shown.onCard ? shown.onCard->description() : m_engine->description();
+    emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(used), shown.reason));
     requestFrame(false);
 }
 
@@ -411,9 +408,9 @@ void ProjectionView::paintOverlay(QPainter &painter) {
                                 ? tr("error not known yet")
                                 : tr("error %1 %").arg(100.0 * m_predictedError, 0, 'f', 3);
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop,
-             QString("%1  %2 ms  %3")
+             QString("%1  %2  %3")
                  .arg(m_frame->onCard ? "GPU" : "CPU")
-                 .arg(m_frame->times.totalMs(), 0, 'f', 1)
+                 .arg(millisecondsText(m_frame->times.totalMs()))
                  .arg(m_frame->draft ? tr("draft") : quality),
              colors.text);
     const render::Camera &camera = m_document.scene().camera;

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which engine makes the projection: chosen, on the card, lost, and on machines that lack one.
+#include "tests/ui/workstation.h"
+
+#include <atomic>
+
+#include <QLabel>
+#include <QOpenGLWidget>
+#include <QProcess>
+#include <QSignalSpy>
+
+#include "gpu/surfaceless_context.h"
+#include "ui/gl_probe.h"
+#include "ui/scene_files.h"
+
+namespace pellucid {
+
+using namespace test;
+
+namespace {
+
+// A driver that can be told to reset.
+class FragileContext final : public gpu::Context {
+public:
+    explicit FragileContext(std::shared_ptr<std::atomic<bool>> lost) : m_lost(std::move(lost)) {}
+    void makeCurrent() override { m_context.makeCurrent(); }
+    void doneCurrent() override { m_context.doneCurrent(); }
+    bool isLost() const override { return *m_lost; }
+
+private:
+    gpu::SurfacelessContext m_context;
+    std::shared_ptr<std::atomic<bool>> m_lost;
+};
+
+// The largest difference of two pictures, in grey values.
+int largestDifference(const QImage &a, const QImage &b) {
+    if (a.size() != b.size())
+        return 255;
+    int largest = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x)
+            largest = std::max(largest, std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y))));
+    return largest;
+}
+
+} // namespace
+
+class EngineTest : public Workstation {
+    Q_OBJECT
+private slots:
+    void startsSaysWhyAndWorks() {
+        if (qEnvironmentVariable("PELLUCID_ENGINE") == "card")
+            find<QAction>("cardEngineAction")->trigger();
+        const QString reason =
+            qEnvironmentVariable("PELLUCID_EXPECTED_REASON", "OpenGL here is a software renderer");
+        QVERIFY2(engineText().contains(reason), qPrintable(engineText()));
+        open(headPath());
+        QVERIFY2(engineText().startsWith("CPU engine, "), qPrintable(engineText()));
+        QVERIFY2(engineText().contains(reason), qPrintable(engineText()));
+        const QImage before = projection()->picture();
+        QVERIFY(meanGrey(before) > 5.0);
+        dragMouse(projection(), Qt::LeftButton, QPoint(200, 200), QPoint(90, 30));
+        settle();
+        QVERIFY(changed(before, projection()->picture()) > 0.02);
+        find<QAction>("processorEngineAction")->trigger();
+        settle();
+        QVERIFY2(engineText().endsWith("the processor was chosen"), qPrintable(engineText()));
+    }
+
+    void theCardShowsWhatTheProcessorShows() {
+        needCard();
+        useSmallWindow();
+        open(headPath());
+        const QImage processor = projection()->picture();
+        const double lightness = meanGrey(canvas());
+        chooseCard();
+        QVERIFY(!projection()->picture().isNull());
+        QVERIFY(largestDifference(projection()->picture(), processor) <= 1);
+        // What is on the screen is drawn from the card's texture.
+        QVERIFY(std::abs(meanGrey(canvas()) - lightness) < 0.2);
+        QVERIFY(largestDifference(canvas(), projection()->picture()) <= 1);
+        save("on_the_card");
+        // And turns, and takes a window and a light.
+        dragMouse(projection(), Qt::LeftButton, QPoint(100, 100), QPoint(60, 20));
+        settle();
+        QVERIFY(changed(processor, projection()->picture()) > 0.02);
+        find<QAction>("addLightAction")->trigger();
+        settle();
+        QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !m_window->jobs().isRunning(), patienceMs);
+        settle();
+        QVERIFY(largestDifference(canvas(), projection()->picture()) <= 1);
+    }
+
+    void theCardsPictureIsTheCommandLines() {
+        needCard();
+        useSmallWindow();
+        open(headPath());
+        // The window plans for the whole volume, the command line for the part that is asked for:
+        // one plan for both, but for the slice grid, which moves a few pixels by their rounding.
+        render::Scene fixed = m_window->document().scene();
+        fixed.interpolation = {fourier::kernelFromName("LS4"), 1.75, fourier::Storage::binary16};
+        m_window->document().setScene(fixed);
+        settle();
+        chooseCard();
+        dragMouse(projection(), Qt::LeftButton, QPoint(100, 100), QPoint(-80, 35));
+        settle();
+        const QString scene = path("scene.json"), out = path("picture.png");
+        ui::writeSceneFile(scene, m_window->document().scene());
+        QProcess command;
+        command.start(PELLUCID_CLI,
+                      {"render", headPath(), "-o", out, "--scene", scene, "--engine", "gpu"});
+        QVERIFY(command.waitForFinished(patienceMs));
+        QVERIFY2(command.exitCode() == 0, command.readAllStandardError());
+        // The automatic brightness was taken before the view turned.
+        const QImage shown = projection()->picture();
+        projection()->retakeTone();
+        settle();
+        QCOMPARE(shown.size(), QImage(out).size());
+        QVERIFY(largestDifference(projection()->picture(), QImage(out)) <= 1);
+        QVERIFY(largestDifference(canvas(), QImage(out)) <= 1); // rounding to eight bits
+    }
+
+    void aCardThatFailsIsGivenUpAndChosenAgain() {
+        needCard();
+        open(headPath());
+        chooseCard();
+        const QImage before = projection()->picture();
+        emit projection()->cardFailed("the graphics card was lost: its driver was reset");
+        settle();
+        QVERIFY2(engineText().startsWith("CPU engine, "), qPrintable(engineText()));
+        QVERIFY(engineText().contains("its driver was reset"));
+        QVERIFY(largestDifference(projection()->picture(), before) <= 1);
+        chooseCard();
+    }
+
+    // Frames that a lost card owes come from the processor.
+    void theFrameOfALostCardComesFromTheProcessor() {
+        const auto lattice =
+            phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 32}});
+        const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
+        render::Scene scene;
+        scene.camera = render::defaultCamera(lattice);
+        const auto prepared =
+            render::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
+        auto lost = std::make_shared<std::atomic<bool>>(false);
+        const auto card = std::make_shared<gpu::FramePasses>(
+            std::make_shared<gpu::Device>(std::make_unique<FragileContext>(lost)));
+        ui::RenderWorker worker;
+        QSignalSpy frames(&worker, &ui::RenderWorker::frameReady);
+        QSignalSpy failures(&worker, &ui::RenderWorker::cardFailed);
+        worker.setEngine(prepared.engine, gpu::copyToCard(card, *prepared.engine), 1);
+        const auto next = [&] {
+            frames.clear();
+            worker.request(scene.camera, scene.image, {}, {}, true);
+            return frames.wait(patienceMs)
+                       ? frames.front().front().value<std::shared_ptr<const ui::RenderedFrame>>()
+                       : nullptr;
+        };
+        const auto onCard = next();
+        QVERIFY(onCard && onCard->onCard && onCard->automaticTone);
+        const auto picture = onCard->onCard->download();
+        *lost = true;
+        const auto after = next();
+        QVERIFY(after && !after->onCard);
+        QCOMPARE(failures.count(), 1);
+        QCOMPARE(after->image.samples.size(), picture.samples.size());
+        double difference = 0.0, all = 0.0;
+        for (std::size_t n = 0; n < picture.samples.size(); ++n) {
+            difference += std::pow(picture.samples[n] - after->image.samples[n], 2);
+            all += std::pow(after->image.samples[n], 2);
+        }
+        QVERIFY(std::sqrt(difference / all) < 3e-4);
+    }
+
+    // As when a pane is dragged to a second screen.
+    void thePictureSurvivesAnotherWindow() {
+        needCard();
+        open(headPath());
+        chooseCard();
+        const QImage before = canvas();
+        auto *canvasWidget = find<QOpenGLWidget>("projectionCanvas");
+        QWidget *const home = projection()->parentWidget();
+        const QRect place = projection()->geometry();
+        ui::ProjectionView *const view = projection();
+        view->setParent(nullptr);
+        view->resize(place.size());
+        view->show();
+        QVERIFY(QTest::qWaitForWindowExposed(view));
+        QTRY_VERIFY_WITH_TIMEOUT(view->showsFinalImage(), patienceMs);
+        const QImage moved = canvasWidget->grabFramebuffer();
+        view->setParent(home);
+        view->show();
+        QVERIFY(meanGrey(moved) > 5.0);
+        QVERIFY(moved.size() != before.size() || largestDifference(moved, before) <= 1);
+    }
+
+    void layersOnTheCardFollowTheirShares() {
+        needCard();
+        const auto lattice =
+            phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 32}});
+        const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
+        render::Scene scene;
+        scene.camera = render::defaultCamera(lattice);
+        const auto field = classify::densityField(volume, {-900, 2000});
+        const auto layers = render::LayerSet::prepare(
+            scene, 3, [&](std::size_t, const task::Progress &) { return field; }, {});
+        ui::Document document;
+        ui::JobRunner jobs;
+        ui::GraphicsCard card;
+        card.choose(ui::EngineChoice::card);
+        ui::CardCopier copier(document, jobs, card);
+        std::vector<ui::ShownEngine> shown;
+        connect(&copier, &ui::CardCopier::engineReady, this,
+                [&](const ui::ShownEngine &engine) { shown.push_back(engine); });
+        const auto show = [&](double share) {
+            copier.show({std::make_shared<render::MixtureEngine>(
+                             layers, std::vector<render::ChannelShares>(3, {share, 0.5, 0.5})),
+                         layers->plan(), layers->bytes()},
+                        ui::EngineStage::live);
+        };
+        show(1.0);
+        QVERIFY(!shown.back().onCard); // at once, on the processor
+        QTRY_VERIFY_WITH_TIMEOUT(shown.back().onCard && !jobs.isRunning(), patienceMs);
+        const auto textures = &shown.back().onCard->textures();
+        show(0.25);
+        QVERIFY(shown.back().onCard);
+        QCOMPARE(&shown.back().onCard->textures(), textures); // nothing is copied again
+        QCOMPARE(shown.back().onCard->parts().shares[1][0], 0.25);
+        const auto expected = shown.back().prepared.engine->render(scene.camera, scene.image);
+        const auto found = shown.back().onCard->render(scene.camera, scene.image);
+        QCOMPARE(found.channels, expected.channels);
+        for (std::size_t n = 0; n < found.samples.size(); ++n)
+            QVERIFY(std::abs(found.samples[n] - expected.samples[n]) < 0.05);
+        card.choose(ui::EngineChoice::automatic);
+    }
+
+    void aCopyThatIsCancelledLeavesTheProcessor() {
+        needCard();
+        open(headPath());
+        QSignalSpy started(&m_window->jobs(), &ui::JobRunner::started);
+        connect(&m_window->jobs(), &ui::JobRunner::started, m_window.get(),
+                [this] { m_window->jobs().cancel(); });
+        find<QAction>("cardEngineAction")->trigger();
+        QTRY_COMPARE_WITH_TIMEOUT(started.count(), 1, patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(engineText().contains("cancelled"), patienceMs);
+        QVERIFY(engineText().startsWith("CPU engine, "));
+        settle();
+        QVERIFY(!projection()->picture().isNull());
+        QTest::qWait(50);
+        QCOMPARE(started.count(), 1); // and is not begun again
+    }
+
+    void theChoiceIsRemembered() {
+        find<QAction>("processorEngineAction")->trigger();
+        restart();
+        QVERIFY(find<QAction>("processorEngineAction")->isChecked());
+        QVERIFY(engineText().contains("the processor was chosen"));
+        find<QAction>("automaticEngineAction")->trigger();
+        restart();
+        QVERIFY(find<QAction>("automaticEngineAction")->isChecked());
+    }
+
+private:
+    QString engineText() { return find<QLabel>("engineLabel")->text(); }
+    bool isOnCard() { return engineText().startsWith("GPU engine, "); }
+    QString path(const char *name) { return QString::fromStdString((m_folder / name).string()); }
+    QImage canvas() {
+        return find<QOpenGLWidget>("projectionCanvas")
+            ->grabFramebuffer()
+            .convertToFormat(QImage::Format_RGBA8888);
+    }
+    void chooseCard() {
+        find<QAction>("cardEngineAction")->trigger();
+        QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !m_window->jobs().isRunning(), patienceMs);
+        settle();
+    }
+    // Pixels no finer than the pictures are made: one of theirs is one of the screen's.
+    void useSmallWindow() {
+        m_window->resize(1000, 640);
+        QTest::qWait(50);
+    }
+    void needCard() {
+        const auto &window = ui::windowCapabilities();
+        if (!window || !window->canRender())
+            QSKIP("no OpenGL 4.3 here");
+    }
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::EngineTest>(argc, argv);
+}
+
+#include "engine_test.moc"
