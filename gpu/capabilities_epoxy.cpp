@@ -28,12 +28,10 @@ Capabilities currentCapabilities() {
     c.largest3dTexture = int(limit(GL_MAX_3D_TEXTURE_SIZE));
     c.largest2dTexture = int(limit(GL_MAX_TEXTURE_SIZE));
     if (c.version >= 43) {
-        c.hasCompute = true;
         c.textureUnits = int(limit(GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS));
         c.sharedBytes = limit(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE);
         c.storageBytes = limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
     }
-    c.freeBytes = freeCardBytes();
     return c;
 }
 

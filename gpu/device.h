@@ -37,12 +37,11 @@ public:
     /// Runs it on the device's thread and waits. *Throws* what it throws, Error{noSuchDevice} if
     /// the device is lost, before it or by it.
     void run(const std::function<void()> &work);
-    /// Runs it there some time later; what it throws is dropped.
+    /// Runs it there some time later; what it throws goes to the log.
     void post(std::function<void()> work);
 
     /// A compute program, compiled when it is first asked for. On the device's thread.
     const Program &program(const std::string &file, const Defines &defines = {});
-    std::size_t programCount() const { return m_programs.size(); }
 
 private:
     void live(std::stop_token stop);
@@ -56,5 +55,14 @@ private:
     std::deque<std::function<void()>> m_work;
     std::jthread m_thread;
 };
+
+/// Deletes what has OpenGL names in it where their context is.
+template <class T> struct DeleteOnDevice {
+    Device *device = nullptr;
+    void operator()(T *object) const {
+        device->post([object] { delete object; });
+    }
+};
+template <class T> using OnDevice = std::unique_ptr<T, DeleteOnDevice<T>>;
 
 } // namespace pellucid::gpu

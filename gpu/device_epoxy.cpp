@@ -55,6 +55,9 @@ void Device::run(const std::function<void()> &work) {
             std::exception_ptr failure;
             try {
                 work();
+            } catch (const task::Error &error) {
+                failure = std::current_exception();
+                m_lost = m_lost || error.code() == task::ErrorCode::noSuchDevice;
             } catch (...) {
                 failure = std::current_exception();
             }
@@ -90,7 +93,11 @@ void Device::live(std::stop_token stop) {
             work = std::move(m_work.front());
             m_work.pop_front();
         }
-        work();
+        try {
+            work();
+        } catch (const std::exception &error) {
+            task::log(std::string("graphics card: ") + error.what());
+        }
     }
     m_programs.clear();
     m_context->doneCurrent();

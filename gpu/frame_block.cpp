@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/task/error.h"
+
 namespace pellucid::gpu {
 
 namespace {
@@ -75,12 +77,13 @@ GridTables::GridTables(const render::SliceGrid &grid) {
     add(grid.columns / 2, grid.columns / 2);
     tables[2] = std::int32_t(rotations.size());
     add(grid.columns, grid.columns / 2);
-    // The Nyquist row and column lie on the edge of the disc, whose roll-off is 0.
+    // The Nyquist row and column lie on the edge of the disc, whose roll-off is 0. Row 0 of every
+    // column lies within.
+    int row = grid.rows / 2 - 1;
     for (int column = 0; column < grid.columns / 2; ++column) {
         const double u = 2.0 * column / grid.columns;
-        int row = -1;
-        while (row + 1 < grid.rows / 2 && std::hypot(u, 2.0 * (row + 1) / grid.rows) < 1.0)
-            ++row;
+        while (row > 0 && !(std::hypot(u, 2.0 * row / grid.rows) < 1.0))
+            --row;
         discRows.push_back(row);
     }
 }
@@ -104,6 +107,13 @@ FrameBlock frameBlock(const render::SliceGrid &grid, const render::ImageDefiniti
                       const render::FrameShading *shading, const fourier::SpectrumLayout &layout,
                       const TexelLayout &texels, int fieldPages) {
     FrameBlock block{};
+    // 23 bits of whole cells, beyond which a coordinate would come round again.
+    for (std::size_t d = 0; d < 3; ++d)
+        if (std::abs(geometry.cellsPerColumn[d]) * grid.columns +
+                std::abs(geometry.cellsPerRow[d]) * grid.rows >
+            0x1p22)
+            throw task::Error(task::ErrorCode::outOfMemory,
+                              "the image reaches further than the graphics card's slice can count");
     const Steps column = stepsOf(geometry.cellsPerColumn, geometry.turnsPerColumn);
     const Steps row = stepsOf(geometry.cellsPerRow, geometry.turnsPerRow);
     Steps origin{};
@@ -122,6 +132,7 @@ FrameBlock frameBlock(const render::SliceGrid &grid, const render::ImageDefiniti
     for (int d = 0; d < 3; ++d) {
         const auto axis = std::size_t(d);
         block.firstCell[axis] = texels.firstCell[axis];
+        block.edgeSlack[axis] = geometry.edgeSlack[axis];
         block.inversePadded[axis] = 1.0F / float(layout.padded[d]);
         packPairs(layout.kernels[axis], d, block.kernels);
     }

@@ -23,7 +23,7 @@ struct FrameBlock {
     std::array<Four<std::uint32_t>, bindings::mostTerms> termLow, termHigh;
     Vectors<bindings::mostTerms> termWeight;
     Four<std::int32_t> grid, counts, image, padded, firstCell;
-    Four<float> inversePadded, scales, perMoment;
+    Four<float> inversePadded, edgeSlack, scales, perMoment;
     Vectors<bindings::mostSpectra> shares;
     std::array<Four<std::int32_t>, bindings::mostSpectra> places;
     Vectors<6> zero;
@@ -70,7 +70,8 @@ struct TexelLayout {
     int pagesOf(std::size_t count) const { return (int(count) + perPage - 1) / perPage * slabs; }
 };
 
-/// The slice of a frame as the shaders see it. `fieldPages`: those before the gradients' pages.
+/// The slice of a frame as the shaders see it. *Throws* Error{outOfMemory} if it reaches further
+/// than 2^22 cells. `fieldPages`: those before the gradients' pages.
 FrameBlock frameBlock(const render::SliceGrid &grid, const render::ImageDefinition &image,
                       const render::FrameGeometry &geometry, const render::Mixing &mixing,
                       const render::FrameShading *shading, const fourier::SpectrumLayout &layout,

@@ -87,7 +87,7 @@ private:
     std::shared_ptr<CardPicture> pictureFor(const render::Camera &camera, int layers);
 
     std::shared_ptr<Device> m_device;
-    std::unique_ptr<Place> m_place;
+    OnDevice<Place> m_place;
     /// Pictures that are shown or may be written again.
     std::vector<std::shared_ptr<CardPicture::Target>> m_targets;
 };

@@ -15,7 +15,7 @@ namespace pellucid::gpu {
 
 namespace {
 
-// One that is shown, one that comes next, and one that is being made.
+// One that is shown, one that waits to be, one that is being made, and one that is still read.
 constexpr std::size_t mostTargets = 4;
 constexpr std::size_t mostTables = 3;
 constexpr GLuint64 longestWaitNs = 10'000'000'000;
@@ -131,14 +131,12 @@ render::ProjectionImage CardPicture::download() const {
 }
 
 FramePasses::FramePasses(std::shared_ptr<Device> device) : m_device(std::move(device)) {
-    m_device->run([&] { m_place = std::make_unique<Place>(*m_device); });
+    m_device->run([&] {
+        m_place = OnDevice<Place>(new Place(*m_device), DeleteOnDevice<Place>{m_device.get()});
+    });
 }
 
-FramePasses::~FramePasses() {
-    m_targets.clear();
-    m_device->post(
-        [place = std::shared_ptr<Place>(std::move(m_place))]() mutable { place.reset(); });
-}
+FramePasses::~FramePasses() = default;
 
 std::shared_ptr<CardPicture> FramePasses::pictureFor(const render::Camera &camera, int layers) {
     auto picture = std::make_shared<CardPicture>();

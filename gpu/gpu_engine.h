@@ -16,12 +16,8 @@ struct FetchPlan {
     double predictedError = 0.0;
 };
 
-/// The filtered fetches where a plan has room for what their coarse weights leave, else exact ones.
-/// Cards weigh with 8 fraction bits, which are wrong by 2^-8/sqrt(12) on average, times the
-/// difference of two neighbouring cells: relative to the image by the root of the mean of 4
-/// sin^2(pi x), x the distance from the wrap voxel in periods, for each axis and each pair of taps
-/// by its weight. Kernels with negative taps cannot be paired; with cue or light all fetches are
-/// exact.
+/// The filtered fetches where a plan has room for what their coarse weights add
+/// (`RenderPlan::filterError`), else exact ones; with cue or light all fetches are exact.
 FetchPlan planFetch(const render::RenderPlan &plan, double tolerance,
                     const shading::Shading &shading = {});
 
@@ -34,7 +30,8 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
                                       const task::Progress &progress = {});
 
 /// What `CpuEngine` does, on the card: the same plan, the same cells, the same picture within 2e-5
-/// (relative L2, exact fetches), and it stays there. Cheap to make: spectra are shared.
+/// (relative L2, exact fetches), and it stays there. Engines of other shares have spectra and
+/// tables in common, and are cheap to make; only one of them may render at a time.
 class GpuEngine final : public render::ProjectionEngine {
 public:
     /// *Shape*: shares as of CpuEngine::setShares.
@@ -64,8 +61,12 @@ private:
     std::vector<render::ChannelShares> m_shares;
     render::SliceRoom m_room;
     Fetch m_fetch;
-    render::FramedGrid m_framed;
-    std::optional<render::MomentKernels> m_moments;
+    /// What one frame leaves to the next, of these spectra with whatever shares.
+    struct Kept {
+        render::FramedGrid framed;
+        std::optional<render::MomentKernels> moments;
+    };
+    std::shared_ptr<Kept> m_kept;
 };
 
 } // namespace pellucid::gpu

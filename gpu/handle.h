@@ -45,8 +45,8 @@ TextureName makeTexture();
 VertexArrayName makeVertexArray();
 QueryName makeQuery();
 
-/// *Throws* Error{outOfMemory} or Error{internal} with `doing` if OpenGL met an error since the
-/// last call.
+/// *Throws* Error{outOfMemory}, Error{noSuchDevice} or Error{internal} with `doing` if OpenGL met
+/// an error since the last call.
 void checkErrors(const char *doing);
 
 } // namespace pellucid::gpu

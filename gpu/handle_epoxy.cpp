@@ -64,6 +64,8 @@ void checkErrors(const char *doing) {
     // A lost context answers for ever.
     for (int n = 0; n < 16 && glGetError() != GL_NO_ERROR; ++n)
         ;
+    if (first == GL_CONTEXT_LOST)
+        throw task::Error(task::ErrorCode::noSuchDevice, "the graphics card was lost");
     if (first == GL_OUT_OF_MEMORY)
         throw task::Error(task::ErrorCode::outOfMemory,
                           std::string("the graphics card has not enough memory for ") + doing);

@@ -24,10 +24,9 @@ bool has(const char *extensions, std::string_view name) {
     return extensions != nullptr && std::string_view(extensions).find(name) != std::string::npos;
 }
 
-// libepoxy ends the program where the library is missing.
-bool isEglThere() {
-    void *const library = dlopen("libEGL.so.1", RTLD_LAZY);
-    return library != nullptr;
+// libepoxy ends the program where a library is missing that it loads. They stay loaded.
+bool isThere(const char *library) {
+    return dlopen(library, RTLD_LAZY) != nullptr;
 }
 
 struct Candidate {
@@ -63,51 +62,67 @@ std::vector<Candidate> candidates() {
     return found;
 }
 
+// Without a config where that may be, else of any that could draw into memory.
+std::vector<EGLConfig> configs(EGLDisplay display) {
+    std::vector<EGLConfig> found;
+    if (has(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context"))
+        found.push_back(EGL_NO_CONFIG_KHR);
+    const std::array<EGLint, 5> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
+                                       EGL_OPENGL_BIT, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (eglChooseConfig(display, wanted.data(), &config, 1, &count) == EGL_TRUE && count > 0)
+        found.push_back(config);
+    return found;
+}
+
 // A context that says when the driver was reset, or one that does not.
 EGLContext contextOf(EGLDisplay display, int major, int minor) {
-    for (const bool isRobust : {true, false}) {
-        std::vector<EGLint> attributes{
-            EGL_CONTEXT_MAJOR_VERSION,       major,
-            EGL_CONTEXT_MINOR_VERSION,       minor,
-            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-        if (isRobust)
-            attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                                                 EGL_LOSE_CONTEXT_ON_RESET});
-        attributes.push_back(EGL_NONE);
-        const EGLContext context =
-            eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
-        if (context != EGL_NO_CONTEXT)
-            return context;
-    }
+    for (const EGLConfig config : configs(display))
+        for (const bool isRobust : {true, false}) {
+            std::vector<EGLint> attributes{
+                EGL_CONTEXT_MAJOR_VERSION,       major,
+                EGL_CONTEXT_MINOR_VERSION,       minor,
+                EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+            if (isRobust)
+                attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                                     EGL_LOSE_CONTEXT_ON_RESET});
+            attributes.push_back(EGL_NONE);
+            const EGLContext context =
+                eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+            if (context != EGL_NO_CONTEXT)
+                return context;
+        }
     return EGL_NO_CONTEXT;
 }
 
 } // namespace
 
-bool Context::isLost() const {
-    const bool tells = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
-    return tells && glGetGraphicsResetStatus() != GL_NO_ERROR;
+bool Context::isLost() {
+    if (!m_tellsResets)
+        m_tellsResets = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
+    return *m_tellsResets && glGetGraphicsResetStatus() != GL_NO_ERROR;
 }
 
 SurfacelessContext::SurfacelessContext(bool software) {
-    if (!isEglThere())
+    if (!isThere("libEGL.so.1"))
         refuse("there is no libEGL on this machine");
+    if (!isThere("libOpenGL.so.0") && !isThere("libGL.so.1"))
+        refuse("there is no libOpenGL on this machine");
     bool wasThere = false;
-    for (const Candidate &candidate : candidates()) {
-        if (candidate.display == EGL_NO_DISPLAY || (candidate.software && !software))
-            continue;
-        EGLint major = 0, minor = 0;
-        if (eglInitialize(candidate.display, &major, &minor) == EGL_FALSE ||
-            eglBindAPI(EGL_OPENGL_API) == EGL_FALSE)
-            continue;
-        wasThere = true;
-        for (const auto &[wanted, below] : {std::pair(4, 3), {3, 3}}) {
+    // A device further down with 4.3 is better than an old one.
+    for (const auto &[major, minor] : {std::pair(4, 3), {3, 3}})
+        for (const Candidate &candidate : candidates()) {
+            if (candidate.display == EGL_NO_DISPLAY || (candidate.software && !software) ||
+                eglInitialize(candidate.display, nullptr, nullptr) == EGL_FALSE ||
+                eglBindAPI(EGL_OPENGL_API) == EGL_FALSE)
+                continue;
+            wasThere = true;
             m_display = candidate.display;
-            m_context = contextOf(m_display, wanted, below);
+            m_context = contextOf(m_display, major, minor);
             if (m_context != EGL_NO_CONTEXT)
                 return;
         }
-    }
     refuse(wasThere   ? "EGL here makes no OpenGL 3.3 context"
            : software ? "EGL finds no device here"
                       : "there is no graphics card that EGL knows of");

@@ -20,7 +20,8 @@ void main() {
     vec3 margin = 0.5 / vec3(textureSize(field, 0));
     vec3 slope = mix(perStep, vec3(1e-20), lessThan(abs(perStep), vec3(1e-20)));
     vec3 a = (-margin - origin) / slope, b = (1.0 + margin - origin) / slope;
-    vec3 near = min(a, b), far = max(a, b);
+    // No ray has more steps than this, in or out of the volume.
+    vec3 near = clamp(min(a, b), -1e6, 1e6), far = clamp(max(a, b), -1e6, 1e6);
     int first = int(ceil(max(near.x, max(near.y, near.z))));
     int last = int(floor(min(far.x, min(far.y, far.z))));
     float sum = 0.0;

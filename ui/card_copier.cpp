@@ -2,6 +2,7 @@
 #include "ui/card_copier.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "ui/document.h"
@@ -22,6 +23,25 @@ bool isHeld(const gpu::GpuEngine &copy, const render::EngineParts &parts) {
 
 } // namespace
 
+struct CardCopier::Copied {
+    std::shared_ptr<gpu::GpuEngine> engine;
+    QString refusal; ///< if there is none
+    bool isLost = false;
+};
+
+CardCopier::Copied CardCopier::copyTo(const std::shared_ptr<gpu::FramePasses> &passes,
+                                      const render::ProjectionEngine &engine, gpu::Fetch fetch,
+                                      const task::Progress &progress) {
+    try {
+        return {gpu::copyToCard(passes, engine, fetch, progress), {}};
+    } catch (const task::Error &error) {
+        return {nullptr, QString::fromStdString(error.reason()),
+                error.code() == task::ErrorCode::noSuchDevice};
+    } catch (const std::bad_alloc &) {
+        return {nullptr, tr("not enough memory to copy to the graphics card")};
+    }
+}
+
 CardCopier::CardCopier(Document &document, JobRunner &jobs, GraphicsCard &card, QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs), m_card(card) {
     connect(&document, &Document::volumeChanged, this, [this] {
@@ -37,7 +57,7 @@ CardCopier::CardCopier(Document &document, JobRunner &jobs, GraphicsCard &card, 
                 m_isGivenUp = true;
                 m_reason = tr("the copy to the graphics card was cancelled");
                 if (m_current)
-                    announce(EngineStage::settled);
+                    announceAgain();
             }
             copyWhenIdle();
         },
@@ -54,9 +74,12 @@ void CardCopier::forget() {
 void CardCopier::cardChanged() {
     m_copies.clear();
     m_isGivenUp = false;
+    // Nobody wants what is under way.
+    if (std::exchange(m_isCopying, false))
+        m_jobs.cancel();
     if (!m_current)
         return;
-    announce(m_current->stage == EngineStage::full ? EngineStage::settled : m_current->stage);
+    announceAgain();
     copyWhenIdle();
 }
 
@@ -75,6 +98,10 @@ std::shared_ptr<gpu::GpuEngine> CardCopier::copyOf(const render::EngineParts &pa
     if (parts.spectra.gradients.empty() && (*held)->textures().takesLight())
         *held = (*held)->withoutLight();
     return (*held)->withShares(parts.shares);
+}
+
+void CardCopier::announceAgain() {
+    announce(m_current->stage == EngineStage::full ? EngineStage::settled : m_current->stage);
 }
 
 void CardCopier::announce(EngineStage stage) {
@@ -103,29 +130,26 @@ void CardCopier::copyWhenIdle() {
         gpu::planFetch(m_current->engine.plan, m_document.scene().tolerance).fetch;
     m_jobs.start(tr("Copying to the graphics card"),
                  [this, engine, fetch, passes = m_card.passes()](const Job &job) {
-                     std::shared_ptr<gpu::GpuEngine> copy;
-                     QString reason;
-                     try {
-                         copy = gpu::copyToCard(passes, *engine, fetch, job.progress());
-                     } catch (const task::Error &error) {
-                         reason = QString::fromStdString(error.reason());
-                     }
-                     job.deliver([this, engine, copy, passes, reason] {
-                         m_isCopying = false;
-                         if (passes != m_card.passes())
-                             return;
-                         if (copy)
-                             m_copies.insert(m_copies.begin(), copy);
-                         if (!m_current)
-                             return;
-                         m_isGivenUp = !copy && m_current->engine.engine == engine;
-                         m_reason = reason;
-                         // The picture is the same: it keeps its brightness.
-                         announce(m_current->stage == EngineStage::live ? EngineStage::live
-                                                                        : EngineStage::settled);
-                     });
+                     const Copied copied = copyTo(passes, *engine, fetch, job.progress());
+                     job.deliver([this, engine, passes, copied] { take(copied, engine, passes); });
                  });
     m_isCopying = true;
+}
+
+void CardCopier::take(const Copied &copied, const std::shared_ptr<render::ProjectionEngine> &engine,
+                      const std::shared_ptr<gpu::FramePasses> &passes) {
+    m_isCopying = false;
+    if (copied.isLost)
+        m_card.giveUp(copied.refusal, passes);
+    if (passes != m_card.passes())
+        return;
+    if (copied.engine)
+        m_copies.insert(m_copies.begin(), copied.engine);
+    if (!m_current)
+        return;
+    m_isGivenUp = !copied.engine && m_current->engine.engine == engine;
+    m_reason = copied.refusal;
+    announceAgain();
 }
 
 } // namespace pellucid::ui

@@ -35,6 +35,14 @@ private:
     void cardChanged();
     void copyWhenIdle();
     void announce(EngineStage stage);
+    /// Of the same picture, which keeps its brightness.
+    void announceAgain();
+    struct Copied;
+    static Copied copyTo(const std::shared_ptr<gpu::FramePasses> &passes,
+                         const render::ProjectionEngine &engine, gpu::Fetch fetch,
+                         const task::Progress &progress);
+    void take(const Copied &copied, const std::shared_ptr<render::ProjectionEngine> &engine,
+              const std::shared_ptr<gpu::FramePasses> &passes);
     std::shared_ptr<gpu::GpuEngine> copyOf(const render::EngineParts &parts);
 
     Document &m_document;

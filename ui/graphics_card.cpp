@@ -2,7 +2,6 @@
 #include "ui/graphics_card.h"
 
 #include <algorithm>
-#include <optional>
 
 #include <QSettings>
 
@@ -16,22 +15,16 @@ namespace {
 
 constexpr const char *settingsKey = "engine";
 
-std::optional<EngineChoice> &choiceOfThisRun() {
-    static std::optional<EngineChoice> choice;
-    return choice;
+EngineChoice rememberedChoice() {
+    const int choice = QSettings().value(settingsKey, 0).toInt();
+    return EngineChoice(std::clamp(choice, 0, int(EngineChoice::card)));
 }
 
 } // namespace
 
-GraphicsCard::GraphicsCard(QObject *parent)
-    : QObject(parent),
-      m_choice(choiceOfThisRun().value_or(EngineChoice(
-          std::clamp(QSettings().value(settingsKey, 0).toInt(), 0, int(EngineChoice::card))))) {
+GraphicsCard::GraphicsCard(std::optional<EngineChoice> choice, QObject *parent)
+    : QObject(parent), m_choice(choice ? *choice : rememberedChoice()) {
     open();
-}
-
-void GraphicsCard::chooseForThisRun(EngineChoice choice) {
-    choiceOfThisRun() = choice;
 }
 
 void GraphicsCard::choose(EngineChoice choice) {
@@ -41,8 +34,9 @@ void GraphicsCard::choose(EngineChoice choice) {
     emit changed();
 }
 
-void GraphicsCard::giveUp(const QString &reason) {
-    if (!m_passes)
+void GraphicsCard::giveUp(const QString &reason, const std::shared_ptr<gpu::FramePasses> &passes) {
+    // What was chosen meanwhile is another.
+    if (!m_passes || m_passes != passes)
         return;
     m_passes.reset();
     m_reason = reason;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <QObject>
 
@@ -17,15 +18,15 @@ enum class EngineChoice { automatic, processor, card };
 class GraphicsCard : public QObject {
     Q_OBJECT
 public:
-    explicit GraphicsCard(QObject *parent = nullptr);
+    /// `choice`: of this run alone; else what was chosen before.
+    explicit GraphicsCard(std::optional<EngineChoice> choice = std::nullopt,
+                          QObject *parent = nullptr);
 
     EngineChoice choice() const { return m_choice; }
     /// Begins anew, also after the card was given up, and is remembered.
     void choose(EngineChoice choice);
-    /// Of this run alone.
-    static void chooseForThisRun(EngineChoice choice);
-    /// Nothing more is made on it, for this reason, until it is chosen again.
-    void giveUp(const QString &reason);
+    /// Nothing more is made with these passes, for this reason, until the card is chosen again.
+    void giveUp(const QString &reason, const std::shared_ptr<gpu::FramePasses> &passes);
 
     /// None: the processor makes the projections.
     const std::shared_ptr<gpu::FramePasses> &passes() const { return m_passes; }

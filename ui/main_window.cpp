@@ -37,8 +37,8 @@
 
 namespace pellucid::ui {
 
-MainWindow::MainWindow(const Theme &theme, QWidget *parent)
-    : QMainWindow(parent), m_theme(theme), m_preparer(m_document, m_jobs),
+MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, QWidget *parent)
+    : QMainWindow(parent), m_theme(theme), m_preparer(m_document, m_jobs), m_card(engine),
       m_copier(m_document, m_jobs, m_card), m_opener(m_document, m_jobs, m_preparer) {
     setObjectName("mainWindow");
     setWindowTitle("Pellucid");
@@ -365,17 +365,17 @@ void MainWindow::chooseFolder() {
 }
 
 void MainWindow::savePicture() {
-    QImage picture;
-    attempt([&] { picture = m_projection->picture(); });
-    if (picture.isNull()) {
-        statusBar()->showMessage(tr("There is no projection to save yet"), 4000);
-        return;
-    }
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save picture"), "projection.png",
-                                                      tr("PNG image (*.png)"));
-    if (path.isEmpty())
-        return;
-    attempt([&] { writePictureFile(path, picture); });
+    attempt([&] {
+        const QImage picture = m_projection->picture();
+        if (picture.isNull()) {
+            statusBar()->showMessage(tr("There is no projection to save yet"), 4000);
+            return;
+        }
+        const QString path = QFileDialog::getSaveFileName(
+            this, tr("Save picture"), "projection.png", tr("PNG image (*.png)"));
+        if (!path.isEmpty())
+            writePictureFile(path, picture);
+    });
 }
 
 void MainWindow::saveScene() {

@@ -32,7 +32,9 @@ class StartPage;
 class MainWindow : public QMainWindow {
     Q_OBJECT
 public:
-    explicit MainWindow(const Theme &theme, QWidget *parent = nullptr);
+    /// `engine`: of this run alone; else what was chosen before.
+    explicit MainWindow(const Theme &theme, std::optional<EngineChoice> engine = std::nullopt,
+                        QWidget *parent = nullptr);
     ~MainWindow() override;
 
     void openPaths(const QStringList &paths);

@@ -11,6 +11,7 @@ namespace pellucid::ui {
 RenderWorker::RenderWorker(QObject *parent)
     : QObject(parent), m_thread([this](std::stop_token stop) { run(stop); }) {
     qRegisterMetaType<std::shared_ptr<const RenderedFrame>>();
+    qRegisterMetaType<std::shared_ptr<gpu::FramePasses>>();
 }
 
 RenderWorker::~RenderWorker() {
@@ -69,31 +70,42 @@ void RenderWorker::makeFrame(const Request &request) {
         frame->generation = request.generation;
         frame->number = request.number;
         frame->draft = request.reduction.draft;
-        renderInto(*frame, request);
-        if (request.wantsTone)
-            frame->automaticTone =
-                render::toneRange(frame->onCard ? frame->onCard->download() : frame->image, {});
+        if (!request.onCard || !renderOnCard(*frame, request))
+            renderInto(*frame, request);
         emit frameReady(std::move(frame));
     } catch (const std::exception &error) {
         emit failed(QString::fromUtf8(error.what()));
     }
 }
 
-void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
-    if (request.onCard) {
-        try {
-            gpu::CardTimes times;
-            frame.onCard = request.onCard->renderOnCard(request.camera, request.image,
-                                                        request.shading, &times);
-            frame.times = {times.sliceMs, times.transformMs};
-            return;
-        } catch (const task::Error &error) {
-            // Lost, or out of memory: the picture goes on without it.
-            emit cardFailed(QString::fromStdString(error.reason()));
-        }
+bool RenderWorker::renderOnCard(RenderedFrame &frame, const Request &request) {
+    try {
+        gpu::CardTimes times;
+        const auto picture =
+            request.onCard->renderOnCard(request.camera, request.image, request.shading, &times);
+        if (request.wantsTone)
+            frame.automaticTone = render::toneRange(picture->download(), {});
+        frame.onCard = picture;
+        frame.times = {times.sliceMs, times.transformMs};
+        return true;
+    } catch (const task::Error &error) {
+        frame.refusal = QString::fromStdString(error.reason());
+        // A picture too large for the card is none of its next.
+        if (error.code() == task::ErrorCode::outOfMemory)
+            return false;
+        const std::lock_guard lock(m_mutex);
+        if (m_onCard == request.onCard)
+            m_onCard.reset();
     }
+    emit cardFailed(frame.refusal, request.onCard->textures().passes());
+    return false;
+}
+
+void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
     frame.image =
         request.engine->render(request.camera, request.image, request.shading, &frame.times);
+    if (request.wantsTone)
+        frame.automaticTone = render::toneRange(frame.image, {});
 }
 
 } // namespace pellucid::ui

@@ -22,6 +22,8 @@ struct RenderedFrame {
     render::ProjectionImage image;
     /// In place of the image, where the graphics card made it.
     std::shared_ptr<const gpu::CardPicture> onCard;
+    /// Why the processor made it and not the card, if that was to.
+    QString refusal;
     /// What an automatic tone makes of it, if that was asked for.
     std::optional<render::ToneRange> automaticTone;
     render::FrameTimes times;
@@ -55,8 +57,9 @@ public:
 signals:
     void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
     void failed(const QString &reason);
-    /// The frame was made on the processor instead.
-    void cardFailed(const QString &reason);
+    /// The card cannot be used any more; the frame was made on the processor instead.
+    void cardFailed(const QString &reason,
+                    const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
 
 private:
     struct Request {
@@ -73,6 +76,7 @@ private:
     void run(std::stop_token stop);
     void makeFrame(const Request &request);
     void renderInto(RenderedFrame &frame, const Request &request);
+    bool renderOnCard(RenderedFrame &frame, const Request &request);
 
     std::shared_ptr<render::ProjectionEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_onCard;

@@ -7,6 +7,7 @@
 #include <QThread>
 
 #include "core/task/error.h"
+#include "core/task/log.h"
 
 namespace pellucid::ui {
 
@@ -37,7 +38,6 @@ SharedContext::SharedContext()
         refuse(tr("no OpenGL here"));
     QSurfaceFormat format = QSurfaceFormat::defaultFormat();
     format.setVersion(4, 3);
-    format.setOption(QSurfaceFormat::ResetNotification);
     m_surface->setFormat(format);
     m_surface->create();
     m_context->setFormat(format);
@@ -46,6 +46,8 @@ SharedContext::SharedContext()
         refuse(tr("OpenGL here gives no second context"));
     if (!QOpenGLContext::areSharing(m_context.get(), QOpenGLContext::globalShareContext()))
         refuse(tr("OpenGL contexts here do not share what they hold"));
+    if (!m_context->format().testOption(QSurfaceFormat::ResetNotification))
+        task::log("OpenGL here does not tell when its driver is reset");
     // Without a thread, so that the one that needs it may take it.
     m_context->moveToThread(nullptr);
 }

@@ -27,7 +27,7 @@ private:
     struct Place;
     std::shared_ptr<gpu::FramePasses> m_passes;
     volume::Lattice m_lattice;
-    std::unique_ptr<Place> m_place;
+    gpu::OnDevice<Place> m_place;
 };
 
 } // namespace pellucid::bench

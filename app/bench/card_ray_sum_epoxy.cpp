@@ -29,7 +29,8 @@ CardRaySum::CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::V
                 std::uint16_t(std::lround(65535.0 * std::clamp(double(f), 0.0, 1.0))));
     });
     m_passes->device().run([&] {
-        m_place = std::make_unique<Place>();
+        gpu::Device *const device = &m_passes->device();
+        m_place = gpu::OnDevice<Place>(new Place, gpu::DeleteOnDevice<Place>{device});
         glBindTexture(GL_TEXTURE_3D, m_place->field.name());
         glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
         glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -43,10 +44,7 @@ CardRaySum::CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::V
     });
 }
 
-CardRaySum::~CardRaySum() {
-    m_passes->device().post(
-        [place = std::shared_ptr<Place>(std::move(m_place))]() mutable { place.reset(); });
-}
+CardRaySum::~CardRaySum() = default;
 
 CardRaySum::Image CardRaySum::render(const render::Camera &camera, double stepMm) {
     const glm::dmat3 axes = camera.axes();

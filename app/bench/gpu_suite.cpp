@@ -98,7 +98,8 @@ public:
             const Timed timed = timeFrames(*engine, scene, m_views);
             const Timed least = timeLeast(*engine, scene, m_views);
             Row onCard = row;
-            onCard.engine = "gpu";
+            // Rows of different cards must not look alike.
+            onCard.engine = "gpu, " + m_card->device().capabilities().renderer;
             onCard.name += how == gpu::Fetch::trilinear ? ", filtered fetches" : "";
             onCard.taps = how == gpu::Fetch::trilinear ? filteredTaps(prepared.plan) : row.taps;
             onCard.predictedError =
@@ -108,6 +109,8 @@ public:
             onCard.transformMs = median(timed.transform);
             onCard.frameMs = median(timed.card);
             onCard.bytes = double(engine->textures().bytes());
+            onCard.submitMs = median(timed.submit);
+            onCard.leastFrameMs = median(least.card);
             onCard.raySumMs = m_rayMs;
             onCard.raySumRelativeL2 = m_rayError;
             fillError(onCard, worstError(*engine, scene, truths));

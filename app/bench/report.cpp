@@ -44,6 +44,8 @@ json rowJson(const Row &r) {
             {"ray_sum_msamples_per_s", figure(r.raySumMsamplesPerSecond)},
             {"ray_sum_rel_l2", figure(r.raySumRelativeL2)},
             {"shear_warp_ms", figure(r.shearWarpMs)},
+            {"submit_ms", figure(r.submitMs)},
+            {"least_frame_ms", figure(r.leastFrameMs)},
             {"tolerance", figure(r.tolerance)},
             {"note", r.note}};
 }

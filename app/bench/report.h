@@ -33,6 +33,8 @@ struct Row {
                           maxError = {}, psnrDb = {};
     std::optional<double> raySumMs = {}, raySumMsamplesPerSecond = {}, raySumRelativeL2 = {},
                           shearWarpMs = {};
+    /// Of a card: to ask for a frame, and what a frame of one pixel takes there.
+    std::optional<double> submitMs = {}, leastFrameMs = {};
     std::optional<double> tolerance = {};
     std::string note = {};
 };

@@ -170,6 +170,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                     {"frame", times.totalMs()},
                     {"write", writeMs}}},
                   {"bytes", renderer.bytes()},
+                  {"card_bytes", renderer.cardBytes()},
                   {"plan", renderer.planJson()},
                   {"tolerance", scene.tolerance},
                   {"predicted_error",

@@ -47,6 +47,10 @@ CardChoice chooseCard(const std::string &engine, int frames) {
                 std::make_unique<gpu::SurfacelessContext>(choice.isAsked)));
             if (!choice.isAsked)
                 choice.reason = "there is a graphics card";
+            if (!choice.isAsked && choice.passes->device().capabilities().software) {
+                choice.reason = "OpenGL here is a software renderer";
+                choice.passes.reset();
+            }
         } catch (const task::Error &error) {
             if (choice.isAsked)
                 throw cardRefused(error);
@@ -137,6 +141,7 @@ render::ProjectionImage Renderer::image(const render::Camera &camera, render::Fr
                 throw cardRefused(error);
             m_choice.reason = error.reason();
             m_card.reset();
+            m_predictedError = m_fitting.plan.predictedError;
         }
     }
     if (m_engine)

@@ -42,6 +42,8 @@ public:
     /// Why it is that engine, a line.
     const std::string &engineReason() const { return m_choice.reason; }
     bool isOnCard() const { return m_card != nullptr; }
+    /// Of the spectra on the card.
+    std::size_t cardBytes() const { return m_card ? m_card->textures().bytes() : 0; }
 
     /// `times`: of this image, all channels.
     render::ProjectionImage image(const render::Camera &camera, render::FrameTimes &times);

@@ -39,6 +39,8 @@ int main(int argc, char **argv) {
     QSurfaceFormat format;
     format.setVersion(3, 3);
     format.setProfile(QSurfaceFormat::CoreProfile);
+    // All contexts that share must ask for it, or none gets it.
+    format.setOption(QSurfaceFormat::ResetNotification);
     QSurfaceFormat::setDefaultFormat(format);
     // Qt ends the program when it finds no display; it shall do so in one line and with a code.
     qInstallMessageHandler([](QtMsgType type, const QMessageLogContext &, const QString &text) {
@@ -61,14 +63,15 @@ int main(int argc, char **argv) {
     QApplication::setApplicationName("pellucid");
     QApplication::setOrganizationName("pellucid");
     QApplication::setApplicationVersion(PELLUCID_VERSION);
+    std::optional<ui::EngineChoice> choice;
     if (!engine.empty())
-        ui::GraphicsCard::chooseForThisRun(engine == "gpu"   ? ui::EngineChoice::card
-                                           : engine == "cpu" ? ui::EngineChoice::processor
-                                                             : ui::EngineChoice::automatic);
+        choice = engine == "gpu"   ? ui::EngineChoice::card
+                 : engine == "cpu" ? ui::EngineChoice::processor
+                                   : ui::EngineChoice::automatic;
     try {
         const ui::Theme theme = ui::Theme::named(QSettings().value("theme", "dark").toString());
         theme.apply(application);
-        ui::MainWindow window(theme);
+        ui::MainWindow window(theme, choice);
         window.show();
         QStringList files;
         for (const std::string &path : paths)

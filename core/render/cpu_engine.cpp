@@ -265,6 +265,7 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
     job.imageRows = camera.height;
     job.cellsPerColumn = geometry.cellsPerColumn;
     job.cellsPerRow = geometry.cellsPerRow;
+    job.edgeSlack = geometry.edgeSlack;
     job.wraps = geometry.wraps;
     job.strips = tables.strips.data();
     job.stripCount = int(tables.strips.size());

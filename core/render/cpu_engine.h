@@ -82,7 +82,10 @@ public:
     bool takesLight() const { return !m_spectra.gradients.empty(); }
 
     std::string description() const override;
+    /// *Shape*: not while the shares are set.
     EngineParts parts() const override { return {m_spectra, m_shares, m_room}; }
+    const EngineSpectra &spectra() const { return m_spectra; }
+    const SliceRoom &room() const { return m_room; }
     ProjectionImage render(const Camera &camera, const ImageDefinition &image,
                            const shading::Shading &shading = {},
                            FrameTimes *times = nullptr) override;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -71,6 +72,30 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
     // Cells of a few samples' spectrum are alike and round alike: nothing averages out.
     error.noise = energy.size() <= 4 ? 1.0 : kernel.energy() * inverse;
     return error;
+}
+
+double filterError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
+    constexpr int offsets = 64;
+    constexpr double rounding = 1e-7; // of the taps themselves
+    double squares = 0.0;
+    for (int n = 0; n < offsets; ++n) {
+        const double c = (n + 0.5) / offsets - 0.5, middle = 0.5 * (kernel.width() - 1);
+        for (int k = 0; k < kernel.width(); k += 2) {
+            const double first = kernel.value(c + k - middle);
+            const double second = k + 1 < kernel.width() ? kernel.value(c + k + 1 - middle) : 0.0;
+            if (std::min(first, second) < -rounding)
+                return std::numeric_limits<double>::infinity();
+            // One tap alone is read at its middle.
+            if (k + 1 < kernel.width())
+                squares += (first + second) * (first + second) / offsets;
+        }
+    }
+    double differences = 0.0;
+    forPositions(energy, padded, [&](double e, double, double x) {
+        const double h = kernel.apodisation(x), sine = 2.0 * std::sin(std::numbers::pi * x);
+        differences += e * sine * sine / (h * h);
+    });
+    return std::ldexp(1.0, -16) / 12.0 * squares * differences;
 }
 
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,

@@ -36,6 +36,13 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,
                     const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs);
 
+/// What a graphics card's own linear filter adds along one axis where it reads pairs of taps in one
+/// fetch, squared and relative to the energy of the field: its weights have 8 fraction bits, wrong
+/// by 2^-8/sqrt(12) on average, times the difference of the neighbouring cells of each pair:
+///   2^-16/12 sum_pairs (sum of the pair's taps)^2 sum_x e(x) 4 sin^2(pi x) / h(x)^2.
+/// Infinite for a kernel with negative taps, which cannot be paired. *Shape*: as of axisError.
+double filterError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy);
+
 /// How a depth cue weighs the errors against the image.
 struct CueWeight {
     /// Of ghosts: the root mean square of the cue where they lie, over the least that the cue can

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/render/frame_geometry.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 namespace pellucid::render {
@@ -16,6 +18,8 @@ FrameGeometry::FrameGeometry(const Camera &camera, const SliceGrid &grid,
         const int padded = spectrum.layout().padded[d];
         cellsPerColumn[std::size_t(d)] = padded * glm::dot(lattice.step(d), axes[0]) * du;
         cellsPerRow[std::size_t(d)] = -padded * glm::dot(lattice.step(d), axes[1]) * dv;
+        // Offsets reach 7.5 steps: the product is rounded, and so was the step.
+        edgeSlack[std::size_t(d)] = 2e-6F * float(1.0 + std::abs(cellsPerColumn[std::size_t(d)]));
         wraps = wraps || lattice.spacingMm(d) > camera.pixelMm * (1.0 + 1e-9);
     }
     toWrap = spectrum.wrapPoint().mm - lattice.center().mm;

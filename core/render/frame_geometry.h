@@ -22,15 +22,14 @@ struct FrameGeometry {
     /// Turns of exp(+i 2 pi turns) per column and per row that move the wrap voxel and the first
     /// pixel to where they are.
     double turnsPerColumn = 0.0, turnsPerRow = 0.0;
+    /// By axis, cells: a coordinate that reaches the far edge of a kernel by less than this counts
+    /// as on it, and mirrored cells are read only where x lies further below 0. Kernels may jump at
+    /// their edges, so where a view meets the grid rounding alone must not decide which of two
+    /// cells is read. Above the rounding of the float offsets of 16 neighbours.
+    std::array<float, 3> edgeSlack{};
     double cellArea = 0.0;  ///< of the frequency grid, 1/mm^2
     glm::dvec3 toWrap{0.0}; ///< from the centre of rotation to the wrap voxel, mm
 };
-
-/// A coordinate that reaches the far edge of a kernel by less than this counts as on it, and
-/// mirrored cells are read only where x lies further below 0: rounding alone must not decide which
-/// of two cells is read where a view meets the grid, since kernels may jump at their edges.
-/// *Units*: cells; above the rounding of 16 neighbours' float offsets.
-inline constexpr float edgeSlackCells = 4e-6F;
 
 /// The slice grid of the frames of one view after another: sought, in a fraction of a millisecond,
 /// for each new framing only, not for each direction.

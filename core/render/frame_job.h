@@ -108,6 +108,7 @@ struct FrameJob {
     int imageColumns = 0, imageRows = 0;
     /// Grid cells of the spectrum per column and per row of the slice, by axis.
     std::array<double, 3> cellsPerColumn{}, cellsPerRow{};
+    std::array<float, 3> edgeSlack{}; ///< see FrameGeometry
     const StripBounds *strips = nullptr;
     int stripCount = 0;
     const float *rollOff = nullptr;

@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 #include <utility>
 
-#include "core/render/frame_geometry.h"
 #include "core/render/frame_job.h"
 
 HWY_BEFORE_NAMESPACE();

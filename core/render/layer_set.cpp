@@ -176,9 +176,7 @@ ProjectionImage LayerSet::render(const Camera &camera, const ImageDefinition &im
 }
 
 EngineParts LayerSet::parts(const std::vector<ChannelShares> &shares) const {
-    EngineParts parts = m_engine->parts();
-    parts.shares = shares;
-    return parts;
+    return {m_engine->spectra(), shares, m_engine->room()};
 }
 
 MixtureEngine::MixtureEngine(std::shared_ptr<LayerSet> layers, std::vector<ChannelShares> shares)

@@ -44,7 +44,7 @@ public:
                            const std::vector<ChannelShares> &shares, FrameTimes *times = nullptr);
 
     std::string description() const { return m_engine->description(); }
-    /// With these shares.
+    /// With these shares; from any thread.
     EngineParts parts(const std::vector<ChannelShares> &shares) const;
 
 private:

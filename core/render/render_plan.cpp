@@ -316,6 +316,7 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
                         planned.room,
                         predicted,
                         predictMaximum(errors, storage, weightOf(layout)) + planned.folded,
+                        0.0,
                         bytes,
                         {}};
                     if (meets)
@@ -358,6 +359,15 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
         throw task::Error(task::ErrorCode::outOfMemory,
                           fmt::format("the projection needs {} MB, {} MB are allowed",
                                       (leastBytes >> 20) + 1, budget.bytes >> 20));
+    double added = 0.0;
+    for (std::size_t d = 0; d < 3; ++d) {
+        double worst = 0.0;
+        for (const FieldSummary &one : fields)
+            worst = std::max(worst, filterError(best->spectrum.kernels[d],
+                                                best->spectrum.padded[int(d)], one.energy.axis[d]));
+        added += worst;
+    }
+    best->filterError = std::sqrt(added);
     best->reason = reasonFor(*best, scene, overBudget);
     return *best;
 }

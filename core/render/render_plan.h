@@ -45,6 +45,9 @@ struct RenderPlan {
     double predictedError = 0.0;
     /// Largest error of a pixel over the largest pixel, predicted, see predictMaximum.
     double predictedMaximum = 0.0;
+    /// What a graphics card adds to the relative L2 error if it reads pairs of taps with its own
+    /// filter, see filterError; infinite if it cannot.
+    double filterError = 0.0;
     /// Most bytes held at once by the spectrum, its preparation and the frames of the planned
     /// camera.
     std::size_t bytes = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Four 64-bit numbers in two's complement: products with small numbers are exact, and turns of a
 // phase come out modulo one by themselves.
+const float perWhole = 2.3283064365386963e-10; // 2^-32
+
 struct Fixed {
     uvec4 low, high;
 };
@@ -23,10 +25,10 @@ ivec3 wholeOf(Fixed a) {
 }
 
 vec3 partOf(Fixed a) {
-    return vec3((a.high.xyz << 24) | (a.low.xyz >> 8)) * exp2(-32.0);
+    return vec3((a.high.xyz << 24) | (a.low.xyz >> 8)) * perWhole;
 }
 
 // Of 0.64 bits, -1/2 to 1/2.
 float turnsOf(Fixed a) {
-    return float(int(a.high.w)) * exp2(-32.0);
+    return float(int(a.high.w)) * perWhole;
 }

@@ -15,6 +15,7 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     ivec4 padded;                // by axis; planes between the beginnings of slabs
     ivec4 firstCell;             // index of the first texel by axis
     vec4 inversePadded;
+    vec4 edgeSlack;              // see core/render/frame_geometry.h
     vec4 scales;                 // roll-off; unit of the slice; base of a linear cue
     vec4 perMoment;
     vec4 shares[MOST_SPECTRA];   // of a source
@@ -23,8 +24,8 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     vec4 shade[3];               // of an image: ambient, magnitude
     vec4 gradient[3];
     vec4 excess[3];
-    vec4 kernels[36];            // [axis][pair][...]: even and odd coefficients, two a vector
-    vec4 momentKernels[36];
+    vec4 kernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS]; // [axis][pair][...]: even and odd coefficients, two a vector
+    vec4 momentKernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS];
     ivec4 stages;                // of the transform along rows' direction, of the other
     ivec4 radices[8];            // four vectors for each
     ivec4 tables;                // where rotations begin: rows, half columns, untangling

@@ -4,14 +4,12 @@
 // spectra on top of each other; SLABS: pages that a spectrum is spread over; SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
 layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
 
-// The last row of each column within the band's disc; -1: none.
+// The last row of each column within the band's disc.
 layout(std430, binding = DISC_ROWS) readonly buffer DiscRows {
     int discRows[];
 };
 
 const int kinds = LIT + 1; // fields, lengths of gradients
-// As core/render/frame_geometry.h.
-const float edgeSlackCells = 4e-6;
 
 Fixed placeOf(int column, int row) {
     Fixed origin = Fixed(frame.originLow, frame.originHigh);
@@ -29,12 +27,12 @@ Taps tapsAt(Fixed place, out vec3 q, out bool mirrored) {
     q = (vec3(whole) + part) * frame.inversePadded.xyz;
     // The spectrum is periodic; at half a period either copy will do.
     whole -= ivec3(round(q)) * frame.padded.xyz;
-    mirrored = float(whole.x) + part.x < -edgeSlackCells;
+    mirrored = float(whole.x) + part.x < -frame.edgeSlack.x;
     if (mirrored) {
         whole = -whole - 1;
         part = 1.0 - part;
     }
-    vec3 tap = ceil(part - (0.5 * float(WIDTH) + edgeSlackCells));
+    vec3 tap = ceil(part - (0.5 * float(WIDTH) + frame.edgeSlack.xyz));
     vec3 c = tap - part + 0.5 * float(WIDTH - 1);
     Taps taps;
     taps.first = whole + ivec3(tap) - frame.firstCell.xyz;
@@ -59,6 +57,10 @@ Sum readSource(int source, Taps taps, int firstPage, int endPage) {
     }
     taps.first.z += place.y;
     Sum sum;
+    sum.value = vec2(0.0);
+#if CUED
+    sum.moment = vec2(0.0);
+#endif
     for (int page = firstPage; page < endPage; ++page)
         if (page == place.x)
             sum = sumOfCells(pages[page], taps);

@@ -217,6 +217,13 @@ TEST_F(Cli, BothEnginesGiveOnePicture) {
     EXPECT_EQ(told["device"], "gpu");
     EXPECT_EQ(told["engine"].get<std::string>().rfind("GPU engine, ", 0), 0U);
     EXPECT_EQ(told["engine_reason"], "the graphics card was asked for");
+    const fs::path turn = folder / "turn";
+    fs::create_directory(turn);
+    EXPECT_EQ(cli("render " + quoted(series) + " -o " + quoted(turn / "t.png") +
+                  " --engine gpu --frames 3 --turntable")
+                  .exitCode,
+              0);
+    EXPECT_EQ(entries(turn), 3U);
     // Left to itself, a picture is the processor's, and so are many where the card is of software.
     const auto many = cli("render " + quoted(series) + out + " --frames 2 --turntable --json");
     EXPECT_EQ(json::parse(many.out)["device"], "cpu");

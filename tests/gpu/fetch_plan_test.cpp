@@ -41,6 +41,7 @@ TEST_F(FetchPlan, FiltersWhereTheToleranceHasRoom) {
 
 TEST_F(FetchPlan, KernelsWithNegativeTapsAreReadCellByCell) {
     const auto fields = noise();
+    EXPECT_TRUE(std::isinf(planFor(fields, "catmull-rom").filterError));
     for (const char *kernel : {"catmull-rom", "hamming-sinc", "nearest"})
         EXPECT_EQ(gpu::planFetch(planFor(fields, kernel), 1.0).fetch, gpu::Fetch::exact) << kernel;
 }
@@ -98,10 +99,19 @@ TEST_F(FetchPlan, TheRoundingOfTheFilterIsPredicted) {
         const double measured = std::sqrt(added / all);
         const double floor = std::sqrt(std::pow(gpu::planFetch(plan, 1.0).predictedError, 2) -
                                        std::pow(plan.predictedError, 2));
-        std::printf("%s measured %.3g predicted %.3g\n", name, measured, floor);
-        EXPECT_LE(measured, 1.1 * floor) << name;
-        EXPECT_GE(measured, 0.8 * floor) << name;
+        // 2000 places scatter by two percent, the binned energy by one.
+        EXPECT_NEAR(measured, floor, 0.06 * floor) << name;
     }
+}
+
+// Energy at the faces, where neighbouring cells differ most, costs more than in the middle.
+TEST_F(FetchPlan, TheRoundingDependsOnWhereTheEnergyIs) {
+    std::vector<double> middle(40, 0.0), faces(40, 0.0);
+    middle[20] = 1.0;
+    faces[0] = faces[39] = 0.5;
+    const auto kernel = fourier::makeKernel(fourier::kernelFromName("LS4"), 1.5);
+    EXPECT_GT(render::filterError(kernel, 60, faces),
+              100.0 * render::filterError(kernel, 60, middle));
 }
 
 // With filtered fetches the picture keeps what is predicted.
@@ -127,7 +137,6 @@ TEST_F(FetchPlan, FilteredFetchesKeepWhatIsPredicted) {
                                        prepared.plan.predictedError * prepared.plan.predictedError);
         const double added =
             test::relativeL2(image, exact->render(scene.camera, scene.image).samples);
-        std::printf("%s added %.3g of %.3g\n", kernel, added, floor);
         EXPECT_LE(test::relativeL2(image, truth), 1.25 * plan.predictedError) << kernel;
         EXPECT_LE(added, 1.25 * floor) << kernel;
     }

@@ -38,6 +38,7 @@ TEST_F(FrameBlock, LiesWhereTheShadersReadIt) {
         {"padded", offsetof(FrameBlock, padded)},
         {"firstCell", offsetof(FrameBlock, firstCell)},
         {"inversePadded", offsetof(FrameBlock, inversePadded)},
+        {"edgeSlack", offsetof(FrameBlock, edgeSlack)},
         {"scales", offsetof(FrameBlock, scales)},
         {"perMoment", offsetof(FrameBlock, perMoment)},
         {"shares[0]", offsetof(FrameBlock, shares)},

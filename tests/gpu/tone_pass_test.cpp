@@ -2,14 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <functional>
 #include <random>
 
 #include <epoxy/gl.h>
 
+#include "core/render/prepared_engine.h"
 #include "core/task/error.h"
 #include "gpu/capabilities.h"
+#include "gpu/gpu_engine.h"
 #include "gpu/surfaceless_context.h"
 #include "gpu/tone_pass.h"
+#include "tests/gpu/card.h"
+#include "tests/support/fields.h"
 
 namespace pellucid {
 
@@ -22,30 +27,43 @@ protected:
     gpu::SurfacelessContext context;
 };
 
-std::vector<std::uint8_t> drawn(const render::ProjectionImage &image, const render::Tone &tone) {
+// What `draw` draws into a framebuffer of a size, rows from the top.
+std::vector<std::uint8_t> drawnBy(int width, int height, const std::function<void()> &draw) {
     unsigned framebuffer = 0, target = 0;
     glGenFramebuffers(1, &framebuffer);
     glGenTextures(1, &target);
     glBindTexture(GL_TEXTURE_2D, target);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target, 0);
-    glViewport(0, 0, image.width, image.height);
-    gpu::TonePass pass;
-    pass.upload(image);
-    pass.draw(render::toneRange(image, tone), tone.inverted);
-    std::vector<std::uint8_t> rows(std::size_t(image.width) * image.height * 4);
-    glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
+    glViewport(0, 0, width, height);
+    draw();
+    std::vector<std::uint8_t> rows(std::size_t(width) * std::size_t(height) * 4);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
     EXPECT_EQ(glGetError(), unsigned(GL_NO_ERROR));
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteTextures(1, &target);
     // OpenGL counts rows from the bottom.
     std::vector<std::uint8_t> flipped;
-    for (int r = image.height - 1; r >= 0; --r)
-        flipped.insert(flipped.end(), rows.begin() + std::ptrdiff_t(r) * image.width * 4,
-                       rows.begin() + std::ptrdiff_t(r + 1) * image.width * 4);
+    for (int r = height - 1; r >= 0; --r)
+        flipped.insert(flipped.end(), rows.begin() + std::ptrdiff_t(r) * width * 4,
+                       rows.begin() + std::ptrdiff_t(r + 1) * width * 4);
     return flipped;
+}
+
+std::vector<std::uint8_t> drawn(const render::ProjectionImage &image, const render::Tone &tone) {
+    return drawnBy(image.width, image.height, [&] {
+        gpu::TonePass pass;
+        pass.upload(image);
+        pass.draw(render::toneRange(image, tone), tone.inverted);
+    });
+}
+
+int largestDifference(const std::vector<std::uint8_t> &a, const std::vector<std::uint8_t> &b) {
+    int largest = 0;
+    for (std::size_t n = 0; n < a.size(); ++n)
+        largest = std::max(largest, std::abs(int(a[n]) - int(b[n])));
+    return largest;
 }
 
 TEST_F(TonePass, DrawsWhatComposeComputes) {
@@ -62,10 +80,36 @@ TEST_F(TonePass, DrawsWhatComposeComputes) {
                                       {colored, render::Tone{}},
                                       {colored, render::Tone{10.0, 70.0, true}}}) {
         const auto expected = render::compose(shown, tone), found = drawn(shown, tone);
-        int largest = 0;
-        for (std::size_t n = 0; n < expected.size(); ++n)
-            largest = std::max(largest, std::abs(int(expected[n]) - int(found[n])));
-        EXPECT_LE(largest, 1); // rounding to eight bits
+        EXPECT_LE(largestDifference(expected, found), 1); // rounding to eight bits
+    }
+}
+
+class CardTone : public test::CardTest {};
+
+// One layer, one layer in a colour, and three.
+TEST_F(CardTone, DrawsPicturesOfTheCard) {
+    const auto lattice = volume::Lattice::centred({20, 21, 22}, {1, 1, 1});
+    const classify::ShownFields grey{{test::noiseField(lattice)}, {}};
+    const classify::ShownFields colored{{test::noiseField(lattice)}, {1.0, 0.4, 0.1}};
+    const classify::ShownFields three{
+        {test::noiseField(lattice, 1), test::noiseField(lattice, 2), test::noiseField(lattice, 3)},
+        {}};
+    for (const auto &fields : {grey, colored, three}) {
+        const render::Scene scene{.camera = render::defaultCamera(lattice)};
+        const auto prepared = render::prepareEngine(scene, fields, {});
+        const auto engine = gpu::copyToCard(card, *prepared.engine);
+        const auto picture = engine->renderOnCard(scene.camera, scene.image);
+        EXPECT_EQ(picture->layers(), fields.channels.size() == 3 ? 3 : 1);
+        const auto image = picture->download();
+        const render::Tone tone{2.0, 15.0, false};
+        std::vector<std::uint8_t> found;
+        card->device().run([&] {
+            found = drawnBy(image.width, image.height, [&] {
+                const gpu::TonePass pass;
+                pass.draw(*picture, render::toneRange(image, tone), tone.inverted);
+            });
+        });
+        EXPECT_LE(largestDifference(render::compose(image, tone), found), 1);
     }
 }
 

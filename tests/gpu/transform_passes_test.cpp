@@ -97,6 +97,12 @@ TEST_F(TransformPasses, EverySizeAlongBothDirections) {
     }
 }
 
+// Pictures wider than the lines of a column may be: their rows are half as long.
+TEST_F(TransformPasses, RowsUpToTheSharedMemory) {
+    for (int n = fourier::smoothEvenSize(2050); n <= 4096; n = fourier::smoothEvenSize(n + 1))
+        EXPECT_LT(error({n, 6}, 1, n, 6), rounding) << n;
+}
+
 TEST_F(TransformPasses, LinesBeyondTheSharedMemory) {
     for (const auto &[columns, rows] : {std::pair(8192, 6),
                                         {16384, 10},

@@ -61,7 +61,9 @@ protected:
         QOpenGLFunctions *gl = context()->functions();
         gl->glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         gl->glClear(GL_COLOR_BUFFER_BIT);
-        if (m_pass && m_picture) {
+        const bool sees =
+            QOpenGLContext::areSharing(context(), QOpenGLContext::globalShareContext());
+        if (m_pass && m_picture && sees) {
             m_pass->draw(*m_picture, m_range, m_inverted);
             return;
         }
@@ -118,7 +120,11 @@ public:
         update();
     }
     void setPicture(std::shared_ptr<const gpu::CardPicture> picture) override {
-        setImage(picture->download());
+        try {
+            setImage(picture->download());
+        } catch (const task::Error &) {
+            // The card is gone; the next frame comes from the processor.
+        }
     }
     void setTone(const render::ToneRange &range, bool inverted) override {
         m_tone = {range.low, range.high, inverted};

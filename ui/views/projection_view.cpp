@@ -113,9 +113,18 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
         ++m_generation;
     m_stage = stage;
     m_worker.setEngine(m_engine, shown.onCard, m_generation);
-    const std::string used = shown.onCard ? shown.onCard->description() : m_engine->description();
-    emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(used), shown.reason));
+    m_onCard = shown.onCard;
+    m_engineReason = shown.reason;
+    describeEngine({});
     requestFrame(false);
+}
+
+// `refusal`: why the card did not make the last frame, though it should have.
+void ProjectionView::describeEngine(const QString &refusal) {
+    const std::string used =
+        m_onCard && refusal.isEmpty() ? m_onCard->description() : m_engine->description();
+    emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(used),
+                                          refusal.isEmpty() ? m_engineReason : refusal));
 }
 
 void ProjectionView::jobEnded() {
@@ -213,6 +222,11 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     if (!m_engine ||
         frame->generation != m_generation) // of a volume that was closed, or the coarse one's
         return;
+    // Asked for before the brightness was to be taken anew: the next one tells it.
+    if (!m_automaticTone && !frame->automaticTone)
+        return;
+    if (m_onCard && (!m_frame || m_frame->refusal != frame->refusal))
+        describeEngine(frame->refusal);
     m_frame = frame;
     m_pending = m_rest.isActive() || frame->number != m_requested;
     if (!frame->draft)

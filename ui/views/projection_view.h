@@ -41,7 +41,7 @@ public:
     void showStandardView(render::StandardView view);
     void resetView();
     /// The picture as it is seen, without annotations. *Throws* Error{noSuchDevice} if the graphics
-    /// card that holds it is gone.
+    /// card that holds it is gone, Error{outOfMemory}.
     QImage picture() const;
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
     bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
@@ -52,7 +52,8 @@ signals:
     void engineDescribed(const QString &text);
     void finalImageShown();
     /// The graphics card failed; the processor goes on.
-    void cardFailed(const QString &reason);
+    void cardFailed(const QString &reason,
+                    const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
     /// A frame is on the screen; what it took to make.
     void frameShown(const pellucid::render::FrameTimes &times, bool draft);
 
@@ -72,6 +73,7 @@ private:
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
     void updateTone();
+    void describeEngine(const QString &refusal);
     void orbit(const QPoint &delta);
     void pan(const QPoint &delta);
     void windowBy(const QPoint &delta);
@@ -85,6 +87,8 @@ private:
     RenderWorker m_worker;
     QTimer m_rest;
     std::shared_ptr<render::ProjectionEngine> m_engine;
+    std::shared_ptr<gpu::GpuEngine> m_onCard;
+    QString m_engineReason;
     std::shared_ptr<const RenderedFrame> m_frame;
     std::optional<render::ToneRange> m_automaticTone;
     QString m_message, m_lookName;
