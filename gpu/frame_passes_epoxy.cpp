@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include "core/task/error.h"
 #include "gpu/buffer.h"
@@ -161,8 +162,12 @@ std::shared_ptr<CardPicture> FramePasses::pictureFor(const render::Camera &camer
         glDeleteSync(sync);
     }
     if (std::max(camera.width, camera.height) > m_device->capabilities().largest2dTexture)
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "an image of this size is larger than the graphics card's textures");
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            fmt::format("an image of {} x {} pixels is larger than the graphics card's textures, "
+                        "{} x {} at most",
+                        camera.width, camera.height, m_device->capabilities().largest2dTexture,
+                        m_device->capabilities().largest2dTexture));
     target.texture.reserve(camera.width, camera.height, layers);
     picture->m_passes = shared_from_this();
     picture->m_texture = &target.texture;

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include "core/task/error.h"
 
@@ -41,9 +42,12 @@ void TransformPasses::fit(const render::SliceGrid &grid, int images) {
     const std::size_t bytes =
         std::size_t(images) * std::size_t(grid.columns / 2) * std::size_t(grid.rows) * numberBytes;
     if (bytes > m_device.capabilities().storageBytes)
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "the slice of an image of this size is larger than the graphics card's "
-                          "buffers may be");
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            fmt::format("the slice of this image, {} x {} cells, needs {} MB in one piece; the "
+                        "graphics card gives {} MB (larger pixels need fewer cells)",
+                        grid.columns, grid.rows, bytes >> 20,
+                        m_device.capabilities().storageBytes >> 20));
     m_slice.fit(bytes);
     m_lines.fit(bytes);
 }

@@ -43,6 +43,10 @@ void GraphicsCard::giveUp(const QString &reason, const std::shared_ptr<gpu::Fram
     emit changed();
 }
 
+QString GraphicsCard::description() const {
+    return m_passes ? tr("Graphics card: %1").arg(m_reason) : tr("Processor: %1").arg(m_reason);
+}
+
 void GraphicsCard::open() {
     m_passes.reset();
     m_reason.clear();

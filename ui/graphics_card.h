@@ -32,6 +32,8 @@ public:
     const std::shared_ptr<gpu::FramePasses> &passes() const { return m_passes; }
     /// Why it is that one.
     const QString &reason() const { return m_reason; }
+    /// Both, in a line.
+    QString description() const;
 
 signals:
     void changed();

@@ -96,8 +96,10 @@ LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
     connect(&document, &Document::sceneChanged, this, &LookPreparer::followScene);
     // Done or cancelled: what was not delivered is not there.
     connect(&jobs, &JobRunner::finished, this, [this] {
-        if (m_underway)
+        if (m_underway) {
             m_givenUp = std::exchange(m_underway, std::nullopt);
+            emit planChanged(PlanState::givenUp);
+        }
         if (m_layersUnderway)
             m_layersGivenUp = std::exchange(m_layersUnderway, std::nullopt);
     });
@@ -168,7 +170,7 @@ void LookPreparer::followScene() {
         // Back to what is there: nothing else is wanted any more, and may be wanted again.
         m_givenUp.reset();
         m_rest.stop();
-        emit planHolds(true);
+        emit planChanged(PlanState::holds);
         if (m_underway)
             stopOwnJob();
         if (m_shown == EngineStage::live || m_shown == EngineStage::coarse)
@@ -278,7 +280,7 @@ void LookPreparer::startPreparing(bool coarseFirst) {
     const PreparedFor wanted(m_document);
     m_rest.stop();
     stopOwnJob();
-    emit planHolds(false);
+    emit planChanged(PlanState::underway);
     m_jobs.start(tr("Preparing the projection"),
                  [volume = *m_document.volume(), prepare = preparation(wanted, 0.0, coarseFirst)](
                      const Job &job) { prepare(job, volume); });

@@ -25,6 +25,10 @@ class JobRunner;
 /// while its weights move; the sum itself, after they came to rest; or another thing altogether.
 enum class EngineStage { coarse, live, settled, full };
 
+/// Whether the engine in use is made for what the scene asks for: it is, that one is being made, or
+/// it was cancelled or failed.
+enum class PlanState { holds, underway, givenUp };
+
 /// What of a scene an engine is made for; the rest changes from frame to frame.
 struct PreparedFor {
     PreparedFor() = default;
@@ -76,8 +80,7 @@ public:
 signals:
     void engineReady(const pellucid::render::PreparedEngine &engine,
                      pellucid::ui::EngineStage stage);
-    /// Whether the plan of the engine in use is made for what the scene asks for.
-    void planHolds(bool holds);
+    void planChanged(pellucid::ui::PlanState state);
 
 private:
     /// Follows, but what was given up stays so.

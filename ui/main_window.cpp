@@ -64,9 +64,9 @@ MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, Q
     connect(m_projection, &ProjectionView::cardFailed, &m_card, &GraphicsCard::giveUp);
     connect(&m_card, &GraphicsCard::changed, this, [this] {
         if (!m_document.volume())
-            m_engine->setText(m_card.reason());
+            m_engine->setText(m_card.description());
     });
-    connect(&m_preparer, &LookPreparer::planHolds, m_projection, &ProjectionView::setPlanHolds);
+    connect(&m_preparer, &LookPreparer::planChanged, m_projection, &ProjectionView::setPlanState);
     connect(&m_opener, &StudyOpener::cameraKept, m_projection, &ProjectionView::adoptCamera);
     connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
     connect(&m_opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);
@@ -191,6 +191,8 @@ void MainWindow::createViewMenu() {
         if (m_document.volume())
             m_document.setCrosshair(m_document.volume()->lattice().center());
     });
+    addCommand(menu, tr("Prepare the projection a&gain"), "prepareAgainAction", QKeySequence("F5"),
+               [this] { m_preparer.prepareAgain(); });
     menu->addSeparator();
     m_layouts = new QActionGroup(this);
     const auto layout = [&](const QString &text, const char *name, PaneLayout which) {
@@ -313,7 +315,7 @@ void MainWindow::createStatusBar() {
     });
     for (MprView *view : m_mpr)
         connect(view, &MprView::readoutChanged, m_readout, &QLabel::setText);
-    m_engine->setText(m_card.reason());
+    m_engine->setText(m_card.description());
 }
 
 void MainWindow::showVolumeState() {

@@ -109,9 +109,10 @@ int main(int argc, char **argv) {
             given = readSubject(file);
         }
         const auto machine = bench::thisMachine();
-        std::fputs(bench::tableHead(machine).c_str(), stdout);
         std::vector<bench::Row> rows;
         const auto report = [&](const bench::Row &row) {
+            if (rows.empty())
+                std::fputs(bench::tableHead(machine).c_str(), stdout);
             std::fputs(bench::tableLine(row).c_str(), stdout);
             std::fflush(stdout);
             rows.push_back(row);

@@ -78,11 +78,15 @@ std::string tableLine(const Row &r) {
         cell(r.transformMs, "{:.2f}"), cell(r.frameMs, "{:.2f}"), cell(megabytes, "{:.0f}"),
         cell(r.predictedError, "{:.2e}"), cell(r.relativeL2, "{:.2e}"), cell(r.maxError, "{:.1e}"),
         cell(r.psnrDb, "{:.1f}"));
-    if (r.raySumMs && r.name.rfind("default", 0) == 0) // once for each field
-        text += fmt::format("    ray sum {:.1f} ms, {} million samples/s, rel. L2 {}; shear-warp "
-                            "sum {} ms\n",
-                            *r.raySumMs, cell(r.raySumMsamplesPerSecond, "{:.0f}"),
-                            cell(r.raySumRelativeL2, "{:.2e}"), cell(r.shearWarpMs, "{:.2f}"));
+    if (r.raySumMs && r.name.rfind("default", 0) == 0) { // once for each field
+        text += fmt::format("    ray sum {:.1f} ms, rel. L2 {}", *r.raySumMs,
+                            cell(r.raySumRelativeL2, "{:.2e}"));
+        if (r.raySumMsamplesPerSecond)
+            text += fmt::format(", {:.0f} million samples/s", *r.raySumMsamplesPerSecond);
+        if (r.shearWarpMs)
+            text += fmt::format("; shear-warp sum {:.2f} ms", *r.shearWarpMs);
+        text += "\n";
+    }
     if (!r.note.empty())
         text += "    " + r.note + "\n";
     return text;

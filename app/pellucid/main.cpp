@@ -56,6 +56,15 @@ int main(int argc, char **argv) {
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
         keepLogIn(*cache / "log" / "pellucid.log");
     }
+#ifdef Q_OS_LINUX
+    // Said before Qt tries each of its plugins and names them all.
+    if (qEnvironmentVariableIsEmpty("DISPLAY") && qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") &&
+        qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) {
+        std::fprintf(stderr, "pellucid: there is no display (neither DISPLAY nor WAYLAND_DISPLAY "
+                             "is set)\n");
+        return int(task::ErrorCode::noSuchDevice);
+    }
+#endif
     task::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
     // The engine's context shares with those of the windows: its pictures stay on the card.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);

@@ -52,14 +52,17 @@ std::vector<std::uint8_t> compose(const ProjectionImage &image, const Tone &tone
     const std::vector<float> pixels = brightness(image);
     const ToneRange range = rangeOf(pixels, tone);
     const auto low = float(range.low), scale = float(1.0 / (range.high - range.low));
+    const float lift = std::min(0.0F, low);
     std::vector<std::uint8_t> rgba(pixels.size() * 4, 255);
     for (std::size_t n = 0; n < pixels.size(); ++n) {
         const float most =
             std::pow(std::clamp((pixels[n] - low) * scale, 0.0F, 1.0F), float(toneExponent));
         for (int c = 0; c < 3; ++c) {
             float x = most;
-            if (image.channels == 3 && pixels[n] > 0.0F)
-                x *= std::max(0.0F, image.samples[3 * n + std::size_t(c)]) / pixels[n];
+            // A range that begins below zero lifts what is empty: to grey, which has no hue.
+            if (image.channels == 3 && pixels[n] > lift)
+                x *= (std::max(0.0F, image.samples[3 * n + std::size_t(c)]) - lift) /
+                     (pixels[n] - lift);
             rgba[4 * n + std::size_t(c)] =
                 std::uint8_t(std::lround(255.0F * (tone.inverted ? 1.0F - x : x)));
         }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The slice at a frequency: as core/render/frame_*_hwy.inc, without and with cue and light.
 // FIELD_PAGES, PAGES: textures of fields, and with those of gradients after them, each of one or more
-// spectra on top of each other; SLABS: pages that a spectrum is spread over; SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
+// spectra on top of each other; SLABS: pages that a spectrum is spread over; SUMS, CHANNELS: 1 or 3;
+// SHADED, CUED, LIT: 0 or 1.
 layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
 
 // The last row of each column within the band's disc.

@@ -7,23 +7,11 @@
 #include "core/task/log.h"
 #include "gpu/device.h"
 #include "gpu/surfaceless_context.h"
+#include "tests/support/fragile_context.h"
 
 namespace pellucid {
 
 namespace {
-
-// What a context is to a Device, with a driver that can be told to reset.
-class FragileContext final : public gpu::Context {
-public:
-    explicit FragileContext(std::shared_ptr<std::atomic<bool>> lost) : m_lost(std::move(lost)) {}
-    void makeCurrent() override { m_context.makeCurrent(); }
-    void doneCurrent() override { m_context.doneCurrent(); }
-    bool isLost() override { return *m_lost || m_context.isLost(); }
-
-private:
-    gpu::SurfacelessContext m_context;
-    std::shared_ptr<std::atomic<bool>> m_lost;
-};
 
 // A context that never comes up.
 class NoContext final : public gpu::Context {
@@ -94,7 +82,7 @@ TEST(Device, AContextThatFailsIsNamed) {
 
 TEST(Device, ALostCardStaysLost) {
     auto lost = std::make_shared<std::atomic<bool>>(false);
-    gpu::Device device(std::make_unique<FragileContext>(lost));
+    gpu::Device device(std::make_unique<test::FragileContext>(lost));
     device.run([] {});
     EXPECT_FALSE(device.isLost());
     const auto expectLost = [&] {

@@ -78,7 +78,8 @@ TEST_F(TonePass, DrawsWhatComposeComputes) {
     for (const auto &[shown, tone] : {std::pair(image, render::Tone{}),
                                       {image, render::Tone{10.0, 70.0, true}},
                                       {colored, render::Tone{}},
-                                      {colored, render::Tone{10.0, 70.0, true}}}) {
+                                      {colored, render::Tone{10.0, 70.0, true}},
+                                      {colored, render::Tone{-60.0, 70.0, false}}}) {
         const auto expected = render::compose(shown, tone), found = drawn(shown, tone);
         EXPECT_LE(largestDifference(expected, found), 1); // rounding to eight bits
     }

@@ -9,8 +9,8 @@
 #include <QProcess>
 #include <QSignalSpy>
 
-#include "gpu/surfaceless_context.h"
 #include "tests/support/fields.h"
+#include "tests/support/fragile_context.h"
 #include "ui/gl_probe.h"
 #include "ui/scene_files.h"
 
@@ -19,19 +19,6 @@ namespace pellucid {
 using namespace test;
 
 namespace {
-
-// A driver that can be told to reset.
-class FragileContext final : public gpu::Context {
-public:
-    explicit FragileContext(std::shared_ptr<std::atomic<bool>> lost) : m_lost(std::move(lost)) {}
-    void makeCurrent() override { m_context.makeCurrent(); }
-    void doneCurrent() override { m_context.doneCurrent(); }
-    bool isLost() override { return *m_lost; }
-
-private:
-    gpu::SurfacelessContext m_context;
-    std::shared_ptr<std::atomic<bool>> m_lost;
-};
 
 // The largest difference of two pictures, in grey values.
 int largestDifference(const QImage &a, const QImage &b) {
@@ -119,6 +106,19 @@ private slots:
         QCOMPARE(shown.size(), QImage(out).size());
         QVERIFY(largestDifference(projection()->picture(), QImage(out)) <= 1);
         QVERIFY(largestDifference(canvas(), QImage(out)) <= 1); // rounding to eight bits
+    }
+
+    void withoutADisplayOneLineSaysSo() {
+        QProcess program;
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        for (const char *name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
+            environment.remove(name);
+        program.setProcessEnvironment(environment);
+        program.start(PELLUCID_WORKSTATION, {});
+        QVERIFY(program.waitForFinished(patienceMs));
+        QCOMPARE(program.exitCode(), int(task::ErrorCode::noSuchDevice));
+        const QByteArray said = program.readAllStandardError();
+        QVERIFY2(said.contains("there is no display") && said.count('\n') == 1, said);
     }
 
     void aCardThatFailsIsGivenUpAndChosenAgain() {

@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <QTreeWidget>
 
+#include "ui/commands.h"
 #include "ui/kept_studies.h"
 #include "ui/panels/series_panel.h"
 #include "ui/views/mpr_view.h"
@@ -215,6 +216,42 @@ private slots:
         // And it can be opened again.
         open(headPath());
         QVERIFY(m_window->document().volume());
+    }
+
+    void aCancelledPreparationIsTakenUpByF5() {
+        open(headPath());
+        render::Scene scene = m_window->document().scene();
+        scene.tolerance = 1e-5;
+        auto *undo = m_window->document().undoStack();
+        undo->push(new ui::EditScene(m_window->document(), scene, "Tolerance"));
+        QVERIFY(m_window->jobs().isRunning());
+        QTest::keyClick(m_window.get(), Qt::Key_Escape);
+        QVERIFY(!m_window->jobs().isRunning());
+        QCOMPARE(projection()->planState(), ui::PlanState::givenUp);
+        const auto former = projection()->picture();
+        QTest::keyClick(m_window.get(), Qt::Key_F5);
+        QCOMPARE(projection()->planState(), ui::PlanState::underway);
+        settle();
+        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+        QVERIFY(find<QLabel>("predictedErrorLabel")->text().remove('%').trimmed().toDouble() <=
+                1e-3);
+        QVERIFY(changed(former, projection()->picture()) < 0.02);
+        // What is there already needs nothing: back to it, and the cancelled one may be asked
+        // again.
+        undo->undo();
+        settle();
+        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+    }
+
+    void resettingTheProjectionResetsItsWindowToo() {
+        open(headPath());
+        dragMouse(projection(), Qt::RightButton, QPoint(200, 200), QPoint(60, 30));
+        QVERIFY(m_window->document().scene().tone.high.has_value());
+        projection()->setFocus();
+        QTest::keyClick(projection(), Qt::Key_R);
+        QVERIFY(m_window->document().scene().tone == render::Tone());
+        QTest::keyClick(m_window.get(), Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(m_window->document().scene().tone.high.has_value());
     }
 
     void thePhantomOpensFromTheStartPage() {

@@ -98,7 +98,7 @@ ProjectionView::~ProjectionView() {
 void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     m_engine = shown.prepared.engine;
     m_takesLight = shown.prepared.takesLight;
-    m_planHolds = true;
+    m_planState = PlanState::holds;
     m_predictedError = shown.predictedError;
     m_message.clear();
     // Weights that move change the brightness, and are meant to; another field, or the fine one
@@ -115,16 +115,7 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     m_worker.setEngine(m_engine, shown.onCard, m_generation);
     m_onCard = shown.onCard;
     m_engineReason = shown.reason;
-    describeEngine({});
     requestFrame(false);
-}
-
-// `refusal`: why the card did not make the last frame, though it should have.
-void ProjectionView::describeEngine(const QString &refusal) {
-    const std::string used =
-        m_onCard && refusal.isEmpty() ? m_onCard->description() : m_engine->description();
-    emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(used),
-                                          refusal.isEmpty() ? m_engineReason : refusal));
 }
 
 void ProjectionView::jobEnded() {
@@ -157,8 +148,8 @@ void ProjectionView::retakeTone() {
     requestFrame(false);
 }
 
-void ProjectionView::setPlanHolds(bool holds) {
-    m_planHolds = holds;
+void ProjectionView::setPlanState(PlanState state) {
+    m_planState = state;
     m_overlay->update();
 }
 
@@ -193,6 +184,12 @@ void ProjectionView::resetView() {
     m_document.setCamera(camera);
     fitCamera();
     requestFrame(false);
+    render::Scene scene = m_document.scene();
+    if (scene.tone.low || scene.tone.high) {
+        scene.tone.low.reset();
+        scene.tone.high.reset();
+        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Reset window")));
+    }
 }
 
 void ProjectionView::showStandardView(render::StandardView view) {
@@ -225,9 +222,9 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     // Asked for before the brightness was to be taken anew: the next one tells it.
     if (!m_automaticTone && !frame->automaticTone)
         return;
-    if (m_onCard && (!m_frame || m_frame->refusal != frame->refusal))
-        describeEngine(frame->refusal);
     m_frame = frame;
+    m_frameError = m_predictedError;
+    m_frameStage = m_stage;
     m_pending = m_rest.isActive() || frame->number != m_requested;
     if (!frame->draft)
         m_fullFrameMs = frame->times.totalMs();
@@ -241,6 +238,10 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     updateTone();
     m_overlay->update();
     emit frameShown(frame->times, frame->draft);
+    const std::string engine = frame->onCard ? m_onCard->description() : m_engine->description();
+    emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(engine), frame->refusal.isEmpty()
+                                                                              ? m_engineReason
+                                                                              : frame->refusal));
     if (showsFinalImage())
         emit finalImageShown();
 }
@@ -416,11 +417,13 @@ void ProjectionView::paintOverlay(QPainter &painter) {
     }
     if (!m_frame)
         return;
-    const QString quality = m_stage == EngineStage::coarse ? tr("coarse")
-                            : m_stage == EngineStage::live ? tr("live")
-                            : !m_planHolds
+    // The error is that of the picture, which may still be the former engine's.
+    const QString quality = m_planState == PlanState::givenUp     ? tr("cancelled: F5 prepares it")
+                            : m_frameStage == EngineStage::coarse ? tr("coarse")
+                            : m_frameStage == EngineStage::live   ? tr("live")
+                            : m_planState == PlanState::underway
                                 ? tr("error not known yet")
-                                : tr("error %1 %").arg(100.0 * m_predictedError, 0, 'f', 3);
+                                : tr("error %1 %").arg(100.0 * m_frameError, 0, 'f', 3);
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop,
              QString("%1  %2  %3")
                  .arg(m_frame->onCard ? "GPU" : "CPU")

@@ -29,7 +29,8 @@ public:
     /// The name of the look, shown below the pane's.
     void setLookName(const QString &name);
     /// Whether the engine's predicted error is that of what is shown.
-    void setPlanHolds(bool holds);
+    void setPlanState(PlanState state);
+    PlanState planState() const { return m_planState; }
     /// Takes the brightness anew from the next frame.
     void retakeTone();
     void setMessage(const QString &message);
@@ -73,7 +74,6 @@ private:
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
     void updateTone();
-    void describeEngine(const QString &refusal);
     void orbit(const QPoint &delta);
     void pan(const QPoint &delta);
     void windowBy(const QPoint &delta);
@@ -89,13 +89,17 @@ private:
     std::shared_ptr<render::ProjectionEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
     QString m_engineReason;
+    /// What is shown, and what made it: a new engine has to make its first picture yet.
     std::shared_ptr<const RenderedFrame> m_frame;
+    double m_frameError = 0.0;
+    EngineStage m_frameStage = EngineStage::coarse;
     std::optional<render::ToneRange> m_automaticTone;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last frame that was asked for
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
     EngineStage m_stage = EngineStage::coarse;
-    bool m_pending = false, m_takesLight = false, m_planHolds = true;
+    bool m_pending = false, m_takesLight = false;
+    PlanState m_planState = PlanState::holds;
     std::uint64_t m_requested = 0, m_generation = 0;
     Qt::MouseButton m_button = Qt::NoButton;
     DragId m_drag = 0;

@@ -51,6 +51,10 @@ TEST(Compose, ColorsKeepTheirHue) {
     const auto film = render::compose(image, {0.0, 10.0, true});
     for (int n = 0; n < 16; ++n)
         EXPECT_NEAR(int(bright[n]) + film[n], n % 4 == 3 ? 510 : 255, 1);
+    // A range that begins below zero lifts the noise of what is empty, but to no colour.
+    const auto lifted = render::compose({1, 1, 1.0, {0.1F, 0.0F, -0.1F}, 3}, {-60.0, 10.0, false});
+    EXPECT_GT(lifted[0], 200);
+    EXPECT_LE(lifted[0] - lifted[2], 1);
     EXPECT_NEAR(render::toneRange(image, {}).high, 10.0, 1e-6); // of 40, 10 and 2: rank 1.996
 }
 
