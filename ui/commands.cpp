@@ -52,6 +52,27 @@ bool EditDisplayWindow::mergeWith(const QUndoCommand *other) {
     return true;
 }
 
+EditMeasurements::EditMeasurements(Document &document,
+                                   const std::vector<measure::Measurement> &after,
+                                   const QString &text, DragId drag)
+    : QUndoCommand(text), m_document(document), m_before(document.measurements()), m_after(after),
+      m_drag(drag) {}
+
+void EditMeasurements::undo() {
+    m_document.setMeasurements(m_before);
+}
+void EditMeasurements::redo() {
+    m_document.setMeasurements(m_after);
+}
+
+bool EditMeasurements::mergeWith(const QUndoCommand *other) {
+    const auto *next = static_cast<const EditMeasurements *>(other);
+    if (m_drag == 0 || next->m_drag != m_drag)
+        return false;
+    m_after = next->m_after;
+    return true;
+}
+
 DragId nextDragId() {
     static DragId last = 0;
     return ++last;

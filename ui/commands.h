@@ -3,6 +3,7 @@
 
 #include <QUndoCommand>
 
+#include "core/measure/measurement.h"
 #include "core/render/scene.h"
 #include "core/volume/volume.h"
 
@@ -41,6 +42,22 @@ public:
 private:
     Document &m_document;
     volume::ValueWindow m_before, m_after;
+    DragId m_drag;
+};
+
+/// Replaces the measurements.
+class EditMeasurements : public QUndoCommand {
+public:
+    EditMeasurements(Document &document, const std::vector<measure::Measurement> &after,
+                     const QString &text, DragId drag = 0);
+    void undo() override;
+    void redo() override;
+    int id() const override { return 3; }
+    bool mergeWith(const QUndoCommand *other) override;
+
+private:
+    Document &m_document;
+    std::vector<measure::Measurement> m_before, m_after;
     DragId m_drag;
 };
 

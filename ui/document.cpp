@@ -5,6 +5,15 @@
 
 namespace pellucid::ui {
 
+namespace {
+
+volume::PatientPoint middleSample(const volume::Lattice &lattice) {
+    const volume::GridSize n = lattice.size();
+    return lattice.patient(volume::VoxelIndex{n.i / 2, n.j / 2, n.k / 2});
+}
+
+} // namespace
+
 Document::Document(QObject *parent) : QObject(parent) {}
 
 std::vector<int> Document::addSources(std::vector<StudySource> sources) {
@@ -51,7 +60,10 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
     if (!same) {
         // Edits belong to the study they were made on.
         m_undo.clear();
-        m_crosshair = volume.lattice().center();
+        m_crosshair = middleSample(volume.lattice());
+        m_cut.axes = {};
+        m_measured.clear();
+        m_selectedMeasurement = -1;
         // How well pictures are made belongs to the person, what they show to the study.
         render::Scene fresh;
         fresh.tolerance = m_scene.tolerance;
@@ -69,6 +81,8 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
 
 void Document::closeVolume() {
     m_volume.reset();
+    m_measured.clear();
+    m_selectedMeasurement = -1;
     m_preview = false;
     m_undo.clear();
     emit volumeChanged();
@@ -108,6 +122,49 @@ void Document::setTint(const std::optional<classify::TissueClass> &tint) {
 void Document::setDisplayWindow(const volume::ValueWindow &window) {
     m_window = window;
     emit displayWindowChanged();
+}
+
+void Document::centerCrosshair() {
+    if (m_volume)
+        setCrosshair(middleSample(m_volume->lattice()));
+}
+
+void Document::setCut(const Cut &cut) {
+    if (cut == m_cut)
+        return;
+    m_cut = cut;
+    emit cutChanged();
+}
+
+std::vector<measure::Measurement> Document::measurements() const {
+    std::vector<measure::Measurement> all;
+    for (const Measured &m : m_measured)
+        all.push_back(m.measurement);
+    return all;
+}
+
+void Document::setMeasurements(const std::vector<measure::Measurement> &measurements) {
+    if (!m_volume)
+        return;
+    std::vector<Measured> measured;
+    for (const measure::Measurement &m : measurements) {
+        const std::size_t n = measured.size();
+        // Of a drag one changes, many times.
+        measured.push_back({m, n < m_measured.size() && m_measured[n].measurement == m
+                                   ? m_measured[n].result
+                                   : measure::measure(m, *m_volume)});
+    }
+    m_measured = std::move(measured);
+    emit measurementsChanged();
+    if (m_selectedMeasurement >= int(m_measured.size()))
+        selectMeasurement(-1);
+}
+
+void Document::selectMeasurement(int index) {
+    if (index == m_selectedMeasurement)
+        return;
+    m_selectedMeasurement = index;
+    emit selectedMeasurementChanged();
 }
 
 void Document::setCrosshair(volume::PatientPoint point) {

@@ -8,15 +8,31 @@
 #include <QUndoStack>
 
 #include "core/dicom/catalogue.h"
+#include "core/measure/measurement.h"
+#include "core/mpr/reslice.h"
 #include "core/render/scene.h"
 #include "core/volume/volume.h"
 #include "ui/study_source.h"
 
 namespace pellucid::ui {
 
+/// How the planes cut the volume; the same for all three.
+struct Cut {
+    mpr::PlaneAxes axes;
+    mpr::ResliceOptions options;
+    bool operator==(const Cut &) const = default;
+};
+
+/// A measurement and what it gives on the open volume.
+struct Measured {
+    measure::Measurement measurement;
+    measure::Result result;
+};
+
 /// What is open and what is asked to be seen: the studies, the volume, the Scene, the display
-/// window, the crosshair, and the undo stack. Views and panels read it, listen to it, and change it
-/// by commands; looking (camera, crosshair) changes it directly and is not undoable.
+/// window, the crosshair, the measurements, and the undo stack. Views and panels read it, listen to
+/// it, and change it by commands; looking (camera, crosshair, cut) changes it directly and is not
+/// undoable.
 class Document : public QObject {
     Q_OBJECT
 public:
@@ -59,6 +75,20 @@ public:
 
     volume::PatientPoint crosshair() const { return m_crosshair; }
     void setCrosshair(volume::PatientPoint point);
+    /// To the middle of the volume, on a slice: what is seen first is a slice of the scan and not a
+    /// mixture of two.
+    void centerCrosshair();
+
+    const Cut &cut() const { return m_cut; }
+    void setCut(const Cut &cut);
+
+    const std::vector<Measured> &measured() const { return m_measured; }
+    std::vector<measure::Measurement> measurements() const;
+    /// The state behind the undo commands; call through `EditMeasurements`.
+    void setMeasurements(const std::vector<measure::Measurement> &measurements);
+    /// -1: none.
+    int selectedMeasurement() const { return m_selectedMeasurement; }
+    void selectMeasurement(int index);
 
     /// The class whose curve and range are looked at; -1: the whole volume.
     int selectedClass() const;
@@ -78,6 +108,9 @@ signals:
     void sceneChanged();
     void displayWindowChanged();
     void crosshairChanged();
+    void cutChanged();
+    void measurementsChanged();
+    void selectedMeasurementChanged();
     void selectedClassChanged();
     void tintChanged();
 
@@ -93,6 +126,9 @@ private:
     render::Scene m_scene;
     volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
     volume::PatientPoint m_crosshair;
+    Cut m_cut;
+    std::vector<Measured> m_measured;
+    int m_selectedMeasurement = -1;
     QUndoStack m_undo;
 };
 

@@ -2,12 +2,11 @@
 #include "ui/look_docks.h"
 
 #include <QDockWidget>
-#include <QHBoxLayout>
 #include <QMainWindow>
 #include <QScrollArea>
-#include <QToolButton>
 
 #include "ui/card_copier.h"
+#include "ui/dock.h"
 #include "ui/look_preparer.h"
 #include "ui/panels/classes_panel.h"
 #include "ui/panels/presets_panel.h"
@@ -69,27 +68,7 @@ void LookDocks::unfold(QWidget &panel) {
 
 void LookDocks::dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
                      QWidget *corner, int height) {
-    auto *dock = new QDockWidget(title, &window);
-    dock->setObjectName(name);
-    dock->setWidget(panel);
-    // A click on the heading folds the panel.
-    auto *heading = new QToolButton;
-    heading->setObjectName(QString(name) + "Heading");
-    heading->setText(title);
-    heading->setToolTip(tr("Fold or unfold"));
-    heading->setProperty("role", "heading");
-    connect(heading, &QToolButton::clicked, panel,
-            [panel] { panel->setVisible(!panel->isVisible()); });
-    auto *bar = new QWidget;
-    bar->setAttribute(Qt::WA_StyledBackground);
-    bar->setProperty("role", "dockTitle");
-    auto *row = new QHBoxLayout(bar);
-    row->setContentsMargins(8, 6, 8, 0);
-    row->addWidget(heading);
-    row->addStretch();
-    if (corner != nullptr)
-        row->addWidget(corner);
-    dock->setTitleBarWidget(bar);
+    QDockWidget *dock = makeDock(title, name, panel, corner);
     panel->setMinimumWidth(panelWidth);
     window.addDockWidget(Qt::RightDockWidgetArea, dock);
     m_docks.push_back(dock);

@@ -4,6 +4,7 @@
 #include <QActionGroup>
 #include <QMenu>
 
+#include "ui/add_command.h"
 #include "ui/commands.h"
 #include "ui/document.h"
 #include "ui/look_docks.h"
@@ -50,11 +51,7 @@ LookMenu::LookMenu(QMenu &menu, Document &document, LookDocks &docks, Projection
 
 QAction *LookMenu::add(QMenu &menu, const QString &text, const char *name, const QKeySequence &key,
                        const std::function<void()> &run) {
-    QAction *action = menu.addAction(text);
-    action->setObjectName(name);
-    action->setShortcut(key);
-    connect(action, &QAction::triggered, this, run);
-    return action;
+    return addCommand(menu, text, name, key, this, run);
 }
 
 void LookMenu::addShading(QMenu &menu, LookDocks &docks) {

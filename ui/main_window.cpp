@@ -21,15 +21,20 @@
 
 #include "core/task/error.h"
 #include "core/task/log.h"
+#include "ui/add_command.h"
 #include "ui/commands.h"
+#include "ui/dock.h"
+#include "ui/engine_menu.h"
 #include "ui/look_docks.h"
 #include "ui/look_menu.h"
 #include "ui/panels/job_strip.h"
+#include "ui/panels/measurements_panel.h"
 #include "ui/panels/presets_panel.h"
 #include "ui/panels/series_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/recent_paths.h"
 #include "ui/scene_files.h"
+#include "ui/tools_menu.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -39,13 +44,15 @@ namespace pellucid::ui {
 
 MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, QWidget *parent)
     : QMainWindow(parent), m_theme(theme), m_preparer(m_document, m_jobs), m_card(engine),
-      m_copier(m_document, m_jobs, m_card), m_opener(m_document, m_jobs, m_preparer) {
+      m_copier(m_document, m_jobs, m_card), m_opener(m_document, m_jobs, m_preparer),
+      m_store(m_document) {
     setObjectName("mainWindow");
     setWindowTitle("Pellucid");
     setAcceptDrops(true);
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
     createPanes();
     createStudyDock();
+    createMeasurementsDock();
     m_look = new LookDocks(*this, m_document, m_preparer, m_copier, *m_projection, m_theme);
     connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
     createFileMenu();
@@ -54,7 +61,7 @@ MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, Q
     auto *lookMenu =
         new LookMenu(*menuBar()->addMenu(tr("&Look")), m_document, *m_look, *m_projection);
     m_windowMenu = &lookMenu->windowMenu();
-    createToolsMenu();
+    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_document, m_mpr, *m_projection);
     createHelpMenu();
     createToolBar();
     createStatusBar();
@@ -122,37 +129,48 @@ void MainWindow::createStudyDock() {
     addDockWidget(Qt::LeftDockWidgetArea, dock);
 }
 
-QAction *MainWindow::addCommand(QMenu *menu, const QString &text, const char *name,
-                                const QKeySequence &key, const std::function<void()> &run) {
-    QAction *action = menu->addAction(text);
-    action->setObjectName(name);
-    action->setShortcut(key);
-    connect(action, &QAction::triggered, this, [run] { run(); });
-    return action;
+void MainWindow::createMeasurementsDock() {
+    m_measurements = new MeasurementsPanel(m_document);
+    connect(m_measurements, &MeasurementsPanel::exportRequested, this,
+            &MainWindow::exportMeasurements);
+    connect(m_measurements, &MeasurementsPanel::viewRequested, m_projection,
+            &ProjectionView::lookAlong);
+    connect(&m_store, &MeasurementStore::failed, this, &MainWindow::report);
+    auto *dock =
+        makeDock(tr("MEASUREMENTS"), "measurementsDock", m_measurements, m_measurements->corner());
+    addDockWidget(Qt::LeftDockWidgetArea, dock);
+    resizeDocks({findChild<QDockWidget *>("studyDock"), dock}, {700, 180}, Qt::Vertical);
+}
+
+QAction *MainWindow::command(QMenu &menu, const QString &text, const char *name,
+                             const QKeySequence &key, const std::function<void()> &run) {
+    return addCommand(menu, text, name, key, this, run);
 }
 
 void MainWindow::createFileMenu() {
     QMenu *menu = menuBar()->addMenu(tr("&File"));
-    addCommand(menu, tr("&Open files..."), "openFilesAction", QKeySequence::Open, [this] {
+    command(*menu, tr("&Open files..."), "openFilesAction", QKeySequence::Open, [this] {
         chooseFiles();
     })->setIconText(tr("Open"));
-    addCommand(menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"),
-               [this] { chooseFolder(); });
+    command(*menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"),
+            [this] { chooseFolder(); });
     QMenu *phantoms = menu->addMenu(tr("Open &phantom"));
-    addCommand(phantoms, tr("&Head"), "headPhantomAction", {}, [this] { openPhantom("head"); });
-    addCommand(phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { openPhantom("chest"); });
+    command(*phantoms, tr("&Head"), "headPhantomAction", {}, [this] { openPhantom("head"); });
+    command(*phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { openPhantom("chest"); });
     menu->addSeparator();
-    addCommand(menu, tr("Open &scene..."), "openSceneAction", {}, [this] { openScene(); });
-    addCommand(menu, tr("Save s&cene as..."), "saveSceneAction", {}, [this] { saveScene(); });
-    addCommand(menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] {
+    command(*menu, tr("Open &scene..."), "openSceneAction", {}, [this] { openScene(); });
+    command(*menu, tr("Save s&cene as..."), "saveSceneAction", {}, [this] { saveScene(); });
+    command(*menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] {
         savePicture();
     })->setIconText(tr("Picture"));
+    command(*menu, tr("Export &measurements..."), "exportMeasurementsAction", {},
+            [this] { exportMeasurements(); });
     menu->addSeparator();
-    addCommand(menu, tr("&Forget recent studies"), "forgetRecentAction", {}, [this] {
+    command(*menu, tr("&Forget recent studies"), "forgetRecentAction", {}, [this] {
         forgetRecentPaths();
         m_start->setRecentPaths({});
     });
-    addCommand(menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { close(); });
+    command(*menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { close(); });
 }
 
 void MainWindow::createEditMenu() {
@@ -164,6 +182,9 @@ void MainWindow::createEditMenu() {
     redo->setObjectName("redoAction");
     redo->setShortcut(QKeySequence("Ctrl+Shift+Z"));
     menu->addActions({undo, redo});
+    menu->addSeparator();
+    command(*menu, tr("&Delete measurement"), "deleteMeasurementAction", QKeySequence::Delete,
+            [this] { m_measurements->removeSelected(); });
 }
 
 void MainWindow::createViewMenu() {
@@ -182,22 +203,24 @@ void MainWindow::createViewMenu() {
         {tr("&Superior"), "topViewAction", StandardView::top, QT_TR_NOOP("Keypad 7")},
         {tr("&Inferior"), "bottomViewAction", StandardView::bottom, QT_TR_NOOP("Shift+Keypad 7")}};
     for (const auto &v : views)
-        addCommand(menu, v.text + "\t" + tr(v.hint), v.name, {},
-                   [this, view = v.view] { m_projection->showStandardView(view); });
-    addCommand(menu, tr("R&eset views") + "\t" + tr("Keypad 0"), "resetViewsAction", {}, [this] {
+        command(*menu, v.text + "\t" + tr(v.hint), v.name, {},
+                [this, view = v.view] { m_projection->showStandardView(view); });
+    command(*menu, tr("R&eset views") + "\t" + tr("Keypad 0"), "resetViewsAction", {}, [this] {
         m_projection->resetView();
         for (MprView *view : m_mpr)
             view->resetView();
-        if (m_document.volume())
-            m_document.setCrosshair(m_document.volume()->lattice().center());
+        Cut cut = m_document.cut();
+        cut.axes = {};
+        m_document.setCut(cut);
+        m_document.centerCrosshair();
     });
-    addCommand(menu, tr("Prepare the projection a&gain"), "prepareAgainAction", QKeySequence("F5"),
-               [this] { m_preparer.prepareAgain(); });
+    command(*menu, tr("Prepare the projection a&gain"), "prepareAgainAction", QKeySequence("F5"),
+            [this] { m_preparer.prepareAgain(); });
     menu->addSeparator();
     m_layouts = new QActionGroup(this);
     const auto layout = [&](const QString &text, const char *name, PaneLayout which) {
         QAction *action =
-            addCommand(menu, text, name, {}, [this, which] { m_panes->setPaneLayout(which); });
+            command(*menu, text, name, {}, [this, which] { m_panes->setPaneLayout(which); });
         action->setCheckable(true);
         action->setActionGroup(m_layouts);
         return action;
@@ -205,65 +228,22 @@ void MainWindow::createViewMenu() {
     layout(tr("1 + 3"), "onePlusThreeAction", PaneLayout::onePlusThree)->setChecked(true);
     layout(tr("2 x 2"), "twoByTwoAction", PaneLayout::twoByTwo);
     menu->addSeparator();
-    addEngineMenu(*menu->addMenu(tr("Projection &engine")));
+    addEngineMenu(*menu->addMenu(tr("Projection &engine")), m_card);
     menu->addSeparator();
-    QAction *full = addCommand(menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"),
-                               [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
+    QAction *full = command(*menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"),
+                            [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
     full->setCheckable(true);
-}
-
-void MainWindow::addEngineMenu(QMenu &menu) {
-    auto *engines = new QActionGroup(this);
-    const struct {
-        QString text;
-        const char *name;
-        EngineChoice choice;
-    } choices[] = {{tr("&Automatic"), "automaticEngineAction", EngineChoice::automatic},
-                   {tr("&Processor"), "processorEngineAction", EngineChoice::processor},
-                   {tr("&Graphics card"), "cardEngineAction", EngineChoice::card}};
-    for (const auto &c : choices) {
-        QAction *action = addCommand(&menu, c.text, c.name, {},
-                                     [this, choice = c.choice] { m_card.choose(choice); });
-        action->setCheckable(true);
-        action->setActionGroup(engines);
-        action->setChecked(m_card.choice() == c.choice);
-    }
-}
-
-void MainWindow::createToolsMenu() {
-    QMenu *menu = menuBar()->addMenu(tr("&Tools"));
-    m_tools = new QActionGroup(this);
-    const struct {
-        QString text;
-        const char *name;
-        Tool tool;
-        const char *key;
-    } tools[] = {{tr("Window"), "windowToolAction", Tool::window, "W"},
-                 {tr("Pan"), "panToolAction", Tool::pan, "P"},
-                 {tr("Zoom"), "zoomToolAction", Tool::zoom, "Z"},
-                 {tr("Crosshair"), "crosshairToolAction", Tool::crosshair, "C"}};
-    for (const auto &t : tools) {
-        QAction *action =
-            addCommand(menu, t.text, t.name, QKeySequence(t.key), [this, tool = t.tool] {
-                for (MprView *view : m_mpr)
-                    view->setTool(tool);
-            });
-        action->setToolTip(
-            tr("%1: what the left button does in the planes (%2)").arg(t.text, t.key));
-        action->setCheckable(true);
-        action->setActionGroup(m_tools);
-    }
-    m_tools->actions().first()->setChecked(true);
 }
 
 void MainWindow::createHelpMenu() {
     QMenu *window = menuBar()->addMenu(tr("W&indow"));
-    window->addAction(findChild<QDockWidget *>("studyDock")->toggleViewAction());
+    for (const char *dock : {"studyDock", "measurementsDock"})
+        window->addAction(findChild<QDockWidget *>(dock)->toggleViewAction());
     for (QDockWidget *dock : m_look->docks())
         window->addAction(dock->toggleViewAction());
     QMenu *menu = menuBar()->addMenu(tr("&Help"));
-    addCommand(menu, tr("&Manual"), "manualAction", QKeySequence("F1"), [this] { showManual(); });
-    addCommand(menu, tr("&About Pellucid"), "aboutAction", {}, [this] { showAbout(); });
+    command(*menu, tr("&Manual"), "manualAction", QKeySequence("F1"), [this] { showManual(); });
+    command(*menu, tr("&About Pellucid"), "aboutAction", {}, [this] { showAbout(); });
 }
 
 void MainWindow::createToolBar() {
@@ -273,7 +253,7 @@ void MainWindow::createToolBar() {
     bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
     bar->addAction(findChild<QAction *>("openFilesAction"));
     bar->addSeparator();
-    bar->addActions(m_tools->actions());
+    m_tools->addTo(*bar);
     bar->addSeparator();
     bar->addActions(m_layouts->actions());
     bar->addSeparator();
@@ -378,6 +358,17 @@ void MainWindow::savePicture() {
         if (!path.isEmpty())
             writePictureFile(path, picture);
     });
+}
+
+void MainWindow::exportMeasurements() {
+    if (m_document.measured().empty()) {
+        statusBar()->showMessage(tr("There are no measurements to export yet"), 4000);
+        return;
+    }
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export measurements"),
+                                                      "measurements.csv", tr("Table (*.csv)"));
+    if (!path.isEmpty())
+        attempt([&] { m_store.exportTable(path); });
 }
 
 void MainWindow::saveScene() {

@@ -11,9 +11,9 @@
 #include "ui/graphics_card.h"
 #include "ui/job_runner.h"
 #include "ui/look_preparer.h"
+#include "ui/measurement_store.h"
 #include "ui/study_opener.h"
 #include "ui/theme.h"
-#include "ui/tools.h"
 
 class QActionGroup;
 class QLabel;
@@ -22,11 +22,13 @@ class QStackedWidget;
 namespace pellucid::ui {
 
 class LookDocks;
+class MeasurementsPanel;
 class MprView;
 class PaneArea;
 class ProjectionView;
 class SeriesPanel;
 class StartPage;
+class ToolsMenu;
 
 /// The workstation's window: creates the panes and docks, names the menus, connects intents.
 class MainWindow : public QMainWindow {
@@ -53,11 +55,10 @@ protected:
 private:
     void createPanes();
     void createStudyDock();
+    void createMeasurementsDock();
     void createFileMenu();
     void createEditMenu();
     void createViewMenu();
-    void addEngineMenu(QMenu &menu);
-    void createToolsMenu();
     void createHelpMenu();
     void createToolBar();
     void createStatusBar();
@@ -65,6 +66,7 @@ private:
     void chooseFiles();
     void chooseFolder();
     void savePicture();
+    void exportMeasurements();
     void saveScene();
     void openScene();
     void showManual();
@@ -73,8 +75,8 @@ private:
     void report(const QString &what, const QString &path);
     /// Runs it and reports what it throws.
     void attempt(const std::function<void()> &what);
-    QAction *addCommand(QMenu *menu, const QString &text, const char *name, const QKeySequence &key,
-                        const std::function<void()> &run);
+    QAction *command(QMenu &menu, const QString &text, const char *name, const QKeySequence &key,
+                     const std::function<void()> &run);
 
     Theme m_theme;
     Document m_document;
@@ -83,13 +85,16 @@ private:
     GraphicsCard m_card;
     CardCopier m_copier;
     StudyOpener m_opener;
+    MeasurementStore m_store;
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;
     LookDocks *m_look = nullptr;
     PaneArea *m_panes = nullptr;
     StartPage *m_start = nullptr;
     QStackedWidget *m_stack = nullptr;
-    QActionGroup *m_tools = nullptr, *m_layouts = nullptr;
+    MeasurementsPanel *m_measurements = nullptr;
+    ToolsMenu *m_tools = nullptr;
+    QActionGroup *m_layouts = nullptr;
     QMenu *m_windowMenu = nullptr;
     QLabel *m_readout = nullptr, *m_engine = nullptr;
 };

@@ -17,8 +17,9 @@ namespace pellucid::ui {
 
 OverlayColors overlayColors(const QString &planeRole) {
     static const Theme dark = Theme::named("dark");
-    return {dark.color(planeRole), dark.color("letters"), dark.color("text"),   dark.color("muted"),
-            dark.color("raised"),  dark.color("accent"),  dark.color("warning")};
+    return {dark.color(planeRole), dark.color("letters"), dark.color("text"),
+            dark.color("muted"),   dark.color("raised"),  dark.color("accent"),
+            dark.color("warning"), dark.color("curve")};
 }
 
 void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
@@ -38,12 +39,6 @@ void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dve
     font.setPointSizeF(font.pointSizeF() + 1.0);
     painter.setFont(font);
     const QRect inner = area.adjusted(8, 18, -8, -8);
-    // A dark ground keeps a letter apart from a crosshair line that runs through it.
-    const int half = painter.fontMetrics().height() / 2 + 1;
-    for (const QPoint &at : {QPoint(inner.center().x(), inner.top() + half - 1),
-                             QPoint(inner.center().x(), inner.bottom() - half + 1)})
-        painter.fillRect(QRect(at.x() - half, at.y() - half, 2 * half, 2 * half),
-                         QColor(0, 0, 0, 170));
     const auto letters = [](const glm::dvec3 &d) {
         return QString::fromStdString(render::patientLetters(d));
     };
@@ -54,6 +49,12 @@ void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dve
     drawText(painter, inner, Qt::AlignHCenter | Qt::AlignTop, letters(up), colors.letters);
     drawText(painter, inner, Qt::AlignHCenter | Qt::AlignBottom, letters(-up), colors.letters);
     painter.restore();
+}
+
+QRegion upperAndLowerLetters(const QRect &area) {
+    constexpr int half = 14;
+    return QRegion(area.center().x() - half, area.top() + 20, 2 * half, 2 * half) +
+           QRegion(area.center().x() - half, area.bottom() - 2 * half - 2, 2 * half, 2 * half);
 }
 
 void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int longestPixels,
@@ -73,9 +74,6 @@ void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int 
     painter.fillRect(QRect(bottomLeft.x() - 1, bottomLeft.y() - 3, length + 2, 4),
                      QColor(0, 0, 0, 190));
     painter.fillRect(QRect(bottomLeft.x(), bottomLeft.y() - 2, length, 2), colors.text);
-    painter.fillRect(QRect(bottomLeft.x() + length + 3, bottomLeft.y() - 9,
-                           painter.fontMetrics().horizontalAdvance(text) + 6, 16),
-                     QColor(0, 0, 0, 150));
     drawText(painter, QRect(bottomLeft.x() + length + 6, bottomLeft.y() - 10, 80, 18),
              Qt::AlignLeft | Qt::AlignVCenter, text, colors.text);
     painter.restore();

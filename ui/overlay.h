@@ -3,6 +3,7 @@
 
 #include <QColor>
 #include <QRect>
+#include <QRegion>
 #include <QString>
 
 #include <glm/mat3x3.hpp>
@@ -13,7 +14,7 @@ namespace pellucid::ui {
 
 /// Colors of what is drawn over pictures; the same in both themes, since pictures stay black.
 struct OverlayColors {
-    QColor plane, letters, text, muted, raised, accent, warning;
+    QColor plane, letters, text, muted, raised, accent, warning, curve;
 };
 
 /// The dark theme's colors, with the plane's own by its role in resources/styles/colors.json.
@@ -22,6 +23,9 @@ OverlayColors overlayColors(const QString &planeRole);
 /// Letters at the middle of the four sides for an image with these axes (LPS).
 void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,
                             const glm::dvec3 &up, const OverlayColors &colors);
+
+/// Where the upper and the lower of them stand, for what must not run through them.
+QRegion upperAndLowerLetters(const QRect &area);
 
 /// A bar of a round length, its left end at the given corner. *Units*: logical pixels per mm.
 void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int longestPixels,

@@ -1,9 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
+#include "core/measure/measurement.h"
+
 namespace pellucid::ui {
 
-/// What the left mouse button does in the MPR panes.
-enum class Tool { window, pan, zoom, crosshair };
+/// What the left mouse button does in the panes. In the projection it orbits unless it measures a
+/// distance.
+enum class Tool { window, pan, zoom, crosshair, distance, angle, ellipse, rectangle };
+
+/// What a tool draws, if it measures.
+inline std::optional<measure::Kind> measuredBy(Tool tool) {
+    switch (tool) {
+    case Tool::distance:
+        return measure::Kind::distance;
+    case Tool::angle:
+        return measure::Kind::angle;
+    case Tool::ellipse:
+        return measure::Kind::ellipse;
+    case Tool::rectangle:
+        return measure::Kind::rectangle;
+    default:
+        return std::nullopt;
+    }
+}
 
 } // namespace pellucid::ui

@@ -66,6 +66,8 @@ void run(const std::string &suite, const pellucid::bench::Report &report,
         runThesisSuite(report);
     else if (suite == "shading")
         runShadingSuite(report);
+    else if (suite == "planes")
+        runPlanesSuite(report);
     else if (suite == "gpu")
         runGpuSuite(report);
     else if (suite == "classes")
@@ -85,7 +87,7 @@ int main(int argc, char **argv) {
     app.add_option("--suite", suites, "What to measure; several with commas between")
         ->delimiter(',')
         ->check(CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka",
-                               "classes", "shading", "gpu"}));
+                               "classes", "shading", "planes", "gpu"}));
     app.add_option("--volume", file,
                    "An NRRD volume in place of the fields of the suites kernels and scaling");
     app.add_option("--json", json, "Write the rows as JSON");

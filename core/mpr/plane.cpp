@@ -5,72 +5,95 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 namespace pellucid::mpr {
+
+glm::dvec3 Axes::toViewer() const {
+    return glm::cross(right, up);
+}
+
+Axes standardAxes(Orientation orientation) {
+    switch (orientation) {
+    case Orientation::axial:
+        return {{1, 0, 0}, {0, -1, 0}};
+    case Orientation::coronal:
+        return {{1, 0, 0}, {0, 0, 1}};
+    case Orientation::sagittal:
+        break;
+    }
+    return {{0, 1, 0}, {0, 0, 1}};
+}
+
+glm::dvec3 scrollAxis(const Axes &axes, Orientation orientation) {
+    return orientation == Orientation::sagittal ? axes.toViewer() : -axes.toViewer();
+}
+
+PlaneAxes::PlaneAxes() {
+    for (const Orientation o : allOrientations)
+        m_axes[std::size_t(o)] = standardAxes(o);
+}
+
+glm::dvec3 PlaneAxes::scrollAxis(Orientation orientation) const {
+    return mpr::scrollAxis(of(orientation), orientation);
+}
+
+PlaneAxes PlaneAxes::turned(Orientation about, double angleRad) const {
+    const glm::dquat turn = glm::angleAxis(angleRad, of(about).toViewer());
+    PlaneAxes out = *this;
+    for (const Orientation o : allOrientations) {
+        if (o == about)
+            continue;
+        // Many small turns add up: the axes are made orthonormal anew each time.
+        Axes &axes = out.m_axes[std::size_t(o)];
+        axes.right = glm::normalize(turn * axes.right);
+        const glm::dvec3 up = turn * axes.up;
+        axes.up = glm::normalize(up - glm::dot(up, axes.right) * axes.right);
+    }
+    return out;
+}
 
 volume::PatientPoint Plane::at(double column, double row) const {
     const double u = (column - 0.5 * (width - 1)) * pixelMm,
                  v = (0.5 * (height - 1) - row) * pixelMm;
-    return {center.mm + u * right + v * up};
+    return {center.mm + u * axes.right + v * axes.up};
 }
 
 glm::dvec2 Plane::pixel(volume::PatientPoint point) const {
     const glm::dvec3 d = point.mm - center.mm;
-    return {glm::dot(d, right) / pixelMm + 0.5 * (width - 1),
-            0.5 * (height - 1) - glm::dot(d, up) / pixelMm};
+    return {glm::dot(d, axes.right) / pixelMm + 0.5 * (width - 1),
+            0.5 * (height - 1) - glm::dot(d, axes.up) / pixelMm};
 }
 
-glm::dvec3 Plane::toViewer() const {
-    return glm::cross(right, up);
+double ScrollRange::moved(double positionMm, int steps) const {
+    double wanted = positionMm + steps * stepMm;
+    if (hasSlices)
+        wanted = lowMm + std::round((wanted - lowMm) / stepMm) * stepMm;
+    return std::clamp(wanted, lowMm, highMm);
 }
 
-bool Plane::operator==(const Plane &o) const {
-    return center.mm == o.center.mm && right == o.right && up == o.up && pixelMm == o.pixelMm &&
-           width == o.width && height == o.height;
-}
-
-void setAxes(Plane &plane, Orientation orientation) {
-    switch (orientation) {
-    case Orientation::axial:
-        plane.right = {1, 0, 0};
-        plane.up = {0, -1, 0};
-        break;
-    case Orientation::coronal:
-        plane.right = {1, 0, 0};
-        plane.up = {0, 0, 1};
-        break;
-    case Orientation::sagittal:
-        plane.right = {0, 1, 0};
-        plane.up = {0, 0, 1};
-        break;
-    }
-}
-
-glm::dvec3 scrollAxis(Orientation orientation) {
-    switch (orientation) {
-    case Orientation::axial:
-        return {0, 0, 1};
-    case Orientation::coronal:
-        return {0, 1, 0};
-    case Orientation::sagittal:
-        break;
-    }
-    return {1, 0, 0};
-}
-
-ScrollRange scrollRange(const volume::Lattice &lattice, Orientation orientation) {
-    const glm::dvec3 axis = scrollAxis(orientation);
+ScrollRange scrollRange(const volume::Lattice &lattice, const glm::dvec3 &normal) {
     const volume::GridSize n = lattice.size();
-    ScrollRange range{glm::dot(lattice.origin().mm, axis), glm::dot(lattice.origin().mm, axis),
-                      0.0};
+    const double origin = glm::dot(lattice.origin().mm, normal);
+    ScrollRange range{origin, origin, 0.0};
+    int within = 0, across = 0;
     for (int d = 0; d < 3; ++d) {
-        const double reach = (n[d] - 1) * glm::dot(lattice.step(d), axis);
+        const double along = glm::dot(lattice.step(d), normal);
+        const double reach = (n[d] - 1) * along;
         (reach < 0.0 ? range.lowMm : range.highMm) += reach;
-        // The step most nearly along the axis decides; the others move within the slice.
-        if (std::abs(glm::dot(lattice.step(d), axis)) >= 0.7 * lattice.spacingMm(d))
-            range.stepMm = std::max(range.stepMm, std::abs(glm::dot(lattice.step(d), axis)));
+        // A step that stays in the plane, up to the rounding of directions in files.
+        if (std::abs(along) < 1e-5 * lattice.spacingMm(d))
+            ++within;
+        else
+            across = d;
+        // The step most nearly along the normal decides; the others move within the slice.
+        if (std::abs(along) >= 0.7 * lattice.spacingMm(d))
+            range.stepMm = std::max(range.stepMm, std::abs(along));
     }
-    if (range.stepMm == 0.0)
+    range.hasSlices = within == 2;
+    if (range.hasSlices)
+        range.stepMm = std::abs(glm::dot(lattice.step(across), normal));
+    else if (range.stepMm == 0.0)
         range.stepMm = lattice.shortestStepMm();
     return range;
 }

@@ -2,7 +2,6 @@
 #include "ui/views/mpr_view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <QKeyEvent>
@@ -17,10 +16,14 @@
 #include "ui/document.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
+#include "ui/views/slice_picture.h"
 
 namespace pellucid::ui {
 
 namespace {
+
+constexpr double smoothCutMs = 16.0;
+constexpr int restMs = 150;
 
 QString titleOf(mpr::Orientation o) {
     switch (o) {
@@ -34,16 +37,11 @@ QString titleOf(mpr::Orientation o) {
     return MprView::tr("Sagittal");
 }
 
-const char *roleOf(mpr::Orientation o) {
-    switch (o) {
-    case mpr::Orientation::axial:
-        return "axial";
-    case mpr::Orientation::coronal:
-        return "coronal";
-    case mpr::Orientation::sagittal:
-        break;
-    }
-    return "sagittal";
+QString slabText(const mpr::Slab &slab) {
+    const QString mode = slab.mode == mpr::SlabMode::mean      ? MprView::tr("mean")
+                         : slab.mode == mpr::SlabMode::maximum ? MprView::tr("MIP")
+                                                               : MprView::tr("MinIP");
+    return MprView::tr("%1 of %2 mm").arg(mode).arg(slab.thicknessMm);
 }
 
 // "S 142.5": the side that the coordinate points to, and its size.
@@ -52,197 +50,207 @@ QString coordinateText(const glm::dvec3 &axis, double mm) {
     return QString("%1 %2").arg(QString::fromStdString(side)).arg(std::abs(mm), 0, 'f', 1);
 }
 
-constexpr std::array<mpr::Orientation, 3> allOrientations{
-    mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal};
-
-// A grey with as much of a class's color as the value belongs to it.
-QRgb tinted(uchar grey, const classify::TissueClass &tint, double value) {
-    constexpr double strength = 0.6;
-    const double share = strength * tint.membership(value);
-    const auto mix = [&](double part) {
-        return int(std::lround((1.0 - share) * grey + share * 255.0 * part));
-    };
-    return qRgb(mix(tint.color.red), mix(tint.color.green), mix(tint.color.blue));
+Qt::CursorShape cursorOf(Tool tool) {
+    switch (tool) {
+    case Tool::window:
+        return Qt::ArrowCursor;
+    case Tool::pan:
+        return Qt::OpenHandCursor;
+    case Tool::zoom:
+        return Qt::SizeVerCursor;
+    default:
+        return Qt::CrossCursor;
+    }
 }
 
 } // namespace
 
 MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *parent)
-    : QWidget(parent), m_document(document), m_orientation(orientation) {
-    setObjectName(QString("%1View").arg(roleOf(orientation)));
+    : QWidget(parent), m_document(document), m_orientation(orientation),
+      m_measure(document, false) {
+    setObjectName(QString("%1View").arg(colorRole(orientation)));
     setAccessibleName(titleOf(orientation));
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setMinimumSize(120, 100);
     setCursor(Qt::ArrowCursor);
-    const auto refresh = [this] {
-        m_imageValid = false;
-        update();
-    };
-    connect(&document, &Document::volumeChanged, this, [this, refresh] {
+    m_rest.setSingleShot(true);
+    m_rest.setInterval(restMs);
+    connect(&m_rest, &QTimer::timeout, this, &MprView::refresh);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        m_measure.cancel();
+        m_cutMs = 0.0;
         if (!m_document.isPreview())
             resetView();
         refresh();
     });
-    connect(&document, &Document::displayWindowChanged, this, refresh);
-    connect(&document, &Document::tintChanged, this, refresh);
-    connect(&document, &Document::crosshairChanged, this, refresh);
+    for (const auto changed : {&Document::displayWindowChanged, &Document::tintChanged,
+                               &Document::crosshairChanged, &Document::cutChanged})
+        connect(&document, changed, this, &MprView::refresh);
+    for (const auto changed :
+         {&Document::measurementsChanged, &Document::selectedMeasurementChanged})
+        connect(&document, changed, this, qOverload<>(&QWidget::update));
+}
+
+void MprView::refresh() {
+    m_imageValid = false;
+    update();
 }
 
 void MprView::setTool(Tool tool) {
     m_tool = tool;
-    setCursor(tool == Tool::pan         ? Qt::OpenHandCursor
-              : tool == Tool::zoom      ? Qt::SizeVerCursor
-              : tool == Tool::crosshair ? Qt::CrossCursor
-                                        : Qt::ArrowCursor);
+    m_measure.cancel();
+    setCursor(cursorOf(tool));
+    update();
+}
+
+// Images without positions have one way to be seen.
+bool MprView::showsVolume() const {
+    return m_document.volume() &&
+           (m_document.volume()->notes().placed || m_orientation == mpr::Orientation::axial);
+}
+
+glm::dvec3 MprView::scrollAxis() const {
+    return m_document.cut().axes.scrollAxis(m_orientation);
+}
+
+mpr::ScrollRange MprView::scrollRange() const {
+    return mpr::scrollRange(m_document.volume()->lattice(), scrollAxis());
 }
 
 mpr::Plane MprView::plane() const {
     mpr::Plane plane;
-    mpr::setAxes(plane, m_orientation);
+    plane.axes = m_document.cut().axes.of(m_orientation);
     const double ratio = devicePixelRatioF();
     plane.width = std::max(1, int(std::lround(width() * ratio)));
     plane.height = std::max(1, int(std::lround(height() * ratio)));
     if (!m_document.volume())
         return plane;
     const volume::Lattice &lattice = m_document.volume()->lattice();
-    // Fits the box around the lattice, as this plane sees it.
-    double halfWidth = 1.0, halfHeight = 1.0;
-    const glm::dvec3 n(lattice.size().i, lattice.size().j, lattice.size().k);
-    halfWidth = halfHeight = 0.0;
+    // Fits the box around the lattice, as the pane sees it before it is turned: turning is not to
+    // change the size of things.
+    const mpr::Axes upright = mpr::standardAxes(m_orientation);
+    double halfWidth = 0.0, halfHeight = 0.0;
     for (int d = 0; d < 3; ++d) {
-        halfWidth += 0.5 * n[d] * std::abs(glm::dot(lattice.step(d), plane.right));
-        halfHeight += 0.5 * n[d] * std::abs(glm::dot(lattice.step(d), plane.up));
+        halfWidth += 0.5 * lattice.size()[d] * std::abs(glm::dot(lattice.step(d), upright.right));
+        halfHeight += 0.5 * lattice.size()[d] * std::abs(glm::dot(lattice.step(d), upright.up));
     }
     plane.pixelMm =
         std::max(2.0 * halfWidth / plane.width, 2.0 * halfHeight / plane.height) / m_zoom;
-    const glm::dvec3 axis = mpr::scrollAxis(m_orientation);
+    const glm::dvec3 axis = scrollAxis();
     const double depth = glm::dot(m_document.crosshair().mm - lattice.center().mm, axis);
-    plane.center = {lattice.center().mm + depth * axis + m_panMm.x * plane.right +
-                    m_panMm.y * plane.up};
+    plane.center = {lattice.center().mm + depth * axis + m_panMm.x * plane.axes.right +
+                    m_panMm.y * plane.axes.up};
     return plane;
 }
 
-volume::PatientPoint MprView::patientAt(const QPointF &position) const {
-    const double ratio = devicePixelRatioF();
-    return plane().at(position.x() * ratio - 0.5, position.y() * ratio - 0.5);
+CrosshairLines MprView::crosshairLines() const {
+    return {mapping(), m_document.crosshair(), m_document.cut().axes, m_orientation};
 }
 
-QPointF MprView::widgetPosition(const mpr::Plane &plane, volume::PatientPoint point) const {
-    const glm::dvec2 pixel = plane.pixel(point);
-    return QPointF(pixel.x + 0.5, pixel.y + 0.5) / devicePixelRatioF();
+MeasureTool::Pane MprView::measurePane() const {
+    // What lies in the slab, or nearer to this slice than to the next.
+    return {mapping(),
+            std::max(0.5 * m_document.cut().options.slab.thicknessMm, 0.5 * scrollRange().stepMm)};
 }
 
 void MprView::updateImage() {
     m_imageValid = true;
     const volume::Volume &volume = *m_document.volume();
-    const mpr::SliceImage slice = mpr::reslice(volume, plane());
-    const auto &tint = m_document.tint();
-    m_image =
-        QImage(slice.width, slice.height, tint ? QImage::Format_RGB32 : QImage::Format_Grayscale8);
-    const volume::ValueWindow &window = m_document.displayWindow();
-    const auto low = float(window.center - 0.5 * window.width), scale = float(255.0 / window.width);
-    const bool inverted = volume.notes().darkIsHigh;
-    for (int r = 0; r < slice.height; ++r) {
-        uchar *out = m_image.scanLine(r);
-        auto *const pixels = reinterpret_cast<QRgb *>(out);
-        const float *in = slice.values.data() + std::size_t(r) * slice.width;
-        for (int c = 0; c < slice.width; ++c) {
-            // Outside the volume is black, inverted or not.
-            const bool isOutside = std::isnan(in[c]);
-            const float bright = std::clamp((in[c] - low) * scale, 0.0F, 255.0F);
-            const auto grey = uchar(isOutside ? 0.0F : inverted ? 255.0F - bright : bright);
-            if (tint)
-                pixels[c] = isOutside ? qRgb(0, 0, 0) : tinted(grey, *tint, double(in[c]));
-            else
-                out[c] = grey;
-        }
+    mpr::Plane cut = plane();
+    const bool isDraft =
+        m_cutMs > smoothCutMs && m_sinceCut.isValid() && m_sinceCut.elapsed() < restMs;
+    if (isDraft) {
+        cut.width = (cut.width + 1) / 2;
+        cut.height = (cut.height + 1) / 2;
+        cut.pixelMm *= 2.0;
+        m_rest.start();
     }
-    m_image.setDevicePixelRatio(devicePixelRatioF());
+    QElapsedTimer clock;
+    clock.start();
+    m_image =
+        slicePicture(mpr::reslice(volume, cut, m_document.cut().options),
+                     m_document.displayWindow(), volume.notes().darkIsHigh, m_document.tint());
+    m_image.setDevicePixelRatio(isDraft ? 0.5 * devicePixelRatioF() : devicePixelRatioF());
+    if (!isDraft)
+        m_cutMs = double(clock.nsecsElapsed()) * 1e-6;
+    m_sinceCut.restart();
 }
 
 void MprView::paintEvent(QPaintEvent *) {
     QPainter painter(this);
     painter.fillRect(rect(), QColor(pictureBackground));
-    const mpr::Plane shown = plane();
-    if (m_document.volume()) {
-        // Images without positions have one way to be seen.
-        if (!m_document.volume()->notes().placed && m_orientation != mpr::Orientation::axial) {
-            painter.setPen(overlayColors(roleOf(m_orientation)).muted);
-            painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
-                             tr("Images only: no volume to cut"));
-        } else {
-            if (!m_imageValid)
-                updateImage();
-            painter.drawImage(QPoint(0, 0), m_image);
-            paintCrosshair(painter, shown);
-            paintTexts(painter, shown);
-        }
+    const OverlayColors colors = overlayColors(colorRole(m_orientation));
+    if (showsVolume()) {
+        if (!m_imageValid)
+            updateImage();
+        painter.setRenderHint(QPainter::SmoothPixmapTransform);
+        painter.drawImage(QPoint(0, 0), m_image);
+        painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
+        painter.save();
+        painter.setClipRegion(QRegion(rect()) - upperAndLowerLetters(rect()));
+        crosshairLines().paint(painter, size(), m_tool == Tool::crosshair);
+        painter.restore();
+        m_measure.paint(painter, measurePane(), colors);
+        paintTexts(painter, mapping());
+    } else if (m_document.volume()) {
+        painter.setPen(colors.muted);
+        painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
+                         tr("Images only: no volume to cut"));
     } else {
-        paintTexts(painter, shown);
+        paintTexts(painter, mapping());
     }
-    painter.fillRect(QRect(0, 0, width(), 3), overlayColors(roleOf(m_orientation)).plane);
+    painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
     if (hasFocus()) {
-        QColor focus = overlayColors(roleOf(m_orientation)).accent;
+        QColor focus = colors.accent;
         focus.setAlpha(140);
         painter.setPen(QPen(focus, 1));
         painter.drawRect(rect().adjusted(0, 3, -1, -1));
     }
 }
 
-void MprView::paintCrosshair(QPainter &painter, const mpr::Plane &shown) {
-    const QPointF at = widgetPosition(shown, m_document.crosshair());
-    for (const mpr::Orientation other : allOrientations) {
-        if (other == m_orientation)
-            continue;
-        // The other plane cuts this one along a line on which its own axis does not change.
-        const glm::dvec3 axis = mpr::scrollAxis(other);
-        QColor color = overlayColors(roleOf(other)).plane;
-        color.setAlpha(170);
-        painter.setPen(QPen(color, 1));
-        if (std::abs(glm::dot(axis, shown.right)) > 0.5)
-            painter.drawLine(QPointF(std::floor(at.x()) + 0.5, 3),
-                             QPointF(std::floor(at.x()) + 0.5, height()));
-        else
-            painter.drawLine(QPointF(0, std::floor(at.y()) + 0.5),
-                             QPointF(width(), std::floor(at.y()) + 0.5));
-    }
-}
-
-void MprView::paintTexts(QPainter &painter, const mpr::Plane &shown) {
-    const OverlayColors colors = overlayColors(roleOf(m_orientation));
+void MprView::paintTexts(QPainter &painter, const PaneMapping &mapping) {
+    const OverlayColors colors = overlayColors(colorRole(m_orientation));
+    const QRect inner = rect().adjusted(8, 8, -8, -8);
+    const Cut &cut = m_document.cut();
+    painter.save();
     QFont bold = painter.font();
     bold.setBold(true);
-    painter.save();
     painter.setFont(bold);
-    drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignLeft | Qt::AlignTop,
-             titleOf(m_orientation), colors.plane);
+    const QString title = titleOf(m_orientation);
+    drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop,
+             cut.axes.of(m_orientation) == mpr::standardAxes(m_orientation)
+                 ? title
+                 : tr("%1, oblique").arg(title),
+             colors.plane);
     painter.restore();
     if (!m_document.volume())
         return;
-    const glm::dvec3 axis = mpr::scrollAxis(m_orientation);
-    const bool placed = m_document.volume()->notes().placed;
+    const volume::VolumeNotes &notes = m_document.volume()->notes();
+    const int line = painter.fontMetrics().height() + 3;
+    const glm::dvec3 axis = scrollAxis();
     const QString position =
-        placed
+        notes.placed
             ? coordinateText(axis, glm::dot(m_document.crosshair().mm, axis)) + " mm"
             : tr("image %1")
                   .arg(1 + int(std::lround(
                                m_document.volume()->lattice().voxel(m_document.crosshair()).v.z)));
-    drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignTop, position,
-             colors.text);
-    if (placed)
-        drawOrientationLetters(painter, rect(), shown.right, shown.up, colors);
-    drawScaleBar(painter, QPoint(10, height() - 10), 1.0 / (shown.pixelMm * devicePixelRatioF()),
+    drawText(painter, inner, Qt::AlignRight | Qt::AlignTop, position, colors.text);
+    if (cut.options.slab.thicknessMm > 0.0)
+        drawText(painter, inner.adjusted(0, line, 0, 0), Qt::AlignRight | Qt::AlignTop,
+                 slabText(cut.options.slab), colors.text);
+    if (notes.placed)
+        drawOrientationLetters(painter, rect(), mapping.plane.axes.right, mapping.plane.axes.up,
+                               colors);
+    drawScaleBar(painter, QPoint(10, height() - 10), mapping.pixelsPerMm(),
                  std::min(110, width() / 3), colors);
-    const auto &warnings = m_document.volume()->notes().warnings;
-    if (!warnings.empty())
-        drawText(painter, rect().adjusted(8, 8, -8, -24), Qt::AlignRight | Qt::AlignBottom,
-                 painter.fontMetrics().elidedText(QString::fromStdString(warnings.front()),
+    if (!notes.warnings.empty())
+        drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
+                 painter.fontMetrics().elidedText(QString::fromStdString(notes.warnings.front()),
                                                   Qt::ElideRight, width() / 2),
                  colors.warning);
-    if (m_document.volume()->notes().lossy)
-        drawText(painter, rect().adjusted(8, 8, -8, -8), Qt::AlignRight | Qt::AlignBottom,
-                 tr("lossy"), colors.warning);
+    if (notes.lossy)
+        drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, tr("lossy"), colors.warning);
 }
 
 void MprView::resizeEvent(QResizeEvent *) {
@@ -251,56 +259,87 @@ void MprView::resizeEvent(QResizeEvent *) {
 
 void MprView::mousePressEvent(QMouseEvent *event) {
     setFocus();
-    if (!m_document.volume())
+    if (!showsVolume())
         return;
     m_last = event->position().toPoint();
     m_drag = nextDragId();
-    m_dragging = true;
-    if (event->button() == Qt::MiddleButton)
+    m_dragging = Drag::none;
+    if (event->button() == Qt::MiddleButton) {
+        m_dragging = Drag::tool;
         m_dragTool = Tool::pan;
-    else if (event->button() == Qt::LeftButton)
+    } else if (event->button() == Qt::LeftButton) {
         m_dragTool = m_tool;
-    else
-        m_dragging = false;
-    if (m_dragging && m_dragTool == Tool::crosshair)
+        if (m_tool == Tool::crosshair && crosshairLines().isHandleAt(m_last, size())) {
+            m_dragging = Drag::turn;
+            m_turnAngle = crosshairLines().angleAt(m_last);
+        } else if (m_measure.press(measurePane(), event->position(), measuredBy(m_tool))) {
+            m_dragging = Drag::measure;
+        } else {
+            m_dragging = Drag::tool;
+        }
+    }
+    if (m_dragging == Drag::tool && m_dragTool == Tool::crosshair)
         moveCrosshair(m_last);
+    update();
 }
 
 void MprView::mouseMoveEvent(QMouseEvent *event) {
     const QPoint position = event->position().toPoint();
-    if (!m_document.volume())
+    if (!showsVolume())
         return;
-    if (m_dragging)
+    if (m_measure.isBusy()) {
+        m_measure.move(measurePane(), event->position());
+        update();
+    } else if (m_dragging == Drag::turn) {
+        turnTo(position);
+    } else if (m_dragging == Drag::tool) {
         drag(position - m_last, position);
-    else if ((event->modifiers() & Qt::ShiftModifier) != 0)
+    } else if ((event->modifiers() & Qt::ShiftModifier) != 0) {
         moveCrosshair(position);
+    } else {
+        showCursor(event->position());
+    }
     m_last = position;
-    const volume::PatientPoint at = patientAt(event->position());
-    const float value = mpr::valueAt(*m_document.volume(), at);
+    showReadout(event->position());
+}
+
+void MprView::showCursor(const QPointF &position) {
+    const bool turns = m_tool == Tool::crosshair && crosshairLines().isHandleAt(position, size());
+    setCursor(turns || m_measure.isOver(measurePane(), position) ? Qt::PointingHandCursor
+                                                                 : cursorOf(m_tool));
+}
+
+void MprView::showReadout(const QPointF &position) {
+    const volume::Volume &volume = *m_document.volume();
+    const volume::PatientPoint at = mapping().patientAt(position);
+    const float value = mpr::valueAt(volume, at, m_document.cut().options.interpolation);
     if (std::isnan(value)) {
         emit readoutChanged({});
         return;
     }
-    const bool hounsfield = m_document.volume()->unit() == volume::ValueUnit::hounsfield;
-    QString text =
-        m_document.volume()->notes().placed
-            ? QString("%1  %2  %3 mm   ")
-                  .arg(coordinateText({1, 0, 0}, at.mm.x), coordinateText({0, 1, 0}, at.mm.y),
-                       coordinateText({0, 0, 1}, at.mm.z))
-            : QString();
-    text +=
-        QString::number(double(value), 'f', hounsfield || !m_document.volume()->isFloat() ? 0 : 3) +
-        (hounsfield ? " HU" : "");
+    const bool hounsfield = volume.unit() == volume::ValueUnit::hounsfield;
+    QString text = volume.notes().placed ? QString("%1  %2  %3 mm   ")
+                                               .arg(coordinateText({1, 0, 0}, at.mm.x),
+                                                    coordinateText({0, 1, 0}, at.mm.y),
+                                                    coordinateText({0, 0, 1}, at.mm.z))
+                                         : QString();
+    text += QString::number(double(value), 'f', hounsfield || !volume.isFloat() ? 0 : 3) +
+            (hounsfield ? " HU" : "");
     emit readoutChanged(text);
 }
 
-void MprView::mouseReleaseEvent(QMouseEvent *) {
-    m_dragging = false;
+void MprView::mouseReleaseEvent(QMouseEvent *event) {
+    if (m_dragging == Drag::measure)
+        m_measure.release(measurePane(), event->position());
+    m_dragging = Drag::none;
+    update();
 }
 
 void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
-    if (event->button() == Qt::LeftButton)
+    if (event->button() == Qt::LeftButton && !measuredBy(m_tool))
         emit maximizeRequested(this);
+    else
+        mousePressEvent(event);
 }
 
 void MprView::drag(const QPoint &delta, const QPoint &to) {
@@ -315,13 +354,22 @@ void MprView::drag(const QPoint &delta, const QPoint &to) {
         zoomBy(std::exp(-0.008 * delta.y()));
         break;
     case Tool::pan: {
-        const double mm = plane().pixelMm * devicePixelRatioF();
-        m_panMm += glm::dvec2(-delta.x() * mm, delta.y() * mm);
-        m_imageValid = false;
-        update();
+        const double pixelsPerMm = mapping().pixelsPerMm();
+        m_panMm += glm::dvec2(-delta.x(), delta.y()) / pixelsPerMm;
+        refresh();
         break;
     }
+    default: // what measures has its own drags
+        break;
     }
+}
+
+void MprView::turnTo(const QPoint &to) {
+    const double angle = crosshairLines().angleAt(to);
+    Cut cut = m_document.cut();
+    cut.axes = cut.axes.turned(m_orientation, angle - m_turnAngle);
+    m_turnAngle = angle;
+    m_document.setCut(cut);
 }
 
 void MprView::windowBy(const QPoint &delta) {
@@ -339,38 +387,40 @@ void MprView::windowBy(const QPoint &delta) {
 void MprView::moveCrosshair(const QPoint &to) {
     const volume::Lattice &lattice = m_document.volume()->lattice();
     // Stays within the volume, where every pane has something to show.
-    glm::dvec3 v = lattice.voxel(patientAt(to)).v;
+    glm::dvec3 v = lattice.voxel(mapping().patientAt(to)).v;
     v = glm::clamp(v, glm::dvec3(0.0),
                    glm::dvec3(lattice.size().i - 1, lattice.size().j - 1, lattice.size().k - 1));
     m_document.setCrosshair(lattice.patient(volume::VoxelPoint{v}));
 }
 
 void MprView::scroll(int steps) {
-    if (!m_document.volume())
+    if (!showsVolume())
         return;
-    const mpr::ScrollRange range = mpr::scrollRange(m_document.volume()->lattice(), m_orientation);
-    const glm::dvec3 axis = mpr::scrollAxis(m_orientation);
-    const glm::dvec3 at = m_document.crosshair().mm;
+    const glm::dvec3 axis = scrollAxis(), at = m_document.crosshair().mm;
     const double depth = glm::dot(at, axis);
-    const double wanted = std::clamp(depth + steps * range.stepMm, range.lowMm, range.highMm);
-    m_document.setCrosshair({at + (wanted - depth) * axis});
+    m_document.setCrosshair({at + (scrollRange().moved(depth, steps) - depth) * axis});
 }
 
 void MprView::scrollToEnd(bool last) {
     scroll(last ? 1000000 : -1000000);
 }
 
+bool MprView::isAtEnd() const {
+    if (!showsVolume())
+        return true;
+    const mpr::ScrollRange range = scrollRange();
+    return glm::dot(m_document.crosshair().mm, scrollAxis()) > range.highMm - 0.5 * range.stepMm;
+}
+
 void MprView::zoomBy(double factor) {
     m_zoom = std::clamp(m_zoom * factor, 0.2, 40.0);
-    m_imageValid = false;
-    update();
+    refresh();
 }
 
 void MprView::resetView() {
     m_zoom = 1.0;
     m_panMm = {0.0, 0.0};
-    m_imageValid = false;
-    update();
+    refresh();
 }
 
 void MprView::wheelEvent(QWheelEvent *event) {
@@ -401,6 +451,14 @@ void MprView::keyPressEvent(QKeyEvent *event) {
         break;
     case Qt::Key_R:
         resetView();
+        break;
+    case Qt::Key_Escape:
+        if (!m_measure.isBusy()) {
+            QWidget::keyPressEvent(event);
+            break;
+        }
+        m_measure.cancel();
+        update();
         break;
     default:
         QWidget::keyPressEvent(event);

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QElapsedTimer>
 #include <QImage>
+#include <QTimer>
 #include <QWidget>
 
 #include "core/mpr/plane.h"
 #include "ui/commands.h"
 #include "ui/tools.h"
+#include "ui/views/crosshair.h"
+#include "ui/views/measure_tool.h"
 
 namespace pellucid::ui {
 
 class Document;
 
-/// One orthogonal plane of the open volume: scroll, window, pan, zoom, crosshair, letters, scale.
+/// One of the three planes of the open volume: scroll, window, pan, zoom, crosshair and its
+/// turning, measurements, letters, scale.
 class MprView : public QWidget {
     Q_OBJECT
 public:
@@ -22,9 +27,12 @@ public:
     mpr::Orientation orientation() const { return m_orientation; }
     /// The plane that is shown, in device pixels of this widget.
     mpr::Plane plane() const;
+    PaneMapping mapping() const { return {plane(), devicePixelRatioF()}; }
     /// Steps through the slices.
     void scroll(int steps);
     void scrollToEnd(bool last);
+    /// Whether the last slice is shown.
+    bool isAtEnd() const;
     void resetView();
 
 signals:
@@ -44,27 +52,42 @@ protected:
     void leaveEvent(QEvent *event) override;
 
 private:
+    /// What a drag does.
+    enum class Drag { none, tool, turn, measure };
+
+    bool showsVolume() const;
+    void refresh();
     void updateImage();
-    void paintCrosshair(QPainter &painter, const mpr::Plane &plane);
-    void paintTexts(QPainter &painter, const mpr::Plane &plane);
+    void paintTexts(QPainter &painter, const PaneMapping &mapping);
     void drag(const QPoint &delta, const QPoint &to);
     void moveCrosshair(const QPoint &to);
+    void turnTo(const QPoint &to);
     void windowBy(const QPoint &delta);
     void zoomBy(double factor);
-    volume::PatientPoint patientAt(const QPointF &position) const;
-    QPointF widgetPosition(const mpr::Plane &plane, volume::PatientPoint point) const;
+    void showReadout(const QPointF &position);
+    void showCursor(const QPointF &position);
+    glm::dvec3 scrollAxis() const;
+    mpr::ScrollRange scrollRange() const;
+    CrosshairLines crosshairLines() const;
+    MeasureTool::Pane measurePane() const;
 
     Document &m_document;
     const mpr::Orientation m_orientation;
+    MeasureTool m_measure;
     Tool m_tool = Tool::window;
     Tool m_dragTool = Tool::window;
-    bool m_dragging = false;
+    Drag m_dragging = Drag::none;
     DragId m_drag = 0;
+    double m_turnAngle = 0.0;
     QPoint m_last;
     double m_zoom = 1.0;
     glm::dvec2 m_panMm{0.0};
     QImage m_image;
     bool m_imageValid = false;
+    /// Cuts slower than the hand are made of half the pixels while it moves.
+    double m_cutMs = 0.0;
+    QElapsedTimer m_sinceCut;
+    QTimer m_rest;
 };
 
 } // namespace pellucid::ui

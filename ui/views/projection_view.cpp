@@ -6,11 +6,14 @@
 
 #include <QKeyEvent>
 #include <QMouseEvent>
-#include <QPainter>
 #include <QWheelEvent>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "ui/document.h"
 #include "ui/overlay.h"
+#include "ui/views/projection_overlay.h"
 
 namespace pellucid::ui {
 
@@ -25,27 +28,9 @@ constexpr double radiansPerPixel = 0.008;
 
 } // namespace
 
-// Drawn over the canvas, which may be an OpenGL surface.
-class ProjectionView::Overlay : public QWidget {
-public:
-    explicit Overlay(ProjectionView *view) : QWidget(view), m_view(view) {
-        setAttribute(Qt::WA_TransparentForMouseEvents);
-        setAttribute(Qt::WA_NoSystemBackground);
-    }
-
-protected:
-    void paintEvent(QPaintEvent *) override {
-        QPainter painter(this);
-        m_view->paintOverlay(painter);
-    }
-
-private:
-    ProjectionView *m_view;
-};
-
 ProjectionView::ProjectionView(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_canvas(makeProjectionCanvas(this)),
-      m_overlay(new Overlay(this)) {
+      m_measure(document, true), m_overlay(new ProjectionOverlay(document, m_measure, this)) {
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));
     setFocusPolicy(Qt::StrongFocus);
@@ -73,10 +58,15 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         m_message = m_document.volume() ? tr("Preparing the projection") : QString();
         m_canvas->setImage({});
         m_zoom = 1.0;
+        m_measure.cancel();
         fitCamera();
-        m_overlay->update();
+        showTexts();
     });
-    connect(&document, &Document::cameraChanged, this, [this] { m_overlay->update(); });
+    connect(&document, &Document::cameraChanged, this,
+            [this] { m_overlay->setMapping(mapping()); });
+    for (const auto changed :
+         {&Document::measurementsChanged, &Document::selectedMeasurementChanged})
+        connect(&document, changed, this, [this] { m_overlay->update(); });
     connect(&document, &Document::sceneChanged, this, [this] {
         // Another number of lights or kind of cue has a brightness of its own; what the hand drags
         // keeps it.
@@ -86,7 +76,6 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
             m_automaticTone.reset();
         updateTone();
         requestFrame(false);
-        m_overlay->update();
     });
 }
 
@@ -140,7 +129,7 @@ void ProjectionView::adoptCamera(const render::Camera &wanted) {
 
 void ProjectionView::setLookName(const QString &name) {
     m_lookName = name;
-    m_overlay->update();
+    showTexts();
 }
 
 void ProjectionView::retakeTone() {
@@ -150,12 +139,12 @@ void ProjectionView::retakeTone() {
 
 void ProjectionView::setPlanState(PlanState state) {
     m_planState = state;
-    m_overlay->update();
+    showTexts();
 }
 
 void ProjectionView::setMessage(const QString &message) {
     m_message = message;
-    m_overlay->update();
+    showTexts();
 }
 
 double ProjectionView::fittingPixelMm() const {
@@ -236,7 +225,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     else
         m_canvas->setImage(frame->image);
     updateTone();
-    m_overlay->update();
+    showTexts();
     emit frameShown(frame->times, frame->draft);
     const std::string engine = frame->onCard ? m_onCard->description() : m_engine->description();
     emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(engine), frame->refusal.isEmpty()
@@ -274,8 +263,41 @@ void ProjectionView::resizeEvent(QResizeEvent *) {
     requestFrame(false);
 }
 
+PaneMapping ProjectionView::mapping() const {
+    PaneMapping mapping;
+    mapping.pixelRatio = devicePixelRatioF();
+    const render::Camera &camera = m_document.scene().camera;
+    const glm::dmat3 axes = camera.axes();
+    mapping.plane = {{}, {axes[0], axes[1]}, camera.pixelMm, camera.width, camera.height};
+    if (m_document.volume())
+        mapping.plane.center = {m_document.volume()->lattice().center().mm +
+                                camera.panMm.x * axes[0] + camera.panMm.y * axes[1]};
+    return mapping;
+}
+
+void ProjectionView::setTool(Tool tool) {
+    m_tool = tool;
+    m_measure.cancel();
+    showCursor();
+}
+
+void ProjectionView::showCursor() {
+    if (m_tool == Tool::distance)
+        setCursor(Qt::CrossCursor);
+    else
+        unsetCursor();
+}
+
 void ProjectionView::mousePressEvent(QMouseEvent *event) {
     setFocus();
+    if (event->button() == Qt::LeftButton && m_frame &&
+        m_measure.press({mapping(), 0.0}, event->position(),
+                        m_tool == Tool::distance ? std::optional(measure::Kind::projectedDistance)
+                                                 : std::nullopt)) {
+        m_button = Qt::NoButton;
+        m_overlay->update();
+        return;
+    }
     m_button = event->button();
     m_last = event->position().toPoint();
     m_drag = nextDragId();
@@ -287,6 +309,11 @@ void ProjectionView::mousePressEvent(QMouseEvent *event) {
 void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
     const QPoint position = event->position().toPoint(), delta = position - m_last;
     m_last = position;
+    if (m_measure.isBusy()) {
+        m_measure.move({mapping(), 0.0}, event->position());
+        m_overlay->update();
+        return;
+    }
     if (!m_engine || delta.isNull())
         return;
     if (m_button == Qt::LeftButton)
@@ -297,9 +324,12 @@ void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
         windowBy(delta);
 }
 
-void ProjectionView::mouseReleaseEvent(QMouseEvent *) {
+void ProjectionView::mouseReleaseEvent(QMouseEvent *event) {
+    if (m_measure.isBusy())
+        m_measure.release({mapping(), 0.0}, event->position());
     m_button = Qt::NoButton;
-    unsetCursor();
+    showCursor();
+    m_overlay->update();
 }
 
 void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
@@ -315,6 +345,22 @@ void ProjectionView::orbit(const QPoint &delta) {
     camera.orientation = glm::normalize(camera.orientation * turn);
     m_document.setCamera(camera);
     requestFrame(true);
+}
+
+void ProjectionView::turnAroundPatient(double degrees) {
+    render::Camera camera = m_document.scene().camera;
+    camera.orientation = glm::normalize(glm::angleAxis(glm::radians(degrees), glm::dvec3(0, 0, 1)) *
+                                        camera.orientation);
+    m_document.setCamera(camera);
+    requestFrame(true);
+}
+
+void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {
+    render::Camera camera = m_document.scene().camera;
+    camera.orientation =
+        glm::normalize(glm::quat_cast(glm::dmat3(right, up, glm::cross(right, up))));
+    m_document.setCamera(camera);
+    requestFrame(false);
 }
 
 void ProjectionView::pan(const QPoint &delta) {
@@ -378,64 +424,28 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
         orbit({event->key() == Qt::Key_Left ? -11 : 11, 0}); // about five degrees
     else if (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down)
         orbit({0, event->key() == Qt::Key_Up ? -11 : 11});
+    else if (event->key() == Qt::Key_Escape && m_measure.isBusy())
+        m_measure.cancel();
     else
         QWidget::keyPressEvent(event);
 }
 
-void ProjectionView::paintOverlay(QPainter &painter) {
-    const OverlayColors colors = overlayColors("accent");
-    painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
-    const QRect inner = rect().adjusted(10, 8, -10, -8);
-    const int line = painter.fontMetrics().height() + 3;
-    painter.save();
-    QFont bold = painter.font();
-    bold.setBold(true);
-    painter.setFont(bold);
-    drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop, tr("Projection"), colors.plane);
-    painter.restore();
-    drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, tr("Parallel projection"),
-             colors.muted);
-    const QRect second = inner.adjusted(0, line, 0, 0);
-    drawText(painter, second, Qt::AlignRight | Qt::AlignTop, tr("Not for diagnostic use"),
-             colors.muted);
-    if (!m_document.volume())
-        return;
-    drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, m_lookName, colors.text);
-    // Warnings of the geometry stay on the image.
-    QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
-    for (const std::string &w : m_document.volume()->notes().warnings) {
-        drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
-                 painter.fontMetrics().elidedText(QString::fromStdString(w), Qt::ElideRight,
-                                                  warning.width()),
-                 colors.warning);
-        warning.translate(0, line);
+void ProjectionView::showTexts() {
+    ProjectionOverlay::Texts texts{m_lookName, m_message, {}};
+    if (m_frame) {
+        // The error is that of the picture, which may still be the former engine's.
+        const QString quality = m_planState == PlanState::givenUp ? tr("cancelled: F5 prepares it")
+                                : m_frameStage == EngineStage::coarse ? tr("coarse")
+                                : m_frameStage == EngineStage::live   ? tr("live")
+                                : m_planState == PlanState::underway
+                                    ? tr("error not known yet")
+                                    : tr("error %1 %").arg(100.0 * m_frameError, 0, 'f', 3);
+        texts.figures = QString("%1  %2  %3")
+                            .arg(m_frame->onCard ? "GPU" : "CPU")
+                            .arg(millisecondsText(m_frame->times.totalMs()))
+                            .arg(m_frame->draft ? tr("draft") : quality);
     }
-    if (!m_message.isEmpty()) {
-        painter.setPen(colors.muted);
-        painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
-                         m_message);
-    }
-    if (!m_frame)
-        return;
-    // The error is that of the picture, which may still be the former engine's.
-    const QString quality = m_planState == PlanState::givenUp     ? tr("cancelled: F5 prepares it")
-                            : m_frameStage == EngineStage::coarse ? tr("coarse")
-                            : m_frameStage == EngineStage::live   ? tr("live")
-                            : m_planState == PlanState::underway
-                                ? tr("error not known yet")
-                                : tr("error %1 %").arg(100.0 * m_frameError, 0, 'f', 3);
-    drawText(painter, inner, Qt::AlignRight | Qt::AlignTop,
-             QString("%1  %2  %3")
-                 .arg(m_frame->onCard ? "GPU" : "CPU")
-                 .arg(millisecondsText(m_frame->times.totalMs()))
-                 .arg(m_frame->draft ? tr("draft") : quality),
-             colors.text);
-    const render::Camera &camera = m_document.scene().camera;
-    const glm::dmat3 axes = camera.axes();
-    drawOrientationLetters(painter, rect().adjusted(0, line, 0, -line), axes[0], axes[1], colors);
-    drawOrientationCube(painter, QPointF(58, height() - 58), 40, axes, colors);
-    drawScaleBar(painter, QPoint(width() - 180, height() - 34),
-                 1.0 / (camera.pixelMm * devicePixelRatioF()), 120, colors);
+    m_overlay->setTexts(texts);
 }
 
 } // namespace pellucid::ui

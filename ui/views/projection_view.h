@@ -11,11 +11,14 @@
 #include "ui/look_preparer.h"
 #include "ui/render_worker.h"
 #include "ui/shown_engine.h"
+#include "ui/tools.h"
+#include "ui/views/measure_tool.h"
 #include "ui/views/projection_canvas.h"
 
 namespace pellucid::ui {
 
 class Document;
+class ProjectionOverlay;
 
 /// The Fourier projection of the open volume: orbit, pan, zoom, window and level. Draws a draft
 /// while the mouse moves if a full frame would lag, and the full frame when it rests.
@@ -41,6 +44,12 @@ public:
     void jobStarted();
     void showStandardView(render::StandardView view);
     void resetView();
+    /// Of the tools only that of distances matters here; else the left button orbits.
+    void setTool(Tool tool);
+    /// About the patient's long axis.
+    void turnAroundPatient(double degrees);
+    /// With these image axes, as a distance in the plane of a picture was measured.
+    void lookAlong(const glm::dvec3 &right, const glm::dvec3 &up);
     /// The picture as it is seen, without annotations. *Throws* Error{noSuchDevice} if the graphics
     /// card that holds it is gone, Error{outOfMemory}.
     QImage picture() const;
@@ -69,7 +78,6 @@ protected:
     bool event(QEvent *event) override;
 
 private:
-    class Overlay;
     void fitCamera();
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
@@ -79,11 +87,14 @@ private:
     void windowBy(const QPoint &delta);
     void zoomBy(double factor);
     double fittingPixelMm() const;
-    void paintOverlay(QPainter &painter);
+    void showTexts();
+    void showCursor();
+    PaneMapping mapping() const;
 
     Document &m_document;
     std::unique_ptr<ProjectionCanvas> m_canvas;
-    Overlay *m_overlay;
+    MeasureTool m_measure;
+    ProjectionOverlay *m_overlay;
     RenderWorker m_worker;
     QTimer m_rest;
     std::shared_ptr<render::ProjectionEngine> m_engine;
@@ -101,6 +112,7 @@ private:
     bool m_pending = false, m_takesLight = false;
     PlanState m_planState = PlanState::holds;
     std::uint64_t m_requested = 0, m_generation = 0;
+    Tool m_tool = Tool::window;
     Qt::MouseButton m_button = Qt::NoButton;
     DragId m_drag = 0;
     QPoint m_last;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include <glm/geometric.hpp>
 
 #include "core/mpr/reslice.h"
 #include "tests/support/fields.h"
@@ -27,8 +30,7 @@ TEST(Reslice, ReproducesALinearFunctionOnATiltedLattice) {
     const volume::Volume volume(lattice, samples, volume::ValueUnit::none);
     for (const auto orientation :
          {Orientation::axial, Orientation::coronal, Orientation::sagittal}) {
-        mpr::Plane plane{lattice.center(), {}, {}, 0.8, 21, 17};
-        mpr::setAxes(plane, orientation);
+        const mpr::Plane plane{lattice.center(), mpr::standardAxes(orientation), 0.8, 21, 17};
         const auto image = mpr::reslice(volume, plane);
         int inside = 0;
         for (int r = 0; r < 17; ++r)
@@ -53,23 +55,103 @@ TEST(Reslice, OutsideTheVolumeThereIsNothing) {
 }
 
 TEST(Reslice, PlanesFollowTheRadiologicalConvention) {
-    mpr::Plane plane{{}, {}, {}, 1.0, 11, 11};
-    mpr::setAxes(plane, Orientation::axial);
+    mpr::Plane plane{{}, mpr::standardAxes(Orientation::axial), 1.0, 11, 11};
     EXPECT_EQ(plane.at(0, 5).mm, glm::dvec3(-5, 0, 0)); // image left is the patient's right
     EXPECT_EQ(plane.at(5, 0).mm, glm::dvec3(0, -5, 0)); // up is anterior
-    mpr::setAxes(plane, Orientation::coronal);
+    plane.axes = mpr::standardAxes(Orientation::coronal);
     EXPECT_EQ(plane.at(0, 0).mm, glm::dvec3(-5, 0, 5));
-    mpr::setAxes(plane, Orientation::sagittal);
+    plane.axes = mpr::standardAxes(Orientation::sagittal);
     EXPECT_EQ(plane.at(0, 0).mm, glm::dvec3(0, -5, 5)); // image left is anterior
     EXPECT_EQ(plane.pixel({{0, 2, 3}}), glm::dvec2(7, 2));
+    const mpr::PlaneAxes planes;
+    EXPECT_EQ(planes.scrollAxis(Orientation::axial), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(planes.scrollAxis(Orientation::coronal), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(planes.scrollAxis(Orientation::sagittal), glm::dvec3(1, 0, 0));
 }
 
 TEST(Reslice, ScrollingStepsFromSliceToSlice) {
     const auto lattice = test::tiltedLattice({30, 28, 12}, {1, 1, 3}, 0);
-    EXPECT_NEAR(mpr::scrollRange(lattice, Orientation::axial).stepMm, 3.0, 1e-12);
-    EXPECT_NEAR(mpr::scrollRange(lattice, Orientation::sagittal).stepMm, 1.0, 1e-12);
-    const auto range = mpr::scrollRange(lattice, Orientation::axial);
+    const mpr::PlaneAxes planes;
+    const auto range = mpr::scrollRange(lattice, planes.scrollAxis(Orientation::axial));
+    EXPECT_NEAR(range.stepMm, 3.0, 1e-12);
+    EXPECT_NEAR(mpr::scrollRange(lattice, planes.scrollAxis(Orientation::sagittal)).stepMm, 1.0,
+                1e-12);
     EXPECT_NEAR(range.highMm - range.lowMm, 33.0, 1e-12);
+    EXPECT_TRUE(range.hasSlices);
+    // From between two slices onto a slice, and not beyond the last one.
+    EXPECT_NEAR(range.moved(range.lowMm + 4.4, 1), range.lowMm + 6.0, 1e-12);
+    EXPECT_NEAR(range.moved(range.lowMm + 6.0, -1), range.lowMm + 3.0, 1e-12);
+    EXPECT_NEAR(range.moved(range.lowMm + 6.0, 100), range.highMm, 1e-12);
+    EXPECT_FALSE(
+        mpr::scrollRange(test::tiltedLattice({30, 28, 12}, {1, 1, 3}, 20), {0, 0, 1}).hasSlices);
+}
+
+// About its own normal a plane keeps its picture; the others stay at right angles to it, however
+// often they are turned.
+TEST(Reslice, TurnedPlanesStayAtRightAngles) {
+    mpr::PlaneAxes planes;
+    for (int n = 0; n < 300; ++n)
+        planes = planes.turned(mpr::allOrientations[std::size_t(n % 3)], 0.1 + 0.01 * n);
+    EXPECT_FALSE(planes.areStandard());
+    for (const auto a : mpr::allOrientations) {
+        EXPECT_NEAR(glm::dot(planes.of(a).right, planes.of(a).up), 0.0, 1e-12);
+        EXPECT_NEAR(glm::length(planes.of(a).toViewer()), 1.0, 1e-12);
+        for (const auto b : mpr::allOrientations)
+            EXPECT_NEAR(glm::dot(planes.scrollAxis(a), planes.scrollAxis(b)), a == b ? 1.0 : 0.0,
+                        1e-12);
+    }
+    const mpr::PlaneAxes quarter = mpr::PlaneAxes().turned(Orientation::axial, std::acos(-1.0) / 2);
+    EXPECT_EQ(quarter.of(Orientation::axial), mpr::standardAxes(Orientation::axial));
+    // Counterclockwise as seen from the feet, the right of a coronal image turns from left to
+    // front.
+    EXPECT_NEAR(glm::distance(quarter.of(Orientation::coronal).right, glm::dvec3(0, -1, 0)), 0.0,
+                1e-12);
+}
+
+// The slab's promise, by samples counted out one by one.
+TEST(Reslice, SlabsOnSlicesHaveTheExtremesOfTheirSamplesAndTheIntegralBetweenThem) {
+    const auto volume = test::noiseField(volume::Lattice::centred({9, 8, 11}, {1, 1, 2})).values;
+    const volume::Lattice &lattice = volume.lattice();
+    const mpr::Plane plane{lattice.patient(volume::VoxelIndex{4, 4, 5}),
+                           mpr::standardAxes(Orientation::axial), 1.0, 1, 1};
+    const auto sample = [&](int k) { return volume.value({4, 4, k}); };
+    const auto slab = [&](double thicknessMm, mpr::SlabMode mode) {
+        return double(mpr::reslice(volume, plane, {.slab = {thicknessMm, mode}}).values[0]);
+    };
+    EXPECT_NEAR(slab(0.0, mpr::SlabMode::mean), sample(5), 1e-6);
+    double most = -1e9, least = 1e9;
+    for (int k = 3; k <= 7; ++k) {
+        most = std::max(most, sample(k));
+        least = std::min(least, sample(k));
+    }
+    EXPECT_NEAR(slab(8.0, mpr::SlabMode::maximum), most, 1e-6);
+    EXPECT_NEAR(slab(8.0, mpr::SlabMode::minimum), least, 1e-6);
+    EXPECT_NEAR(slab(8.0, mpr::SlabMode::mean),
+                (0.5 * sample(3) + sample(4) + sample(5) + sample(6) + 0.5 * sample(7)) / 4.0,
+                1e-6);
+    // Faces between slices: what is between samples counts with them.
+    const double face = 0.5 * (sample(4) + sample(5)), other = 0.5 * (sample(5) + sample(6));
+    EXPECT_NEAR(slab(2.0, mpr::SlabMode::maximum), std::max({face, other, sample(5)}), 1e-6);
+    EXPECT_NEAR(slab(2.0, mpr::SlabMode::mean), 0.25 * face + 0.5 * sample(5) + 0.25 * other, 1e-6);
+    // Beyond the volume only the part inside counts.
+    EXPECT_FALSE(std::isnan(slab(100.0, mpr::SlabMode::mean)));
+    double total = 0.0;
+    for (int k = 0; k < 11; ++k)
+        total += sample(k);
+    EXPECT_NEAR(slab(100.0, mpr::SlabMode::mean), total / 11.0, 1e-6);
+}
+
+TEST(Reslice, NearestShowsTheSamplesThemselves) {
+    const auto volume = test::noiseField(test::tiltedLattice({6, 5, 4}, {1, 1, 3}, 20)).values;
+    const volume::Lattice &lattice = volume.lattice();
+    const auto at = [&](const glm::dvec3 &v) {
+        return double(mpr::valueAt(volume, lattice.patient(volume::VoxelPoint{v}),
+                                   mpr::Interpolation::nearest));
+    };
+    EXPECT_EQ(at({2.4, 3.4, 1.6}), volume.value({2, 3, 2}));
+    EXPECT_EQ(at({5.49, 4.49, 3.49}), volume.value({5, 4, 3}));
+    EXPECT_EQ(at({-0.49, 0.0, 0.0}), volume.value({0, 0, 0}));
+    EXPECT_TRUE(std::isnan(at({-0.51, 0.0, 0.0})));
 }
 
 TEST(Reslice, OneSampleFillsItsCell) {

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/measure/measurement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/mpr/reslice.h"
+
+namespace pellucid::measure {
+
+namespace {
+
+// Where a region lies in its plane. *Units*: mm from its centre, along the plane's axes.
+struct Region {
+    Region(const Measurement &m)
+        : center(0.5 * (m.pointsMm[0] + m.pointsMm[1])), axes(m.axes),
+          isEllipse(m.kind == Kind::ellipse) {
+        const glm::dvec3 half = 0.5 * (m.pointsMm[1] - m.pointsMm[0]);
+        a = std::abs(glm::dot(half, axes.right));
+        b = std::abs(glm::dot(half, axes.up));
+    }
+    bool holds(const glm::dvec2 &p) const {
+        if (isEllipse)
+            return p.x * p.x * b * b + p.y * p.y * a * a <= a * a * b * b;
+        return std::abs(p.x) <= a && std::abs(p.y) <= b;
+    }
+    double areaMm2() const { return (isEllipse ? std::numbers::pi : 4.0) * a * b; }
+
+    glm::dvec3 center;
+    mpr::Axes axes;
+    double a, b;
+    bool isEllipse;
+};
+
+// Mean and spread in one pass that does not cancel (Welford).
+class Gathered {
+public:
+    void add(double value) {
+        if (std::isnan(value))
+            return;
+        ++m_values.count;
+        const double before = value - m_values.mean;
+        m_values.mean += before / double(m_values.count);
+        m_squares += before * (value - m_values.mean);
+        m_values.minimum = std::min(m_values.minimum, value);
+        m_values.maximum = std::max(m_values.maximum, value);
+    }
+    std::optional<RegionValues> result(bool areSamples) {
+        if (m_values.count == 0)
+            return std::nullopt;
+        if (m_values.count > 1)
+            m_values.standardDeviation = std::sqrt(m_squares / double(m_values.count - 1));
+        m_values.areSamples = areSamples;
+        return m_values;
+    }
+
+private:
+    RegionValues m_values{0, 0.0, 0.0, std::numeric_limits<double>::infinity(),
+                          -std::numeric_limits<double>::infinity()};
+    double m_squares = 0.0;
+};
+
+// The samples of the slice nearest to the region whose centres it holds.
+std::optional<RegionValues> samplesIn(const Region &region, const volume::Volume &volume,
+                                      int across) {
+    const volume::Lattice &lattice = volume.lattice();
+    const volume::GridSize n = lattice.size();
+    std::array<int, 3> low{}, high{};
+    const glm::dvec3 center = lattice.voxel({region.center}).v;
+    for (int d = 0; d < 3; ++d) {
+        double least = center[d], most = center[d];
+        for (const double u : {-region.a, region.a})
+            for (const double v : {-region.b, region.b}) {
+                const glm::dvec3 corner =
+                    lattice.voxel({region.center + u * region.axes.right + v * region.axes.up}).v;
+                least = std::min(least, corner[d]);
+                most = std::max(most, corner[d]);
+            }
+        low[d] = int(std::clamp(std::floor(least), 0.0, double(n[d])));
+        high[d] = int(std::clamp(std::ceil(most), -1.0, n[d] - 1.0));
+    }
+    const double slice = std::round(center[across]);
+    if (!(slice >= 0.0 && slice < n[across]))
+        return std::nullopt;
+    low[across] = high[across] = int(slice);
+    Gathered gathered;
+    for (int k = low[2]; k <= high[2]; ++k)
+        for (int j = low[1]; j <= high[1]; ++j)
+            for (int i = low[0]; i <= high[0]; ++i) {
+                const glm::dvec3 d =
+                    lattice.patient(volume::VoxelIndex{i, j, k}).mm - region.center;
+                if (region.holds({glm::dot(d, region.axes.right), glm::dot(d, region.axes.up)}))
+                    gathered.add(volume.value({i, j, k}));
+            }
+    return gathered.result(true);
+}
+
+std::optional<RegionValues> valuesIn(const Region &region, const volume::Volume &volume) {
+    const volume::Lattice &lattice = volume.lattice();
+    const glm::dvec3 normal = region.axes.toViewer();
+    if (mpr::scrollRange(lattice, normal).hasSlices) {
+        int across = 0;
+        for (int d = 1; d < 3; ++d)
+            if (std::abs(glm::dot(lattice.step(d), normal)) / lattice.spacingMm(d) >
+                std::abs(glm::dot(lattice.step(across), normal)) / lattice.spacingMm(across))
+                across = d;
+        if (const auto samples = samplesIn(region, volume, across))
+            return samples;
+        // A region between sample centres still has values.
+    }
+    const double step = lattice.shortestStepMm();
+    const int columns = int(region.a / step), rows = int(region.b / step);
+    Gathered gathered;
+    for (int r = -rows; r <= rows; ++r)
+        for (int c = -columns; c <= columns; ++c)
+            if (const glm::dvec2 p(c * step, r * step); region.holds(p))
+                gathered.add(double(mpr::valueAt(
+                    volume, {region.center + p.x * region.axes.right + p.y * region.axes.up})));
+    return gathered.result(false);
+}
+
+std::string figure(const std::optional<double> &value) {
+    return value ? fmt::format("{:.6g}", *value) : std::string();
+}
+
+std::string quoted(const std::string &text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"')
+            out += '"';
+        out += c;
+    }
+    return out + "\"";
+}
+
+} // namespace
+
+std::size_t pointCount(Kind kind) {
+    return kind == Kind::angle ? 3 : 2;
+}
+
+bool isRegion(Kind kind) {
+    return kind == Kind::ellipse || kind == Kind::rectangle;
+}
+
+Result measure(const Measurement &m, const volume::Volume &volume) {
+    Result result;
+    switch (m.kind) {
+    case Kind::distance:
+    case Kind::projectedDistance:
+        result.lengthMm = glm::distance(m.pointsMm[0], m.pointsMm[1]);
+        break;
+    case Kind::angle: {
+        const glm::dvec3 a = m.pointsMm[0] - m.pointsMm[1], b = m.pointsMm[2] - m.pointsMm[1];
+        // Of the two forms the one that keeps its digits near 0 and 180 degrees.
+        result.angleDegrees =
+            std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / std::numbers::pi;
+        break;
+    }
+    case Kind::ellipse:
+    case Kind::rectangle: {
+        const Region region(m);
+        result.areaMm2 = region.areaMm2();
+        result.values = valuesIn(region, volume);
+        break;
+    }
+    }
+    return result;
+}
+
+std::string toCsv(const std::vector<Measurement> &measurements, const volume::Volume &volume) {
+    std::string out = "name,kind,length mm,angle deg,area mm2,mean,standard deviation,minimum,"
+                      "maximum,unit,values,points LPS mm\r\n";
+    for (const Measurement &m : measurements) {
+        const Result r = measure(m, volume);
+        const auto value = [&](double RegionValues::*what) {
+            return r.values ? std::optional(*r.values.*what) : std::nullopt;
+        };
+        std::string points;
+        for (const glm::dvec3 &p : m.pointsMm)
+            points +=
+                fmt::format("{}{:.3f} {:.3f} {:.3f}", points.empty() ? "" : "; ", p.x, p.y, p.z);
+        const bool hounsfield = volume.unit() == volume::ValueUnit::hounsfield;
+        out += fmt::format(
+            "{},{},{},{},{},{},{},{},{},{},{},{}\r\n", quoted(m.name), kindName(m.kind),
+            figure(r.lengthMm), figure(r.angleDegrees), figure(r.areaMm2),
+            figure(value(&RegionValues::mean)), figure(value(&RegionValues::standardDeviation)),
+            figure(value(&RegionValues::minimum)), figure(value(&RegionValues::maximum)),
+            r.values && hounsfield ? "HU" : "",
+            r.values ? fmt::format("{}{}", r.values->count,
+                                   r.values->areSamples ? " samples" : " interpolated")
+                     : std::string(),
+            quoted(points));
+    }
+    return out;
+}
+
+} // namespace pellucid::measure

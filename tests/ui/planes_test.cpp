@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The planes: slabs, turning, cine, and what is measured on them.
+#include "tests/ui/workstation.h"
+
+#include <fstream>
+
+#include <QLabel>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include "ui/cine.h"
+#include "ui/measurement_store.h"
+#include "ui/views/mpr_view.h"
+
+namespace pellucid {
+
+using namespace test;
+
+class PlanesTest : public Workstation {
+    Q_OBJECT
+private slots:
+    void init() {
+        std::filesystem::remove_all(m_folder / "data"); // measurements of the test before
+        restart();
+        open(headPath());
+    }
+
+    void aSlabIsSwitchedThickenedAndShown() {
+        QImage thin = grab("coronalView");
+        key(Qt::Key_S);
+        QCOMPARE(cut().options.slab, (mpr::Slab{10.0, mpr::SlabMode::mean}));
+        QVERIFY(find<QToolButton>("slabButton")->isChecked());
+        QVERIFY(changed(thin, grab("coronalView")) > 0.02);
+        find<QAction>("maximumSlabAction")->trigger();
+        const QImage maximum = grab("coronalView");
+        find<QAction>("minimumSlabAction")->trigger();
+        QVERIFY(meanGrey(maximum) > meanGrey(grab("coronalView")) + 5.0);
+        key(Qt::Key_BracketRight);
+        QCOMPARE(cut().options.slab.thicknessMm, 15.0);
+        key(Qt::Key_BracketLeft);
+        key(Qt::Key_BracketLeft);
+        QCOMPARE(cut().options.slab.thicknessMm, 5.0);
+        save("slab");
+        key(Qt::Key_S);
+        QCOMPARE(cut().options.slab.thicknessMm, 0.0);
+        QCOMPARE(changed(thin, grab("coronalView")), 0.0);
+        key(Qt::Key_S); // and back to what it was
+        QCOMPARE(cut().options.slab, (mpr::Slab{5.0, mpr::SlabMode::minimum}));
+    }
+
+    void nearestShowsTheSamples() {
+        const QImage linear = grab("coronalView");
+        find<QAction>("nearestPlanesAction")->trigger();
+        QVERIFY(changed(linear, grab("coronalView")) > 0.005);
+        find<QAction>("linearPlanesAction")->trigger();
+        QCOMPARE(changed(linear, grab("coronalView")), 0.0);
+    }
+
+    void theOtherPlanesTurnAboutTheOneWhoseCrosshairIsTurned() {
+        auto *axial = find<ui::MprView>("axialView");
+        key(Qt::Key_C);
+        const QImage before = grab("coronalView");
+        // The dot on the line of the coronal plane, right of the crosshair, up by some 20 degrees.
+        const QPoint at = crosshair(axial);
+        const int reach = int(0.36 * std::min(axial->width(), axial->height()));
+        dragMouse(axial, Qt::LeftButton, at + QPoint(reach, 0),
+                  QPoint(int(reach * (std::cos(0.35) - 1.0)), -int(reach * std::sin(0.35))));
+        const mpr::PlaneAxes axes = cut().axes;
+        QCOMPARE(axes.of(mpr::Orientation::axial), mpr::standardAxes(mpr::Orientation::axial));
+        // What lay to the left of the patient moves to the front: the dot went up.
+        const glm::dvec3 right = axes.of(mpr::Orientation::coronal).right;
+        QVERIFY(std::abs(std::atan2(-right.y, right.x) - 0.35) < 0.02);
+        QVERIFY(changed(before, grab("coronalView")) > 0.05);
+        QCOMPARE(crosshair(axial), at); // turned about, not moved
+        save("oblique");
+        key(Qt::Key_C, Qt::ShiftModifier);
+        QVERIFY(cut().axes.areStandard());
+        QCOMPARE(changed(before, grab("coronalView")), 0.0);
+    }
+
+    void aDistanceIsDrawnListedUndoneAndFoundAgain() {
+        auto *axial = find<ui::MprView>("axialView");
+        key(Qt::Key_M);
+        const QPoint from(60, 80), by(90, 40);
+        dragMouse(axial, Qt::LeftButton, from, by);
+        QCOMPARE(measured().size(), std::size_t(1));
+        const double expected = std::hypot(90.0, 40.0) / axial->mapping().pixelsPerMm();
+        QVERIFY(std::abs(*measured()[0].result.lengthMm - expected) < 1e-6 * expected);
+        auto *list = find<QTreeWidget>("measurementList");
+        QCOMPARE(list->topLevelItem(0)->text(0), QString("Distance 1"));
+        QCOMPARE(list->topLevelItem(0)->text(1), QString("%1 mm").arg(expected, 0, 'f', 1));
+        key(Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(measured().empty());
+        key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+        QCOMPARE(measured().size(), std::size_t(1));
+        // An end follows the hand, and one undo brings it back; a click alone draws nothing.
+        dragMouse(axial, Qt::LeftButton, from + by, QPoint(20, 10));
+        QVERIFY(*measured()[0].result.lengthMm > expected + 1.0);
+        QCOMPARE(measured().size(), std::size_t(1));
+        key(Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(std::abs(*measured()[0].result.lengthMm - expected) < 1e-6 * expected);
+        QTest::mouseClick(axial, Qt::LeftButton, {}, QPoint(200, 200));
+        QCOMPARE(measured().size(), std::size_t(1));
+        list->topLevelItem(0)->setText(0, "Skull");
+        QCOMPARE(measured()[0].measurement.name, std::string("Skull"));
+
+        restart();
+        open(headPath());
+        QCOMPARE(measured().size(), std::size_t(1));
+        QCOMPARE(measured()[0].measurement.name, std::string("Skull"));
+        QVERIFY(std::abs(*measured()[0].result.lengthMm - expected) < 1e-6 * expected);
+        // The file's name says nothing of the patient.
+        for (const auto &entry :
+             std::filesystem::directory_iterator(m_folder / "data" / "pellucid" / "measurements"))
+            QVERIFY(entry.path().string().find("Secret") == std::string::npos);
+    }
+
+    void anAngleIsADragAndAClick() {
+        auto *sagittal = find<ui::MprView>("sagittalView");
+        key(Qt::Key_A);
+        dragMouse(sagittal, Qt::LeftButton, QPoint(60, 60), QPoint(0, 80));
+        QVERIFY(measured().empty());
+        QTest::mouseClick(sagittal, Qt::LeftButton, {}, QPoint(140, 140));
+        QCOMPARE(measured().size(), std::size_t(1));
+        QVERIFY(std::abs(*measured()[0].result.angleDegrees - 90.0) < 1e-6);
+        // What is half made goes with Esc.
+        dragMouse(sagittal, Qt::LeftButton, QPoint(160, 160), QPoint(0, 60));
+        QTest::keyClick(sagittal, Qt::Key_Escape);
+        QTest::mouseClick(sagittal, Qt::LeftButton, {}, QPoint(30, 200));
+        QCOMPARE(measured().size(), std::size_t(1));
+    }
+
+    void regionsTellTheirValuesAndAreMovedAndExported() {
+        auto *axial = find<ui::MprView>("axialView");
+        key(Qt::Key_E);
+        const QPoint middle(axial->width() / 2 + 30, axial->height() / 2 + 20);
+        dragMouse(axial, Qt::LeftButton, middle - QPoint(20, 15), QPoint(40, 30));
+        key(Qt::Key_B);
+        dragMouse(axial, Qt::LeftButton, middle + QPoint(-70, -60), QPoint(40, 30));
+        QCOMPARE(measured().size(), std::size_t(2));
+        const double pixels = axial->mapping().pixelsPerMm();
+        QVERIFY(std::abs(*measured()[1].result.areaMm2 - 1200.0 / (pixels * pixels)) < 1e-6);
+        QVERIFY(measured()[0].result.values->areSamples);
+        QVERIFY(measured()[0].result.values->count > 20);
+        save("measurements");
+        // Taken by its outline the whole moves; another tool does it as well.
+        key(Qt::Key_W);
+        const double mean = measured()[0].result.values->mean;
+        dragMouse(axial, Qt::LeftButton, middle + QPoint(20, 0), QPoint(60, 60));
+        QVERIFY(std::abs(*measured()[0].result.areaMm2 -
+                         std::acos(-1.0) * 20 * 15 / (pixels * pixels)) < 1e-6);
+        QVERIFY(measured()[0].result.values->mean != mean);
+        key(Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(measured()[0].result.values->mean, mean);
+
+        const QString table = QString::fromStdString((m_folder / "table.csv").string());
+        ui::MeasurementStore(m_window->document()).exportTable(table);
+        QFile file(table);
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        const QByteArray text = file.readAll();
+        QCOMPARE(text.count("\r\n"), qsizetype(3));
+        QVERIFY2(text.contains("\"Ellipse 1\",ellipse,") && text.contains(",HU,"), text);
+        // Gone from another slice, and from a plane across it.
+        axial->scroll(3);
+        find<QTreeWidget>("measurementList")->setFocus();
+        const QImage without = grab("axialView");
+        m_window->document().selectMeasurement(1);
+        key(Qt::Key_Delete);
+        QCOMPARE(measured().size(), std::size_t(1));
+        QCOMPARE(measured()[0].measurement.name, std::string("Ellipse 1"));
+        QCOMPARE(changed(without, grab("axialView")), 0.0);
+    }
+
+    void aDistanceOnTheProjectionBelongsToItsView() {
+        key(Qt::Key_M);
+        QWidget *view = projection();
+        const auto camera = m_window->document().scene().camera;
+        dragMouse(view, Qt::LeftButton, QPoint(200, 300), QPoint(120, 0));
+        QCOMPARE(measured().size(), std::size_t(1));
+        QCOMPARE(measured()[0].measurement.kind, measure::Kind::projectedDistance);
+        QVERIFY(std::abs(*measured()[0].result.lengthMm - 120.0 * camera.pixelMm) < 1e-6);
+        QVERIFY(m_window->document().scene().camera == camera); // nothing turned
+        save("projected_distance");
+        const QImage shown = grab("projectionView");
+        projection()->showStandardView(render::StandardView::left);
+        settle();
+        // A click on its row looks that way again.
+        auto *list = find<QTreeWidget>("measurementList");
+        QTest::mouseClick(list->viewport(), Qt::LeftButton, {},
+                          list->visualItemRect(list->topLevelItem(0)).center());
+        settle();
+        QVERIFY(changed(shown, grab("projectionView")) < 0.01);
+    }
+
+    void measurementsThatCannotBeReadAreKeptAndNamed() {
+        auto *axial = find<ui::MprView>("axialView");
+        key(Qt::Key_M);
+        dragMouse(axial, Qt::LeftButton, QPoint(60, 80), QPoint(90, 40));
+        const auto folder = m_folder / "data" / "pellucid" / "measurements";
+        const auto path = std::filesystem::directory_iterator(folder)->path();
+        std::ofstream(path) << "{\"schema\": \"pellucid-measurements/1\"";
+        restart();
+        open(headPath());
+        QVERIFY(measured().empty());
+        QVERIFY(std::filesystem::exists(path.string() + ".unreadable"));
+        const auto &problems = m_window->document().problems();
+        QVERIFY(std::any_of(problems.begin(), problems.end(), [](const dicom::Skipped &p) {
+            return p.reason.find("measurements") != std::string::npos;
+        }));
+    }
+
+    void cinePlaysTheFocusedPane() {
+        auto *axial = find<ui::MprView>("axialView");
+        axial->setFocus();
+        const auto before = m_window->document().crosshair().mm;
+        key(Qt::Key_Space);
+        QTRY_VERIFY(m_window->document().crosshair().mm.z > before.z);
+        QVERIFY(m_window->document().crosshair().mm.x == before.x);
+        QVERIFY(find<QAction>("playAction")->isChecked());
+        // At the end it begins again.
+        axial->scrollToEnd(true);
+        const double last = m_window->document().crosshair().mm.z;
+        QTRY_VERIFY(m_window->document().crosshair().mm.z < last - 20.0);
+        key(Qt::Key_Space);
+        QVERIFY(!find<QAction>("playAction")->isChecked());
+        projection()->setFocus();
+        const auto orientation = m_window->document().scene().camera.orientation;
+        key(Qt::Key_Space);
+        QTRY_VERIFY(m_window->document().scene().camera.orientation != orientation);
+        // The head stays upright.
+        QVERIFY(std::abs(m_window->document().scene().camera.axes()[1].z - 1.0) < 1e-9);
+        key(Qt::Key_Space);
+        settle();
+    }
+
+private:
+    void key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
+        QTest::keyClick(m_window.get(), key, modifiers);
+    }
+    const ui::Cut &cut() { return m_window->document().cut(); }
+    const std::vector<ui::Measured> &measured() { return m_window->document().measured(); }
+    QPoint crosshair(const ui::MprView *view) {
+        return view->mapping().positionOf(m_window->document().crosshair()).toPoint();
+    }
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::PlanesTest>(argc, argv);
+}
+
+#include "planes_test.moc"

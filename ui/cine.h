@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include <QObject>
+#include <QTimer>
+
+namespace pellucid::ui {
+
+class MprView;
+class ProjectionView;
+
+/// Plays a pane: the slices of a plane one after the other and from the start again, or the
+/// projection around the patient's long axis. The pane is the one that has the keyboard.
+class Cine : public QObject {
+    Q_OBJECT
+public:
+    Cine(const std::array<MprView *, 3> &planes, ProjectionView &projection,
+         QObject *parent = nullptr);
+
+    void toggle();
+    void stop();
+    bool isPlaying() const { return m_timer.isActive(); }
+    void setFramesPerSecond(int rate);
+
+signals:
+    void playingChanged(bool playing);
+
+private:
+    void step();
+
+    std::array<MprView *, 3> m_planes;
+    ProjectionView &m_projection;
+    MprView *m_plane = nullptr; ///< none: the projection
+    QTimer m_timer;
+};
+
+} // namespace pellucid::ui

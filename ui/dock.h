@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+class QDockWidget;
+class QString;
+class QWidget;
+
+namespace pellucid::ui {
+
+/// A dock whose heading folds its panel at a click. *Shape*: `corner`: what stands beside the
+/// heading; may be null.
+QDockWidget *makeDock(const QString &title, const char *name, QWidget *panel, QWidget *corner);
+
+} // namespace pellucid::ui

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/engine_menu.h"
+
+#include <QActionGroup>
+#include <QCoreApplication>
+#include <QMenu>
+
+#include "ui/add_command.h"
+#include "ui/graphics_card.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+QString tr(const char *text) {
+    return QCoreApplication::translate("EngineMenu", text);
+}
+
+} // namespace
+
+void addEngineMenu(QMenu &menu, GraphicsCard &card) {
+    auto *engines = new QActionGroup(&menu);
+    const struct {
+        QString text;
+        const char *name;
+        EngineChoice choice;
+    } choices[] = {{tr("&Automatic"), "automaticEngineAction", EngineChoice::automatic},
+                   {tr("&Processor"), "processorEngineAction", EngineChoice::processor},
+                   {tr("&Graphics card"), "cardEngineAction", EngineChoice::card}};
+    for (const auto &c : choices) {
+        QAction *action = addCommand(menu, c.text, c.name, {}, &card,
+                                     [&card, choice = c.choice] { card.choose(choice); });
+        action->setCheckable(true);
+        action->setActionGroup(engines);
+        action->setChecked(card.choice() == c.choice);
+    }
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/measurement_text.h"
+
+#include <QCoreApplication>
+
+namespace pellucid::ui {
+
+namespace {
+
+QString tr(const char *text) {
+    return QCoreApplication::translate("Measurements", text);
+}
+
+QString valueText(double value, volume::ValueUnit unit) {
+    // Values without a unit may be of any size.
+    return unit == volume::ValueUnit::hounsfield ? QString::number(value, 'f', 1)
+                                                 : QString::number(value, 'g', 5);
+}
+
+QString areaText(double mm2) {
+    return mm2 < 100.0 ? tr("%1 mm²").arg(mm2, 0, 'f', 1)
+                       : tr("%1 cm²").arg(mm2 / 100.0, 0, 'f', 2);
+}
+
+QString unitText(volume::ValueUnit unit) {
+    return unit == volume::ValueUnit::hounsfield ? QString(" HU") : QString();
+}
+
+} // namespace
+
+QString kindText(measure::Kind kind) {
+    switch (kind) {
+    case measure::Kind::distance:
+        return tr("Distance");
+    case measure::Kind::angle:
+        return tr("Angle");
+    case measure::Kind::ellipse:
+        return tr("Ellipse");
+    case measure::Kind::rectangle:
+        return tr("Rectangle");
+    case measure::Kind::projectedDistance:
+        break;
+    }
+    return tr("Projected distance");
+}
+
+QString mainFigure(const measure::Measurement &, const measure::Result &result,
+                   volume::ValueUnit unit) {
+    if (result.lengthMm)
+        return tr("%1 mm").arg(*result.lengthMm, 0, 'f', 1);
+    if (result.angleDegrees)
+        return tr("%1°").arg(*result.angleDegrees, 0, 'f', 1);
+    if (result.values)
+        return valueText(result.values->mean, unit) + unitText(unit);
+    return result.areaMm2 ? areaText(*result.areaMm2) : QString();
+}
+
+QStringList allFigures(const measure::Measurement &measurement, const measure::Result &result,
+                       volume::ValueUnit unit) {
+    if (!result.areaMm2) {
+        QStringList lines{mainFigure(measurement, result, unit)};
+        if (measurement.kind == measure::Kind::projectedDistance)
+            lines << tr("in the picture, depth not measured");
+        return lines;
+    }
+    QStringList lines;
+    if (result.values) {
+        const measure::RegionValues &v = *result.values;
+        lines << tr("mean %1%2").arg(valueText(v.mean, unit), unitText(unit))
+              << tr("SD %1").arg(valueText(v.standardDeviation, unit))
+              << tr("%1 to %2").arg(valueText(v.minimum, unit), valueText(v.maximum, unit));
+    } else {
+        lines << tr("outside the volume");
+    }
+    return lines << areaText(*result.areaMm2);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+#include <QStringList>
+
+#include "core/measure/measurement.h"
+
+namespace pellucid::ui {
+
+/// "Distance", in the user's language.
+QString kindText(measure::Kind kind);
+
+/// The main figure with its unit: "12.3 mm", "45.2 deg", "36.1 HU".
+QString mainFigure(const measure::Measurement &measurement, const measure::Result &result,
+                   volume::ValueUnit unit);
+
+/// All figures, a line each, as they stand beside the drawing.
+QStringList allFigures(const measure::Measurement &measurement, const measure::Result &result,
+                       volume::ValueUnit unit);
+
+} // namespace pellucid::ui

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include <glm/vec3.hpp>
+
+class QLabel;
+class QPushButton;
+class QTreeWidget;
+
+namespace pellucid::ui {
+
+class Document;
+
+/// The measurements of the open study: name and figure. A click shows one, a second click on the
+/// name renames it, Delete removes it.
+class MeasurementsPanel : public QWidget {
+    Q_OBJECT
+public:
+    explicit MeasurementsPanel(Document &document, QWidget *parent = nullptr);
+
+    /// Stands beside the panel's heading: writes the table.
+    QWidget *corner();
+    void removeSelected();
+
+signals:
+    void exportRequested();
+    /// A distance in the plane of a projection: the view that it was measured in.
+    void viewRequested(const glm::dvec3 &right, const glm::dvec3 &up);
+
+private:
+    void showAll();
+    void showSelected();
+    void goTo(int index);
+    void rename(int index, const QString &name);
+
+    Document &m_document;
+    QTreeWidget *m_list;
+    QLabel *m_hint;
+    QPushButton *m_export;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/projection_overlay.h"
+
+#include <QCoreApplication>
+#include <QPainter>
+
+#include "ui/document.h"
+#include "ui/overlay.h"
+
+namespace pellucid::ui {
+
+ProjectionOverlay::ProjectionOverlay(const Document &document, const MeasureTool &measure,
+                                     QWidget *parent)
+    : QWidget(parent), m_document(document), m_measure(measure) {
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setAttribute(Qt::WA_NoSystemBackground);
+}
+
+void ProjectionOverlay::setTexts(const Texts &texts) {
+    m_texts = texts;
+    update();
+}
+
+void ProjectionOverlay::setMapping(const PaneMapping &mapping) {
+    m_mapping = mapping;
+    update();
+}
+
+void ProjectionOverlay::paintEvent(QPaintEvent *) {
+    QPainter painter(this);
+    const OverlayColors colors = overlayColors("accent");
+    painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
+    const QRect inner = rect().adjusted(10, 8, -10, -8);
+    const int line = painter.fontMetrics().height() + 3;
+    painter.save();
+    QFont bold = painter.font();
+    bold.setBold(true);
+    painter.setFont(bold);
+    drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop,
+             QCoreApplication::translate("ProjectionView", "Projection"), colors.plane);
+    painter.restore();
+    drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom,
+             QCoreApplication::translate("ProjectionView", "Parallel projection"), colors.muted);
+    const QRect second = inner.adjusted(0, line, 0, 0);
+    drawText(painter, second, Qt::AlignRight | Qt::AlignTop,
+             QCoreApplication::translate("ProjectionView", "Not for diagnostic use"), colors.muted);
+    if (!m_document.volume())
+        return;
+    drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, m_texts.lookName, colors.text);
+    // Warnings of the geometry stay on the image.
+    QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
+    for (const std::string &w : m_document.volume()->notes().warnings) {
+        drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
+                 painter.fontMetrics().elidedText(QString::fromStdString(w), Qt::ElideRight,
+                                                  warning.width()),
+                 colors.warning);
+        warning.translate(0, line);
+    }
+    if (!m_texts.message.isEmpty()) {
+        painter.setPen(colors.muted);
+        painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
+                         m_texts.message);
+    }
+    if (!m_texts.figures.isEmpty())
+        paintPicture(painter);
+}
+
+void ProjectionOverlay::paintPicture(QPainter &painter) {
+    const OverlayColors colors = overlayColors("accent");
+    const int line = painter.fontMetrics().height() + 3;
+    drawText(painter, rect().adjusted(10, 8, -10, -8), Qt::AlignRight | Qt::AlignTop,
+             m_texts.figures, colors.text);
+    const glm::dmat3 axes = m_document.scene().camera.axes();
+    drawOrientationLetters(painter, rect().adjusted(0, line, 0, -line), axes[0], axes[1], colors);
+    drawOrientationCube(painter, QPointF(58, height() - 58), 40, axes, colors);
+    drawScaleBar(painter, QPoint(width() - 180, height() - 34), m_mapping.pixelsPerMm(), 120,
+                 colors);
+    m_measure.paint(painter, {m_mapping, 0.0}, colors);
+}
+
+} // namespace pellucid::ui
