@@ -114,7 +114,9 @@ void CardCopier::announce(EngineStage stage) {
                                                           m_document.scene().shading)
                                                .predictedError);
     else if (m_card.passes())
-        shown.reason = m_isGivenUp ? m_reason : tr("not on the graphics card yet");
+        shown.reason = m_isGivenUp                    ? m_reason
+                       : stage == EngineStage::coarse ? tr("a first, coarse picture")
+                                                      : tr("not on the graphics card yet");
     emit engineReady(shown, stage);
 }
 

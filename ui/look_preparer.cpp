@@ -7,6 +7,7 @@
 #include "core/classify/coarse_field.h"
 #include "core/classify/shown_fields.h"
 #include "core/preprocess/step_cache.h"
+#include "core/render/planning_scene.h"
 #include "core/task/memory.h"
 #include "ui/document.h"
 #include "ui/job_runner.h"
@@ -27,31 +28,16 @@ bool isLarge(const volume::Volume &volume) {
     return std::max({n.i, n.j, n.k}) > coarseSide;
 }
 
-// Strength and values rounded to halves, away from what changes nothing.
-shading::DepthCue plannedCue(const shading::DepthCue &cue) {
-    if (!cue.isActive())
-        return {};
-    shading::DepthCue planned{cue.kind, std::ceil(2.0 * cue.strength) / 2.0};
-    if (cue.kind == shading::CueKind::curve) {
-        planned.curve = cue.curve;
-        for (double &value : planned.curve)
-            value = (value < 1.0 ? std::floor(2.0 * value) : std::ceil(2.0 * value)) / 2.0;
-    }
-    return planned;
-}
-
-// Planned for the whole volume in a picture of its own; the pane's zoom comes and goes.
+// One engine serves every view of the pane.
 render::Scene planningScene(const volume::Volume &volume, const PreparedFor &wanted) {
     render::Scene scene;
+    scene.plannedFor = render::PlannedFor::volume;
     scene.tolerance = wanted.tolerance;
     scene.interpolation = wanted.interpolation;
     scene.shading.cue = wanted.cue;
-    if (wanted.isLit) // whatever the lights: their number and place cost nothing, colours a little
-        scene.shading.lights.push_back({.color = {1.0, 0.5, 0.0}});
-    scene.camera.pixelMm = volume.lattice().shortestStepMm();
-    scene.camera.width = scene.camera.height =
-        int(std::clamp(2.0 * volume.lattice().radiusMm() / scene.camera.pixelMm, 2.0, 4096.0));
-    return scene;
+    if (wanted.isLit)
+        scene.shading.lights.emplace_back();
+    return render::planningScene(scene, volume.lattice());
 }
 
 classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &wanted) {
@@ -62,7 +48,8 @@ classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &
 
 PreparedFor::PreparedFor(const Document &document)
     : look(document.scene().look), tolerance(document.scene().tolerance),
-      interpolation(document.scene().interpolation), cue(plannedCue(document.scene().shading.cue)),
+      interpolation(document.scene().interpolation),
+      cue(render::plannedCue(document.scene().shading.cue)),
       isLit(document.scene().shading.isLit()) {
     // The volume's own window is the same whether it is named or not.
     if (document.fieldWindow() != document.defaultFieldWindow())
@@ -98,6 +85,9 @@ LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
     connect(&jobs, &JobRunner::finished, this, [this] {
         if (m_underway) {
             m_givenUp = std::exchange(m_underway, std::nullopt);
+            // Nothing follows the coarse picture: the former one is better than that.
+            if (m_full && (m_shown == EngineStage::coarse || m_shown == EngineStage::live))
+                showFull();
             emit planChanged(PlanState::givenUp);
         }
         if (m_layersUnderway)

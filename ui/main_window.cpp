@@ -8,6 +8,7 @@
 #include <QCoreApplication>
 #include <QDockWidget>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -305,7 +306,11 @@ void MainWindow::showVolumeState() {
 }
 
 void MainWindow::openPaths(const QStringList &paths) {
-    m_opener.openPaths(paths);
+    // They are remembered, and opened again from another folder.
+    QStringList absolute;
+    for (const QString &path : paths)
+        absolute << QFileInfo(path).absoluteFilePath();
+    m_opener.openPaths(absolute);
 }
 
 void MainWindow::openPhantom(const QString &kind) {
@@ -376,7 +381,7 @@ void MainWindow::saveScene() {
         QFileDialog::getSaveFileName(this, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
-    attempt([&] { writeSceneFile(path, m_document.scene()); });
+    attempt([&] { writeSceneFile(path, m_projection->sceneOfPicture()); });
 }
 
 void MainWindow::openScene() {
@@ -385,7 +390,8 @@ void MainWindow::openScene() {
     if (path.isEmpty())
         return;
     attempt([&] {
-        const render::Scene scene = readSceneFile(path);
+        render::Scene scene = readSceneFile(path);
+        scene.plannedFor = {}; // the window plans for the volume, whatever a file says
         m_document.undoStack()->push(new EditScene(m_document, scene, tr("Open scene")));
         m_projection->adoptCamera(scene.camera);
     });

@@ -2,11 +2,19 @@
 #include "ui/render_worker.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <new>
 
 #include "core/task/error.h"
 
 namespace pellucid::ui {
+
+namespace {
+
+constexpr std::chrono::milliseconds cardPatience(150);
+
+} // namespace
 
 RenderWorker::RenderWorker(QObject *parent)
     : QObject(parent), m_thread([this](std::stop_token stop) { run(stop); }) {
@@ -17,6 +25,8 @@ RenderWorker::RenderWorker(QObject *parent)
 RenderWorker::~RenderWorker() {
     m_thread.request_stop();
     m_thread.join();
+    if (m_card.valid())
+        m_card.wait();
 }
 
 void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
@@ -26,6 +36,7 @@ void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
     m_onCard = std::move(onCard);
     m_generation = generation;
     m_next.reset();
+    m_last.reset();
 }
 
 std::uint64_t RenderWorker::request(const render::Camera &camera,
@@ -41,15 +52,44 @@ std::uint64_t RenderWorker::request(const render::Camera &camera,
     return m_number;
 }
 
+std::future<render::ProjectionImage> RenderWorker::picture(const render::Camera &camera,
+                                                           const render::ImageDefinition &image,
+                                                           const shading::Shading &shading) {
+    const std::lock_guard lock(m_mutex);
+    auto promise = std::make_shared<std::promise<render::ProjectionImage>>();
+    m_pictures.emplace_back([promise, engine = m_engine, camera, image, shading] {
+        try {
+            if (!engine)
+                throw task::Error(task::ErrorCode::usage, "there is no projection yet");
+            promise->set_value(engine->render(camera, image, shading));
+        } catch (...) {
+            promise->set_exception(std::current_exception());
+        }
+    });
+    m_wake.notify_one();
+    return promise->get_future();
+}
+
 void RenderWorker::run(std::stop_token stop) {
     for (;;) {
         Request request;
+        std::packaged_task<void()> picture;
         {
             std::unique_lock lock(m_mutex);
-            if (!m_wake.wait(lock, stop, [this] { return m_next.has_value(); }))
+            if (!m_wake.wait(lock, stop, [this] { return m_next || !m_pictures.empty(); }))
                 return;
-            request = std::move(*m_next);
-            m_next.reset();
+            if (!m_pictures.empty()) {
+                picture = std::move(m_pictures.front());
+                m_pictures.pop_front();
+            } else {
+                request = std::move(*m_next);
+                m_next.reset();
+                m_last = request;
+            }
+        }
+        if (picture.valid()) {
+            picture();
+            continue;
         }
         render::Camera &camera = request.camera;
         const double factor = std::max(request.reduction.draft ? 2.0 : 1.0,
@@ -64,13 +104,18 @@ void RenderWorker::run(std::stop_token stop) {
     }
 }
 
+std::shared_ptr<RenderedFrame> RenderWorker::frameFor(const Request &request) const {
+    auto frame = std::make_shared<RenderedFrame>();
+    frame->generation = request.generation;
+    frame->number = request.number;
+    frame->draft = request.reduction.draft;
+    return frame;
+}
+
 void RenderWorker::makeFrame(const Request &request) {
     try {
-        auto frame = std::make_shared<RenderedFrame>();
-        frame->generation = request.generation;
-        frame->number = request.number;
-        frame->draft = request.reduction.draft;
-        if (!request.onCard || !renderOnCard(*frame, request))
+        auto frame = frameFor(request);
+        if (!request.onCard || !renderOnCard(frame, request))
             renderInto(*frame, request);
         emit frameReady(std::move(frame));
     } catch (const std::exception &error) {
@@ -78,26 +123,75 @@ void RenderWorker::makeFrame(const Request &request) {
     }
 }
 
-bool RenderWorker::renderOnCard(RenderedFrame &frame, const Request &request) {
+RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
+    CardFrame answer;
     try {
+        auto frame = frameFor(request);
         gpu::CardTimes times;
-        const auto picture =
+        frame->onCard =
             request.onCard->renderOnCard(request.camera, request.image, request.shading, &times);
         if (request.wantsTone)
-            frame.automaticTone = render::toneRange(picture->download(), {});
-        frame.onCard = picture;
-        frame.times = {times.sliceMs, times.transformMs};
-        return true;
+            frame->automaticTone = render::toneRange(frame->onCard->download(), {});
+        frame->times = {times.sliceMs, times.transformMs};
+        answer.frame = std::move(frame);
     } catch (const task::Error &error) {
-        frame.refusal = QString::fromStdString(error.reason());
+        answer.refusal = QString::fromStdString(error.reason());
         // A picture too large for the card is none of its next.
-        if (error.code() == task::ErrorCode::outOfMemory)
-            return false;
+        answer.isLost = error.code() != task::ErrorCode::outOfMemory;
+    } catch (const std::bad_alloc &) {
+        answer.refusal = tr("not enough memory");
+    }
+    m_cardIsDone = true;
+    if (!m_cardIsLate || !answer.frame)
+        return answer;
+    // The processor has made this one meanwhile. If it is still what is wanted it is shown; else
+    // what is wanted is made once more, now that the card is ready.
+    bool isWanted = false;
+    {
+        const std::lock_guard lock(m_mutex);
+        isWanted = request.number == m_number;
+        if (!isWanted && !m_next && m_last && m_last->onCard)
+            m_next = m_last;
+    }
+    if (isWanted)
+        emit frameReady(answer.frame);
+    else
+        m_wake.notify_one();
+    return answer;
+}
+
+// Whether the card made the frame. A driver compiles what a new kind of frame needs, which may take
+// longer than a hand waits.
+bool RenderWorker::renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Request &request) {
+    using namespace std::chrono_literals;
+    if (m_card.valid() && !m_cardIsDone) {
+        frame->refusal = tr("the graphics card is being prepared");
+        return false;
+    }
+    if (m_card.valid())
+        m_card.wait(); // it has its answer and returns
+    m_cardIsLate = m_cardIsDone = false;
+    m_card = std::async(std::launch::async, [this, request] { return askCard(request); });
+    m_cardIsLate = m_card.wait_for(cardPatience) != std::future_status::ready;
+    // Once more: it may have come before it could know that it is late.
+    if (m_cardIsLate && m_card.wait_for(0ms) != std::future_status::ready) {
+        frame->refusal = tr("the graphics card is being prepared");
+        return false;
+    }
+    CardFrame answer = m_card.get();
+    if (answer.frame) {
+        frame = std::move(answer.frame);
+        return true;
+    }
+    frame->refusal = answer.refusal;
+    if (!answer.isLost)
+        return false;
+    {
         const std::lock_guard lock(m_mutex);
         if (m_onCard == request.onCard)
             m_onCard.reset();
     }
-    emit cardFailed(frame.refusal, request.onCard->textures().passes());
+    emit cardFailed(answer.refusal, request.onCard->textures().passes());
     return false;
 }
 

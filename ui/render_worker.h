@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -53,6 +56,11 @@ public:
     std::uint64_t request(const render::Camera &camera, const render::ImageDefinition &image,
                           const shading::Shading &shading, const Reduction &reduction,
                           bool wantsTone);
+    /// A picture of one's own, by the processor's engine, before the next frame. *Throws* what
+    /// rendering throws, and std::future_error if the worker ends before.
+    std::future<render::ProjectionImage> picture(const render::Camera &camera,
+                                                 const render::ImageDefinition &image,
+                                                 const shading::Shading &shading);
 
 signals:
     void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
@@ -73,18 +81,30 @@ private:
         bool wantsTone;
         std::uint64_t number;
     };
+    /// What became of a frame on the card.
+    struct CardFrame {
+        std::shared_ptr<RenderedFrame> frame; ///< none: refused
+        QString refusal;
+        bool isLost = false;
+    };
     void run(std::stop_token stop);
     void makeFrame(const Request &request);
+    std::shared_ptr<RenderedFrame> frameFor(const Request &request) const;
     void renderInto(RenderedFrame &frame, const Request &request);
-    bool renderOnCard(RenderedFrame &frame, const Request &request);
+    bool renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Request &request);
+    CardFrame askCard(const Request &request);
 
     std::shared_ptr<render::ProjectionEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
     std::uint64_t m_generation = 0;
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
-    std::optional<Request> m_next;
+    std::optional<Request> m_next, m_last;
+    std::deque<std::packaged_task<void()>> m_pictures;
     std::uint64_t m_number = 0;
+    /// A frame that the card takes long for; meanwhile the processor makes them.
+    std::future<CardFrame> m_card;
+    std::atomic<bool> m_cardIsLate = false, m_cardIsDone = false;
     std::jthread m_thread;
 };
 

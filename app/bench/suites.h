@@ -29,8 +29,8 @@ void runThesisSuite(const Report &report);
 void runClassesSuite(const Report &report);
 /// Depth cues and lights at 128^3 and 256^3, in turns with the plain frame.
 void runShadingSuite(const Report &report);
-/// Cuts of 512^2 pixels through 512 x 512 x 256 samples, thin and as slabs, against the integral and
-/// the extremes of what is between samples.
+/// Cuts of 512^2 pixels through 512 x 512 x 256 samples, thin and as slabs, against the integral
+/// and the extremes of what is between samples.
 void runPlanesSuite(const Report &report);
 /// The engine on the graphics card at 128^3 to 512^3 beside the processor's and a ray sum on the
 /// same card. *Throws* Error{noSuchDevice}.

@@ -10,6 +10,7 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "core/reference/shaded_field.h"
+#include "core/render/planning_scene.h"
 #include "core/task/error.h"
 #include "gpu/surfaceless_context.h"
 
@@ -77,7 +78,9 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
     : m_scene(scene), m_fields(fields), m_progress(context.stop),
       m_channels(std::size_t(render::imagesOf(fields.channels.size(), scene.shading))),
       m_isGrey(fields.isGrey() && m_channels == 1),
-      m_fitting(render::planWithin(scene, shaded, summaries, budget, m_progress)),
+      m_fitting(
+          render::planWithin(render::planningScene(scene, shaded.fields.front().values.lattice()),
+                             shaded, summaries, budget, m_progress)),
       m_lattice(shaded.fields.front().values.lattice()) {
     const render::RenderPlan &plan = m_fitting.plan;
     std::size_t exactBytes = 0;
@@ -87,7 +90,8 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
     if (!scene.shading.isPlain()) // the field, larger, and its shaded twin
         exactBytes += 2 * m_lattice.size().count() * sizeof(float);
     if (plan.predictedError <= scene.tolerance || scene.interpolation != render::Interpolation() ||
-        m_fitting.reduction > 1 || exactBytes > budget.bytes) {
+        scene.plannedFor == render::PlannedFor::volume || m_fitting.reduction > 1 ||
+        exactBytes > budget.bytes) {
         const render::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
         m_lattice = sources.fields.front().values.lattice();
         m_engine = render::makeEngine(sources, fields.color, plan, m_progress);

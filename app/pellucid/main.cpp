@@ -43,13 +43,18 @@ int main(int argc, char **argv) {
     format.setOption(QSurfaceFormat::ResetNotification);
     QSurfaceFormat::setDefaultFormat(format);
     // Qt ends the program when it finds no display; it shall do so in one line and with a code.
+    static QString reason; // what was warned of before
     qInstallMessageHandler([](QtMsgType type, const QMessageLogContext &, const QString &text) {
+        const QString line = text.section('\n', 0, 0).simplified();
         if (type == QtFatalMsg) {
-            std::fprintf(stderr, "pellucid: %s\n",
-                         qPrintable(text.section('\n', 0, 0).simplified()));
+            std::fprintf(stderr, "pellucid: %s\n", qPrintable(reason.isEmpty() ? line : reason));
             std::_Exit(int(task::ErrorCode::noSuchDevice));
         }
-        if (type == QtWarningMsg || type == QtCriticalMsg)
+        if (type != QtWarningMsg && type != QtCriticalMsg)
+            return;
+        if (QCoreApplication::instance() == nullptr || QCoreApplication::startingUp())
+            reason = line;
+        else
             std::fprintf(stderr, "%s\n", qPrintable(text));
     });
     if (const auto cache = files::userCacheFolder()) {

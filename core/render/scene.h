@@ -32,6 +32,10 @@ struct Interpolation {
     bool operator==(const Interpolation &) const = default;
 };
 
+/// What an engine is planned for: the picture alone, or the volume from anywhere, as the
+/// workstation does, which turns it.
+enum class PlannedFor { picture, volume };
+
 /// What the user asked to see. A plain value: the window, the command line and the tests share it.
 struct Scene {
     Camera camera;
@@ -43,6 +47,7 @@ struct Scene {
     /// Largest relative L2 error of the float image.
     double tolerance = 1.1e-3;
     Interpolation interpolation;
+    PlannedFor plannedFor = PlannedFor::picture;
     Tone tone;
 
     bool operator==(const Scene &) const = default;

@@ -51,6 +51,8 @@ std::string toJson(const Scene &scene) {
                 {"roll_off", scene.image.rollOff},
                 {"tolerance", scene.tolerance},
                 {"tone", {{"inverted", scene.tone.inverted}}}};
+    if (scene.plannedFor == PlannedFor::volume)
+        out["planned_for"] = "volume";
     if (scene.fieldWindow)
         out["window"] = {scene.fieldWindow->low, scene.fieldWindow->high};
     out.update(json::parse(classify::toJson(scene.look)));
@@ -99,6 +101,11 @@ Scene sceneFromJson(const std::string &text) {
         scene.image.reconstruction = it->second;
         scene.image.rollOff = in.value("roll_off", scene.image.rollOff);
         scene.tolerance = in.value("tolerance", scene.tolerance);
+        const std::string plannedFor = in.value("planned_for", "picture");
+        if (plannedFor != "picture" && plannedFor != "volume")
+            throw task::Error(task::ErrorCode::usage,
+                              "planned_for is neither picture nor volume in the scene");
+        scene.plannedFor = plannedFor == "volume" ? PlannedFor::volume : PlannedFor::picture;
         if (in.contains("kernel"))
             scene.interpolation.kernel = fourier::kernelFromName(in.at("kernel"));
         if (in.contains("padding"))

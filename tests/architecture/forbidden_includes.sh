@@ -39,7 +39,7 @@ forbid "libepoxy is used in *_epoxy.cpp only" '<epoxy/' $(files core gpu ui app 
 forbid "JSON is read and written in *_nlohmann.cpp and by the programs only" '<nlohmann' $(files core gpu ui | without '_nlohmann\.(cpp|h)$')
 forbid "public headers name no third party but GLM" '<(tbb|fmt|nlohmann|spdlog|CLI|fftw3|dcmtk|openjpeg|zlib|png|epoxy|hwy)' $(files core gpu ui | grep '\.h$' | without '_nlohmann\.h$')
 forbid "a *_nlohmann.h is for *_nlohmann.cpp" '"core/.*_nlohmann\.h"' $(files core gpu ui app tests | without '_nlohmann\.(cpp|h)$')
-forbid "the bench runs on bare machines" '["<](core/(dicom|preprocess|mpr)/|ui/|Q)' $(files app/bench)
+forbid "the bench runs on bare machines" '["<](core/(dicom|preprocess)/|ui/|Q)' $(files app/bench)
 
 for file in $(files app core gpu ui tests); do
     if [[ $(head -1 "$file") != "// SPDX-License-Identifier: GPL-3.0-or-later" ]]; then

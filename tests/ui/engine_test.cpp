@@ -20,14 +20,17 @@ using namespace test;
 
 namespace {
 
-// The largest difference of two pictures, in grey values.
+// The largest difference of two pictures in a channel.
 int largestDifference(const QImage &a, const QImage &b) {
     if (a.size() != b.size())
         return 255;
     int largest = 0;
     for (int y = 0; y < a.height(); ++y)
-        for (int x = 0; x < a.width(); ++x)
-            largest = std::max(largest, std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y))));
+        for (int x = 0; x < a.width(); ++x) {
+            const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+            largest = std::max({largest, std::abs(qRed(p) - qRed(q)),
+                                std::abs(qGreen(p) - qGreen(q)), std::abs(qBlue(p) - qBlue(q))});
+        }
     return largest;
 }
 
@@ -79,33 +82,25 @@ private slots:
         QVERIFY(largestDifference(canvas(), projection()->picture()) <= 1);
     }
 
-    void theCardsPictureIsTheCommandLines() {
-        needCard();
+    // What the window shows is what the command line makes of its scene: pixel for pixel on the
+    // processor, within the rounding of two engines to eight bits on the card.
+    void thePictureIsTheCommandLines() {
         useSmallWindow();
+        find<QAction>("processorEngineAction")->trigger();
         open(headPath());
-        // The window plans for the whole volume, the command line for the part that is asked for:
-        // one plan for both, but for the slice grid, which moves a few pixels by their rounding.
-        render::Scene fixed = m_window->document().scene();
-        fixed.interpolation = {fourier::kernelFromName("LS4"), 1.75, fourier::Storage::binary16};
-        m_window->document().setScene(fixed);
-        settle();
-        chooseCard();
         dragMouse(projection(), Qt::LeftButton, QPoint(100, 100), QPoint(-80, 35));
+        find<QAction>("depthCueAction")->trigger();
         settle();
-        const QString scene = path("scene.json"), out = path("picture.png");
-        ui::writeSceneFile(scene, m_window->document().scene());
-        QProcess command;
-        command.start(PELLUCID_CLI,
-                      {"render", headPath(), "-o", out, "--scene", scene, "--engine", "gpu"});
-        QVERIFY(command.waitForFinished(patienceMs));
-        QVERIFY2(command.exitCode() == 0, command.readAllStandardError());
-        // The automatic brightness was taken before the view turned.
-        const QImage shown = projection()->picture();
-        projection()->retakeTone();
-        settle();
-        QCOMPARE(shown.size(), QImage(out).size());
-        QVERIFY(largestDifference(projection()->picture(), QImage(out)) <= 1);
-        QVERIFY(largestDifference(canvas(), QImage(out)) <= 1); // rounding to eight bits
+        const QImage byProcessor = byCommandLine("cpu");
+        QCOMPARE(largestDifference(byProcessor, composed(projection()->imageOfPicture())), 0);
+        QCOMPARE(largestDifference(byProcessor, projection()->picture()), 0);
+        const auto &window = ui::windowCapabilities();
+        if (!window || !window->canRender())
+            return;
+        chooseCard();
+        const QImage expected = byCommandLine("gpu");
+        QVERIFY(largestDifference(projection()->picture(), expected) <= 1);
+        QVERIFY(largestDifference(canvas(), expected) <= 1);
     }
 
     void withoutADisplayOneLineSaysSo() {
@@ -168,8 +163,13 @@ private slots:
             return QTest::qWaitFor([&] { return !frames.empty(); }, patienceMs) ? frames.front()
                                                                                 : nullptr;
         };
-        const auto onCard = next();
-        QVERIFY(onCard && onCard->onCard && onCard->automaticTone);
+        // The card compiles for longer than a hand waits: the processor makes the first one.
+        auto onCard = next();
+        QVERIFY(onCard && (onCard->onCard || onCard->refusal.contains("being prepared")));
+        QVERIFY(onCard->onCard ||
+                QTest::qWaitFor([&] { return frames.back()->onCard != nullptr; }, patienceMs));
+        onCard = frames.back();
+        QVERIFY(onCard->automaticTone);
         const auto picture = onCard->onCard->download();
         *lost = true;
         const auto after = next();
@@ -284,6 +284,20 @@ private:
         return find<QOpenGLWidget>("projectionCanvas")
             ->grabFramebuffer()
             .convertToFormat(QImage::Format_RGBA8888);
+    }
+    QImage byCommandLine(const QString &engine) {
+        const QString scene = path("scene.json"), out = path("picture.png");
+        ui::writeSceneFile(scene, projection()->sceneOfPicture());
+        QProcess command;
+        command.start(PELLUCID_CLI,
+                      {"render", headPath(), "-o", out, "--scene", scene, "--engine", engine});
+        if (!command.waitForFinished(patienceMs) || command.exitCode() != 0)
+            qWarning("%s", command.readAllStandardError().constData());
+        return QImage(out).convertToFormat(QImage::Format_RGBA8888);
+    }
+    QImage composed(const render::ProjectionImage &image) {
+        const auto rgba = render::compose(image, projection()->sceneOfPicture().tone);
+        return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
     }
     void chooseCard() {
         find<QAction>("cardEngineAction")->trigger();

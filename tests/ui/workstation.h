@@ -14,6 +14,8 @@
 #include <QStyleOptionSlider>
 
 #include "core/dicom/write_series.h"
+#include "core/files/user_folders.h"
+#include "core/fourier/wisdom.h"
 #include "core/phantom/phantom.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/main_window.h"
@@ -119,6 +121,9 @@ private slots:
         QSettings().clear();
         // The user's own presets stay out of it.
         qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "data").string()));
+        // As the programs do: one plan of FFTW, and so the same bits, for all of them.
+        qputenv("XDG_CACHE_HOME", QByteArray::fromStdString((m_folder / "cache").string()));
+        fourier::keepWisdomIn(*files::userCacheFolder() / "fftw-wisdom");
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});
         dicom::writeCtSeries(

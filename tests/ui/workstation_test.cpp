@@ -243,6 +243,33 @@ private slots:
         QCOMPARE(projection()->planState(), ui::PlanState::holds);
     }
 
+    // Nothing follows a coarse picture whose preparation was cancelled: the former one comes back.
+    void aCancelledLookLeavesTheFormerPicture() {
+        m_window->openPhantom("head");
+        settle();
+        const QImage former = projection()->picture();
+        render::Scene scene = m_window->document().scene();
+        scene.look.classes.push_back({.name = "Bone", .low = 200.0, .high = 3000.0});
+        m_window->document().undoStack()->push(
+            new ui::EditScene(m_window->document(), scene, "Bone"));
+        QTRY_VERIFY_WITH_TIMEOUT(!projection()->isFinal(), patienceMs);
+        QTest::keyClick(m_window.get(), Qt::Key_Escape);
+        QCOMPARE(projection()->planState(), ui::PlanState::givenUp);
+        settle();
+        QVERIFY(changed(former, projection()->picture()) < 0.001);
+        QTest::keyClick(m_window.get(), Qt::Key_F5);
+        settle();
+        QVERIFY(changed(former, projection()->picture()) > 0.02);
+    }
+
+    void aPictureKeepsItsBrightnessUntilTheNextIsThere() {
+        open(headPath());
+        const double before = meanGrey(grab("projectionView"));
+        QTest::keyClick(m_window.get(), Qt::Key_D); // another kind of cue has another brightness
+        QVERIFY(std::abs(meanGrey(grab("projectionView")) - before) < 2.0);
+        settle();
+    }
+
     void resettingTheProjectionResetsItsWindowToo() {
         open(headPath());
         dragMouse(projection(), Qt::RightButton, QPoint(200, 200), QPoint(60, 30));

@@ -55,6 +55,7 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         m_frame.reset();
         m_drawnShading = {};
         m_automaticTone.reset();
+        m_retakesTone = true;
         m_message = m_document.volume() ? tr("Preparing the projection") : QString();
         m_canvas->setImage({});
         m_zoom = 1.0;
@@ -73,7 +74,7 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         const shading::Shading &shading = m_document.scene().shading;
         if (shading.lights.size() != m_drawnShading.lights.size() ||
             shading.cue.kind != m_drawnShading.cue.kind)
-            m_automaticTone.reset();
+            m_retakesTone = true;
         updateTone();
         requestFrame(false);
     });
@@ -94,7 +95,7 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     // after the coarse one, has a brightness of its own.
     const bool sameFields = stage == EngineStage::live || stage == EngineStage::settled;
     if (!sameFields) {
-        m_automaticTone.reset();
+        m_retakesTone = true;
         m_fullFrameMs = 0.0;
     }
     // Frames of the weights of a moment ago are shown: the hand may be faster than they are.
@@ -133,7 +134,7 @@ void ProjectionView::setLookName(const QString &name) {
 }
 
 void ProjectionView::retakeTone() {
-    m_automaticTone.reset();
+    m_retakesTone = true;
     requestFrame(false);
 }
 
@@ -199,7 +200,7 @@ void ProjectionView::requestFrame(bool moving) {
         shading = m_drawnShading;
     m_drawnShading = shading;
     m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
-                                   {.draft = draft, .finestPixelMm = finest}, !m_automaticTone);
+                                   {.draft = draft, .finestPixelMm = finest}, m_retakesTone);
     if (moving)
         m_rest.start();
 }
@@ -209,7 +210,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         frame->generation != m_generation) // of a volume that was closed, or the coarse one's
         return;
     // Asked for before the brightness was to be taken anew: the next one tells it.
-    if (!m_automaticTone && !frame->automaticTone)
+    if (m_retakesTone && !frame->automaticTone)
         return;
     m_frame = frame;
     m_frameError = m_predictedError;
@@ -218,8 +219,9 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     if (!frame->draft)
         m_fullFrameMs = frame->times.totalMs();
     // The automatic range is taken once: brightness that follows the view would flicker.
-    if (!m_automaticTone)
+    if (m_retakesTone)
         m_automaticTone = frame->automaticTone;
+    m_retakesTone = false;
     if (frame->onCard)
         m_canvas->setPicture(frame->onCard);
     else
@@ -254,6 +256,27 @@ QImage ProjectionView::picture() const {
         m_frame->onCard ? m_frame->onCard->download() : m_frame->image;
     const auto rgba = render::compose(image, tone);
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
+}
+
+render::Scene ProjectionView::sceneOfPicture(int scale) const {
+    render::Scene scene = m_document.scene();
+    scene.camera.width *= scale;
+    scene.camera.height *= scale;
+    scene.camera.pixelMm /= scale;
+    const render::ToneRange range = m_automaticTone.value_or(render::ToneRange());
+    scene.tone.low = scene.tone.low.value_or(range.low);
+    scene.tone.high = scene.tone.high.value_or(range.high);
+    scene.plannedFor = render::PlannedFor::volume;
+    return scene;
+}
+
+render::ProjectionImage ProjectionView::imageOfPicture(int scale) {
+    const render::Scene scene = sceneOfPicture(scale);
+    return m_worker.picture(scene.camera, scene.image, m_drawnShading).get();
+}
+
+void ProjectionView::paintAnnotations(QPainter &painter) {
+    m_overlay->render(&painter, {}, {}, QWidget::RenderFlags());
 }
 
 void ProjectionView::resizeEvent(QResizeEvent *) {

@@ -53,6 +53,13 @@ public:
     /// The picture as it is seen, without annotations. *Throws* Error{noSuchDevice} if the graphics
     /// card that holds it is gone, Error{outOfMemory}.
     QImage picture() const;
+    /// The scene that makes the picture of this pane again anywhere, pixel for pixel: with the
+    /// brightness that is shown, planned as it was. `scale`: pixels for one of the pane, a side.
+    render::Scene sceneOfPicture(int scale = 1) const;
+    /// What that scene makes, by the processor. *Throws* as the engine.
+    render::ProjectionImage imageOfPicture(int scale = 1);
+    /// What stands over it, for a picture of that scale.
+    void paintAnnotations(QPainter &painter);
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
     bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
 
@@ -105,6 +112,8 @@ private:
     double m_frameError = 0.0;
     EngineStage m_frameStage = EngineStage::coarse;
     std::optional<render::ToneRange> m_automaticTone;
+    /// The next frame tells the brightness anew; what is shown keeps its own till then.
+    bool m_retakesTone = true;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last frame that was asked for
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;

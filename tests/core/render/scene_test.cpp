@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include "core/render/planning_scene.h"
 #include "core/render/scene.h"
 #include "core/task/error.h"
 
@@ -18,6 +19,7 @@ TEST(Scene, JsonKeepsEverything) {
     scene.fieldWindow = classify::FieldWindow{-123.5, 1e4};
     scene.image = {render::Reconstruction::bandLimited, 0.125};
     scene.tolerance = 2e-3;
+    scene.plannedFor = render::PlannedFor::volume;
     scene.tone = {0.25, 17.0, true};
     scene.look.transferFunction.weights = {0.0, 0.5, 2.0};
     scene.look.classes = {{"bone", 250, 2500, 150, 1.25, classify::colorFromText("#fff0d0")},
@@ -33,6 +35,30 @@ TEST(Scene, JsonKeepsEverything) {
     same = render::sceneFromJson(render::toJson(scene));
     same.camera.orientation = scene.camera.orientation;
     EXPECT_EQ(same, scene);
+}
+
+// What an engine is planned for as a volume is the same from anywhere and for all that costs
+// nothing.
+TEST(Scene, PlanningForTheVolumeForgetsTheView) {
+    const auto lattice = volume::Lattice::centred({40, 30, 20}, {1, 1, 2});
+    render::Scene scene;
+    scene.tolerance = 1e-4;
+    scene.camera.panMm = {3, 4};
+    EXPECT_EQ(render::planningScene(scene, lattice), scene); // of a picture it is the picture's
+    scene.plannedFor = render::PlannedFor::volume;
+    scene.shading = {.cue = {shading::CueKind::linear, 0.6}, .lights = {{{1, 1, 1}}, {{0, 0, 1}}}};
+    render::Scene other = scene;
+    other.camera.orientation = render::viewOrientation(render::StandardView::top);
+    other.camera.pixelMm = 0.2;
+    other.tone.high = 7.0;
+    other.shading.cue.strength = 0.9;
+    other.shading.lights.pop_back();
+    EXPECT_EQ(render::planningScene(other, lattice), render::planningScene(scene, lattice));
+    EXPECT_EQ(render::planningScene(scene, lattice).tolerance, 1e-4);
+    EXPECT_EQ(render::planningScene(scene, lattice).shading.cue.strength, 1.0);
+    // It holds the whole volume.
+    const render::Camera camera = render::planningScene(scene, lattice).camera;
+    EXPECT_GE(camera.width * camera.pixelMm, 2.0 * lattice.radiusMm() - camera.pixelMm);
 }
 
 TEST(Scene, RefusesBadJsonWithTheReason) {
