@@ -144,7 +144,7 @@ std::vector<measure::Measurement> Document::measurements() const {
 }
 
 void Document::setMeasurements(const std::vector<measure::Measurement> &measurements) {
-    if (!m_volume)
+    if (!m_volume || m_preview) // of what is there in part nothing is measured
         return;
     std::vector<Measured> measured;
     for (const measure::Measurement &m : measurements) {

@@ -84,7 +84,7 @@ public:
 
     const std::vector<Measured> &measured() const { return m_measured; }
     std::vector<measure::Measurement> measurements() const;
-    /// The state behind the undo commands; call through `EditMeasurements`.
+    /// The state behind the undo commands; call through `EditMeasurements`. A preview has none.
     void setMeasurements(const std::vector<measure::Measurement> &measurements);
     /// -1: none.
     int selectedMeasurement() const { return m_selectedMeasurement; }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/dicom/load_volume.h"
+#include "core/mpr/plane.h"
 #include "core/render/prepared_engine.h"
 #include "ui/look_preparer.h"
 
@@ -22,6 +23,7 @@ struct KeptStudy {
     std::optional<render::PreparedEngine> engine;
     volume::ValueWindow displayWindow;
     volume::PatientPoint crosshair;
+    mpr::PlaneAxes axes;
 
     std::size_t bytes() const;
 };

@@ -34,6 +34,7 @@ render::Scene planningScene(const volume::Volume &volume, const PreparedFor &wan
     scene.plannedFor = render::PlannedFor::volume;
     scene.tolerance = wanted.tolerance;
     scene.interpolation = wanted.interpolation;
+    scene.image = wanted.image;
     scene.shading.cue = wanted.cue;
     if (wanted.isLit)
         scene.shading.lights.emplace_back();
@@ -48,7 +49,7 @@ classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &
 
 PreparedFor::PreparedFor(const Document &document)
     : look(document.scene().look), tolerance(document.scene().tolerance),
-      interpolation(document.scene().interpolation),
+      interpolation(document.scene().interpolation), image(document.scene().image),
       cue(render::plannedCue(document.scene().shading.cue)),
       isLit(document.scene().shading.isLit()) {
     // The volume's own window is the same whether it is named or not.
@@ -58,7 +59,8 @@ PreparedFor::PreparedFor(const Document &document)
 
 bool PreparedFor::hasLayersOf(const PreparedFor &other) const {
     return window == other.window && tolerance == other.tolerance &&
-           interpolation == other.interpolation && cue == other.cue && isLit == other.isLit &&
+           interpolation == other.interpolation && image == other.image && cue == other.cue &&
+           isLit == other.isLit &&
            classify::mixtureOf(look).layers == classify::mixtureOf(other.look).layers;
 }
 
@@ -116,6 +118,7 @@ PreparedFor LookPreparer::forgetVolume() {
     PreparedFor wanted(m_document);
     wanted.window.reset(); // a new volume has its own
     wanted.look = {};
+    wanted.image = {};
     wanted.cue = {};
     wanted.isLit = false;
     return wanted;
@@ -124,6 +127,7 @@ PreparedFor LookPreparer::forgetVolume() {
 void LookPreparer::adopt(const PreparedFor &preparedFor, const render::PreparedEngine &engine) {
     m_prepared = preparedFor;
     m_full = engine;
+    emit planChanged(PlanState::holds);
     showFull();
 }
 

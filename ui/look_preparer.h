@@ -37,6 +37,7 @@ struct PreparedFor {
     classify::Look look;
     double tolerance = 0.0;
     render::Interpolation interpolation;
+    render::ImageDefinition image;
     /// The cue that the error is planned for: as strong as it is, or a little stronger, so that not
     /// every touch asks for a new plan.
     shading::DepthCue cue;
@@ -45,7 +46,8 @@ struct PreparedFor {
 
     /// Whether only weights, colours and control points differ: the layers are the same.
     bool hasLayersOf(const PreparedFor &other) const;
-    /// Whether only cue and light differ.
+    /// Whether only cue, light and what lies between samples differ, which are seen with any
+    /// engine.
     bool showsSameAs(const PreparedFor &other) const;
 };
 

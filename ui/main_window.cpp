@@ -26,6 +26,7 @@
 #include "ui/commands.h"
 #include "ui/dock.h"
 #include "ui/engine_menu.h"
+#include "ui/export_dialog.h"
 #include "ui/look_docks.h"
 #include "ui/look_menu.h"
 #include "ui/panels/job_strip.h"
@@ -164,6 +165,8 @@ void MainWindow::createFileMenu() {
     command(*menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] {
         savePicture();
     })->setIconText(tr("Picture"));
+    command(*menu, tr("&Export picture..."), "exportPictureAction", QKeySequence("Ctrl+E"),
+            [this] { exportPicture(); });
     command(*menu, tr("Export &measurements..."), "exportMeasurementsAction", {},
             [this] { exportMeasurements(); });
     menu->addSeparator();
@@ -365,6 +368,11 @@ void MainWindow::savePicture() {
     });
 }
 
+void MainWindow::exportPicture() {
+    // Beside the window, which goes on: it may be turned to what is to be written.
+    (new ExportDialog(m_document, {m_mpr, m_projection}, this))->show();
+}
+
 void MainWindow::exportMeasurements() {
     if (m_document.measured().empty()) {
         statusBar()->showMessage(tr("There are no measurements to export yet"), 4000);
@@ -377,6 +385,10 @@ void MainWindow::exportMeasurements() {
 }
 
 void MainWindow::saveScene() {
+    if (!m_projection->showsWhatIsAskedFor()) {
+        statusBar()->showMessage(tr("There is no projection of this scene yet"), 4000);
+        return;
+    }
     const QString path =
         QFileDialog::getSaveFileName(this, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
     if (path.isEmpty())

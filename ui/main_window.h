@@ -66,6 +66,7 @@ private:
     void chooseFiles();
     void chooseFolder();
     void savePicture();
+    void exportPicture();
     void exportMeasurements();
     void saveScene();
     void openScene();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/measurement_store.h"
 
+#include <utility>
+
 #include <QCryptographicHash>
 #include <QFile>
 
@@ -15,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int restMs = 400;
+
 void write(const fs::path &path, const std::string &text) {
     files::AtomicFile file(path);
     file.write(std::as_bytes(std::span(text)));
@@ -26,7 +30,14 @@ void write(const fs::path &path, const std::string &text) {
 MeasurementStore::MeasurementStore(Document &document, QObject *parent)
     : QObject(parent), m_document(document) {
     connect(&document, &Document::volumeChanged, this, &MeasurementStore::load);
-    connect(&document, &Document::measurementsChanged, this, &MeasurementStore::save);
+    connect(&document, &Document::measurementsChanged, this, &MeasurementStore::rememberToWrite);
+    m_rest.setSingleShot(true);
+    m_rest.setInterval(restMs);
+    connect(&m_rest, &QTimer::timeout, this, &MeasurementStore::writePending);
+}
+
+MeasurementStore::~MeasurementStore() {
+    writePending();
 }
 
 std::optional<fs::path> MeasurementStore::file() const {
@@ -42,46 +53,76 @@ std::optional<fs::path> MeasurementStore::file() const {
 }
 
 void MeasurementStore::load() {
+    writePending(); // of the study before
     if (!m_document.volume() || m_document.isPreview())
         return;
     const auto path = file();
-    QFile in(path ? QString::fromStdString(path->string()) : QString());
-    if (!path || !in.open(QIODevice::ReadOnly))
+    std::error_code ignored;
+    if (!path || !fs::exists(*path, ignored))
         return;
+    QFile in(QString::fromStdString(path->string()));
     m_isLoading = true;
     try {
+        if (!in.open(QIODevice::ReadOnly))
+            throw task::Error(task::ErrorCode::unusable, in.errorString().toStdString());
         m_document.setMeasurements(measure::measurementsFromJson(in.readAll().toStdString()));
     } catch (const task::Error &error) {
         // What cannot be read is kept under another name: the next save would write over it.
-        std::error_code ignored;
-        fs::rename(*path, path->string() + ".unreadable", ignored);
+        std::string kept = path->string() + ".unreadable";
+        std::error_code notMoved;
+        fs::rename(*path, kept, notMoved);
+        if (notMoved) {
+            m_untouched = *path;
+            kept = path->string();
+        }
         emit failed(tr("The measurements of this study cannot be read: %1")
                         .arg(QString::fromStdString(error.reason())),
-                    QString::fromStdString(path->string() + ".unreadable"));
+                    QString::fromStdString(kept));
     }
     m_isLoading = false;
 }
 
-void MeasurementStore::save() {
+void MeasurementStore::rememberToWrite() {
     const auto path = file();
-    if (m_isLoading || !path)
+    if (m_isLoading || !m_document.volume())
         return;
+    if (!path) {
+        emit failed(tr("The measurements cannot be kept: there is no folder for them"), {});
+        return;
+    }
+    m_pending =
+        Pending{*path, m_document.measured().empty() ? std::string()
+                                                     : measure::toJson(m_document.measurements())};
+    m_rest.start();
+}
+
+void MeasurementStore::writePending() {
+    m_rest.stop();
+    if (!m_pending)
+        return;
+    const Pending pending = *std::exchange(m_pending, std::nullopt);
     try {
-        std::error_code ignored;
-        if (m_document.measured().empty()) {
-            fs::remove(*path, ignored);
-            return;
-        }
-        fs::create_directories(path->parent_path(), ignored);
-        write(*path, measure::toJson(m_document.measurements()));
+        if (pending.path == m_untouched)
+            throw task::Error(task::ErrorCode::output, "those of before cannot be read");
+        std::error_code problem;
+        if (pending.text.empty())
+            fs::remove(pending.path, problem);
+        else
+            fs::create_directories(pending.path.parent_path(), problem);
+        if (problem)
+            throw task::Error(task::ErrorCode::output, problem.message());
+        if (!pending.text.empty())
+            write(pending.path, pending.text);
     } catch (const task::Error &error) {
         emit failed(
             tr("The measurements cannot be kept: %1").arg(QString::fromStdString(error.reason())),
-            QString::fromStdString(path->string()));
+            QString::fromStdString(pending.path.string()));
     }
 }
 
 void MeasurementStore::exportTable(const QString &path) const {
+    if (!m_document.volume())
+        throw task::Error(task::ErrorCode::usage, tr("No study is open").toStdString());
     write(path.toStdString(), measure::toCsv(m_document.measurements(), *m_document.volume()));
 }
 

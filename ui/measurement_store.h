@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include <QObject>
+#include <QTimer>
 
 namespace pellucid::ui {
 
@@ -16,6 +18,7 @@ class MeasurementStore : public QObject {
     Q_OBJECT
 public:
     explicit MeasurementStore(Document &document, QObject *parent = nullptr);
+    ~MeasurementStore() override;
 
     /// Writes a table of the measurements. *Throws* Error{output}.
     void exportTable(const QString &path) const;
@@ -26,10 +29,21 @@ signals:
 private:
     std::optional<std::filesystem::path> file() const;
     void load();
-    void save();
+    void rememberToWrite();
+    void writePending();
 
     Document &m_document;
     bool m_isLoading = false;
+    /// What is to be written when the hand rests: a drag changes it with every move. No text: the
+    /// file goes.
+    struct Pending {
+        std::filesystem::path path;
+        std::string text;
+    };
+    std::optional<Pending> m_pending;
+    QTimer m_rest;
+    /// A file that is there and cannot be read or moved away is not written over.
+    std::filesystem::path m_untouched;
 };
 
 } // namespace pellucid::ui

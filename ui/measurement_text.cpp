@@ -44,8 +44,7 @@ QString kindText(measure::Kind kind) {
     return tr("Projected distance");
 }
 
-QString mainFigure(const measure::Measurement &, const measure::Result &result,
-                   volume::ValueUnit unit) {
+QString mainFigure(const measure::Result &result, volume::ValueUnit unit) {
     if (result.lengthMm)
         return tr("%1 mm").arg(*result.lengthMm, 0, 'f', 1);
     if (result.angleDegrees)
@@ -58,7 +57,7 @@ QString mainFigure(const measure::Measurement &, const measure::Result &result,
 QStringList allFigures(const measure::Measurement &measurement, const measure::Result &result,
                        volume::ValueUnit unit) {
     if (!result.areaMm2) {
-        QStringList lines{mainFigure(measurement, result, unit)};
+        QStringList lines{mainFigure(result, unit)};
         if (measurement.kind == measure::Kind::projectedDistance)
             lines << tr("in the picture, depth not measured");
         return lines;

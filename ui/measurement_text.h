@@ -11,9 +11,8 @@ namespace pellucid::ui {
 /// "Distance", in the user's language.
 QString kindText(measure::Kind kind);
 
-/// The main figure with its unit: "12.3 mm", "45.2 deg", "36.1 HU".
-QString mainFigure(const measure::Measurement &measurement, const measure::Result &result,
-                   volume::ValueUnit unit);
+/// The main figure with its unit: "12.3 mm", "45.2°", "36.1 HU".
+QString mainFigure(const measure::Result &result, volume::ValueUnit unit);
 
 /// All figures, a line each, as they stand beside the drawing.
 QStringList allFigures(const measure::Measurement &measurement, const measure::Result &result,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <new>
 
 #include "core/task/error.h"
 
@@ -125,6 +124,8 @@ void RenderWorker::makeFrame(const Request &request) {
 
 RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
     CardFrame answer;
+    answer.number = request.number;
+    answer.onCard = request.onCard;
     try {
         auto frame = frameFor(request);
         gpu::CardTimes times;
@@ -138,49 +139,50 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
         answer.refusal = QString::fromStdString(error.reason());
         // A picture too large for the card is none of its next.
         answer.isLost = error.code() != task::ErrorCode::outOfMemory;
-    } catch (const std::bad_alloc &) {
-        answer.refusal = tr("not enough memory");
+    } catch (const std::exception &error) {
+        answer.refusal = QString::fromUtf8(error.what());
     }
+    const std::lock_guard lock(m_mutex);
     m_cardIsDone = true;
-    if (!m_cardIsLate || !answer.frame)
-        return answer;
-    // The processor has made this one meanwhile. If it is still what is wanted it is shown; else
-    // what is wanted is made once more, now that the card is ready.
-    bool isWanted = false;
-    {
-        const std::lock_guard lock(m_mutex);
-        isWanted = request.number == m_number;
-        if (!isWanted && !m_next && m_last && m_last->onCard)
-            m_next = m_last;
-    }
-    if (isWanted)
-        emit frameReady(answer.frame);
-    else
+    // The processor made this one meanwhile: what was asked for last is asked for once more, now
+    // that the card is ready.
+    if (m_cardIsLate && !m_next && m_last && m_last->onCard) {
+        m_next = m_last;
         m_wake.notify_one();
+    }
     return answer;
 }
 
 // Whether the card made the frame. A driver compiles what a new kind of frame needs, which may take
 // longer than a hand waits.
 bool RenderWorker::renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Request &request) {
-    using namespace std::chrono_literals;
-    if (m_card.valid() && !m_cardIsDone) {
-        frame->refusal = tr("the graphics card is being prepared");
-        return false;
+    const auto isBusy = [this] {
+        const std::lock_guard lock(m_mutex);
+        m_cardIsLate = !m_cardIsDone;
+        return m_cardIsLate;
+    };
+    if (m_card.valid()) {
+        if (isBusy()) {
+            frame->refusal = tr("the graphics card is being prepared");
+            return false;
+        }
+        // What came late: it may be what is asked for, or say that the card is gone.
+        const CardFrame late = m_card.get();
+        if (late.onCard == request.onCard && (late.number == request.number || late.isLost))
+            return take(late, frame);
     }
-    if (m_card.valid())
-        m_card.wait(); // it has its answer and returns
-    m_cardIsLate = m_cardIsDone = false;
+    m_cardIsDone = m_cardIsLate = false; // nobody else looks at them now
     m_card = std::async(std::launch::async, [this, request] { return askCard(request); });
-    m_cardIsLate = m_card.wait_for(cardPatience) != std::future_status::ready;
-    // Once more: it may have come before it could know that it is late.
-    if (m_cardIsLate && m_card.wait_for(0ms) != std::future_status::ready) {
+    if (m_card.wait_for(cardPatience) != std::future_status::ready && isBusy()) {
         frame->refusal = tr("the graphics card is being prepared");
         return false;
     }
-    CardFrame answer = m_card.get();
+    return take(m_card.get(), frame);
+}
+
+bool RenderWorker::take(const CardFrame &answer, std::shared_ptr<RenderedFrame> &frame) {
     if (answer.frame) {
-        frame = std::move(answer.frame);
+        frame = answer.frame;
         return true;
     }
     frame->refusal = answer.refusal;
@@ -188,10 +190,10 @@ bool RenderWorker::renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Req
         return false;
     {
         const std::lock_guard lock(m_mutex);
-        if (m_onCard == request.onCard)
+        if (m_onCard == answer.onCard)
             m_onCard.reset();
     }
-    emit cardFailed(answer.refusal, request.onCard->textures().passes());
+    emit cardFailed(answer.refusal, answer.onCard->textures().passes());
     return false;
 }
 

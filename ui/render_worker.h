@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -83,6 +82,8 @@ private:
     };
     /// What became of a frame on the card.
     struct CardFrame {
+        std::uint64_t number = 0; ///< of the request
+        std::shared_ptr<gpu::GpuEngine> onCard;
         std::shared_ptr<RenderedFrame> frame; ///< none: refused
         QString refusal;
         bool isLost = false;
@@ -93,6 +94,7 @@ private:
     void renderInto(RenderedFrame &frame, const Request &request);
     bool renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Request &request);
     CardFrame askCard(const Request &request);
+    bool take(const CardFrame &answer, std::shared_ptr<RenderedFrame> &frame);
 
     std::shared_ptr<render::ProjectionEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
@@ -104,7 +106,7 @@ private:
     std::uint64_t m_number = 0;
     /// A frame that the card takes long for; meanwhile the processor makes them.
     std::future<CardFrame> m_card;
-    std::atomic<bool> m_cardIsLate = false, m_cardIsDone = false;
+    bool m_cardIsLate = false, m_cardIsDone = false;
     std::jthread m_thread;
 };
 

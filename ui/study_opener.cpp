@@ -29,7 +29,8 @@ void StudyOpener::keepCurrent() {
         return;
     m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
                  m_document.defaultFieldWindow(), m_document.scene(), m_preparer.preparedFor(),
-                 m_preparer.fullEngine(), m_document.displayWindow(), m_document.crosshair()});
+                 m_preparer.fullEngine(), m_document.displayWindow(), m_document.crosshair(),
+                 m_document.cut().axes});
     // Half of what there is belongs to what comes.
     m_kept.trim(task::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
@@ -53,6 +54,9 @@ bool StudyOpener::showKept(int index) {
         m_preparer.adopt(*kept->preparedFor, *kept->engine);
     m_document.setDisplayWindow(kept->displayWindow);
     m_document.setCrosshair(kept->crosshair);
+    Cut cut = m_document.cut();
+    cut.axes = kept->axes;
+    m_document.setCut(cut);
     emit cameraKept(kept->scene.camera);
     m_preparer.prepareAgain(); // what changed, or was dropped
     return true;

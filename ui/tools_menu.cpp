@@ -192,6 +192,9 @@ void ToolsMenu::addCine(QMenu &menu) {
     play->setCheckable(true);
     play->setToolTip(tr("Play: the slices of the plane, or the projection around the patient "
                         "(Space)"));
+    // Elsewhere Space presses what has the keyboard.
+    play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    m_projection.parentWidget()->addAction(play);
     connect(m_cine, &Cine::playingChanged, play, &QAction::setChecked);
     QMenu *rates = menu.addMenu(tr("S&peed"));
     auto *group = new QActionGroup(this);

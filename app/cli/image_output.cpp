@@ -5,6 +5,7 @@
 
 #include "core/files/image_files.h"
 #include "core/render/compose.h"
+#include "core/render/projection_volume.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -32,20 +33,6 @@ OutputKind outputKind(const fs::path &out) {
     throw Error(ErrorCode::usage, "-o: '" + out.string() + "' must end in .png, .npy or .nrrd");
 }
 
-// The projection as a flat volume that lies in the patient where the picture plane does.
-void writeImageNrrd(const fs::path &path, const render::ProjectionImage &image,
-                    const render::Camera &camera, const volume::Lattice &patient) {
-    const glm::dmat3 axes = camera.axes();
-    const glm::dvec3 right = camera.pixelMm * axes[0], down = -camera.pixelMm * axes[1];
-    const glm::dvec3 center =
-        patient.center().mm + camera.panMm.x * axes[0] + camera.panMm.y * axes[1];
-    const glm::dvec3 origin =
-        center - 0.5 * (camera.width - 1) * right - 0.5 * (camera.height - 1) * down;
-    const auto lattice = volume::Lattice::make({image.width, image.height, 1}, {origin},
-                                               {right, down, -camera.pixelMm * axes[2]});
-    volume::writeNrrd(path, volume::Volume(lattice, image.samples, volume::ValueUnit::none));
-}
-
 } // namespace
 
 void checkOutput(const fs::path &out, bool isGrey) {
@@ -63,7 +50,7 @@ void writeImage(const fs::path &path, const render::ProjectionImage &image,
         files::writeNpy(path, image.samples, image.height, image.width, image.channels);
         break;
     case OutputKind::nrrd:
-        writeImageNrrd(path, image, scene.camera, patient);
+        volume::writeNrrd(path, render::projectionVolume(image, scene.camera, patient));
         break;
     }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -73,21 +74,24 @@ std::optional<RegionValues> samplesIn(const Region &region, const volume::Volume
     const volume::GridSize n = lattice.size();
     std::array<int, 3> low{}, high{};
     const glm::dvec3 center = lattice.voxel({region.center}).v;
+    const double slice = std::round(center[across]);
+    if (!(slice >= 0.0 && slice < n[across]))
+        return std::nullopt;
+    const glm::dvec3 normal = lattice.voxel({region.center + region.axes.toViewer()}).v - center;
     for (int d = 0; d < 3; ++d) {
         double least = center[d], most = center[d];
         for (const double u : {-region.a, region.a})
             for (const double v : {-region.b, region.b}) {
-                const glm::dvec3 corner =
+                glm::dvec3 corner =
                     lattice.voxel({region.center + u * region.axes.right + v * region.axes.up}).v;
+                // Of a skewed stack the place in the slice depends on the way to it.
+                corner += (slice - corner[across]) / normal[across] * normal;
                 least = std::min(least, corner[d]);
                 most = std::max(most, corner[d]);
             }
         low[d] = int(std::clamp(std::floor(least), 0.0, double(n[d])));
         high[d] = int(std::clamp(std::ceil(most), -1.0, n[d] - 1.0));
     }
-    const double slice = std::round(center[across]);
-    if (!(slice >= 0.0 && slice < n[across]))
-        return std::nullopt;
     low[across] = high[across] = int(slice);
     Gathered gathered;
     for (int k = low[2]; k <= high[2]; ++k)
@@ -115,10 +119,18 @@ std::optional<RegionValues> valuesIn(const Region &region, const volume::Volume 
         // A region between sample centres still has values.
     }
     const double step = lattice.shortestStepMm();
-    const int columns = int(region.a / step), rows = int(region.b / step);
+    // No farther than the volume reaches, however large the region is.
+    const glm::dvec3 toVolume = lattice.center().mm - region.center;
+    const auto steps = [&](double half, const glm::dvec3 &axis) {
+        const double middle = glm::dot(toVolume, axis), reach = lattice.radiusMm();
+        return std::pair(int(std::ceil(std::max(-half, middle - reach) / step)),
+                         int(std::floor(std::min(half, middle + reach) / step)));
+    };
+    const auto [firstColumn, lastColumn] = steps(region.a, region.axes.right);
+    const auto [firstRow, lastRow] = steps(region.b, region.axes.up);
     Gathered gathered;
-    for (int r = -rows; r <= rows; ++r)
-        for (int c = -columns; c <= columns; ++c)
+    for (int r = firstRow; r <= lastRow; ++r)
+        for (int c = firstColumn; c <= lastColumn; ++c)
             if (const glm::dvec2 p(c * step, r * step); region.holds(p))
                 gathered.add(double(mpr::valueAt(
                     volume, {region.center + p.x * region.axes.right + p.y * region.axes.up})));

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtx/quaternion.hpp>
 
 namespace pellucid::mpr {
 
@@ -50,6 +51,23 @@ PlaneAxes PlaneAxes::turned(Orientation about, double angleRad) const {
         const glm::dvec3 up = turn * axes.up;
         axes.up = glm::normalize(up - glm::dot(up, axes.right) * axes.right);
     }
+    return out;
+}
+
+PlaneAxes PlaneAxes::facing(const Axes &wanted) const {
+    glm::dvec3 normal = wanted.toViewer();
+    Orientation nearest = Orientation::axial;
+    for (const Orientation o : allOrientations)
+        if (std::abs(glm::dot(of(o).toViewer(), normal)) >
+            std::abs(glm::dot(of(nearest).toViewer(), normal)))
+            nearest = o;
+    const glm::dvec3 from = of(nearest).toViewer();
+    if (glm::dot(from, normal) < 0.0)
+        normal = -normal;
+    const glm::dquat turn = glm::rotation(from, normal);
+    PlaneAxes out = *this;
+    for (Axes &axes : out.m_axes)
+        axes = {glm::normalize(turn * axes.right), glm::normalize(turn * axes.up)};
     return out;
 }
 

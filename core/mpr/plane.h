@@ -41,6 +41,8 @@ public:
     /// Turns the two others about the normal of this one, whose picture stays as it is. *Units*:
     /// rad, counterclockwise as that picture is seen.
     PlaneAxes turned(Orientation about, double angleRad) const;
+    /// Turned together so that the plane nearest to it has this normal.
+    PlaneAxes facing(const Axes &wanted) const;
 
     bool operator==(const PlaneAxes &) const = default;
 

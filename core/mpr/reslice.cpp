@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
@@ -295,11 +296,16 @@ SliceImage reslice(const volume::Volume &volume, const Plane &plane,
     const volume::Lattice &lattice = volume.lattice();
     SliceImage image{plane.width, plane.height,
                      std::vector<float>(std::size_t(plane.width) * plane.height)};
+    const Grid grid = gridOf(lattice, plane);
+    // Across the slices of a stack from slice to slice; else no farther than to the next sample.
+    const ScrollRange range = scrollRange(lattice, plane.axes.toViewer());
+    const glm::dvec3 perMm = glm::abs(grid.perMm);
     const std::vector<Node> nodes =
-        nodesOf(options.slab.thicknessMm, scrollRange(lattice, plane.axes.toViewer()).stepMm);
+        nodesOf(options.slab.thicknessMm,
+                range.hasSlices ? range.stepMm : 1.0 / std::max({perMm.x, perMm.y, perMm.z}));
     volume.visit([&](auto span) {
-        fill(image, Lines(span, lattice.size(), options.interpolation), gridOf(lattice, plane),
-             nodes, options.slab.mode);
+        fill(image, Lines(span, lattice.size(), options.interpolation), grid, nodes,
+             options.slab.mode);
     });
     return image;
 }

@@ -57,12 +57,13 @@ std::vector<std::uint8_t> compose(const ProjectionImage &image, const Tone &tone
     for (std::size_t n = 0; n < pixels.size(); ++n) {
         const float most =
             std::pow(std::clamp((pixels[n] - low) * scale, 0.0F, 1.0F), float(toneExponent));
+        const float largest = std::max(0.0F, pixels[n]);
         for (int c = 0; c < 3; ++c) {
             float x = most;
             // A range that begins below zero lifts what is empty: to grey, which has no hue.
-            if (image.channels == 3 && pixels[n] > lift)
+            if (image.channels == 3 && largest > lift)
                 x *= (std::max(0.0F, image.samples[3 * n + std::size_t(c)]) - lift) /
-                     (pixels[n] - lift);
+                     (largest - lift);
             rgba[4 * n + std::size_t(c)] =
                 std::uint8_t(std::lround(255.0F * (tone.inverted ? 1.0F - x : x)));
         }

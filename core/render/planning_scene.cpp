@@ -26,6 +26,7 @@ Scene planningScene(const Scene &scene, const volume::Lattice &lattice) {
     planning.plannedFor = scene.plannedFor;
     planning.tolerance = scene.tolerance;
     planning.interpolation = scene.interpolation;
+    planning.image = scene.image;
     planning.shading.cue = plannedCue(scene.shading.cue);
     if (scene.shading.isLit()) // their number and place cost nothing, colours a little
         planning.shading.lights.push_back({.color = {1.0, 0.5, 0.0}});

@@ -150,7 +150,7 @@ private slots:
             render::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
         ui::KeptStudies kept;
         for (int source = 0; source < 3; ++source)
-            kept.keep({source, volume, {}, {}, scene, ui::PreparedFor(), engine, {}, {}});
+            kept.keep({source, volume, {}, {}, scene, ui::PreparedFor(), engine, {}, {}, {}});
         const std::size_t one = volume.bytes() + engine.bytes;
         QCOMPARE(kept.bytes(), 3 * one);
         kept.trim(3 * one - 1);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/measurements_panel.h"
 
+#include <cmath>
+
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QTreeWidget>
 #include <QVBoxLayout>
+
+#include <glm/geometric.hpp>
 
 #include "ui/commands.h"
 #include "ui/document.h"
@@ -72,7 +76,7 @@ void MeasurementsPanel::showAll() {
         const volume::ValueUnit unit = m_document.volume()->unit();
         QTreeWidgetItem *item = m_list->topLevelItem(int(n));
         item->setText(0, QString::fromStdString(measurement.name));
-        item->setText(1, mainFigure(measurement, result, unit));
+        item->setText(1, mainFigure(result, unit));
         item->setToolTip(1, allFigures(measurement, result, unit).join('\n'));
     }
     m_hint->setVisible(all.empty());
@@ -97,6 +101,13 @@ void MeasurementsPanel::goTo(int index) {
     for (const glm::dvec3 &p : m.pointsMm)
         middle += p / double(m.pointsMm.size());
     m_document.setCrosshair({middle});
+    // A region drawn on a turned plane lies on none of the straight ones.
+    for (const mpr::Orientation o : mpr::allOrientations)
+        if (std::abs(glm::dot(m_document.cut().axes.scrollAxis(o), m.axes.toViewer())) > 0.999)
+            return;
+    Cut cut = m_document.cut();
+    cut.axes = cut.axes.facing(m.axes);
+    m_document.setCut(cut);
 }
 
 void MeasurementsPanel::rename(int index, const QString &name) {

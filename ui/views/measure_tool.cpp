@@ -123,6 +123,8 @@ bool MeasureTool::isOver(const Pane &pane, const QPointF &at) const {
 }
 
 bool MeasureTool::press(const Pane &pane, const QPointF &at, std::optional<Kind> kind) {
+    if (m_document.isPreview())
+        return false;
     const glm::dvec3 mm = pane.mapping.patientAt(at).mm;
     if (m_grip == Grip::thirdPoint) {
         m_current.pointsMm[2] = mm;
@@ -136,7 +138,7 @@ bool MeasureTool::press(const Pane &pane, const QPointF &at, std::optional<Kind>
         m_grip = hit->point < 0 ? Grip::whole : Grip::point;
         m_index = hit->index;
         m_point = hit->point;
-        m_current = m_document.measured()[std::size_t(hit->index)].measurement;
+        m_current = m_written = m_document.measured()[std::size_t(hit->index)].measurement;
         m_document.selectMeasurement(hit->index);
         return true;
     }
@@ -194,8 +196,7 @@ void MeasureTool::release(const Pane &pane, const QPointF &at) {
 }
 
 void MeasureTool::cancel() {
-    if (m_grip == Grip::making || m_grip == Grip::thirdPoint)
-        m_grip = Grip::none;
+    m_grip = Grip::none;
 }
 
 void MeasureTool::finish() {
@@ -215,11 +216,12 @@ void MeasureTool::finish() {
 
 void MeasureTool::edit(const QString &text) {
     auto all = m_document.measurements();
-    if (m_index >= int(all.size())) { // undone under the hand
+    // Undone or deleted under the hand: what has its place now is another one.
+    if (m_index >= int(all.size()) || all[std::size_t(m_index)] != m_written) {
         m_grip = Grip::none;
         return;
     }
-    all[std::size_t(m_index)] = m_current;
+    all[std::size_t(m_index)] = m_written = m_current;
     m_document.undoStack()->push(new EditMeasurements(m_document, all, text, m_drag));
 }
 

@@ -31,7 +31,7 @@ public:
     void release(const Pane &pane, const QPointF &at);
     /// Something is being made or dragged: moves are for it.
     bool isBusy() const { return m_grip != Grip::none; }
-    /// What is half made goes.
+    /// What is half made goes, what is dragged stays where it is.
     void cancel();
     /// Something drawn is there that can be dragged.
     bool isOver(const Pane &pane, const QPointF &at) const;
@@ -56,6 +56,8 @@ private:
     Grip m_grip = Grip::none;
     /// What is being made, or the one that is dragged as it is now.
     measure::Measurement m_current;
+    /// The dragged one as the document has it.
+    measure::Measurement m_written;
     int m_index = -1, m_point = -1;
     QPointF m_pressed;
     glm::dvec3 m_lastMm{0.0};

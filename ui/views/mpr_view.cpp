@@ -76,9 +76,13 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     setCursor(Qt::ArrowCursor);
     m_rest.setSingleShot(true);
     m_rest.setInterval(restMs);
-    connect(&m_rest, &QTimer::timeout, this, &MprView::refresh);
+    connect(&m_rest, &QTimer::timeout, this, [this] {
+        m_isResting = true;
+        refresh();
+    });
     connect(&document, &Document::volumeChanged, this, [this] {
         m_measure.cancel();
+        m_dragging = Drag::none;
         m_cutMs = 0.0;
         if (!m_document.isPreview())
             resetView();
@@ -158,8 +162,8 @@ void MprView::updateImage() {
     m_imageValid = true;
     const volume::Volume &volume = *m_document.volume();
     mpr::Plane cut = plane();
-    const bool isDraft =
-        m_cutMs > smoothCutMs && m_sinceCut.isValid() && m_sinceCut.elapsed() < restMs;
+    const bool isDraft = !m_isResting && m_cutMs > smoothCutMs && m_sinceCut.isValid() &&
+                         m_sinceCut.elapsed() < restMs;
     if (isDraft) {
         cut.width = (cut.width + 1) / 2;
         cut.height = (cut.height + 1) / 2;
@@ -174,6 +178,7 @@ void MprView::updateImage() {
     m_image.setDevicePixelRatio(isDraft ? 0.5 * devicePixelRatioF() : devicePixelRatioF());
     if (!isDraft)
         m_cutMs = double(clock.nsecsElapsed()) * 1e-6;
+    m_isResting = false;
     m_sinceCut.restart();
 }
 
@@ -187,12 +192,7 @@ void MprView::paintEvent(QPaintEvent *) {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
         painter.drawImage(QPoint(0, 0), m_image);
         painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
-        painter.save();
-        painter.setClipRegion(QRegion(rect()) - upperAndLowerLetters(rect()));
-        crosshairLines().paint(painter, size(), m_tool == Tool::crosshair);
-        painter.restore();
-        m_measure.paint(painter, measurePane(), colors);
-        paintTexts(painter, mapping());
+        paintAnnotations(painter);
     } else if (m_document.volume()) {
         painter.setPen(colors.muted);
         painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
@@ -207,6 +207,36 @@ void MprView::paintEvent(QPaintEvent *) {
         painter.setPen(QPen(focus, 1));
         painter.drawRect(rect().adjusted(0, 3, -1, -1));
     }
+}
+
+void MprView::paintAnnotations(QPainter &painter) {
+    painter.save();
+    painter.setClipRegion(QRegion(rect()) - upperAndLowerLetters(rect()));
+    crosshairLines().paint(painter, size(), m_tool == Tool::crosshair);
+    painter.restore();
+    m_measure.paint(painter, measurePane(), overlayColors(colorRole(m_orientation)));
+    paintTexts(painter, mapping());
+}
+
+QImage MprView::picture(int scale, bool isAnnotated) {
+    const volume::Volume &volume = *m_document.volume();
+    mpr::Plane cut = plane();
+    cut.width *= scale;
+    cut.height *= scale;
+    cut.pixelMm /= scale;
+    QImage picture =
+        slicePicture(mpr::reslice(volume, cut, m_document.cut().options),
+                     m_document.displayWindow(), volume.notes().darkIsHigh, m_document.tint())
+            .convertToFormat(QImage::Format_RGB32);
+    picture.setDevicePixelRatio(devicePixelRatioF() * scale);
+    if (isAnnotated) {
+        QPainter painter(&picture);
+        paintAnnotations(painter);
+        const OverlayColors colors = overlayColors(colorRole(m_orientation));
+        drawText(painter, rect().adjusted(8, 8, -8, -24), Qt::AlignHCenter | Qt::AlignBottom,
+                 tr("Not for diagnostic use"), colors.muted);
+    }
+    return picture;
 }
 
 void MprView::paintTexts(QPainter &painter, const PaneMapping &mapping) {
@@ -259,8 +289,10 @@ void MprView::resizeEvent(QResizeEvent *) {
 
 void MprView::mousePressEvent(QMouseEvent *event) {
     setFocus();
-    if (!showsVolume())
+    // A second button does not disturb what the first one drags.
+    if (!showsVolume() || m_dragging != Drag::none)
         return;
+    m_button = event->button();
     m_last = event->position().toPoint();
     m_drag = nextDragId();
     m_dragging = Drag::none;
@@ -329,7 +361,9 @@ void MprView::showReadout(const QPointF &position) {
 }
 
 void MprView::mouseReleaseEvent(QMouseEvent *event) {
-    if (m_dragging == Drag::measure)
+    if (event->button() != m_button)
+        return;
+    if (m_dragging == Drag::measure && showsVolume())
         m_measure.release(measurePane(), event->position());
     m_dragging = Drag::none;
     update();

@@ -34,6 +34,8 @@ public:
     /// Whether the last slice is shown.
     bool isAtEnd() const;
     void resetView();
+    /// What is shown, of as many pixels for one of the pane's, a side.
+    QImage picture(int scale, bool isAnnotated);
 
 signals:
     void maximizeRequested(QWidget *pane);
@@ -58,6 +60,7 @@ private:
     bool showsVolume() const;
     void refresh();
     void updateImage();
+    void paintAnnotations(QPainter &painter);
     void paintTexts(QPainter &painter, const PaneMapping &mapping);
     void drag(const QPoint &delta, const QPoint &to);
     void moveCrosshair(const QPoint &to);
@@ -88,6 +91,8 @@ private:
     double m_cutMs = 0.0;
     QElapsedTimer m_sinceCut;
     QTimer m_rest;
+    bool m_isResting = false;
+    Qt::MouseButton m_button = Qt::NoButton; ///< of the drag
 };
 
 } // namespace pellucid::ui

@@ -28,6 +28,10 @@ void ProjectionOverlay::setMapping(const PaneMapping &mapping) {
 
 void ProjectionOverlay::paintEvent(QPaintEvent *) {
     QPainter painter(this);
+    paint(painter);
+}
+
+void ProjectionOverlay::paint(QPainter &painter) {
     const OverlayColors colors = overlayColors("accent");
     painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
     const QRect inner = rect().adjusted(10, 8, -10, -8);

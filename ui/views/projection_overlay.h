@@ -22,6 +22,8 @@ public:
 
     void setTexts(const Texts &texts);
     void setMapping(const PaneMapping &mapping);
+    /// Over any picture of the pane's size.
+    void paint(QPainter &painter);
 
 protected:
     void paintEvent(QPaintEvent *event) override;

@@ -56,6 +56,7 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         m_drawnShading = {};
         m_automaticTone.reset();
         m_retakesTone = true;
+        m_planState = PlanState::holds;
         m_message = m_document.volume() ? tr("Preparing the projection") : QString();
         m_canvas->setImage({});
         m_zoom = 1.0;
@@ -88,7 +89,6 @@ ProjectionView::~ProjectionView() {
 void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     m_engine = shown.prepared.engine;
     m_takesLight = shown.prepared.takesLight;
-    m_planState = PlanState::holds;
     m_predictedError = shown.predictedError;
     m_message.clear();
     // Weights that move change the brightness, and are meant to; another field, or the fine one
@@ -229,7 +229,8 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     updateTone();
     showTexts();
     emit frameShown(frame->times, frame->draft);
-    const std::string engine = frame->onCard ? m_onCard->description() : m_engine->description();
+    const std::string engine =
+        frame->onCard && m_onCard ? m_onCard->description() : m_engine->description();
     emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(engine), frame->refusal.isEmpty()
                                                                               ? m_engineReason
                                                                               : frame->refusal));
@@ -258,6 +259,10 @@ QImage ProjectionView::picture() const {
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
 }
 
+bool ProjectionView::showsWhatIsAskedFor() const {
+    return m_document.volume() && showsFinalImage() && m_planState == PlanState::holds;
+}
+
 render::Scene ProjectionView::sceneOfPicture(int scale) const {
     render::Scene scene = m_document.scene();
     scene.camera.width *= scale;
@@ -276,7 +281,7 @@ render::ProjectionImage ProjectionView::imageOfPicture(int scale) {
 }
 
 void ProjectionView::paintAnnotations(QPainter &painter) {
-    m_overlay->render(&painter, {}, {}, QWidget::RenderFlags());
+    m_overlay->paint(painter);
 }
 
 void ProjectionView::resizeEvent(QResizeEvent *) {

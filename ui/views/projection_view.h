@@ -61,6 +61,8 @@ public:
     /// What stands over it, for a picture of that scale.
     void paintAnnotations(QPainter &painter);
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
+    /// The final image of what the scene asks for.
+    bool showsWhatIsAskedFor() const;
     bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
 
 signals:

@@ -116,6 +116,12 @@ TEST(Measurement, ASmallRegionHasAValueAndOneOutsideHasNone) {
     EXPECT_FALSE(values({100, 100, 0}, {120, 120, 0}));
     EXPECT_FALSE(values({0, 0, 100}, {5, 5, 100}));
     EXPECT_EQ(values({-500, -500, 1}, {500, 500, 1})->count, 64U);
+    // However large a region is, it takes no longer than the volume.
+    const mpr::Axes oblique =
+        mpr::PlaneAxes().turned(mpr::Orientation::coronal, 0.3).of(mpr::Orientation::axial);
+    const glm::dvec3 far = 4e6 * (oblique.right + oblique.up);
+    EXPECT_EQ(measure::measure({Kind::ellipse, "", {-far, far}, oblique}, volume).values->mean,
+              42.0);
 }
 
 TEST(Measurement, IsTheSameAfterJson) {

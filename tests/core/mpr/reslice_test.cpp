@@ -141,6 +141,73 @@ TEST(Reslice, SlabsOnSlicesHaveTheExtremesOfTheirSamplesAndTheIntegralBetweenThe
     EXPECT_NEAR(slab(100.0, mpr::SlabMode::mean), total / 11.0, 1e-6);
 }
 
+// The vector code against one point after the other: whole numbers and floats, more than one tile,
+// lanes along rows, columns and the slab, and the edges of the volume.
+TEST(Reslice, IsWhatItsPointsAre) {
+    const auto lattice = test::tiltedLattice({40, 33, 21}, {1, 1, 2}, 15);
+    const auto noise = test::noiseField(lattice).values;
+    std::vector<std::int16_t> whole;
+    std::vector<float> floats;
+    for (int k = 0; k < 21; ++k)
+        for (int j = 0; j < 33; ++j)
+            for (int i = 0; i < 40; ++i) {
+                const double v = 2000.0 * noise.value({i, j, k}) - 1000.0;
+                whole.push_back(std::int16_t(v));
+                floats.push_back(float(v));
+            }
+    const mpr::PlaneAxes turned =
+        mpr::PlaneAxes().turned(Orientation::axial, 0.5).turned(Orientation::sagittal, 0.7);
+    std::vector<mpr::Axes> ways{turned.of(Orientation::coronal), turned.of(Orientation::axial)};
+    for (const auto o : mpr::allOrientations)
+        ways.push_back(mpr::standardAxes(o));
+    ways.push_back({{0, 0, 1}, {1, 0, 0}}); // columns along the rows of the volume
+    for (const volume::Volume &volume : {volume::Volume(lattice, whole, volume::ValueUnit::none),
+                                         volume::Volume(lattice, floats, volume::ValueUnit::none)})
+        for (const mpr::Axes &axes : ways) {
+            const mpr::Plane plane{lattice.center(), axes, 0.7, 70, 40};
+            const auto thin = mpr::reslice(volume, plane);
+            // The faces of a slab and what lies between, a hundred places: its maximum is no less.
+            const double mm = 6.0;
+            const auto slab = mpr::reslice(volume, plane, {.slab = {mm, mpr::SlabMode::maximum}});
+            int inside = 0;
+            for (int r = 0; r < plane.height; ++r)
+                for (int c = 0; c < plane.width; ++c) {
+                    const std::size_t n = std::size_t(r) * plane.width + std::size_t(c);
+                    const float value = mpr::valueAt(volume, plane.at(c, r));
+                    ASSERT_EQ(std::isnan(thin.values[n]), std::isnan(value)) << r << " " << c;
+                    if (std::isnan(value))
+                        continue;
+                    ++inside;
+                    // Places in single precision, a line of 32 long: 1e-5 of a step of 2000.
+                    ASSERT_NEAR(thin.values[n], value, 0.05);
+                    ASSERT_GE(slab.values[n], value - 0.05);
+                    for (const double face : {-0.5 * mm, 0.5 * mm}) {
+                        const float at = mpr::valueAt(
+                            volume, {plane.at(c, r).mm + face * plane.axes.toViewer()});
+                        if (!std::isnan(at))
+                            ASSERT_GE(slab.values[n], at - 0.05);
+                    }
+                }
+            EXPECT_GT(inside, 500);
+        }
+}
+
+TEST(Reslice, PlanesFaceAnyDirectionTogether) {
+    const mpr::Axes wanted = mpr::PlaneAxes()
+                                 .turned(Orientation::axial, 0.8)
+                                 .turned(Orientation::coronal, -0.4)
+                                 .of(Orientation::sagittal);
+    const mpr::PlaneAxes planes = mpr::PlaneAxes().facing(wanted);
+    double nearest = 0.0;
+    for (const auto a : mpr::allOrientations) {
+        nearest = std::max(nearest, std::abs(glm::dot(planes.scrollAxis(a), wanted.toViewer())));
+        for (const auto b : mpr::allOrientations)
+            EXPECT_NEAR(glm::dot(planes.scrollAxis(a), planes.scrollAxis(b)), a == b ? 1.0 : 0.0,
+                        1e-12);
+    }
+    EXPECT_NEAR(nearest, 1.0, 1e-12);
+}
+
 TEST(Reslice, NearestShowsTheSamplesThemselves) {
     const auto volume = test::noiseField(test::tiltedLattice({6, 5, 4}, {1, 1, 3}, 20)).values;
     const volume::Lattice &lattice = volume.lattice();

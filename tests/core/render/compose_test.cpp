@@ -55,6 +55,12 @@ TEST(Compose, ColorsKeepTheirHue) {
     const auto lifted = render::compose({1, 1, 1.0, {0.1F, 0.0F, -0.1F}, 3}, {-60.0, 10.0, false});
     EXPECT_GT(lifted[0], 200);
     EXPECT_LE(lifted[0] - lifted[2], 1);
+    // What is below zero is grey too, and the brighter the higher it is.
+    const auto below = render::compose({2, 1, 1.0, {-9.5F, -9.7F, -9.9F, -1.0F, -3.0F, -5.0F}, 3},
+                                       {-10.0, 90.0, false});
+    for (int n = 0; n < 8; n += 4)
+        EXPECT_TRUE(below[n] == below[n + 1] && below[n] == below[n + 2]);
+    EXPECT_LT(below[0], below[4]);
     EXPECT_NEAR(render::toneRange(image, {}).high, 10.0, 1e-6); // of 40, 10 and 2: rank 1.996
 }
 

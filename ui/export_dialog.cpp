@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/export_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QStyle>
+
+#include "core/task/error.h"
+#include "ui/document.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr const char *folderKey = "exportFolder";
+
+QString suffixOf(PictureFormat format) {
+    return format == PictureFormat::npy ? ".npy" : format == PictureFormat::nrrd ? ".nrrd" : ".png";
+}
+
+QComboBox *box(const char *name, const QStringList &entries) {
+    auto *box = new QComboBox;
+    box->setObjectName(name);
+    box->addItems(entries);
+    return box;
+}
+
+} // namespace
+
+ExportDialog::ExportDialog(const Document &document, const Panes &panes, QWidget *parent)
+    : QDialog(parent), m_document(document), m_panes(panes),
+      m_pane(box("exportPaneBox", {tr("Axial"), tr("Coronal"), tr("Sagittal"), tr("Projection")})),
+      m_format(box("exportFormatBox", {tr("As it looks (PNG)"), tr("Grey in 16 bits (PNG)"),
+                                       tr("Values (NumPy, float)"), tr("Values (NRRD, float)")})),
+      m_scale(box("exportScaleBox", {"1 x", "2 x", "3 x", "4 x"})),
+      m_annotated(new QCheckBox(tr("With annotations"))), m_path(new QLineEdit),
+      m_said(new QLabel) {
+    setObjectName("exportDialog");
+    setWindowTitle(tr("Export picture"));
+    setAttribute(Qt::WA_DeleteOnClose);
+    m_pane->setCurrentIndex(3);
+    m_annotated->setObjectName("exportAnnotatedBox");
+    m_annotated->setChecked(true);
+    m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them a picture "
+                               "has no patient's side on it"));
+    m_path->setObjectName("exportPathEdit");
+    m_path->setMinimumWidth(360);
+    m_path->setText(
+        QDir(QSettings().value(folderKey, QDir::homePath()).toString()).filePath("projection.png"));
+    m_said->setObjectName("exportSaidLabel");
+    m_said->setWordWrap(true);
+    auto *other = new QPushButton(tr("Browse..."));
+    other->setObjectName("exportBrowseButton");
+    auto *where = new QHBoxLayout;
+    where->addWidget(m_path, 1);
+    where->addWidget(other);
+    auto *form = new QFormLayout(this);
+    form->addRow(tr("Picture of"), m_pane);
+    form->addRow(tr("Format"), m_format);
+    form->addRow(tr("Size"), m_scale);
+    form->addRow(QString(), m_annotated);
+    form->addRow(tr("File"), where);
+    form->addRow(m_said);
+    auto *buttons = new QDialogButtonBox;
+    m_write = buttons->addButton(tr("Write"), QDialogButtonBox::AcceptRole);
+    m_write->setObjectName("exportWriteButton");
+    buttons->addButton(QDialogButtonBox::Cancel);
+    form->addRow(buttons);
+    for (QComboBox *choice : {m_pane, m_format, m_scale})
+        connect(choice, &QComboBox::currentIndexChanged, this, &ExportDialog::showChosen);
+    connect(m_panes.projection, &ProjectionView::finalImageShown, this, &ExportDialog::showChosen);
+    connect(&document, &Document::volumeChanged, this, &ExportDialog::showChosen);
+    connect(other, &QPushButton::clicked, this, &ExportDialog::browse);
+    connect(buttons, &QDialogButtonBox::accepted, this, &ExportDialog::write);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
+    showChosen();
+}
+
+PictureExport ExportDialog::chosen() const {
+    return {m_pane->currentIndex(), PictureFormat(m_format->currentIndex()),
+            m_scale->currentIndex() + 1, m_annotated->isChecked()};
+}
+
+void ExportDialog::showChosen() {
+    const PictureExport what = chosen();
+    m_annotated->setEnabled(what.format == PictureFormat::png);
+    const QWidget *const pane = what.pane == 3 ? static_cast<const QWidget *>(m_panes.projection)
+                                               : m_panes.planes[std::size_t(what.pane)];
+    const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
+    const QString why = obstacle(what, m_panes, m_document);
+    m_said->setText(why.isEmpty() ? tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height())
+                                  : why);
+    m_said->setProperty("role", why.isEmpty() ? "muted" : "warning");
+    m_said->style()->polish(m_said);
+    m_write->setEnabled(why.isEmpty());
+    // The name goes with the format, as long as it is one of ours.
+    QString path = m_path->text();
+    for (const QString &known : {".png", ".npy", ".nrrd"})
+        if (path.endsWith(known, Qt::CaseInsensitive)) {
+            path.chop(known.size());
+            m_path->setText(path + suffixOf(what.format));
+            break;
+        }
+}
+
+void ExportDialog::browse() {
+    const QString suffix = suffixOf(chosen().format);
+    const QString path =
+        QFileDialog::getSaveFileName(this, tr("Export picture"), m_path->text(), "*" + suffix);
+    if (!path.isEmpty())
+        m_path->setText(path);
+}
+
+void ExportDialog::write() {
+    try {
+        writePicture(chosen(), m_panes, m_document, m_path->text());
+        QSettings().setValue(folderKey, QFileInfo(m_path->text()).absolutePath());
+        close();
+    } catch (const task::Error &error) {
+        m_said->setText(QString::fromStdString(error.reason()));
+        m_said->setProperty("role", "warning");
+        m_said->style()->polish(m_said);
+    }
+}
+
+} // namespace pellucid::ui
