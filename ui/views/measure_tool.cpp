@@ -250,7 +250,7 @@ void MeasureTool::paint(QPainter &painter, const Pane &pane, const OverlayColors
                              int(pane.mapping.plane.height / pane.mapping.pixelRatio));
         area.translate(std::min(0, viewport.right() - 6 - area.right()),
                        std::min(0, viewport.bottom() - 6 - area.bottom()));
-        painter.fillRect(area.adjusted(-4, -2, 4, 2), QColor(0, 0, 0, 110));
+        painter.fillRect(area.adjusted(-4, -2, 4, 2), QColor(0, 0, 0, 165));
         drawText(painter, area, Qt::AlignLeft, lines.join('\n'), color);
     }
     if (isMaking)

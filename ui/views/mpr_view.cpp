@@ -233,7 +233,8 @@ QImage MprView::picture(int scale, bool isAnnotated) {
         QPainter painter(&picture);
         paintAnnotations(painter);
         const OverlayColors colors = overlayColors(colorRole(m_orientation));
-        drawText(painter, rect().adjusted(8, 8, -8, -24), Qt::AlignHCenter | Qt::AlignBottom,
+        const int line = painter.fontMetrics().height() + 3;
+        drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,
                  tr("Not for diagnostic use"), colors.muted);
     }
     return picture;
