@@ -302,7 +302,9 @@ SliceImage reslice(const volume::Volume &volume, const Plane &plane,
     const glm::dvec3 perMm = glm::abs(grid.perMm);
     const std::vector<Node> nodes =
         nodesOf(options.slab.thicknessMm,
-                range.hasSlices ? range.stepMm : 1.0 / std::max({perMm.x, perMm.y, perMm.z}));
+                range.hasSlices ? range.stepMm
+                                : std::min(lattice.shortestStepMm(),
+                                           1.0 / std::max({perMm.x, perMm.y, perMm.z})));
     volume.visit([&](auto span) {
         fill(image, Lines(span, lattice.size(), options.interpolation), grid, nodes,
              options.slab.mode);
