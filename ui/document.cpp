@@ -20,7 +20,7 @@ std::vector<int> Document::addSources(std::vector<StudySource> sources) {
     std::vector<int> indices;
     for (StudySource &source : sources) {
         const auto it = std::find_if(m_sources.begin(), m_sources.end(),
-                                     [&](const StudySource &s) { return s.key == source.key; });
+                                     [&](const StudySource &s) { return s.key() == source.key(); });
         indices.push_back(int(it - m_sources.begin()));
         if (it == m_sources.end())
             m_sources.push_back(std::move(source));
@@ -29,6 +29,11 @@ std::vector<int> Document::addSources(std::vector<StudySource> sources) {
     }
     emit sourcesChanged();
     return indices;
+}
+
+void Document::closeSource(int index) {
+    m_sources.at(std::size_t(index)).isClosed = true;
+    emit sourcesChanged();
 }
 
 void Document::setCurrentSource(int index) {

@@ -41,6 +41,8 @@ public:
     const std::vector<StudySource> &sources() const { return m_sources; }
     /// Adds sources, or replaces those that are there already. *Shape*: their indices, in order.
     std::vector<int> addSources(std::vector<StudySource> sources);
+    /// It is listed no more; indices stay.
+    void closeSource(int index);
     int currentSource() const { return m_currentSource; }
     void setCurrentSource(int index);
 

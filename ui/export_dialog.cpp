@@ -49,7 +49,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, QWidget
     setObjectName("exportDialog");
     setWindowTitle(tr("Export picture"));
     setAttribute(Qt::WA_DeleteOnClose);
-    m_pane->setCurrentIndex(3);
+    m_pane->setCurrentIndex(int(Pane::projection));
     m_annotated->setObjectName("exportAnnotatedBox");
     m_annotated->setChecked(true);
     m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them a picture "
@@ -88,15 +88,14 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, QWidget
 }
 
 PictureExport ExportDialog::chosen() const {
-    return {m_pane->currentIndex(), PictureFormat(m_format->currentIndex()),
+    return {Pane(m_pane->currentIndex()), PictureFormat(m_format->currentIndex()),
             m_scale->currentIndex() + 1, m_annotated->isChecked()};
 }
 
 void ExportDialog::showChosen() {
     const PictureExport what = chosen();
     m_annotated->setEnabled(what.format == PictureFormat::png);
-    const QWidget *const pane = what.pane == 3 ? static_cast<const QWidget *>(m_panes.projection)
-                                               : m_panes.planes[std::size_t(what.pane)];
+    const QWidget *const pane = m_panes.of(what.pane);
     const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
     const QString why = obstacle(what, m_panes, m_document);
     m_said->setText(why.isEmpty() ? tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height())

@@ -27,13 +27,14 @@
 #include "ui/dock.h"
 #include "ui/engine_menu.h"
 #include "ui/export_dialog.h"
+#include "ui/import_dialog.h"
 #include "ui/look_docks.h"
 #include "ui/look_menu.h"
 #include "ui/panels/job_strip.h"
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/presets_panel.h"
-#include "ui/panels/series_panel.h"
 #include "ui/panels/start_page.h"
+#include "ui/panels/study_panel.h"
 #include "ui/recent_paths.h"
 #include "ui/scene_files.h"
 #include "ui/tools_menu.h"
@@ -89,6 +90,8 @@ MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, Q
 MainWindow::~MainWindow() {
     // Work that still runs looks at the members.
     m_jobs.join();
+    m_library.jobs().join();
+    m_store.writePending(); // while somebody can say that it failed
 }
 
 void MainWindow::createPanes() {
@@ -121,13 +124,27 @@ void MainWindow::createPanes() {
 }
 
 void MainWindow::createStudyDock() {
-    auto *panel = new SeriesPanel(m_document, m_theme);
-    panel->setAttribute(Qt::WA_StyledBackground);
-    connect(panel, &SeriesPanel::sourceActivated, &m_opener, &StudyOpener::openSource);
-    auto *dock = new QDockWidget(tr("STUDIES"), this);
-    dock->setObjectName("studyDock");
-    dock->setWidget(panel);
-    panel->setMinimumWidth(250);
+    m_studies = new StudyPanel(m_document, m_library, m_theme);
+    connect(m_studies, &StudyPanel::sourceActivated, &m_opener, &StudyOpener::openSource);
+    connect(m_studies, &StudyPanel::closeRequested, &m_opener, &StudyOpener::closeSource);
+    connect(m_studies, &StudyPanel::importRequested, this, &MainWindow::importPaths);
+    connect(m_studies, &StudyPanel::libraryVolumeActivated, this,
+            [this](const StudyFacts &study, const VolumeFacts &volume) {
+                m_opener.openFromLibrary(study, volume, m_library.files(volume));
+            });
+    connect(&m_library, &StudyLibrary::failed, this, &MainWindow::report);
+    connect(&m_library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
+        m_document.clearProblems();
+        m_document.addProblems(result.skipped);
+        statusBar()->showMessage(tr("Imported: %1 series, %2 files; %3 not used")
+                                     .arg(result.series)
+                                     .arg(result.files)
+                                     .arg(result.skipped.size()),
+                                 8000);
+    });
+    m_document.addProblems(m_library.notices());
+    QDockWidget *dock = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
+    m_studies->setMinimumWidth(250);
     addDockWidget(Qt::LeftDockWidgetArea, dock);
 }
 
@@ -156,6 +173,9 @@ void MainWindow::createFileMenu() {
     })->setIconText(tr("Open"));
     command(*menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"),
             [this] { chooseFolder(); });
+    command(*menu, tr("&Import into the library..."), "importAction", QKeySequence("Ctrl+I"),
+            [this] { importPaths({}); })
+        ->setIconText(tr("Import"));
     QMenu *phantoms = menu->addMenu(tr("Open &phantom"));
     command(*phantoms, tr("&Head"), "headPhantomAction", {}, [this] { openPhantom("head"); });
     command(*phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { openPhantom("chest"); });
@@ -186,6 +206,11 @@ void MainWindow::createEditMenu() {
     redo->setObjectName("redoAction");
     redo->setShortcut(QKeySequence("Ctrl+Shift+Z"));
     menu->addActions({undo, redo});
+    menu->addSeparator();
+    command(*menu, tr("&Find a study"), "findStudyAction", QKeySequence::Find, [this] {
+        findChild<QDockWidget *>("studyDock")->show();
+        m_studies->focusSearch();
+    });
     menu->addSeparator();
     command(*menu, tr("&Delete measurement"), "deleteMeasurementAction", QKeySequence::Delete,
             [this] { m_measurements->removeSelected(); });
@@ -256,6 +281,7 @@ void MainWindow::createToolBar() {
     bar->setMovable(false);
     bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
     bar->addAction(findChild<QAction *>("openFilesAction"));
+    bar->addAction(findChild<QAction *>("importAction"));
     bar->addSeparator();
     m_tools->addTo(*bar);
     bar->addSeparator();
@@ -282,7 +308,7 @@ void MainWindow::createStatusBar() {
     m_engine->setObjectName("engineLabel");
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_readout);
-    statusBar()->addWidget(new JobStrip(m_jobs));
+    statusBar()->addWidget(new JobStrip(m_jobs, "job"));
     statusBar()->addPermanentWidget(m_engine);
     connect(&m_jobs, &JobRunner::started, m_projection, &ProjectionView::jobStarted);
     connect(&m_jobs, &JobRunner::finished, this, [this] {
@@ -318,6 +344,12 @@ void MainWindow::openPaths(const QStringList &paths) {
 
 void MainWindow::openPhantom(const QString &kind) {
     m_opener.openPhantom(kind);
+}
+
+void MainWindow::importPaths(const QStringList &paths) {
+    auto *dialog = new ImportDialog(paths, this);
+    connect(dialog, &ImportDialog::chosen, &m_library, &StudyLibrary::import);
+    dialog->open();
 }
 
 void MainWindow::remember(const QStringList &paths) {

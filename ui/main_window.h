@@ -10,6 +10,7 @@
 #include "ui/document.h"
 #include "ui/graphics_card.h"
 #include "ui/job_runner.h"
+#include "ui/library/study_library.h"
 #include "ui/look_preparer.h"
 #include "ui/measurement_store.h"
 #include "ui/study_opener.h"
@@ -26,8 +27,8 @@ class MeasurementsPanel;
 class MprView;
 class PaneArea;
 class ProjectionView;
-class SeriesPanel;
 class StartPage;
+class StudyPanel;
 class ToolsMenu;
 
 /// The workstation's window: creates the panes and docks, names the menus, connects intents.
@@ -41,9 +42,12 @@ public:
 
     void openPaths(const QStringList &paths);
     void openPhantom(const QString &kind);
+    /// Asks how, and for what is to be imported if there are no paths.
+    void importPaths(const QStringList &paths);
 
     Document &document() { return m_document; }
     JobRunner &jobs() { return m_jobs; }
+    StudyLibrary &library() { return m_library; }
     GraphicsCard &graphicsCard() { return m_card; }
 
 protected:
@@ -82,6 +86,7 @@ private:
     Theme m_theme;
     Document m_document;
     JobRunner m_jobs;
+    StudyLibrary m_library;
     LookPreparer m_preparer;
     GraphicsCard m_card;
     CardCopier m_copier;
@@ -93,6 +98,7 @@ private:
     PaneArea *m_panes = nullptr;
     StartPage *m_start = nullptr;
     QStackedWidget *m_stack = nullptr;
+    StudyPanel *m_studies = nullptr;
     MeasurementsPanel *m_measurements = nullptr;
     ToolsMenu *m_tools = nullptr;
     QActionGroup *m_layouts = nullptr;

@@ -46,7 +46,7 @@ std::optional<fs::path> MeasurementStore::file() const {
     if (!folder || source < 0)
         return std::nullopt;
     // No name of a patient in the name of a file.
-    const QByteArray key = m_document.sources()[std::size_t(source)].key.toUtf8();
+    const QByteArray key = m_document.sources()[std::size_t(source)].key().toUtf8();
     return *folder / "measurements" /
            (QCryptographicHash::hash(key, QCryptographicHash::Sha256).toHex().toStdString() +
             ".json");

@@ -20,6 +20,8 @@ public:
     explicit MeasurementStore(Document &document, QObject *parent = nullptr);
     ~MeasurementStore() override;
 
+    /// What waits for the hand to rest is written now.
+    void writePending();
     /// Writes a table of the measurements. *Throws* Error{output}.
     void exportTable(const QString &path) const;
 
@@ -30,7 +32,6 @@ private:
     std::optional<std::filesystem::path> file() const;
     void load();
     void rememberToWrite();
-    void writePending();
 
     Document &m_document;
     bool m_isLoading = false;

@@ -17,7 +17,9 @@ QString valueText(double value, volume::ValueUnit unit) {
                                                  : QString::number(value, 'g', 5);
 }
 
-QString areaText(double mm2) {
+QString areaText(double mm2, bool hasSpacing) {
+    if (!hasSpacing)
+        return tr("%1 square pixels").arg(mm2, 0, 'f', 0);
     return mm2 < 100.0 ? tr("%1 mm²").arg(mm2, 0, 'f', 1)
                        : tr("%1 cm²").arg(mm2 / 100.0, 0, 'f', 2);
 }
@@ -44,20 +46,23 @@ QString kindText(measure::Kind kind) {
     return tr("Projected distance");
 }
 
-QString mainFigure(const measure::Result &result, volume::ValueUnit unit) {
+QString mainFigure(const measure::Result &result, const volume::Volume &volume) {
+    const volume::ValueUnit unit = volume.unit();
+    const bool hasSpacing = volume.notes().hasSpacing;
     if (result.lengthMm)
-        return tr("%1 mm").arg(*result.lengthMm, 0, 'f', 1);
+        return (hasSpacing ? tr("%1 mm") : tr("%1 pixels")).arg(*result.lengthMm, 0, 'f', 1);
     if (result.angleDegrees)
         return tr("%1°").arg(*result.angleDegrees, 0, 'f', 1);
     if (result.values)
         return valueText(result.values->mean, unit) + unitText(unit);
-    return result.areaMm2 ? areaText(*result.areaMm2) : QString();
+    return result.areaMm2 ? areaText(*result.areaMm2, hasSpacing) : QString();
 }
 
 QStringList allFigures(const measure::Measurement &measurement, const measure::Result &result,
-                       volume::ValueUnit unit) {
+                       const volume::Volume &volume) {
+    const volume::ValueUnit unit = volume.unit();
     if (!result.areaMm2) {
-        QStringList lines{mainFigure(result, unit)};
+        QStringList lines{mainFigure(result, volume)};
         if (measurement.kind == measure::Kind::projectedDistance)
             lines << tr("in the picture, depth not measured");
         return lines;
@@ -71,7 +76,7 @@ QStringList allFigures(const measure::Measurement &measurement, const measure::R
     } else {
         lines << tr("outside the volume");
     }
-    return lines << areaText(*result.areaMm2);
+    return lines << areaText(*result.areaMm2, volume.notes().hasSpacing);
 }
 
 } // namespace pellucid::ui

@@ -12,10 +12,10 @@ namespace pellucid::ui {
 QString kindText(measure::Kind kind);
 
 /// The main figure with its unit: "12.3 mm", "45.2°", "36.1 HU".
-QString mainFigure(const measure::Result &result, volume::ValueUnit unit);
+QString mainFigure(const measure::Result &result, const volume::Volume &volume);
 
 /// All figures, a line each, as they stand beside the drawing.
 QStringList allFigures(const measure::Measurement &measurement, const measure::Result &result,
-                       volume::ValueUnit unit);
+                       const volume::Volume &volume);
 
 } // namespace pellucid::ui

@@ -21,8 +21,6 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr int projectionPane = 3;
-
 QString tr(const char *text) {
     return QCoreApplication::translate("PictureExport", text);
 }
@@ -43,7 +41,7 @@ QImage sixteenBits(const render::ProjectionImage &image, const render::Tone &ton
 }
 
 QImage asItLooks(const PictureExport &what, const Panes &panes) {
-    if (what.pane != projectionPane)
+    if (what.pane != Pane::projection)
         return panes.planes[std::size_t(what.pane)]->picture(what.scale, what.isAnnotated);
     ProjectionView &view = *panes.projection;
     const render::ProjectionImage image = view.imageOfPicture(what.scale);
@@ -60,10 +58,15 @@ QImage asItLooks(const PictureExport &what, const Panes &panes) {
 
 } // namespace
 
+QWidget *Panes::of(Pane pane) const {
+    return pane == Pane::projection ? static_cast<QWidget *>(projection)
+                                    : planes[std::size_t(pane)];
+}
+
 QString obstacle(const PictureExport &what, const Panes &panes, const Document &document) {
     if (!document.volume())
         return tr("No study is open");
-    const bool isPlane = what.pane != projectionPane;
+    const bool isPlane = what.pane != Pane::projection;
     if (!isPlane && !panes.projection->showsWhatIsAskedFor())
         return tr("The projection is still being made");
     if (isPlane && what.format != PictureFormat::png)

@@ -5,16 +5,23 @@
 
 #include <QString>
 
+class QWidget;
+
 namespace pellucid::ui {
 
 class Document;
 class MprView;
 class ProjectionView;
 
+/// The planes in the order of mpr::Orientation, and the projection.
+enum class Pane { axial, coronal, sagittal, projection };
+
 /// The panes that pictures are made of.
 struct Panes {
     std::array<MprView *, 3> planes;
     ProjectionView *projection;
+
+    QWidget *of(Pane pane) const;
 };
 
 /// `png`: as it looks; `png16`: grey from the lower to the upper end of the window, in a straight
@@ -22,7 +29,7 @@ struct Panes {
 enum class PictureFormat { png, png16, npy, nrrd };
 
 struct PictureExport {
-    int pane = 3; ///< of the planes, in their order; 3: the projection
+    Pane pane = Pane::projection;
     PictureFormat format = PictureFormat::png;
     int scale = 1; ///< pixels for one of the screen, a side
     bool isAnnotated = true;

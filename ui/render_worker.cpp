@@ -55,24 +55,19 @@ std::future<render::ProjectionImage> RenderWorker::picture(const render::Camera 
                                                            const render::ImageDefinition &image,
                                                            const shading::Shading &shading) {
     const std::lock_guard lock(m_mutex);
-    auto promise = std::make_shared<std::promise<render::ProjectionImage>>();
-    m_pictures.emplace_back([promise, engine = m_engine, camera, image, shading] {
-        try {
-            if (!engine)
-                throw task::Error(task::ErrorCode::usage, "there is no projection yet");
-            promise->set_value(engine->render(camera, image, shading));
-        } catch (...) {
-            promise->set_exception(std::current_exception());
-        }
+    m_pictures.emplace_back([engine = m_engine, camera, image, shading] {
+        if (!engine)
+            throw task::Error(task::ErrorCode::usage, "there is no projection yet");
+        return engine->render(camera, image, shading);
     });
     m_wake.notify_one();
-    return promise->get_future();
+    return m_pictures.back().get_future();
 }
 
 void RenderWorker::run(std::stop_token stop) {
     for (;;) {
         Request request;
-        std::packaged_task<void()> picture;
+        std::packaged_task<render::ProjectionImage()> picture;
         {
             std::unique_lock lock(m_mutex);
             if (!m_wake.wait(lock, stop, [this] { return m_next || !m_pictures.empty(); }))

@@ -102,7 +102,7 @@ private:
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
     std::optional<Request> m_next, m_last;
-    std::deque<std::packaged_task<void()>> m_pictures;
+    std::deque<std::packaged_task<render::ProjectionImage()>> m_pictures;
     std::uint64_t m_number = 0;
     /// A frame that the card takes long for; meanwhile the processor makes them.
     std::future<CardFrame> m_card;

@@ -97,6 +97,23 @@ void StudyOpener::openPhantom(const QString &kind) {
     openSource(m_document.addSources({phantomSource(kind)}).front());
 }
 
+void StudyOpener::openFromLibrary(const StudyFacts &study, const VolumeFacts &volume,
+                                  const std::vector<dicom::InstanceFile> &files) {
+    m_document.clearProblems();
+    openSource(m_document.addSources({librarySource(study, volume, files)}).front());
+}
+
+void StudyOpener::closeSource(int index) {
+    m_kept.take(index);
+    if (index == m_document.currentSource()) {
+        m_jobs.cancel();
+        m_preparer.forgetVolume();
+        m_document.closeVolume();
+        m_document.setCurrentSource(-1);
+    }
+    m_document.closeSource(index);
+}
+
 void StudyOpener::openSource(int index) {
     // What is shown or on its way already need not come again.
     if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning())) {
@@ -113,35 +130,36 @@ void StudyOpener::openSource(int index) {
     m_document.closeVolume();
     if (showKept(index))
         return;
-    m_jobs.start(tr("Loading %1").arg(source.series), [this, source,
-                                                       prepare = m_preparer.preparation(
-                                                           wanted, 0.6, true)](const Job &job) {
-        dicom::LoadObserver observer;
-        observer.preview = [&](const volume::Volume &soFar) {
-            const volume::ValueWindow window = initialWindow(soFar);
-            job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, {}, true); });
-        };
-        const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
-        const volume::Volume volume = loaded.volume;
-        const volume::ValueWindow window = initialWindow(volume);
-        const classify::FieldWindow field = classify::defaultFieldWindow(volume);
-        job.deliver([this, loaded, window, field] {
-            m_document.addProblems(loaded.skipped);
-            m_document.setVolume(loaded.volume, window, field, false);
-            // The quality may have been changed while the volume came.
-            m_preparer.prepareAgain();
-        });
-        if (!volume.notes().placed) {
-            job.deliver([this, volume] {
-                const auto &warnings = volume.notes().warnings;
-                emit notProjectable(warnings.empty() ? tr("images only")
-                                                     : QString::fromStdString(warnings.back()));
+    m_jobs.start(
+        tr("Loading %1").arg(seriesText(source.volume)),
+        [this, source, prepare = m_preparer.preparation(wanted, 0.6, true)](const Job &job) {
+            dicom::LoadObserver observer;
+            observer.preview = [&](const volume::Volume &soFar) {
+                const volume::ValueWindow window = initialWindow(soFar);
+                job.deliver(
+                    [this, soFar, window] { m_document.setVolume(soFar, window, {}, true); });
+            };
+            const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
+            const volume::Volume volume = loaded.volume;
+            const volume::ValueWindow window = initialWindow(volume);
+            const classify::FieldWindow field = classify::defaultFieldWindow(volume);
+            job.deliver([this, loaded, window, field] {
+                m_document.addProblems(loaded.skipped);
+                m_document.setVolume(loaded.volume, window, field, false);
+                // The quality may have been changed while the volume came.
+                m_preparer.prepareAgain();
             });
-            return;
-        }
-        job.stage(tr("Preparing the projection"));
-        prepare(job, volume);
-    });
+            if (!volume.notes().placed) {
+                job.deliver([this, volume] {
+                    const auto &warnings = volume.notes().warnings;
+                    emit notProjectable(warnings.empty() ? tr("images only")
+                                                         : QString::fromStdString(warnings.back()));
+                });
+                return;
+            }
+            job.stage(tr("Preparing the projection"));
+            prepare(job, volume);
+        });
     m_preparer.expect(wanted);
 }
 

@@ -5,6 +5,7 @@
 #include <QStringList>
 
 #include "ui/kept_studies.h"
+#include "ui/study_source.h"
 
 namespace pellucid::ui {
 
@@ -22,6 +23,10 @@ public:
     void openPaths(const QStringList &paths);
     void openPhantom(const QString &kind);
     void openSource(int index);
+    void openFromLibrary(const StudyFacts &study, const VolumeFacts &volume,
+                         const std::vector<dicom::InstanceFile> &files);
+    /// Takes it off the list; if it is the open one, nothing is open then.
+    void closeSource(int index);
 
 signals:
     /// The paths held something.

@@ -3,29 +3,57 @@
 
 #include <QCoreApplication>
 
+#include "core/dicom/scan.h"
 #include "core/phantom/phantom.h"
+#include "core/task/error.h"
+#include "ui/library/thumbnail.h"
 
 namespace pellucid::ui {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 QString tr(const char *text) {
     return QCoreApplication::translate("StudySource", text);
 }
 
-QString sizeText(const volume::Lattice &l) {
-    return QString::fromUtf8("%1 × %2 × %3\n%4 × %5 × %6 mm")
-        .arg(l.size().k)
-        .arg(l.size().j)
-        .arg(l.size().i)
-        .arg(l.spacingMm(0), 0, 'f', 2)
-        .arg(l.spacingMm(1), 0, 'f', 2)
-        .arg(l.sliceDistanceMm(), 0, 'f', 2);
+// A phantom's thumbnail is cut out of a small one.
+constexpr volume::GridSize thumbnailPhantom{96, 96, 96};
+
+// The volume that a library means; what it was grouped by may have changed with its files.
+dicom::Selection meant(const dicom::Catalogue &catalogue, const VolumeFacts &volume) {
+    for (const dicom::Selection &s : dicom::selections(catalogue))
+        if (volumeFacts(s).key() == volume.key())
+            return s;
+    return dicom::defaultSelection(catalogue);
 }
 
-QString dated(const std::string &date) {
-    const QString d = QString::fromStdString(date);
-    return d.size() == 8 ? d.left(4) + "-" + d.mid(4, 2) + "-" + d.right(2) : d;
+dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
+                                    const std::vector<dicom::InstanceFile> &files,
+                                    const task::Progress &progress,
+                                    const dicom::LoadObserver &observer) {
+    std::vector<fs::path> there;
+    std::vector<dicom::Skipped> skipped;
+    for (const dicom::InstanceFile &file : files) {
+        std::error_code ignored;
+        if (fs::is_regular_file(file.path, ignored))
+            there.push_back(file.path);
+        else
+            skipped.push_back({file.path, "is not there any more"});
+    }
+    if (there.empty())
+        throw task::Error(task::ErrorCode::unusable,
+                          tr("the files of this series are not there any more; the disc or the "
+                             "drive they are on may be away")
+                              .toStdString(),
+                          skipped.empty() ? fs::path() : skipped.front().path.parent_path());
+    const dicom::Catalogue catalogue = dicom::scan(there, progress.part(0.0, 0.2));
+    skipped.insert(skipped.end(), catalogue.skipped.begin(), catalogue.skipped.end());
+    dicom::LoadedVolume loaded =
+        dicom::loadVolume(*meant(catalogue, volume).volume, progress.part(0.2, 1.0), observer);
+    loaded.skipped.insert(loaded.skipped.begin(), skipped.begin(), skipped.end());
+    return loaded;
 }
 
 } // namespace
@@ -34,35 +62,16 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
     std::vector<StudySource> sources;
     for (const dicom::Selection &s : dicom::selections(*catalogue)) {
         StudySource source;
-        source.patient = QString::fromStdString(s.patient->name).replace('^', ' ').simplified();
-        if (source.patient.isEmpty())
-            source.patient = QString::fromStdString(s.patient->id).isEmpty()
-                                 ? tr("Without name")
-                                 : QString::fromStdString(s.patient->id);
-        source.study = (dated(s.study->date) + " " + QString::fromStdString(s.series->modality) +
-                        " " + QString::fromStdString(s.study->description))
-                           .simplified();
-        const QString description = QString::fromStdString(s.series->description);
-        source.series = QString("%1 %2")
-                            .arg(s.series->number)
-                            .arg(description.isEmpty() ? QString::fromStdString(s.series->modality)
-                                                       : description);
-        if (!s.volume->label.empty())
-            source.series += ", " + QString::fromStdString(s.volume->label);
-        source.detail = sizeText(s.volume->geometry.lattice);
-        for (const std::string &warning : s.volume->notes.warnings)
-            source.warnings << QString::fromStdString(warning);
-        source.placed = s.volume->placed;
-        const auto part = [](const std::string &text) { return QString::fromStdString(text); };
-        source.patientKey = part(s.patient->id) + "\n" + part(s.patient->name);
-        source.studyKey = source.patientKey + "\n" + part(s.study->uid);
-        source.key = source.studyKey + "\n" + part(s.series->uid) + "\n" + part(s.volume->label) +
-                     "\n" + source.detail + "\n" + part(s.volume->nrrd.string());
+        source.study = studyFacts(s);
+        source.volume = volumeFacts(s);
+        for (const dicom::InstanceFile &file : s.series->files)
+            source.files << QString::fromStdString(file.path.string());
         // The catalogue is kept alive by whoever may load from it.
         source.load = [catalogue, entry = s.volume](const task::Progress &progress,
                                                     const dicom::LoadObserver &observer) {
             return dicom::loadVolume(*entry, progress, observer);
         };
+        source.makeThumbnail = [catalogue, entry = s.volume] { return makeThumbnail(*entry); };
         sources.push_back(std::move(source));
     }
     return sources;
@@ -77,20 +86,41 @@ std::size_t defaultSource(const dicom::Catalogue &catalogue) {
     return n;
 }
 
+StudySource librarySource(const StudyFacts &study, const VolumeFacts &volume,
+                          const std::vector<dicom::InstanceFile> &files) {
+    StudySource source;
+    source.study = study;
+    source.volume = volume;
+    for (const dicom::InstanceFile &file : files)
+        source.files << QString::fromStdString(file.path.string());
+    source.load = [volume, files](const task::Progress &progress,
+                                  const dicom::LoadObserver &observer) {
+        return loadFromLibrary(volume, files, progress, observer);
+    };
+    return source;
+}
+
 StudySource phantomSource(const QString &name) {
     const phantom::Kind kind = phantom::kindFromName(name.toStdString());
     const volume::Lattice lattice = phantom::phantomLattice(kind, {});
     StudySource source;
-    source.patient = tr("Phantoms");
-    source.study = tr("Made by Pellucid");
-    source.series = name == "head"    ? tr("Head phantom")
-                    : name == "chest" ? tr("Chest phantom")
-                                      : name;
-    source.detail = sizeText(lattice);
-    source.patientKey = source.studyKey = "phantoms";
-    source.key = "phantoms\n" + name;
+    source.study.patientId = "phantoms";
+    source.study.patientName = tr("Phantoms");
+    source.study.description = tr("Made by Pellucid");
+    source.volume.seriesUid = name;
+    source.volume.seriesNumber = name == "head" ? 1 : 2;
+    source.volume.description = name == "head"    ? tr("Head phantom")
+                                : name == "chest" ? tr("Chest phantom")
+                                                  : name;
+    source.volume.size = lattice.size();
+    source.volume.spacingMm = {lattice.spacingMm(0), lattice.spacingMm(1),
+                               lattice.sliceDistanceMm()};
     source.load = [kind, lattice](const task::Progress &progress, const dicom::LoadObserver &) {
         return dicom::LoadedVolume{phantom::makePhantom(kind, lattice, progress), {}};
+    };
+    source.makeThumbnail = [kind] {
+        return makeThumbnail(phantom::makePhantom(
+            kind, phantom::phantomLattice(kind, {.size = thumbnailPhantom}), {}));
     };
     return source;
 }

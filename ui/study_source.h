@@ -6,23 +6,28 @@
 #include <vector>
 
 #include <QString>
-#include <QStringList>
 
 #include "core/dicom/catalogue.h"
 #include "core/dicom/load_volume.h"
+#include "ui/library/study_facts.h"
 
 namespace pellucid::ui {
 
-/// Something that can be shown: a volume of a study with the way to load it. A value; the names it
-/// carries are for the eye only and go into no log, no title and no file name.
+/// Something that can be shown: a volume of a study with the way to load it. A value.
 struct StudySource {
-    QString patient, study, series, detail;
-    /// What tells patients, studies and volumes apart; never the names, which may be equal.
-    QString patientKey, studyKey, key;
-    QStringList warnings;
-    bool placed = true;
+    StudyFacts study;
+    VolumeFacts volume;
+    /// Of its series.
+    QStringList files;
     /// Thread-safe; see dicom::loadVolume.
     std::function<dicom::LoadedVolume(const task::Progress &, const dicom::LoadObserver &)> load;
+    /// Thread-safe; for volumes whose facts have none.
+    std::function<QImage()> makeThumbnail;
+    /// The user has closed it: not listed any more.
+    bool isClosed = false;
+
+    /// What tells it from every other.
+    QString key() const { return study.key() + "\n" + volume.key(); }
 };
 
 /// One source per volume of a catalogue.
@@ -30,6 +35,10 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
 
 /// The index of the source that a user most likely wants: the volume with most voxels.
 std::size_t defaultSource(const dicom::Catalogue &catalogue);
+
+/// A volume of the library, by the files of its series: they are looked at again when it is loaded.
+StudySource librarySource(const StudyFacts &study, const VolumeFacts &volume,
+                          const std::vector<dicom::InstanceFile> &files);
 
 /// A built-in phantom by its name, see core/phantom.
 StudySource phantomSource(const QString &kind);

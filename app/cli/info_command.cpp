@@ -115,7 +115,9 @@ void addInfoCommand(CLI::App &app, const Context &context) {
     auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand(
         "info", "List patients, studies, series, geometry, warnings and skipped files");
-    command->add_option("PATH", options->paths, "Files, folders, DICOMDIRs or NRRD files")
+    command
+        ->add_option("PATH", options->paths,
+                     "Files, folders, DICOMDIRs, ZIP archives or NRRD files")
         ->required();
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options, context] {

@@ -192,7 +192,8 @@ void addRenderCommand(CLI::App &app, const Context &context) {
         "", "size");
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("render", "Project a volume into an image");
-    c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR or an NRRD file")->required();
+    c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR, a ZIP archive or an NRRD file")
+        ->required();
     c->add_option("-o,--output", o->out, "The image: .png, .npy or .nrrd")->required();
     c->add_option("--series", o->series,
                   "Series number or UID; default: the volume with most voxels");

@@ -52,7 +52,8 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c =
         app.add_subcommand("volume", "Write a volume, or the field that is projected, as NRRD");
-    c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR or an NRRD file")->required();
+    c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR, a ZIP archive or an NRRD file")
+        ->required();
     c->add_option("-o,--output", o->out, "The NRRD file")->required();
     c->add_option("--series", o->series,
                   "Series number or UID; default: the volume with most voxels");

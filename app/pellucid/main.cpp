@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/pellucid/log_spdlog.h"
+#include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/wisdom.h"
 #include "core/task/error.h"
@@ -27,7 +28,8 @@ int main(int argc, char **argv) {
     std::string engine;
     options.add_option("--engine", engine, "What makes the projections: auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
-    options.add_option("PATH", paths, "Files, folders, a DICOMDIR or NRRD files to open");
+    options.add_option("PATH", paths,
+                       "Files, folders, a DICOMDIR, ZIP archives or NRRD files to open");
     try {
         options.parse(argc, argv);
     } catch (const CLI::Success &success) {
@@ -57,6 +59,7 @@ int main(int argc, char **argv) {
         else
             std::fprintf(stderr, "%s\n", qPrintable(text));
     });
+    files::removeAbandonedSessionFolders();
     if (const auto cache = files::userCacheFolder()) {
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
         keepLogIn(*cache / "log" / "pellucid.log");

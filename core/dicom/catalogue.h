@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/files/session_folder.h"
 #include "core/volume/volume.h"
 
 namespace pellucid::dicom {
@@ -45,10 +47,17 @@ struct VolumeEntry {
     std::size_t voxels() const { return geometry.lattice.size().count(); }
 };
 
+/// A file of a series; its UID tells copies of one instance. A NRRD file has none.
+struct InstanceFile {
+    std::filesystem::path path;
+    std::string sopInstanceUid;
+};
+
 struct Series {
     std::string uid, description, modality, bodyPart;
     int number = 0;
     std::vector<VolumeEntry> volumes;
+    std::vector<InstanceFile> files;
 };
 
 struct Study {
@@ -65,6 +74,8 @@ struct Patient {
 struct Catalogue {
     std::vector<Patient> patients;
     std::vector<Skipped> skipped;
+    /// What archives were unpacked to; it is there as long as somebody may load from it.
+    std::vector<std::shared_ptr<const files::SessionFolder>> unpacked;
 
     bool empty() const { return patients.empty(); }
 };

@@ -151,6 +151,7 @@ void makeImages(VolumeEntry &entry, const Frames &frames, const std::string &rea
     entry.placed = false;
     entry.notPlacedReason = reason;
     const glm::dvec2 spacing = frames.front().header.spacingMm.value_or(glm::dvec2(1.0));
+    entry.notes.hasSpacing = frames.front().header.spacingMm.has_value();
     entry.geometry = {
         volume::Lattice::centred({frames.front().columns, frames.front().rows, int(frames.size())},
                                  {spacing.x, spacing.y, 1.0}),

@@ -15,6 +15,7 @@
 
 #include "core/dicom/group_series.h"
 #include "core/dicom/read_instance.h"
+#include "core/files/archive.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -42,21 +43,31 @@ public:
             addFolder(path);
         else if (!fs::is_regular_file(status))
             throw Error(ErrorCode::unusable, "is neither a file nor a folder", path);
+        else if (files::isArchive(path))
+            addArchive(path);
         else if (isDicomdir(path))
             addDicomdir(path);
         else
             addFile(path);
     }
 
-    std::vector<fs::path> files;
+    std::vector<fs::path> found;
     std::vector<Skipped> skipped;
+    std::vector<std::shared_ptr<const files::SessionFolder>> unpacked;
 
 private:
     void addFile(const fs::path &path) {
         std::error_code error;
         const fs::path canonical = fs::weakly_canonical(path, error);
         if (m_seen.insert(error ? path : canonical).second)
-            files.push_back(path);
+            found.push_back(path);
+    }
+
+    void addArchive(const fs::path &path) {
+        auto folder = std::make_shared<files::SessionFolder>();
+        files::unpackArchive(path, folder->path(), m_progress);
+        addFolder(folder->path());
+        unpacked.push_back(std::move(folder));
     }
 
     void addDicomdir(const fs::path &path) {
@@ -74,7 +85,7 @@ private:
         fs::directory_iterator top(folder, error);
         if (error)
             throw Error(ErrorCode::unusable, error.message(), folder);
-        std::vector<fs::path> pending{folder}, found;
+        std::vector<fs::path> pending{folder}, below;
         while (!pending.empty()) {
             m_progress.check();
             const fs::path current = pending.back();
@@ -94,7 +105,7 @@ private:
                     else
                         pending.push_back(entry.path());
                 } else if (entry.is_regular_file(ignored)) {
-                    found.push_back(entry.path());
+                    below.push_back(entry.path());
                 } else {
                     skipped.push_back(
                         {entry.path(), link ? "is a broken link" : "is not a regular file"});
@@ -103,8 +114,8 @@ private:
             if (error) // a share or a CD that fails half way
                 skipped.push_back({current, error.message()});
         }
-        std::sort(found.begin(), found.end());
-        for (const fs::path &path : found)
+        std::sort(below.begin(), below.end());
+        for (const fs::path &path : below)
             addFile(path);
     }
 
@@ -170,6 +181,7 @@ void addNrrd(Catalogue &catalogue, const fs::path &path, const volume::NrrdHeade
     entry.nrrd = path;
     entry.geometry.lattice = header.lattice;
     entry.notes = header.notes;
+    series.files.push_back({path, ""});
     series.volumes.push_back(std::move(entry));
     catalogue.patients.back().studies[0].series.push_back(std::move(series));
 }
@@ -182,52 +194,55 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
         try {
             list.add(path);
         } catch (const Error &error) {
-            // One of several paths does not keep the others from being opened.
-            if (paths.size() == 1)
+            // One of several paths does not keep the others from being opened; a full disk does.
+            if (paths.size() == 1 || error.code() == ErrorCode::output)
                 throw;
             list.skipped.push_back({path, error.reason()});
         }
     }
 
-    std::vector<InstanceHeader> headers(list.files.size());
-    std::vector<std::string> reasons(list.files.size());
+    std::vector<InstanceHeader> headers(list.found.size());
+    std::vector<std::string> reasons(list.found.size());
     std::atomic<std::size_t> done = 0;
     std::mutex reporting;
-    tbb::parallel_for(std::size_t(0), list.files.size(), [&](std::size_t n) {
+    tbb::parallel_for(std::size_t(0), list.found.size(), [&](std::size_t n) {
         progress.check();
-        if (!volume::isNrrdPath(list.files[n])) {
+        if (!volume::isNrrdPath(list.found[n])) {
             try {
-                headers[n] = readHeader(list.files[n]);
+                headers[n] = readHeader(list.found[n]);
                 if (const auto reason = whyUnusable(headers[n]))
                     reasons[n] = *reason;
             } catch (const Error &error) {
-                reasons[n] = error.reason();
+                reasons[n] = files::isArchive(list.found[n])
+                                 ? "is an archive; archives are opened by themselves"
+                                 : error.reason();
             } catch (const std::bad_alloc &) {
                 reasons[n] = "needs more memory than there is";
             }
         }
         const std::lock_guard lock(reporting);
-        progress.report(double(++done) / double(list.files.size()));
+        progress.report(double(++done) / double(list.found.size()));
     });
 
     Catalogue catalogue;
     catalogue.skipped = std::move(list.skipped);
+    catalogue.unpacked = std::move(list.unpacked);
     // Never two series in one volume: the key is the series with its study and patient.
     std::map<std::tuple<std::string, std::string, std::string, std::string>,
              std::vector<SeriesFile>>
         series;
     std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
-    for (std::size_t n = 0; n < list.files.size(); ++n) {
-        if (volume::isNrrdPath(list.files[n])) {
+    for (std::size_t n = 0; n < list.found.size(); ++n) {
+        if (volume::isNrrdPath(list.found[n])) {
             try {
-                addNrrd(catalogue, list.files[n], volume::readNrrdHeader(list.files[n]));
+                addNrrd(catalogue, list.found[n], volume::readNrrdHeader(list.found[n]));
             } catch (const Error &error) {
-                catalogue.skipped.push_back({list.files[n], error.reason()});
+                catalogue.skipped.push_back({list.found[n], error.reason()});
             }
             continue;
         }
         if (!reasons[n].empty()) {
-            catalogue.skipped.push_back({list.files[n], reasons[n]});
+            catalogue.skipped.push_back({list.found[n], reasons[n]});
             continue;
         }
         const InstanceHeader &h = headers[n];
@@ -235,13 +250,16 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
         auto &files = series[key];
         if (files.empty())
             order.push_back(key);
-        files.push_back({list.files[n], std::move(headers[n])});
+        files.push_back({list.found[n], std::move(headers[n])});
     }
     for (const auto &key : order) {
         const std::vector<SeriesFile> &files = series[key];
         const InstanceHeader &h = files.front().header;
         Series entry{h.seriesUid, h.seriesDescription, h.modality,
-                     h.bodyPart,  h.seriesNumber,      groupSeries(files, catalogue.skipped)};
+                     h.bodyPart,  h.seriesNumber,      groupSeries(files, catalogue.skipped),
+                     {}};
+        for (const SeriesFile &file : files)
+            entry.files.push_back({file.path, file.header.sopInstanceUid});
         for (VolumeEntry &volume : entry.volumes)
             describe(volume, files);
         studyFor(patientFor(catalogue, h), h).series.push_back(std::move(entry));

@@ -9,10 +9,11 @@
 
 namespace pellucid::dicom {
 
-/// Looks through files, folders (all the way down; links to folders are not followed), DICOMDIRs
-/// and NRRD files, and groups what it finds. Every file that is not used is listed in `skipped`.
-/// *Throws* Error{unusable} if a path does not exist or a folder named by the caller cannot be
-/// read; Cancelled.
+/// Looks through files, folders (all the way down; links to folders are not followed), DICOMDIRs,
+/// ZIP archives and NRRD files, and groups what it finds. Archives are unpacked where the caller
+/// names them, and not below folders. Every file that is not used is listed in `skipped`.
+/// *Throws* Error{unusable} if a path does not exist, a folder named by the caller cannot be read
+/// or the only archive is refused; Error{output} if an archive cannot be unpacked; Cancelled.
 Catalogue scan(const std::vector<std::filesystem::path> &paths,
                const task::Progress &progress = {});
 

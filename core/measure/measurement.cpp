@@ -187,8 +187,11 @@ Result measure(const Measurement &m, const volume::Volume &volume) {
 }
 
 std::string toCsv(const std::vector<Measurement> &measurements, const volume::Volume &volume) {
-    std::string out = "name,kind,length mm,angle deg,area mm2,mean,standard deviation,minimum,"
-                      "maximum,unit,values,points LPS mm\r\n";
+    const bool hasSpacing = volume.notes().hasSpacing;
+    std::string out = fmt::format("name,kind,length {},angle deg,area {},mean,standard deviation,"
+                                  "minimum,maximum,unit,values,points {}\r\n",
+                                  hasSpacing ? "mm" : "pixels", hasSpacing ? "mm2" : "pixels2",
+                                  hasSpacing ? "LPS mm" : "pixels");
     for (const Measurement &m : measurements) {
         const Result r = measure(m, volume);
         const auto value = [&](double RegionValues::*what) {

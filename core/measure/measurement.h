@@ -53,6 +53,7 @@ std::string toJson(const std::vector<Measurement> &measurements);
 
 /// A table with a row for each measurement, its result, and its points. Decimal points, commas
 /// between columns, texts in quotes, lines end with CR LF (RFC 4180).
+/// Lengths of images without a pixel spacing are in pixels, and the headings say so.
 std::string toCsv(const std::vector<Measurement> &measurements, const volume::Volume &volume);
 
 /// The word of a kind in files.

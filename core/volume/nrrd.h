@@ -18,6 +18,7 @@ Volume readNrrd(const std::filesystem::path &path, const task::Progress &progres
 struct NrrdHeader {
     Lattice lattice;
     VolumeNotes notes;
+    std::filesystem::path samplesFile; ///< the file itself, or another one that it names
 };
 NrrdHeader readNrrdHeader(const std::filesystem::path &path);
 

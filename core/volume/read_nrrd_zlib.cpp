@@ -401,7 +401,8 @@ VolumeNotes notesFor(const fs::path &path) {
 } // namespace
 
 NrrdHeader readNrrdHeader(const fs::path &path) {
-    return {parseLayout(path).lattice, notesFor(path)};
+    const Layout layout = parseLayout(path);
+    return {layout.lattice, notesFor(path), layout.dataPath};
 }
 
 Volume readNrrd(const fs::path &path, const task::Progress &progress) {

@@ -31,6 +31,7 @@ struct VolumeNotes {
     bool darkIsHigh = false;           ///< MONOCHROME1: shown inverted
     bool lossy = false;                ///< compressed with loss at some point
     bool placed = true;                ///< false: images without positions, no volume
+    bool hasSpacing = true; ///< false: nothing says how large a pixel is; a "mm" is a pixel
 };
 
 /// Samples on a lattice. A value: immutable, shared, cheap to copy.

@@ -34,6 +34,7 @@ forbid "FFTW is used in core/fourier/transform_fftw.cpp only" '<fftw3' $(files c
 forbid "OpenJPEG is used in *_openjpeg.cpp only" '<openjpeg' $(files core gpu ui app | without '_openjpeg\.cpp$')
 forbid "zlib is used in *_zlib.cpp only" '<zlib' $(files core gpu ui app | without '_zlib\.cpp$')
 forbid "libpng is used in *_libpng.cpp only" '<png' $(files core gpu ui app | without '_libpng\.cpp$')
+forbid "libarchive is used in *_libarchive.cpp only" '<archive' $(files core gpu ui app | without '_libarchive\.cpp$')
 forbid "spdlog is used in *_spdlog.cpp only" '<spdlog' $(files core gpu ui app | without '_spdlog\.cpp$')
 forbid "libepoxy is used in *_epoxy.cpp only" '<epoxy/' $(files core gpu ui app | without '_epoxy\.cpp$')
 forbid "JSON is read and written in *_nlohmann.cpp and by the programs only" '<nlohmann' $(files core gpu ui | without '_nlohmann\.(cpp|h)$')

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -30,6 +31,19 @@ inline volume::Lattice tiltedLattice(volume::GridSize size, glm::dvec3 spacingMm
                                  {spacingMm.x * glm::dvec3(1, 0, 0),
                                   spacingMm.y * glm::dvec3(0, std::cos(tilt), -std::sin(tilt)),
                                   spacingMm.z / std::cos(tilt) * glm::dvec3(0, 0, 1)});
+}
+
+/// A volume whose samples are a function of their place in the patient.
+template <class F>
+volume::Volume volumeOf(const volume::Lattice &lattice, const F &value,
+                        volume::ValueUnit unit = volume::ValueUnit::none) {
+    std::vector<float> samples;
+    const volume::GridSize n = lattice.size();
+    for (int k = 0; k < n.k; ++k)
+        for (int j = 0; j < n.j; ++j)
+            for (int i = 0; i < n.i; ++i)
+                samples.push_back(float(value(lattice.patient(volume::VoxelIndex{i, j, k}).mm)));
+    return {lattice, std::move(samples), unit};
 }
 
 /// White noise in 0..1 over the whole lattice: a field that reaches its faces and corners.

@@ -115,7 +115,7 @@ inline void dragSlider(QSlider *slider, QPoint by) {
 /// The real window, anew for each test, and a head to open in it.
 class Workstation : public QObject {
     Q_OBJECT
-private slots:
+protected slots:
     void initTestCase() {
         QStandardPaths::setTestModeEnabled(true);
         QSettings().clear();

@@ -10,11 +10,11 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QToolButton>
-#include <QTreeWidget>
+#include <QTreeView>
 
 #include "ui/commands.h"
 #include "ui/kept_studies.h"
-#include "ui/panels/series_panel.h"
+#include "ui/panels/study_panel.h"
 #include "ui/views/mpr_view.h"
 
 namespace pellucid {
@@ -32,7 +32,7 @@ private slots:
         QVERIFY(!m_window->windowTitle().contains("Secret"));
         // The open series is the selected row.
         QVERIFY(m_window->document().currentSource() == 0);
-        QVERIFY(find<QTreeWidget>("seriesTree")->currentItem() != nullptr);
+        QVERIFY(find<QTreeView>("seriesTree")->currentIndex().isValid());
     }
 
     void everyPaneShowsTheVolume() {
@@ -133,7 +133,7 @@ private slots:
         QTRY_VERIFY(m_window->document().currentSource() == 1);
         settle();
         QVERIFY(m_window->document().scene().look == classify::Look()); // a study of its own
-        emit find<ui::SeriesPanel>("seriesPanel")->sourceActivated(0);
+        emit find<ui::StudyPanel>("studyPanel")->sourceActivated(0);
         QVERIFY(!m_window->jobs().isRunning());
         QVERIFY(!m_window->document().scene().look.classes.empty());
         settle();
@@ -208,7 +208,7 @@ private slots:
         QTest::qWait(60);
         QElapsedTimer clock;
         clock.start();
-        find<QPushButton>("cancelButton")->click();
+        find<QPushButton>("jobCancel")->click();
         QVERIFY(!m_window->jobs().isRunning());
         QVERIFY2(clock.elapsed() < 100, "the promise is 100 ms");
         QTest::qWait(400); // a late result would arrive now
@@ -286,7 +286,7 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
         save("phantom");
         QVERIFY(meanGrey(grab("projectionView")) > 5.0);
-        QCOMPARE(find<QTreeWidget>("seriesTree")->topLevelItemCount(), 1);
+        QCOMPARE(find<QTreeView>("seriesTree")->model()->rowCount(), 1);
     }
 
     void imagesWithoutPositionsOpenAsImages() {

@@ -10,16 +10,17 @@
 
 namespace pellucid::ui {
 
-JobStrip::JobStrip(JobRunner &jobs, QWidget *parent)
+JobStrip::JobStrip(JobRunner &jobs, const QString &name, QWidget *parent)
     : QWidget(parent), m_progress(new QProgressBar), m_title(new QLabel),
       m_cancel(new QPushButton(tr("Cancel"))) {
-    setObjectName("jobStrip");
-    m_progress->setObjectName("jobProgress");
+    setObjectName(name + "Strip");
+    m_progress->setObjectName(name + "Progress");
     m_progress->setTextVisible(false);
     m_progress->setRange(0, 1000);
-    m_progress->setFixedWidth(220);
-    m_title->setObjectName("jobTitle");
-    m_cancel->setObjectName("cancelButton");
+    m_progress->setMinimumWidth(60);
+    m_progress->setMaximumWidth(220);
+    m_title->setObjectName(name + "Title");
+    m_cancel->setObjectName(name + "Cancel");
     m_cancel->setProperty("role", "link");
     m_cancel->setToolTip(tr("Stop what runs (Esc)"));
     auto *row = new QHBoxLayout(this);

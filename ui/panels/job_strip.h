@@ -11,12 +11,11 @@ namespace pellucid::ui {
 
 class JobRunner;
 
-/// What runs, how far it is, and the way to stop it: a part of the status bar, empty when nothing
-/// runs.
+/// What runs, how far it is, and the way to stop it; empty when nothing runs.
 class JobStrip : public QWidget {
     Q_OBJECT
 public:
-    explicit JobStrip(JobRunner &jobs, QWidget *parent = nullptr);
+    JobStrip(JobRunner &jobs, const QString &name, QWidget *parent = nullptr);
 
 private:
     void showStarted(const QString &title);

@@ -73,11 +73,10 @@ void MeasurementsPanel::showAll() {
     }
     for (std::size_t n = 0; n < all.size(); ++n) {
         const auto &[measurement, result] = all[n];
-        const volume::ValueUnit unit = m_document.volume()->unit();
         QTreeWidgetItem *item = m_list->topLevelItem(int(n));
         item->setText(0, QString::fromStdString(measurement.name));
-        item->setText(1, mainFigure(result, unit));
-        item->setToolTip(1, allFigures(measurement, result, unit).join('\n'));
+        item->setText(1, mainFigure(result, *m_document.volume()));
+        item->setToolTip(1, allFigures(measurement, result, *m_document.volume()).join('\n'));
     }
     m_hint->setVisible(all.empty());
     m_list->setVisible(!all.empty());

@@ -25,8 +25,8 @@ StartPage::StartPage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxLayou
     setAttribute(Qt::WA_StyledBackground);
     auto *title = new QLabel(tr("Open a study"));
     title->setProperty("role", "title");
-    auto *hint = new QLabel(
-        tr("Drop DICOM files, folders, a DICOMDIR or an NRRD volume anywhere in this window."));
+    auto *hint = new QLabel(tr("Drop DICOM files, folders, a DICOMDIR, a ZIP archive or an NRRD "
+                               "volume anywhere in this window."));
     hint->setProperty("role", "muted");
     auto *files =
         button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or NRRD files (Ctrl+O)"));

@@ -242,7 +242,7 @@ void MeasureTool::paint(QPainter &painter, const Pane &pane, const OverlayColors
         for (const glm::dvec3 &p : gripsOf(m))
             if (const QPointF q = pane.mapping.positionOf({p}); at.isNull() || q.x() > at.x())
                 at = q;
-        const QStringList lines = allFigures(m, all[n].result, m_document.volume()->unit());
+        const QStringList lines = allFigures(m, all[n].result, *m_document.volume());
         const QRect box = painter.fontMetrics().boundingRect(QRect(0, 0, 400, 200), Qt::AlignLeft,
                                                              lines.join('\n'));
         QRect area = box.translated((at + QPointF(10, -8)).toPoint() - box.topLeft());

@@ -12,10 +12,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/mpr/reslice.h"
-#include "core/render/camera.h"
 #include "ui/document.h"
 #include "ui/overlay.h"
 #include "ui/theme.h"
+#include "ui/views/plane_texts.h"
 #include "ui/views/slice_picture.h"
 
 namespace pellucid::ui {
@@ -24,31 +24,6 @@ namespace {
 
 constexpr double smoothCutMs = 16.0;
 constexpr int restMs = 150;
-
-QString titleOf(mpr::Orientation o) {
-    switch (o) {
-    case mpr::Orientation::axial:
-        return MprView::tr("Axial");
-    case mpr::Orientation::coronal:
-        return MprView::tr("Coronal");
-    case mpr::Orientation::sagittal:
-        break;
-    }
-    return MprView::tr("Sagittal");
-}
-
-QString slabText(const mpr::Slab &slab) {
-    const QString mode = slab.mode == mpr::SlabMode::mean      ? MprView::tr("mean")
-                         : slab.mode == mpr::SlabMode::maximum ? MprView::tr("MIP")
-                                                               : MprView::tr("MinIP");
-    return MprView::tr("%1 of %2 mm").arg(mode).arg(slab.thicknessMm);
-}
-
-// "S 142.5": the side that the coordinate points to, and its size.
-QString coordinateText(const glm::dvec3 &axis, double mm) {
-    const std::string side = render::patientLetters(mm < 0.0 ? -axis : axis);
-    return QString("%1 %2").arg(QString::fromStdString(side)).arg(std::abs(mm), 0, 'f', 1);
-}
 
 Qt::CursorShape cursorOf(Tool tool) {
     switch (tool) {
@@ -69,7 +44,7 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     : QWidget(parent), m_document(document), m_orientation(orientation),
       m_measure(document, false) {
     setObjectName(QString("%1View").arg(colorRole(orientation)));
-    setAccessibleName(titleOf(orientation));
+    setAccessibleName(planeTitle(orientation));
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setMinimumSize(120, 100);
@@ -81,8 +56,10 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
         refresh();
     });
     connect(&document, &Document::volumeChanged, this, [this] {
-        m_measure.cancel();
-        m_dragging = Drag::none;
+        if (!m_document.volume()) { // previews leave what the hand is doing alone
+            m_measure.cancel();
+            m_dragging = Drag::none;
+        }
         m_cutMs = 0.0;
         if (!m_document.isPreview())
             resetView();
@@ -198,7 +175,7 @@ void MprView::paintEvent(QPaintEvent *) {
         painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
                          tr("Images only: no volume to cut"));
     } else {
-        paintTexts(painter, mapping());
+        paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation);
     }
     painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
     if (hasFocus()) {
@@ -215,7 +192,7 @@ void MprView::paintAnnotations(QPainter &painter) {
     crosshairLines().paint(painter, size(), m_tool == Tool::crosshair);
     painter.restore();
     m_measure.paint(painter, measurePane(), overlayColors(colorRole(m_orientation)));
-    paintTexts(painter, mapping());
+    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation);
 }
 
 QImage MprView::picture(int scale, bool isAnnotated) {
@@ -238,50 +215,6 @@ QImage MprView::picture(int scale, bool isAnnotated) {
                  tr("Not for diagnostic use"), colors.muted);
     }
     return picture;
-}
-
-void MprView::paintTexts(QPainter &painter, const PaneMapping &mapping) {
-    const OverlayColors colors = overlayColors(colorRole(m_orientation));
-    const QRect inner = rect().adjusted(8, 8, -8, -8);
-    const Cut &cut = m_document.cut();
-    painter.save();
-    QFont bold = painter.font();
-    bold.setBold(true);
-    painter.setFont(bold);
-    const QString title = titleOf(m_orientation);
-    drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop,
-             cut.axes.of(m_orientation) == mpr::standardAxes(m_orientation)
-                 ? title
-                 : tr("%1, oblique").arg(title),
-             colors.plane);
-    painter.restore();
-    if (!m_document.volume())
-        return;
-    const volume::VolumeNotes &notes = m_document.volume()->notes();
-    const int line = painter.fontMetrics().height() + 3;
-    const glm::dvec3 axis = scrollAxis();
-    const QString position =
-        notes.placed
-            ? coordinateText(axis, glm::dot(m_document.crosshair().mm, axis)) + " mm"
-            : tr("image %1")
-                  .arg(1 + int(std::lround(
-                               m_document.volume()->lattice().voxel(m_document.crosshair()).v.z)));
-    drawText(painter, inner, Qt::AlignRight | Qt::AlignTop, position, colors.text);
-    if (cut.options.slab.thicknessMm > 0.0)
-        drawText(painter, inner.adjusted(0, line, 0, 0), Qt::AlignRight | Qt::AlignTop,
-                 slabText(cut.options.slab), colors.text);
-    if (notes.placed)
-        drawOrientationLetters(painter, rect(), mapping.plane.axes.right, mapping.plane.axes.up,
-                               colors);
-    drawScaleBar(painter, QPoint(10, height() - 10), mapping.pixelsPerMm(),
-                 std::min(110, width() / 3), colors);
-    if (!notes.warnings.empty())
-        drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
-                 painter.fontMetrics().elidedText(QString::fromStdString(notes.warnings.front()),
-                                                  Qt::ElideRight, width() / 2),
-                 colors.warning);
-    if (notes.lossy)
-        drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, tr("lossy"), colors.warning);
 }
 
 void MprView::resizeEvent(QResizeEvent *) {
@@ -343,22 +276,8 @@ void MprView::showCursor(const QPointF &position) {
 }
 
 void MprView::showReadout(const QPointF &position) {
-    const volume::Volume &volume = *m_document.volume();
-    const volume::PatientPoint at = mapping().patientAt(position);
-    const float value = mpr::valueAt(volume, at, m_document.cut().options.interpolation);
-    if (std::isnan(value)) {
-        emit readoutChanged({});
-        return;
-    }
-    const bool hounsfield = volume.unit() == volume::ValueUnit::hounsfield;
-    QString text = volume.notes().placed ? QString("%1  %2  %3 mm   ")
-                                               .arg(coordinateText({1, 0, 0}, at.mm.x),
-                                                    coordinateText({0, 1, 0}, at.mm.y),
-                                                    coordinateText({0, 0, 1}, at.mm.z))
-                                         : QString();
-    text += QString::number(double(value), 'f', hounsfield || !volume.isFloat() ? 0 : 3) +
-            (hounsfield ? " HU" : "");
-    emit readoutChanged(text);
+    emit readoutChanged(valueText(*m_document.volume(), mapping().patientAt(position),
+                                  m_document.cut().options.interpolation));
 }
 
 void MprView::mouseReleaseEvent(QMouseEvent *event) {

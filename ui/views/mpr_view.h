@@ -61,7 +61,6 @@ private:
     void refresh();
     void updateImage();
     void paintAnnotations(QPainter &painter);
-    void paintTexts(QPainter &painter, const PaneMapping &mapping);
     void drag(const QPoint &delta, const QPoint &to);
     void moveCrosshair(const QPoint &to);
     void turnTo(const QPoint &to);

@@ -238,24 +238,26 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         emit finalImageShown();
 }
 
+// With both ends: what the user fixed, and for the rest the brightness that was taken.
+render::Tone ProjectionView::shownTone() const {
+    render::Tone tone = m_document.scene().tone;
+    const render::ToneRange range = m_automaticTone.value_or(render::ToneRange());
+    tone.low = tone.low.value_or(range.low);
+    tone.high = tone.high.value_or(range.high);
+    return tone;
+}
+
 void ProjectionView::updateTone() {
-    render::ToneRange range = m_automaticTone.value_or(render::ToneRange());
-    const render::Tone &tone = m_document.scene().tone;
-    range.low = tone.low.value_or(range.low);
-    range.high = tone.high.value_or(range.high);
-    m_canvas->setTone(range, tone.inverted);
+    const render::Tone tone = shownTone();
+    m_canvas->setTone({*tone.low, *tone.high}, tone.inverted);
 }
 
 QImage ProjectionView::picture() const {
     if (!m_frame)
         return {};
-    render::Tone tone = m_document.scene().tone;
-    const render::ToneRange range = m_automaticTone.value_or(render::ToneRange());
-    tone.low = tone.low.value_or(range.low);
-    tone.high = tone.high.value_or(range.high);
     const render::ProjectionImage image =
         m_frame->onCard ? m_frame->onCard->download() : m_frame->image;
-    const auto rgba = render::compose(image, tone);
+    const auto rgba = render::compose(image, shownTone());
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
 }
 
@@ -268,9 +270,7 @@ render::Scene ProjectionView::sceneOfPicture(int scale) const {
     scene.camera.width *= scale;
     scene.camera.height *= scale;
     scene.camera.pixelMm /= scale;
-    const render::ToneRange range = m_automaticTone.value_or(render::ToneRange());
-    scene.tone.low = scene.tone.low.value_or(range.low);
-    scene.tone.high = scene.tone.high.value_or(range.high);
+    scene.tone = shownTone();
     scene.plannedFor = render::PlannedFor::volume;
     return scene;
 }
@@ -318,6 +318,8 @@ void ProjectionView::showCursor() {
 
 void ProjectionView::mousePressEvent(QMouseEvent *event) {
     setFocus();
+    if (m_measure.isBusy()) // a second button does not disturb what the first one drags
+        return;
     if (event->button() == Qt::LeftButton && m_frame &&
         m_measure.press({mapping(), 0.0}, event->position(),
                         m_tool == Tool::distance ? std::optional(measure::Kind::projectedDistance)
@@ -353,7 +355,7 @@ void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
 }
 
 void ProjectionView::mouseReleaseEvent(QMouseEvent *event) {
-    if (m_measure.isBusy())
+    if (m_measure.isBusy() && event->button() == Qt::LeftButton)
         m_measure.release({mapping(), 0.0}, event->position());
     m_button = Qt::NoButton;
     showCursor();
@@ -402,8 +404,8 @@ void ProjectionView::pan(const QPoint &delta) {
 void ProjectionView::windowBy(const QPoint &delta) {
     render::Scene scene = m_document.scene();
     const render::ToneRange automatic = m_automaticTone.value_or(render::ToneRange());
-    double low = scene.tone.low.value_or(automatic.low),
-           high = scene.tone.high.value_or(automatic.high);
+    const render::Tone shown = shownTone();
+    const double low = *shown.low, high = *shown.high;
     const double perPixel = (automatic.high - automatic.low) / 300.0;
     const double center = 0.5 * (low + high) - delta.y() * perPixel;
     const double width = std::max(high - low + delta.x() * perPixel, 2.0 * perPixel);

@@ -90,6 +90,7 @@ private:
     void fitCamera();
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
+    render::Tone shownTone() const;
     void updateTone();
     void orbit(const QPoint &delta);
     void pan(const QPoint &delta);

@@ -19,17 +19,6 @@ using measure::Measurement;
 
 const mpr::Axes axial = mpr::standardAxes(mpr::Orientation::axial);
 
-// A volume whose samples are a function of their place.
-template <class F> volume::Volume volumeOf(const volume::Lattice &lattice, const F &value) {
-    std::vector<float> samples;
-    const volume::GridSize n = lattice.size();
-    for (int k = 0; k < n.k; ++k)
-        for (int j = 0; j < n.j; ++j)
-            for (int i = 0; i < n.i; ++i)
-                samples.push_back(float(value(lattice.patient(volume::VoxelIndex{i, j, k}).mm)));
-    return volume::Volume(lattice, samples, volume::ValueUnit::hounsfield);
-}
-
 TEST(Measurement, LengthsAndAnglesAreThoseOfThePatientNotOfThePixels) {
     const auto volume =
         test::noiseField(test::tiltedLattice({12, 12, 12}, {0.5, 0.5, 4}, 25)).values;
@@ -48,7 +37,7 @@ TEST(Measurement, LengthsAndAnglesAreThoseOfThePatientNotOfThePixels) {
 // The values of a region on a slice are those of its samples, counted out one by one.
 TEST(Measurement, RegionsOnASliceCountItsSamples) {
     const auto lattice = volume::Lattice::centred({21, 21, 5}, {0.8, 0.8, 5});
-    const auto volume = volumeOf(lattice, [](const glm::dvec3 &p) {
+    const auto volume = test::volumeOf(lattice, [](const glm::dvec3 &p) {
         return 100.0 * std::sin(13.0 * p.x + 7.0 * p.y * p.y + p.z);
     });
     // Between two slices, nearer to the middle one; corners in whatever order.
@@ -81,7 +70,7 @@ TEST(Measurement, RegionsOnASliceCountItsSamples) {
 TEST(Measurement, RegionsOnObliquePlanesAreInterpolated) {
     const auto lattice = test::tiltedLattice({40, 40, 24}, {1, 1, 2}, 20);
     const auto volume =
-        volumeOf(lattice, [](const glm::dvec3 &p) { return 3.0 * p.x + p.y - 2.0 * p.z; });
+        test::volumeOf(lattice, [](const glm::dvec3 &p) { return 3.0 * p.x + p.y - 2.0 * p.z; });
     const mpr::Axes axes = mpr::PlaneAxes()
                                .turned(mpr::Orientation::axial, 0.4)
                                .turned(mpr::Orientation::coronal, 0.3)
@@ -107,7 +96,7 @@ TEST(Measurement, RegionsOnObliquePlanesAreInterpolated) {
 
 TEST(Measurement, ASmallRegionHasAValueAndOneOutsideHasNone) {
     const auto volume =
-        volumeOf(volume::Lattice::centred({8, 8, 8}, {2, 2, 2}), [](auto) { return 42.0; });
+        test::volumeOf(volume::Lattice::centred({8, 8, 8}, {2, 2, 2}), [](auto) { return 42.0; });
     const auto values = [&](glm::dvec3 a, glm::dvec3 b) {
         return measure::measure({Kind::rectangle, "", {a, b}, axial}, volume).values;
     };
@@ -164,8 +153,9 @@ TEST(Measurement, BadFilesAreRefusedWithAReason) {
 }
 
 TEST(Measurement, ATableHasARowForEach) {
-    const auto volume =
-        volumeOf(volume::Lattice::centred({8, 8, 8}, {2, 2, 2}), [](auto) { return 42.0; });
+    const auto volume = test::volumeOf(
+        volume::Lattice::centred({8, 8, 8}, {2, 2, 2}), [](auto) { return 42.0; },
+        volume::ValueUnit::hounsfield);
     const std::string table =
         measure::toCsv({{Kind::distance, "A, \"b\"", {{0, 0, 0}, {0, 3, 4}}, axial},
                         {Kind::rectangle, "r", {{-3, -3, 1}, {3, 3, 1}}, axial}},

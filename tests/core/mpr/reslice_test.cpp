@@ -21,13 +21,7 @@ TEST(Reslice, ReproducesALinearFunctionOnATiltedLattice) {
     const auto linear = [](const glm::dvec3 &p) {
         return 3.0 + 0.5 * p.x - 2.0 * p.y + 0.25 * p.z;
     };
-    std::vector<float> samples(lattice.size().count());
-    std::size_t n = 0;
-    for (int k = 0; k < 12; ++k)
-        for (int j = 0; j < 28; ++j)
-            for (int i = 0; i < 30; ++i)
-                samples[n++] = float(linear(lattice.patient(volume::VoxelIndex{i, j, k}).mm));
-    const volume::Volume volume(lattice, samples, volume::ValueUnit::none);
+    const volume::Volume volume = test::volumeOf(lattice, linear);
     for (const auto orientation :
          {Orientation::axial, Orientation::coronal, Orientation::sagittal}) {
         const mpr::Plane plane{lattice.center(), mpr::standardAxes(orientation), 0.8, 21, 17};

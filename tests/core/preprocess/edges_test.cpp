@@ -18,16 +18,6 @@ namespace {
 
 using preprocess::Mask;
 
-template <class F> volume::Volume volumeOf(const volume::Lattice &lattice, const F &value) {
-    std::vector<float> samples;
-    const volume::GridSize n = lattice.size();
-    for (int k = 0; k < n.k; ++k)
-        for (int j = 0; j < n.j; ++j)
-            for (int i = 0; i < n.i; ++i)
-                samples.push_back(float(value(lattice.patient(volume::VoxelIndex{i, j, k}).mm)));
-    return {lattice, std::move(samples), volume::ValueUnit::none};
-}
-
 // What ITK's own filter says of the same samples.
 Mask itkEdges(const volume::Volume &volume, double variance, double low, double high) {
     using Image = itk::Image<float, 3>;
@@ -62,7 +52,7 @@ TEST(CannyEdges, AreThoseOfItkOnIsotropicLattices) {
         const auto lattice = volume::Lattice::centred({40, 36, 32}, glm::dvec3(spacing));
         std::mt19937 random(3);
         std::normal_distribution<double> noise(0.0, 15.0);
-        const auto volume = volumeOf(lattice, [&](glm::dvec3 p) {
+        const auto volume = test::volumeOf(lattice, [&](glm::dvec3 p) {
             const double shell = glm::length(p / spacing) - 11.0;
             return 400.0 / (1.0 + std::exp(1.5 * shell)) + noise(random);
         });
@@ -84,7 +74,7 @@ TEST(CannyEdges, DoNotDependOnTheScaleOfTheValues) {
     const auto lattice = volume::Lattice::centred({32, 32, 24}, {1, 1, 1.5});
     std::mt19937 random(5);
     std::normal_distribution<double> noise(0.0, 10.0);
-    const auto large = volumeOf(lattice, [&](glm::dvec3 p) {
+    const auto large = test::volumeOf(lattice, [&](glm::dvec3 p) {
         return (glm::length(p) < 9.0 ? 300.0 : 0.0) + noise(random);
     });
     // A power of two: the numbers differ in their exponents alone.
@@ -106,7 +96,7 @@ TEST(CannyEdges, LieOnABallInThickTiltedSlices) {
     const auto lattice = test::tiltedLattice({80, 80, 26}, {0.8, 0.8, 2.4}, 20.0);
     constexpr double radius = 22.0;
     const glm::dvec3 center = lattice.center().mm;
-    const auto volume = volumeOf(lattice, [&](glm::dvec3 p) {
+    const auto volume = test::volumeOf(lattice, [&](glm::dvec3 p) {
         return 1000.0 / (1.0 + std::exp(1.5 * (glm::length(p - center) - radius)));
     });
     const Mask edges = preprocess::cannyEdges(volume, {1.0, 60.0, 120.0});
@@ -131,7 +121,8 @@ TEST(GradientMagnitude, OfALinearFieldIsItsSlopeOnAnyLattice) {
     for (const double tilt : {0.0, 25.0}) {
         const auto lattice = test::tiltedLattice({9, 8, 7}, {0.7, 0.9, 4.0}, tilt);
         const glm::dvec3 slope(3.0, -5.0, 7.0);
-        const auto volume = volumeOf(lattice, [&](glm::dvec3 p) { return glm::dot(slope, p); });
+        const auto volume =
+            test::volumeOf(lattice, [&](glm::dvec3 p) { return glm::dot(slope, p); });
         const auto gradient = preprocess::gradientMagnitude(volume);
         // Inside: differences at the border reach only half as far.
         for (int k = 1; k < 6; ++k)
@@ -142,8 +133,8 @@ TEST(GradientMagnitude, OfALinearFieldIsItsSlopeOnAnyLattice) {
 TEST(CannyEdges, AreCancelled) {
     std::stop_source stop;
     stop.request_stop();
-    const auto volume = volumeOf(volume::Lattice::centred({16, 16, 16}, {1, 1, 1}),
-                                 [](glm::dvec3 p) { return p.x; });
+    const auto volume = test::volumeOf(volume::Lattice::centred({16, 16, 16}, {1, 1, 1}),
+                                       [](glm::dvec3 p) { return p.x; });
     EXPECT_THROW(preprocess::cannyEdges(volume, {1.0, 1.0, 2.0}, task::Progress(stop.get_token())),
                  task::Cancelled);
 }

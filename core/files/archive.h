@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "core/task/progress.h"
+
+namespace pellucid::files {
+
+/// What an archive may become, so that a small file cannot fill a disk.
+struct UnpackLimits {
+    std::uintmax_t bytes = std::uintmax_t(64) << 30; ///< never more than half of what is free
+    std::size_t files = 500'000;
+};
+
+/// Whether a file begins as a ZIP archive does.
+bool isArchive(const std::filesystem::path &path);
+
+/// Writes the regular files of a ZIP archive below a folder, under their names in the archive.
+/// Names that lead out of the folder lose what leads out; links are left out.
+/// *Throws* Error{unusable} if the archive is damaged, encrypted, or announces or gives more than
+/// the limits allow (it is refused by its directory, before anything is written); Error{output};
+/// Cancelled.
+void unpackArchive(const std::filesystem::path &archive, const std::filesystem::path &folder,
+                   const task::Progress &progress = {}, const UnpackLimits &limits = {});
+
+} // namespace pellucid::files

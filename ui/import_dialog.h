@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <QStringList>
+
+#include "ui/library/import_studies.h"
+
+class QLabel;
+class QPushButton;
+class QRadioButton;
+
+namespace pellucid::ui {
+
+/// What goes into the library, and whether as a reference or as a copy; the choice is remembered.
+class ImportDialog : public QDialog {
+    Q_OBJECT
+public:
+    explicit ImportDialog(const QStringList &paths, QWidget *parent = nullptr);
+
+signals:
+    void chosen(const pellucid::ui::Import &import);
+
+private:
+    void add(const QStringList &paths);
+    void accept() override;
+
+    QStringList m_paths;
+    QLabel *m_said;
+    QRadioButton *m_refer, *m_copy;
+    QPushButton *m_import;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/library/import_studies.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <set>
+#include <system_error>
+#include <unistd.h>
+
+#include <QCoreApplication>
+#include <QCryptographicHash>
+
+#include "core/dicom/scan.h"
+#include "core/files/session_folder.h"
+#include "core/task/error.h"
+#include "core/volume/nrrd.h"
+#include "ui/library/thumbnail.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+using task::Error;
+using task::ErrorCode;
+
+constexpr const char *incomingPrefix = ".incoming-";
+
+// No name of a patient becomes a name of a file.
+std::string digest(const QString &text) {
+    return QCryptographicHash::hash(text.toUtf8(), QCryptographicHash::Sha256)
+        .toHex()
+        .left(32)
+        .toStdString();
+}
+
+// Copies go to a folder of their own and take their names when all are there.
+class Copies {
+public:
+    explicit Copies(const LibraryPlace &place) : m_place(place) {}
+    ~Copies() {
+        std::error_code ignored;
+        if (!m_incoming.empty())
+            fs::remove_all(m_incoming, ignored);
+        for (const fs::path &path : m_renamed)
+            fs::remove(path, ignored);
+    }
+    Copies(const Copies &) = delete;
+    Copies &operator=(const Copies &) = delete;
+
+    /// Where the copy will be.
+    fs::path add(const fs::path &from, const std::string &series, const std::string &instance) {
+        std::error_code failed;
+        if (m_incoming.empty()) {
+            m_incoming = m_place.copiesFolder() / (incomingPrefix + std::to_string(getpid()));
+            fs::create_directories(m_incoming, failed);
+        }
+        const fs::path incoming = m_incoming / std::to_string(m_copies.size());
+        if (!failed)
+            fs::copy_file(from, incoming, fs::copy_options::overwrite_existing, failed);
+        if (failed)
+            throw Error(ErrorCode::output, "cannot be copied into the library: " + failed.message(),
+                        from);
+        const std::string suffix = volume::isNrrdPath(from) ? ".nrrd" : ".dcm";
+        m_copies.push_back({incoming, m_place.copiesFolder() / series / (instance + suffix)});
+        return m_copies.back().to;
+    }
+
+    void rename() {
+        for (const auto &[from, to] : m_copies) {
+            std::error_code failed, ignored;
+            fs::create_directories(to.parent_path(), failed);
+            const bool isNew = !fs::exists(to, ignored);
+            if (!failed)
+                fs::rename(from, to, failed);
+            if (failed)
+                throw Error(ErrorCode::output, failed.message(), to);
+            if (isNew)
+                m_renamed.push_back(to);
+        }
+    }
+    void keep() { m_renamed.clear(); }
+
+private:
+    struct Copy {
+        fs::path from, to;
+    };
+    const LibraryPlace &m_place;
+    fs::path m_incoming;
+    std::vector<Copy> m_copies;
+    std::vector<fs::path> m_renamed;
+};
+
+void checkRoom(const LibraryPlace &place, const std::vector<LibrarySeries> &all) {
+    std::error_code unknown;
+    fs::create_directories(place.copiesFolder(), unknown);
+    std::uintmax_t needed = 0;
+    for (const LibrarySeries &series : all)
+        for (const dicom::InstanceFile &file : series.files)
+            if (const auto bytes = fs::file_size(file.path, unknown); !unknown)
+                needed += bytes;
+    if (const fs::space_info space = fs::space(place.copiesFolder(), unknown);
+        !unknown && needed > space.available)
+        throw Error(ErrorCode::output,
+                    QCoreApplication::translate("Import", "copies need %1 MB and there are %2 MB")
+                        .arg(needed >> 20)
+                        .arg(space.available >> 20)
+                        .toStdString(),
+                    place.folder);
+}
+
+// Series by series, in the catalogue's order.
+std::vector<LibrarySeries> seriesOf(const dicom::Catalogue &catalogue,
+                                    const task::Progress &progress) {
+    const auto all = dicom::selections(catalogue);
+    std::vector<LibrarySeries> series;
+    const dicom::Series *last = nullptr;
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        if (all[n].series != last)
+            series.push_back({studyFacts(all[n]), {}, all[n].series->files});
+        last = all[n].series;
+        VolumeFacts facts = volumeFacts(all[n]);
+        facts.thumbnail = makeThumbnail(*all[n].volume);
+        series.back().volumes.push_back(std::move(facts));
+        progress.report(double(n + 1) / double(all.size()));
+    }
+    return series;
+}
+
+bool isFileThere(const dicom::InstanceFile &file) {
+    std::error_code ignored;
+    return fs::is_regular_file(file.path, ignored);
+}
+
+// With what the library has of these series already: half of a series is on another disc.
+std::vector<fs::path> missingParts(const Library &library, const dicom::Catalogue &catalogue) {
+    std::set<fs::path> missing;
+    for (const dicom::Selection &s : dicom::selections(catalogue)) {
+        std::set<std::string> instances;
+        std::set<fs::path> paths;
+        for (const dicom::InstanceFile &file : s.series->files) {
+            instances.insert(file.sopInstanceUid);
+            paths.insert(file.path);
+        }
+        for (const dicom::InstanceFile &file : library.files(studyFacts(s), volumeFacts(s)))
+            if (!instances.contains(file.sopInstanceUid) && !paths.contains(file.path) &&
+                isFileThere(file))
+                missing.insert(file.path);
+    }
+    return {missing.begin(), missing.end()};
+}
+
+std::string seriesDigest(const LibrarySeries &s) {
+    return digest(s.study.key() + "\n" + s.volumes.front().seriesUid + "\n" +
+                  s.volumes.front().file);
+}
+
+} // namespace
+
+ImportResult importStudies(const LibraryPlace &place, const Import &import,
+                           const task::Progress &progress) {
+    Library library(place);
+    dicom::Catalogue catalogue = dicom::scan(import.paths, progress.part(0.0, 0.4));
+    if (catalogue.empty()) {
+        if (catalogue.skipped.size() == 1)
+            throw Error(ErrorCode::unusable, catalogue.skipped[0].reason,
+                        catalogue.skipped[0].path);
+        throw Error(ErrorCode::unusable, "holds no usable images", import.paths.front());
+    }
+    if (const auto parts = missingParts(library, catalogue); !parts.empty()) {
+        std::vector<fs::path> paths = import.paths;
+        paths.insert(paths.end(), parts.begin(), parts.end());
+        catalogue = dicom::scan(paths, progress.part(0.4, 0.5));
+    }
+    ImportResult result;
+    result.skipped = catalogue.skipped;
+    std::vector<LibrarySeries> all = seriesOf(catalogue, progress.part(0.5, 0.7));
+    const bool isCopied = import.mode == ImportMode::copy ||
+                          std::any_of(all.begin(), all.end(), [](const LibrarySeries &s) {
+                              return files::isInSessionFolder(s.files.front().path);
+                          });
+    Copies copies(place);
+    if (isCopied)
+        checkRoom(place, all);
+    const task::Progress copying = progress.part(0.7, 0.99);
+    std::size_t done = 0, count = 0;
+    for (const LibrarySeries &series : all)
+        count += series.files.size();
+    for (LibrarySeries &series : all) {
+        ++result.series;
+        result.files += int(series.files.size());
+        const std::string folder = seriesDigest(series);
+        for (dicom::InstanceFile &file : series.files) {
+            copying.report(double(++done) / double(count));
+            const std::string inLibrary = place.copiesFolder().string() + "/";
+            if (!isCopied || file.path.string().starts_with(inLibrary))
+                continue;
+            if (volume::isNrrdPath(file.path) &&
+                volume::readNrrdHeader(file.path).samplesFile != file.path) {
+                result.skipped.push_back(
+                    {file.path, "has its samples in another file; referred to, not copied"});
+                continue;
+            }
+            const std::string instance =
+                file.sopInstanceUid.empty() ? file.path.string() : file.sopInstanceUid;
+            file.path = copies.add(file.path, folder, digest(QString::fromStdString(instance)));
+            if (!series.volumes.front().file.isEmpty())
+                series.volumes.front().file = QString::fromStdString(file.path.string());
+        }
+    }
+    progress.check(); // from here on it is done to the end
+    copies.rename();
+    library.put(all);
+    copies.keep();
+    progress.report(1.0);
+    return result;
+}
+
+void removeAbandonedImports(const LibraryPlace &place) {
+    std::error_code failed;
+    for (fs::directory_iterator entry(place.copiesFolder(), failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        const std::string name = entry->path().filename().string();
+        if (!name.starts_with(incomingPrefix))
+            continue;
+        const int owner = std::atoi(name.c_str() + std::string(incomingPrefix).size());
+        std::error_code ignored;
+        if (owner > 0 && kill(owner, 0) != 0 && errno == ESRCH)
+            fs::remove_all(entry->path(), ignored);
+    }
+}
+
+} // namespace pellucid::ui

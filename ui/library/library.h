@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <QString>
+
+#include "core/dicom/catalogue.h"
+#include "ui/library/study_facts.h"
+
+namespace pellucid::ui {
+
+/// Where a library keeps its list and its copies.
+struct LibraryPlace {
+    std::filesystem::path folder;
+    /// The list is in memory, because the folder cannot be written; gone with the program.
+    bool inMemory = false;
+
+    std::filesystem::path listFile() const { return folder / "library.sqlite"; }
+    std::filesystem::path copiesFolder() const { return folder / "files"; }
+};
+
+enum class StudyOrder { newestFirst, byName, lastAddedFirst };
+
+/// A series as it goes into the library.
+struct LibrarySeries {
+    StudyFacts study;
+    std::vector<VolumeFacts> volumes;
+    std::vector<dicom::InstanceFile> files;
+};
+
+struct StudyPage {
+    std::vector<StudyFacts> studies;
+    int count = 0; ///< of all that match
+};
+
+/// What `openLibrary` found and did.
+struct OpenedLibrary {
+    LibraryPlace place;
+    /// One line each: the list was damaged, cannot be written, ...
+    std::vector<dicom::Skipped> notices;
+    /// Copies may be missing from a list that was rebuilt.
+    bool wasDamaged = false;
+};
+
+/// Finds a library below a folder, or makes it. A list that is damaged is kept under another name
+/// and what can be read of it goes into a new one; where nothing can be written, or the list is of
+/// a newer program, it is in memory. Throws nothing of that: what was done is in the notices.
+OpenedLibrary openLibrary(const std::filesystem::path &folder);
+
+/// The studies that are kept: SQLite through Qt SQL. Every thread has an object of its own, because
+/// SQLite's connections belong to threads. All functions *throw* Error{output} when the list cannot
+/// be read or written.
+class Library {
+public:
+    explicit Library(const LibraryPlace &place);
+    ~Library();
+    Library(const Library &) = delete;
+    Library &operator=(const Library &) = delete;
+
+    const LibraryPlace &place() const { return m_place; }
+
+    /// Studies whose patient, date, descriptions, modalities and body parts hold every word of
+    /// `search`, whatever its case and accents. *Shape*: at most `limit`, from `offset`.
+    StudyPage find(const QString &search, StudyOrder order, int offset, int limit) const;
+    bool holds(const StudyFacts &study) const;
+    /// In the order of the series' numbers.
+    std::vector<VolumeFacts> volumes(qint64 study) const;
+    /// Of the series that a volume belongs to.
+    std::vector<dicom::InstanceFile> files(qint64 volume) const;
+    /// Of a series that is there already; empty if it is not.
+    std::vector<dicom::InstanceFile> files(const StudyFacts &study,
+                                           const VolumeFacts &volume) const;
+
+    /// Adds series, in place of those that are there already, all of them or none.
+    void put(const std::vector<LibrarySeries> &series);
+    /// Files that belong to the library alone go with their study.
+    void remove(qint64 study);
+
+private:
+    friend OpenedLibrary openLibrary(const std::filesystem::path &folder);
+    /// Reads whatever a damaged list still gives.
+    std::vector<LibrarySeries> readWhatIsThere(int &lost) const;
+
+    LibraryPlace m_place;
+    QString m_connection;
+};
+
+} // namespace pellucid::ui

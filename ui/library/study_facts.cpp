@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/library/study_facts.h"
+
+#include <QCoreApplication>
+
+namespace pellucid::ui {
+
+namespace {
+
+QString tr(const char *text) {
+    return QCoreApplication::translate("StudyFacts", text);
+}
+
+QString text(const std::string &utf8) {
+    return QString::fromStdString(utf8);
+}
+
+} // namespace
+
+QString VolumeFacts::key() const {
+    return seriesUid + "\n" + label + "\n" +
+           QString("%1 %2 %3 %4 %5 %6")
+               .arg(size.i)
+               .arg(size.j)
+               .arg(size.k)
+               .arg(spacingMm.x, 0, 'f', 2)
+               .arg(spacingMm.y, 0, 'f', 2)
+               .arg(spacingMm.z, 0, 'f', 2) +
+           "\n" + file;
+}
+
+StudyFacts studyFacts(const dicom::Selection &s) {
+    StudyFacts facts;
+    facts.patientId = text(s.patient->id);
+    facts.patientName = text(s.patient->name);
+    facts.birthDate = text(s.patient->birthDate);
+    facts.sex = text(s.patient->sex);
+    facts.uid = text(s.study->uid);
+    facts.date = text(s.study->date);
+    facts.description = text(s.study->description);
+    QStringList modalities;
+    for (const dicom::Series &series : s.study->series)
+        if (const QString modality = text(series.modality);
+            !modality.isEmpty() && !modalities.contains(modality))
+            modalities << modality;
+    facts.modalities = modalities.join(' ');
+    return facts;
+}
+
+VolumeFacts volumeFacts(const dicom::Selection &s) {
+    const volume::Lattice &lattice = s.volume->geometry.lattice;
+    VolumeFacts facts;
+    facts.seriesUid = text(s.series->uid);
+    facts.modality = text(s.series->modality);
+    facts.bodyPart = text(s.series->bodyPart);
+    facts.description = text(s.series->description);
+    facts.label = text(s.volume->label);
+    facts.seriesNumber = s.series->number;
+    facts.size = lattice.size();
+    if (s.volume->notes.hasSpacing)
+        facts.spacingMm = {lattice.spacingMm(0), lattice.spacingMm(1),
+                           s.volume->placed ? lattice.sliceDistanceMm() : 0.0};
+    facts.tiltDeg = lattice.shearRad() * 180.0 / 3.14159265358979323846;
+    facts.placed = s.volume->placed;
+    for (const std::string &warning : s.volume->notes.warnings)
+        facts.warnings << text(warning);
+    facts.file = text(s.volume->nrrd.string());
+    facts.files = int(s.series->files.size());
+    return facts;
+}
+
+QString patientText(const StudyFacts &study) {
+    const QString name = QString(study.patientName).replace('^', ' ').simplified();
+    if (!name.isEmpty())
+        return name;
+    return study.patientId.isEmpty() ? tr("Without name") : study.patientId;
+}
+
+QString studyText(const StudyFacts &study) {
+    const QString said =
+        (dateText(study.date) + " " + study.modalities + " " + study.description).simplified();
+    return said.isEmpty() ? tr("Study") : said;
+}
+
+QString seriesText(const VolumeFacts &volume) {
+    QString said = QString("%1 %2")
+                       .arg(volume.seriesNumber)
+                       .arg(volume.description.isEmpty() ? volume.modality : volume.description);
+    if (!volume.label.isEmpty())
+        said += ", " + volume.label;
+    return said;
+}
+
+QString sizeText(const VolumeFacts &v) {
+    QString said = QString::fromUtf8("%1 × %2 × %3").arg(v.size.k).arg(v.size.j).arg(v.size.i);
+    if (v.spacingMm.x > 0.0)
+        said += QString::fromUtf8("\n%1 × %2")
+                    .arg(v.spacingMm.x, 0, 'f', 2)
+                    .arg(v.spacingMm.y, 0, 'f', 2);
+    if (v.spacingMm.z > 0.0)
+        said += QString::fromUtf8(" × %1").arg(v.spacingMm.z, 0, 'f', 2);
+    return v.spacingMm.x > 0.0 ? said + " mm" : said;
+}
+
+QString dateText(const QString &date) {
+    return date.size() == 8 ? date.left(4) + "-" + date.mid(4, 2) + "-" + date.right(2) : date;
+}
+
+} // namespace pellucid::ui

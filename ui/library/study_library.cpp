@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/library/study_library.h"
+
+#include "core/files/user_folders.h"
+#include "core/task/error.h"
+
+namespace pellucid::ui {
+
+StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
+    connect(&m_jobs, &JobRunner::failed, this, &StudyLibrary::failed);
+    const auto data = files::userDataFolder();
+    OpenedLibrary opened;
+    if (data)
+        opened = openLibrary(*data / "library");
+    else
+        opened.place.inMemory = true;
+    m_notices = opened.notices;
+    try {
+        m_library = std::make_unique<Library>(opened.place);
+    } catch (const task::Error &error) {
+        // Even memory may be refused; the program goes on without a library.
+        m_notices.push_back({error.path(), error.reason()});
+        return;
+    }
+    removeAbandonedImports(opened.place);
+    if (std::error_code ignored;
+        opened.wasDamaged && std::filesystem::exists(opened.place.copiesFolder(), ignored))
+        import({{opened.place.copiesFolder()}, ImportMode::refer});
+}
+
+StudyLibrary::~StudyLibrary() {
+    m_jobs.join();
+}
+
+template <class F> auto StudyLibrary::attempt(F &&f) -> decltype(f(std::declval<Library &>())) {
+    if (!m_library)
+        return {};
+    try {
+        return f(*m_library);
+    } catch (const task::Error &error) {
+        emit failed(QString::fromStdString(error.reason()),
+                    QString::fromStdString(error.path().string()));
+        return {};
+    }
+}
+
+StudyPage StudyLibrary::find(const QString &search, StudyOrder order, int offset, int limit) {
+    return attempt([&](Library &l) { return l.find(search, order, offset, limit); });
+}
+
+bool StudyLibrary::holds(const StudyFacts &study) {
+    return attempt([&](Library &l) { return l.holds(study); });
+}
+
+std::vector<VolumeFacts> StudyLibrary::volumes(const StudyFacts &study) {
+    return attempt([&](Library &l) { return l.volumes(study.libraryId); });
+}
+
+std::vector<dicom::InstanceFile> StudyLibrary::files(const VolumeFacts &volume) {
+    return attempt([&](Library &l) { return l.files(volume.libraryId); });
+}
+
+void StudyLibrary::import(const Import &import) {
+    if (!m_library)
+        return;
+    m_jobs.start(tr("Importing"), [this, import, place = m_library->place()](const Job &job) {
+        const ImportResult result = importStudies(place, import, job.progress());
+        job.deliver([this, result] {
+            emit changed();
+            emit imported(result);
+        });
+    });
+}
+
+void StudyLibrary::remove(const StudyFacts &study) {
+    attempt([&](Library &l) {
+        l.remove(study.libraryId);
+        return true;
+    });
+    emit changed();
+}
+
+} // namespace pellucid::ui

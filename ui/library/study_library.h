@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include <QObject>
+
+#include "ui/job_runner.h"
+#include "ui/library/import_studies.h"
+#include "ui/library/library.h"
+
+namespace pellucid::ui {
+
+/// The library as the window uses it: opened once, imports as jobs of their own beside those of the
+/// open study, removal. What fails is said by `failed`, never thrown.
+class StudyLibrary : public QObject {
+    Q_OBJECT
+public:
+    explicit StudyLibrary(QObject *parent = nullptr);
+    ~StudyLibrary() override;
+
+    /// What opening it had to do.
+    const std::vector<dicom::Skipped> &notices() const { return m_notices; }
+
+    StudyPage find(const QString &search, StudyOrder order, int offset, int limit);
+    bool holds(const StudyFacts &study);
+    std::vector<VolumeFacts> volumes(const StudyFacts &study);
+    std::vector<dicom::InstanceFile> files(const VolumeFacts &volume);
+
+    void import(const Import &import);
+    void remove(const StudyFacts &study);
+    JobRunner &jobs() { return m_jobs; }
+
+signals:
+    void changed();
+    void imported(const pellucid::ui::ImportResult &result);
+    void failed(const QString &what, const QString &path);
+
+private:
+    template <class F> auto attempt(F &&f) -> decltype(f(std::declval<Library &>()));
+
+    std::vector<dicom::Skipped> m_notices;
+    std::unique_ptr<Library> m_library;
+    JobRunner m_jobs;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/problem_list.h"
+
+#include <algorithm>
+#include <map>
+
+#include <QLabel>
+#include <QListWidget>
+#include <QVBoxLayout>
+
+#include "ui/document.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// So many files of one reason still have a row each; so many paths a tip names.
+constexpr std::size_t mostRows = 3, mostInTip = 20;
+constexpr int mostHeight = 170;
+
+// Files that are no images at all are no errors.
+bool isNoImage(const QString &reason) {
+    return reason.startsWith("is not a DICOM") || reason.startsWith("has no pixels");
+}
+
+} // namespace
+
+ProblemList::ProblemList(Document &document, const Theme &theme, QWidget *parent)
+    : QWidget(parent), m_document(document), m_theme(theme), m_heading(new QLabel),
+      m_list(new QListWidget) {
+    m_list->setObjectName("problemList");
+    m_list->setAccessibleName(tr("Problems"));
+    m_list->setToolTip(tr("Files that are not used, and why"));
+    m_list->setWordWrap(true);
+    m_list->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
+    m_heading->setProperty("role", "heading");
+    m_heading->setObjectName("problemHeading");
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(4);
+    layout->addWidget(m_heading);
+    layout->addWidget(m_list);
+    connect(&document, &Document::problemsChanged, this, &ProblemList::showProblems);
+    showProblems();
+}
+
+void ProblemList::showProblems() {
+    m_list->clear();
+    const auto &problems = m_document.problems();
+    std::map<std::string, std::vector<const dicom::Skipped *>> byReason;
+    std::vector<const std::string *> order;
+    for (const dicom::Skipped &problem : problems) {
+        auto &same = byReason[problem.reason];
+        if (same.empty())
+            order.push_back(&problem.reason);
+        same.push_back(&problem);
+    }
+    const auto add = [this](const QString &text, const QString &tip, const QString &reason) {
+        auto *item = new QListWidgetItem(text, m_list);
+        item->setToolTip(tip);
+        if (isNoImage(reason))
+            item->setForeground(m_theme.color("muted"));
+    };
+    for (const std::string *key : order) {
+        const auto &same = byReason[*key];
+        const QString reason = QString::fromStdString(*key);
+        QStringList paths;
+        for (const dicom::Skipped *problem : same)
+            paths << QString::fromStdString(problem->path.string());
+        if (same.size() > mostRows) {
+            QString tip = paths.mid(0, mostInTip).join("\n");
+            if (same.size() > mostInTip)
+                tip += "\n" + tr("and %n more", "", int(same.size() - mostInTip));
+            add(tr("%n files: %1", "", int(same.size())).arg(reason), tip, reason);
+            continue;
+        }
+        for (std::size_t n = 0; n < same.size(); ++n) {
+            const QString name = QString::fromStdString(same[n]->path.filename().string());
+            add(name.isEmpty() ? reason : name + ": " + reason, paths[int(n)], reason);
+        }
+    }
+    int height = 2 * m_list->frameWidth() + 2;
+    for (int row = 0; row < m_list->count() && height < mostHeight; ++row)
+        height += m_list->sizeHintForRow(row);
+    m_list->setFixedHeight(std::min(height, mostHeight));
+    m_heading->setText(tr("PROBLEMS (%1)").arg(problems.size()));
+    setVisible(!problems.empty());
+}
+
+} // namespace pellucid::ui

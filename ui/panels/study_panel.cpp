@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/study_panel.h"
+
+#include <set>
+
+#include <QActionGroup>
+#include <QDesktopServices>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QPushButton>
+#include <QToolButton>
+#include <QTreeView>
+#include <QUrl>
+#include <QVBoxLayout>
+
+#include "ui/document.h"
+#include "ui/library/study_row_painter.h"
+#include "ui/panels/job_strip.h"
+#include "ui/panels/problem_list.h"
+#include "ui/study_details.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// So many studies are shown with what is in them.
+constexpr int fewStudies = 20;
+// A search begins when the hand rests.
+constexpr int typingMs = 120;
+
+QStringList localPaths(const QMimeData &data) {
+    QStringList paths;
+    for (const QUrl &url : data.urls())
+        if (url.isLocalFile())
+            paths << url.toLocalFile();
+    return paths;
+}
+
+} // namespace
+
+StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &theme,
+                       QWidget *parent)
+    : QWidget(parent), m_document(document), m_library(library), m_list(document, library),
+      m_search(new QLineEdit), m_tree(new QTreeView), m_corner(new QPushButton(tr("Import"))) {
+    setObjectName("studyPanel");
+    setAttribute(Qt::WA_StyledBackground);
+    setAcceptDrops(true);
+    m_search->setObjectName("studySearch");
+    m_search->setPlaceholderText(tr("Search studies"));
+    m_search->setToolTip(tr("Words that a study must have: name, identifier, date, modality, "
+                            "description (Ctrl+F)"));
+    m_search->setAccessibleName(tr("Search studies"));
+    m_search->setClearButtonEnabled(true);
+    auto *order = new QToolButton;
+    order->setObjectName("studyOrderButton");
+    order->setText(tr("Sort"));
+    order->setProperty("role", "heading");
+    order->setToolTip(tr("Order of the studies"));
+    order->setPopupMode(QToolButton::InstantPopup);
+    order->setMenu(orderMenu());
+    m_corner->setObjectName("importButton");
+    m_corner->setProperty("role", "link");
+    m_corner->setToolTip(tr("Add studies to the library (Ctrl+I)"));
+    m_tree->setObjectName("seriesTree");
+    m_tree->setAccessibleName(tr("Studies"));
+    m_tree->setHeaderHidden(true);
+    m_tree->setIndentation(0);
+    m_tree->setRootIsDecorated(false);
+    m_tree->setMouseTracking(true);
+    m_tree->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+    m_tree->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_tree->setContextMenuPolicy(Qt::CustomContextMenu);
+    m_tree->setModel(&m_list);
+    m_tree->setItemDelegate(new StudyRowPainter(m_list, theme, this));
+    m_tree->header()->setSectionResizeMode(QHeaderView::Stretch);
+    auto *top = new QHBoxLayout;
+    top->addWidget(m_search, 1);
+    top->addWidget(order);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(14, 4, 10, 12);
+    layout->setSpacing(6);
+    layout->addLayout(top);
+    layout->addWidget(m_tree, 1);
+    layout->addWidget(new JobStrip(library.jobs(), "import"));
+    layout->addWidget(new ProblemList(document, theme));
+
+    m_typing.setSingleShot(true);
+    m_typing.setInterval(typingMs);
+    connect(m_search, &QLineEdit::textChanged, &m_typing, qOverload<>(&QTimer::start));
+    connect(&m_typing, &QTimer::timeout, this, [this] { m_list.setSearch(m_search->text()); });
+    connect(m_search, &QLineEdit::returnPressed, this, [this] {
+        m_list.setSearch(m_search->text());
+        m_tree->setFocus();
+    });
+    connect(m_corner, &QPushButton::clicked, this, [this] { emit importRequested({}); });
+    connect(&m_list, &QAbstractItemModel::modelReset, this, [this] {
+        expandFew();
+        showCurrent();
+    });
+    connect(&document, &Document::currentSourceChanged, this, &StudyPanel::showCurrent);
+    connect(m_tree, &QTreeView::clicked, this, &StudyPanel::activate);
+    connect(m_tree, &QTreeView::activated, this, &StudyPanel::activate);
+    connect(m_tree, &QWidget::customContextMenuRequested, this, &StudyPanel::showMenu);
+    expandFew();
+}
+
+QMenu *StudyPanel::orderMenu() {
+    auto *menu = new QMenu(this);
+    auto *group = new QActionGroup(menu);
+    const struct {
+        QString text;
+        const char *name;
+        StudyOrder order;
+    } orders[] = {{tr("Newest first"), "newestFirstAction", StudyOrder::newestFirst},
+                  {tr("By name"), "byNameAction", StudyOrder::byName},
+                  {tr("Last added first"), "lastAddedFirstAction", StudyOrder::lastAddedFirst}};
+    for (const auto &o : orders) {
+        QAction *action = menu->addAction(o.text);
+        action->setObjectName(o.name);
+        action->setCheckable(true);
+        action->setChecked(o.order == m_list.order());
+        group->addAction(action);
+        connect(action, &QAction::triggered, this,
+                [this, order = o.order] { m_list.setOrder(order); });
+    }
+    return menu;
+}
+
+QWidget *StudyPanel::corner() {
+    return m_corner;
+}
+
+void StudyPanel::focusSearch() {
+    m_search->setFocus();
+    m_search->selectAll();
+}
+
+void StudyPanel::expandFew() {
+    if (m_list.studyCount() > fewStudies)
+        return;
+    for (int row = 0; row < m_list.rowCount(); ++row)
+        m_tree->expand(m_list.index(row, 0));
+}
+
+void StudyPanel::showCurrent() {
+    const QModelIndex current = m_list.find(m_document.currentSource());
+    if (current.isValid()) {
+        m_tree->expand(current.parent());
+        m_tree->scrollTo(current);
+    }
+    m_tree->setCurrentIndex(current);
+}
+
+void StudyPanel::activate(const QModelIndex &index) {
+    const VolumeFacts *const volume = m_list.volume(index);
+    if (volume == nullptr) {
+        m_tree->setExpanded(index, !m_tree->isExpanded(index));
+        return;
+    }
+    if (const int source = m_list.source(index); source >= 0)
+        emit sourceActivated(source);
+    else
+        emit libraryVolumeActivated(m_list.study(index), *volume);
+}
+
+void StudyPanel::showMenu(const QPoint &at) {
+    const QModelIndex index = m_tree->indexAt(at);
+    if (!index.isValid())
+        return;
+    const StudyFacts study = m_list.study(index);
+    const VolumeFacts *const volume = m_list.volume(index);
+    auto *menu = new QMenu(this);
+    menu->setObjectName("studyMenu");
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    const QPersistentModelIndex row(index);
+    const auto add = [&](const QString &text, const char *name, auto run) {
+        QAction *action = menu->addAction(text);
+        action->setObjectName(name);
+        connect(action, &QAction::triggered, this, run);
+    };
+    if (volume != nullptr) {
+        add(tr("Open"), "openVolumeAction", [this, row] { activate(row); });
+        add(tr("Details..."), "volumeDetailsAction", [this, row] { showDetails(row); });
+        menu->addSeparator();
+    }
+    if (study.libraryId != 0) {
+        add(tr("Remove from the library..."), "removeStudyAction",
+            [this, study] { remove(study); });
+    } else {
+        if (study.patientId != "phantoms")
+            add(tr("Add to the library..."), "addStudyAction",
+                [this, study] { importOpen(study); });
+        add(tr("Close"), "closeStudyAction", [this, study] { close(study); });
+    }
+    menu->popup(m_tree->viewport()->mapToGlobal(at));
+}
+
+void StudyPanel::showDetails(const QModelIndex &index) {
+    const VolumeFacts *const volume = m_list.volume(index);
+    if (volume == nullptr)
+        return;
+    QStringList files;
+    const int open = m_list.source(index);
+    if (open >= 0)
+        files = m_document.sources()[std::size_t(open)].files;
+    else
+        for (const dicom::InstanceFile &file : m_library.files(*volume))
+            files << QString::fromStdString(file.path.string());
+    showStudyDetails(m_list.study(index), *volume, files, m_list.thumbnail(index), window());
+}
+
+void StudyPanel::importOpen(const StudyFacts &study) {
+    QStringList paths;
+    for (const StudySource &source : m_document.sources())
+        if (source.study.key() == study.key())
+            paths << source.files;
+    paths.removeDuplicates();
+    emit importRequested(paths);
+}
+
+void StudyPanel::remove(const StudyFacts &study) {
+    int copied = 0, referred = 0;
+    std::set<QString> series;
+    for (const VolumeFacts &volume : m_library.volumes(study))
+        if (series.insert(volume.seriesUid + volume.file).second)
+            (volume.isCopied ? copied : referred) += volume.files;
+    QString what =
+        tr("Remove the study %1 of %2 from the library?").arg(studyText(study), patientText(study));
+    if (copied > 0)
+        what += "\n\n" + tr("%n files that were copied into the library are deleted.", "", copied);
+    if (referred > 0)
+        what += "\n\n" + tr("%n files elsewhere stay where they are.", "", referred);
+    auto *question = new QMessageBox(QMessageBox::Question, tr("Remove from the library"), what,
+                                     QMessageBox::Cancel, window());
+    question->setObjectName("removeStudyQuestion");
+    question->setAttribute(Qt::WA_DeleteOnClose);
+    QPushButton *const yes = question->addButton(tr("Remove"), QMessageBox::AcceptRole);
+    question->setDefaultButton(QMessageBox::Cancel);
+    connect(question, &QMessageBox::buttonClicked, this,
+            [this, study, yes](const QAbstractButton *button) {
+                if (button == static_cast<const void *>(yes)) {
+                    close(study);
+                    m_library.remove(study);
+                }
+            });
+    question->open();
+}
+
+void StudyPanel::close(const StudyFacts &study) {
+    for (std::size_t n = 0; n < m_document.sources().size(); ++n)
+        if (m_document.sources()[n].study.key() == study.key())
+            emit closeRequested(int(n));
+}
+
+void StudyPanel::dragEnterEvent(QDragEnterEvent *event) {
+    if (!localPaths(*event->mimeData()).isEmpty())
+        event->acceptProposedAction();
+}
+
+void StudyPanel::dropEvent(QDropEvent *event) {
+    event->acceptProposedAction();
+    emit importRequested(localPaths(*event->mimeData()));
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QTimer>
+#include <QWidget>
+
+#include "ui/library/study_list.h"
+#include "ui/theme.h"
+
+class QLineEdit;
+class QMenu;
+class QPushButton;
+class QTreeView;
+
+namespace pellucid::ui {
+
+class Document;
+
+/// The studies: those that are open and those of the library, with search and order, what can be
+/// done with one, the import that runs, and the problems of the last one.
+class StudyPanel : public QWidget {
+    Q_OBJECT
+public:
+    StudyPanel(Document &document, StudyLibrary &library, const Theme &theme,
+               QWidget *parent = nullptr);
+
+    /// Stands beside the panel's heading: imports.
+    QWidget *corner();
+    void focusSearch();
+
+signals:
+    void sourceActivated(int index);
+    void libraryVolumeActivated(const pellucid::ui::StudyFacts &study,
+                                const pellucid::ui::VolumeFacts &volume);
+    /// Empty: the user is asked for the paths too.
+    void importRequested(const QStringList &paths);
+    void closeRequested(int index);
+
+protected:
+    void dragEnterEvent(QDragEnterEvent *event) override;
+    void dropEvent(QDropEvent *event) override;
+
+private:
+    void activate(const QModelIndex &index);
+    void showCurrent();
+    void expandFew();
+    void showMenu(const QPoint &at);
+    void showDetails(const QModelIndex &index);
+    void importOpen(const StudyFacts &study);
+    void remove(const StudyFacts &study);
+    void close(const StudyFacts &study);
+    QMenu *orderMenu();
+
+    Document &m_document;
+    StudyLibrary &m_library;
+    StudyList m_list;
+    QLineEdit *m_search;
+    QTreeView *m_tree;
+    QPushButton *m_corner;
+    QTimer m_typing;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/plane_texts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <QCoreApplication>
+#include <QPainter>
+
+#include <glm/geometric.hpp>
+
+#include "core/render/camera.h"
+#include "ui/document.h"
+#include "ui/overlay.h"
+#include "ui/views/crosshair.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+QString tr(const char *text) {
+    return QCoreApplication::translate("MprView", text);
+}
+
+QString slabText(const mpr::Slab &slab) {
+    const QString mode = slab.mode == mpr::SlabMode::mean      ? tr("mean")
+                         : slab.mode == mpr::SlabMode::maximum ? tr("MIP")
+                                                               : tr("MinIP");
+    return tr("%1 of %2 mm").arg(mode).arg(slab.thicknessMm);
+}
+
+// "S 142.5": the side that the coordinate points to, and its size.
+QString coordinateText(const glm::dvec3 &axis, double mm) {
+    const std::string side = render::patientLetters(mm < 0.0 ? -axis : axis);
+    return QString("%1 %2").arg(QString::fromStdString(side)).arg(std::abs(mm), 0, 'f', 1);
+}
+
+} // namespace
+
+QString planeTitle(mpr::Orientation o) {
+    switch (o) {
+    case mpr::Orientation::axial:
+        return tr("Axial");
+    case mpr::Orientation::coronal:
+        return tr("Coronal");
+    case mpr::Orientation::sagittal:
+        break;
+    }
+    return tr("Sagittal");
+}
+
+QString valueText(const volume::Volume &volume, volume::PatientPoint at,
+                  mpr::Interpolation interpolation) {
+    const float value = mpr::valueAt(volume, at, interpolation);
+    if (std::isnan(value))
+        return {};
+    const bool hounsfield = volume.unit() == volume::ValueUnit::hounsfield;
+    QString text = volume.notes().placed ? QString("%1  %2  %3 mm   ")
+                                               .arg(coordinateText({1, 0, 0}, at.mm.x),
+                                                    coordinateText({0, 1, 0}, at.mm.y),
+                                                    coordinateText({0, 0, 1}, at.mm.z))
+                                         : QString();
+    return text + QString::number(double(value), 'f', hounsfield || !volume.isFloat() ? 0 : 3) +
+           (hounsfield ? " HU" : "");
+}
+
+void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
+                     const Document &document, mpr::Orientation orientation) {
+    const OverlayColors colors = overlayColors(colorRole(orientation));
+    const QRect inner = area.adjusted(8, 8, -8, -8);
+    const Cut &cut = document.cut();
+    painter.save();
+    QFont bold = painter.font();
+    bold.setBold(true);
+    painter.setFont(bold);
+    const QString title = planeTitle(orientation);
+    drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop,
+             cut.axes.of(orientation) == mpr::standardAxes(orientation)
+                 ? title
+                 : tr("%1, oblique").arg(title),
+             colors.plane);
+    painter.restore();
+    if (!document.volume())
+        return;
+    const volume::VolumeNotes &notes = document.volume()->notes();
+    const int line = painter.fontMetrics().height() + 3;
+    const glm::dvec3 axis = cut.axes.scrollAxis(orientation);
+    const QString position =
+        notes.placed
+            ? coordinateText(axis, glm::dot(document.crosshair().mm, axis)) + " mm"
+            : tr("image %1")
+                  .arg(1 + int(std::lround(
+                               document.volume()->lattice().voxel(document.crosshair()).v.z)));
+    drawText(painter, inner, Qt::AlignRight | Qt::AlignTop, position, colors.text);
+    if (cut.options.slab.thicknessMm > 0.0)
+        drawText(painter, inner.adjusted(0, line, 0, 0), Qt::AlignRight | Qt::AlignTop,
+                 slabText(cut.options.slab), colors.text);
+    if (notes.placed)
+        drawOrientationLetters(painter, area, mapping.plane.axes.right, mapping.plane.axes.up,
+                               colors);
+    if (notes.hasSpacing)
+        drawScaleBar(painter, QPoint(10, area.bottom() - 9), mapping.pixelsPerMm(),
+                     std::min(110, area.width() / 3), colors);
+    if (!notes.warnings.empty())
+        drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
+                 painter.fontMetrics().elidedText(QString::fromStdString(notes.warnings.front()),
+                                                  Qt::ElideRight, area.width() / 2 - 16),
+                 colors.warning);
+    if (notes.lossy)
+        drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, tr("lossy"), colors.warning);
+}
+
+} // namespace pellucid::ui

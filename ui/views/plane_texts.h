@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+
+#include "core/mpr/reslice.h"
+#include "ui/views/pane_mapping.h"
+
+class QPainter;
+class QRect;
+
+namespace pellucid::ui {
+
+class Document;
+
+/// The name of a plane, in the user's language.
+QString planeTitle(mpr::Orientation orientation);
+
+/// Place and value, as the status bar shows them; empty outside the volume.
+QString valueText(const volume::Volume &volume, volume::PatientPoint at,
+                  mpr::Interpolation interpolation);
+
+/// What stands over a plane: name, position, slab, the patient's letters, scale and warnings.
+void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
+                     const Document &document, mpr::Orientation orientation);
+
+} // namespace pellucid::ui
