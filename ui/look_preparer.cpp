@@ -48,9 +48,9 @@ classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &
 } // namespace
 
 PreparedFor::PreparedFor(const Document &document)
-    : look(document.scene().look), tolerance(document.scene().tolerance),
-      interpolation(document.scene().interpolation), image(document.scene().image),
-      cue(render::plannedCue(document.scene().shading.cue)),
+    : look(document.scene().look), crop(document.scene().crop),
+      tolerance(document.scene().tolerance), interpolation(document.scene().interpolation),
+      image(document.scene().image), cue(render::plannedCue(document.scene().shading.cue)),
       isLit(document.scene().shading.isLit()) {
     // The volume's own window is the same whether it is named or not.
     if (document.fieldWindow() != document.defaultFieldWindow())
@@ -58,15 +58,15 @@ PreparedFor::PreparedFor(const Document &document)
 }
 
 bool PreparedFor::hasLayersOf(const PreparedFor &other) const {
-    return window == other.window && tolerance == other.tolerance &&
+    return window == other.window && crop == other.crop && tolerance == other.tolerance &&
            interpolation == other.interpolation && image == other.image && cue == other.cue &&
            isLit == other.isLit &&
            classify::mixtureOf(look).layers == classify::mixtureOf(other.look).layers;
 }
 
 bool PreparedFor::showsSameAs(const PreparedFor &other) const {
-    return window == other.window && look == other.look && tolerance == other.tolerance &&
-           interpolation == other.interpolation;
+    return window == other.window && look == other.look && crop == other.crop &&
+           tolerance == other.tolerance && interpolation == other.interpolation;
 }
 
 LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
@@ -118,6 +118,7 @@ PreparedFor LookPreparer::forgetVolume() {
     PreparedFor wanted(m_document);
     wanted.window.reset(); // a new volume has its own
     wanted.look = {};
+    wanted.crop = {};
     wanted.image = {};
     wanted.cue = {};
     wanted.isLit = false;
@@ -246,7 +247,9 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
             const auto layers = render::LayerSet::prepare(
                 planningScene(of, wanted), mixture.layers.size(),
                 [&](std::size_t n, const task::Progress &p) {
-                    return classify::layerField(of, window, mixture.layers[n], steps.get(), p);
+                    return classify::cropped(
+                        classify::layerField(of, window, mixture.layers[n], steps.get(), p),
+                        wanted.crop);
                 },
                 // Half of it: engines of the sum are to come.
                 {task::availableMemoryBytes() / 2}, progress,
@@ -333,11 +336,15 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
         // First of a small volume, on which steps take no time.
         if (coarseFirst && isLarge(volume)) {
             const volume::Volume small = classify::coarseVolume(volume, coarseSide);
-            announce(classify::shownFields(small, window, wanted.look, steps.get()), false,
-                     progress.part(0.0, 0.1));
+            announce(
+                classify::cropped(classify::shownFields(small, window, wanted.look, steps.get()),
+                                  wanted.crop),
+                false, progress.part(0.0, 0.1));
         }
-        const auto fields = classify::shownFields(volume, window, wanted.look, steps.get(),
-                                                  progress.part(0.1, 0.3));
+        const auto fields =
+            classify::cropped(classify::shownFields(volume, window, wanted.look, steps.get(),
+                                                    progress.part(0.1, 0.3)),
+                              wanted.crop);
         announce(fields, true, progress.part(0.3, 1.0));
     };
 }

@@ -35,6 +35,7 @@ struct PreparedFor {
     explicit PreparedFor(const Document &document);
     std::optional<classify::FieldWindow> window; ///< none: the volume's own
     classify::Look look;
+    classify::CropBox crop;
     double tolerance = 0.0;
     render::Interpolation interpolation;
     render::ImageDefinition image;

@@ -243,6 +243,16 @@ void MainWindow::createViewMenu() {
         m_document.setCut(cut);
         m_document.centerCrosshair();
     });
+    QAction *about =
+        command(*menu, tr("&Orbit about the crosshair"), "orbitCrosshairAction", QKeySequence("O"),
+                [this] { m_projection->setOrbitsCrosshair(!m_projection->orbitsCrosshair()); });
+    about->setCheckable(true);
+    QAction *compare =
+        command(*menu, tr("&Compare with the look before") + "\t" + tr("hold Q"), "compareAction",
+                {}, [this] { compareLooks(!m_projection->isComparing()); });
+    compare->setCheckable(true);
+    connect(menu, &QMenu::aboutToShow, this,
+            [this, compare] { compare->setChecked(m_projection->isComparing()); });
     command(*menu, tr("Prepare the projection a&gain"), "prepareAgainAction", QKeySequence("F5"),
             [this] { m_preparer.prepareAgain(); });
     menu->addSeparator();
@@ -476,11 +486,34 @@ void MainWindow::dropEvent(QDropEvent *event) {
         openPaths(paths);
 }
 
+void MainWindow::compareLooks(bool isComparing) {
+    m_projection->setComparing(isComparing);
+    if (isComparing && !m_projection->isComparing())
+        statusBar()->showMessage(tr("There is no look before this one"), 4000);
+}
+
 void MainWindow::keyPressEvent(QKeyEvent *event) {
     if (event->key() == Qt::Key_Escape && m_jobs.isRunning())
         m_jobs.cancel();
-    else
+    else if (event->key() == Qt::Key_Q && event->modifiers() == Qt::NoModifier) {
+        if (!event->isAutoRepeat()) // held: side by side till it is let go
+            compareLooks(true);
+    } else
         QMainWindow::keyPressEvent(event);
+}
+
+void MainWindow::keyReleaseEvent(QKeyEvent *event) {
+    if (event->key() == Qt::Key_Q && !event->isAutoRepeat())
+        compareLooks(false);
+    else
+        QMainWindow::keyReleaseEvent(event);
+}
+
+void MainWindow::changeEvent(QEvent *event) {
+    // Who goes to another window lets go there.
+    if (event->type() == QEvent::ActivationChange && !isActiveWindow() && m_projection != nullptr)
+        m_projection->setComparing(false);
+    QMainWindow::changeEvent(event);
 }
 
 void MainWindow::closeEvent(QCloseEvent *event) {

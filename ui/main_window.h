@@ -55,6 +55,8 @@ protected:
     void dropEvent(QDropEvent *event) override;
     void closeEvent(QCloseEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
+    void keyReleaseEvent(QKeyEvent *event) override;
+    void changeEvent(QEvent *event) override;
 
 private:
     void createPanes();
@@ -67,6 +69,7 @@ private:
     void createToolBar();
     void createStatusBar();
     void showVolumeState();
+    void compareLooks(bool isComparing);
     void chooseFiles();
     void chooseFolder();
     void savePicture();

@@ -51,11 +51,12 @@ std::uint64_t RenderWorker::request(const render::Camera &camera,
     return m_number;
 }
 
-std::future<render::ProjectionImage> RenderWorker::picture(const render::Camera &camera,
-                                                           const render::ImageDefinition &image,
-                                                           const shading::Shading &shading) {
+std::future<render::ProjectionImage>
+RenderWorker::picture(std::shared_ptr<render::ProjectionEngine> engine,
+                      const render::Camera &camera, const render::ImageDefinition &image,
+                      const shading::Shading &shading) {
     const std::lock_guard lock(m_mutex);
-    m_pictures.emplace_back([engine = m_engine, camera, image, shading] {
+    m_pictures.emplace_back([engine = std::move(engine), camera, image, shading] {
         if (!engine)
             throw task::Error(task::ErrorCode::usage, "there is no projection yet");
         return engine->render(camera, image, shading);

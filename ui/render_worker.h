@@ -55,9 +55,10 @@ public:
     std::uint64_t request(const render::Camera &camera, const render::ImageDefinition &image,
                           const shading::Shading &shading, const Reduction &reduction,
                           bool wantsTone);
-    /// A picture of one's own, by the processor's engine, before the next frame. *Throws* what
-    /// rendering throws, and std::future_error if the worker ends before.
-    std::future<render::ProjectionImage> picture(const render::Camera &camera,
+    /// A picture of one's own, before the next frame: engines render on this thread alone. *Throws*
+    /// what rendering throws, and std::future_error if the worker ends before.
+    std::future<render::ProjectionImage> picture(std::shared_ptr<render::ProjectionEngine> engine,
+                                                 const render::Camera &camera,
                                                  const render::ImageDefinition &image,
                                                  const shading::Shading &shading);
 

@@ -9,7 +9,7 @@ namespace pellucid::ui {
 
 /// What the left mouse button does in the panes. In the projection it orbits unless it measures a
 /// distance.
-enum class Tool { window, pan, zoom, crosshair, distance, angle, ellipse, rectangle };
+enum class Tool { window, pan, zoom, crosshair, distance, angle, ellipse, rectangle, crop };
 
 /// What a tool draws, if it measures.
 inline std::optional<measure::Kind> measuredBy(Tool tool) {

@@ -12,6 +12,7 @@
 
 #include "ui/add_command.h"
 #include "ui/cine.h"
+#include "ui/commands.h"
 #include "ui/document.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
@@ -36,6 +37,14 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
     menu.addSeparator();
     addSlab(menu);
     addInterpolation(menu);
+    m_wholeVolume = addCommand(menu, tr("S&how the whole volume"), "wholeVolumeAction",
+                               QKeySequence("Shift+K"), this, [this] {
+                                   render::Scene scene = m_document.scene();
+                                   scene.crop = {};
+                                   m_document.undoStack()->push(
+                                       new EditScene(m_document, scene, tr("Whole volume")));
+                               });
+    connect(&document, &Document::sceneChanged, this, &ToolsMenu::showCut);
     m_straighten = addCommand(menu, tr("S&traighten the planes"), "straightenAction",
                               QKeySequence("Shift+C"), this, [this] {
                                   Cut cut = m_document.cut();
@@ -70,7 +79,9 @@ void ToolsMenu::addTools(QMenu &menu) {
          Tool::angle, "A"},
         {tr("Ellipse"), tr("drag the box around it"), "ellipseToolAction", Tool::ellipse, "E"},
         {tr("Rectangle"), tr("drag from corner to corner"), "rectangleToolAction", Tool::rectangle,
-         "B"}};
+         "B"},
+        {tr("Crop"), tr("drag the sides of the box in the planes"), "cropToolAction", Tool::crop,
+         "K"}};
     for (const auto &t : tools) {
         QAction *action = addCommand(menu, t.text, t.name, QKeySequence(t.key), this,
                                      [this, tool = t.tool] { chooseTool(tool); });
@@ -237,6 +248,7 @@ void ToolsMenu::showCut() {
     for (QAction *action : m_interpolations->actions())
         action->setChecked(action->data().toInt() == int(cut.options.interpolation));
     m_straighten->setEnabled(!cut.axes.areStandard());
+    m_wholeVolume->setEnabled(!m_document.scene().crop.isWhole());
 }
 
 } // namespace pellucid::ui

@@ -49,7 +49,7 @@ private:
     Cine *m_cine;
     QActionGroup *m_tools, *m_thicknesses, *m_modes, *m_interpolations;
     QMenu *m_slabMenu = nullptr;
-    QAction *m_slab = nullptr, *m_straighten = nullptr;
+    QAction *m_slab = nullptr, *m_straighten = nullptr, *m_wholeVolume = nullptr;
     double m_lastThicknessMm = 10.0;
 };
 

@@ -65,15 +65,17 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const std::size_t samples = volume.lattice().size().count();
     const std::size_t forLight = render::bytesForLight(scene.shading, volume.lattice().size(),
                                                        classify::mixesColors(scene.look) ? 3 : 1);
-    const std::size_t held = volume.bytes() + classify::peakBytes(scene.look, samples) + forLight;
+    const std::size_t held = volume.bytes() + classify::peakBytes(scene.look, samples) + forLight +
+                             (scene.crop.isWhole() ? 0 : samples * sizeof(float));
     if (command.count("--memory") > 0 && o.memory < held)
         throw Error(ErrorCode::outOfMemory,
                     fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
                                 o.memory >> 20),
                     o.path);
     preprocess::StepCache steps(budgetOfSteps);
-    const auto fields =
-        classify::shownFields(volume, window, scene.look, &steps, task::Progress(context.stop));
+    const auto fields = classify::cropped(
+        classify::shownFields(volume, window, scene.look, &steps, task::Progress(context.stop)),
+        scene.crop);
     steps.trim(0); // the picture asks for nothing twice
     // Asking for more than there is would end in the system killing the program.
     render::Budget budget{task::availableMemoryBytes()};

@@ -219,6 +219,9 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->check(CLI::Range(1.0, 4.0));
     command.add_option("--storage", options.storage, "Cells of the spectrum, default as needed")
         ->check(CLI::IsMember({"f16", "f32"}));
+    command.add_option("--crop", options.crop,
+                       "The part that is shown: low,high of columns, rows and slices, in shares of "
+                       "the volume from 0 to 1");
     command.add_option("--scene", options.scene, "Start from a scene saved as JSON");
 }
 
@@ -307,6 +310,10 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
                 light.direction = axes * glm::normalize(light.direction);
                 light.frame = shading::LightFrame::patient;
             }
+    }
+    if (given("--crop")) {
+        const auto n = parseNumbers("--crop", o.crop, ',', 6);
+        scene.crop = {{n[0], n[2], n[4]}, {n[1], n[3], n[5]}};
     }
     if (given("--reconstruction"))
         scene.image.reconstruction = reconstructions.at(o.reconstruction);

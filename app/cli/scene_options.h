@@ -17,7 +17,7 @@ namespace pellucid::cli {
 /// The options that say what a projection shows, as typed.
 struct SceneOptions {
     std::string scene, preset, view, orientation, size, window, bezier, reconstruction, quality,
-        kernel, storage, depthCue, lightFrame;
+        kernel, storage, depthCue, lightFrame, crop;
     std::vector<std::string> classes, lights;
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0, pixelMm = 0.0, rollOff = -1.0,
            tolerance = 0.0, padding = 0.0, ambient = 1.0;

@@ -40,6 +40,7 @@ void validate(const Scene &scene) {
                     scene.fieldWindow->low < scene.fieldWindow->high,
                 "the window's low end must lie below its high end");
     classify::validate(scene.look);
+    classify::validate(scene.crop);
     shading::validate(scene.shading);
 }
 

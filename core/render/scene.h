@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/classify/crop_box.h"
 #include "core/classify/density_field.h"
 #include "core/classify/look.h"
 #include "core/fourier/kernel.h"
@@ -42,6 +43,7 @@ struct Scene {
     /// The field's window; the volume's default if absent.
     std::optional<classify::FieldWindow> fieldWindow;
     classify::Look look;
+    classify::CropBox crop;
     shading::Shading shading;
     ImageDefinition image;
     /// Largest relative L2 error of the float image.

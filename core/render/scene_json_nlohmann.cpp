@@ -57,6 +57,9 @@ std::string toJson(const Scene &scene) {
         out["window"] = {scene.fieldWindow->low, scene.fieldWindow->high};
     out.update(json::parse(classify::toJson(scene.look)));
     out.update(json::parse(shading::toJson(scene.shading)));
+    const auto list = [](const glm::dvec3 &v) { return json{v.x, v.y, v.z}; };
+    if (!scene.crop.isWhole())
+        out["crop"] = {{"low", list(scene.crop.low)}, {"high", list(scene.crop.high)}};
     if (scene.tone.low)
         out["tone"]["low"] = *scene.tone.low;
     if (scene.tone.high)
@@ -93,6 +96,11 @@ Scene sceneFromJson(const std::string &text) {
         }
         scene.look = classify::lookFromJson(text);
         scene.shading = shading::shadingFromJson(text);
+        if (in.contains("crop")) {
+            const auto low = in.at("crop").at("low").get<std::array<double, 3>>();
+            const auto high = in.at("crop").at("high").get<std::array<double, 3>>();
+            scene.crop = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+        }
         const std::string reconstruction = in.value("reconstruction", "cubic");
         const auto it = reconstructionNames().find(reconstruction);
         if (it == reconstructionNames().end())

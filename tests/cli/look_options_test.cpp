@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "core/classify/shown_fields.h"
+#include "core/classify/crop_box.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/reference/shaded_field.h"
@@ -43,17 +43,20 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
     const struct {
         std::string options;
         classify::Look look;
+        classify::CropBox crop;
     } cases[] = {{"--bezier 0,0.5,2,2", {{{0.0, 0.5, 2.0, 2.0}}, {}}},
                  {"--bezier 0,2,0,2,0,2,0,2,0,2,0,2,0,2,0,2",
                   {{{0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2, 0, 2}}, {}}},
                  {"--class bone=1.5", {{}, {standard("bone", 1.5, "#ffffff")}}},
                  {"--class bone=1:#ff8000 --class lung=2:#0040ff --class fat=0",
-                  {{}, {standard("bone", 1.0, "#ff8000"), standard("lung", 2.0, "#0040ff")}}}};
+                  {{}, {standard("bone", 1.0, "#ff8000"), standard("lung", 2.0, "#0040ff")}}},
+                 {"--crop 0.25,1,0,0.6,0.1,0.9", {}, {{0.25, 0.0, 0.1}, {1.0, 0.6, 0.9}}}};
     for (const auto &c : cases) {
         const auto r = cli("render " + quoted(series) + " -o " + quoted(out) +
                            " --azimuth 30 --json " + c.options);
         ASSERT_EQ(r.exitCode, 0) << r.error;
-        const auto fields = classify::shownFields(volume, window, c.look, nullptr);
+        const auto fields =
+            classify::cropped(classify::shownFields(volume, window, c.look, nullptr), c.crop);
         const int channels = fields.isGrey() ? 1 : 3;
         int height = 0, width = 0;
         const auto image = readNpy(out, height, width, channels);

@@ -28,6 +28,7 @@ constexpr int restMs = 150;
 Qt::CursorShape cursorOf(Tool tool) {
     switch (tool) {
     case Tool::window:
+    case Tool::crop:
         return Qt::ArrowCursor;
     case Tool::pan:
         return Qt::OpenHandCursor;
@@ -41,8 +42,8 @@ Qt::CursorShape cursorOf(Tool tool) {
 } // namespace
 
 MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *parent)
-    : QWidget(parent), m_document(document), m_orientation(orientation),
-      m_measure(document, false) {
+    : QWidget(parent), m_document(document), m_orientation(orientation), m_measure(document, false),
+      m_crop(document) {
     setObjectName(QString("%1View").arg(colorRole(orientation)));
     setAccessibleName(planeTitle(orientation));
     setFocusPolicy(Qt::StrongFocus);
@@ -58,6 +59,7 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     connect(&document, &Document::volumeChanged, this, [this] {
         if (!m_document.volume()) { // previews leave what the hand is doing alone
             m_measure.cancel();
+            m_crop.cancel();
             m_dragging = Drag::none;
         }
         m_cutMs = 0.0;
@@ -68,8 +70,8 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     for (const auto changed : {&Document::displayWindowChanged, &Document::tintChanged,
                                &Document::crosshairChanged, &Document::cutChanged})
         connect(&document, changed, this, &MprView::refresh);
-    for (const auto changed :
-         {&Document::measurementsChanged, &Document::selectedMeasurementChanged})
+    for (const auto changed : {&Document::measurementsChanged,
+                               &Document::selectedMeasurementChanged, &Document::sceneChanged})
         connect(&document, changed, this, qOverload<>(&QWidget::update));
 }
 
@@ -81,6 +83,7 @@ void MprView::refresh() {
 void MprView::setTool(Tool tool) {
     m_tool = tool;
     m_measure.cancel();
+    m_crop.cancel();
     setCursor(cursorOf(tool));
     update();
 }
@@ -187,6 +190,8 @@ void MprView::paintEvent(QPaintEvent *) {
 }
 
 void MprView::paintAnnotations(QPainter &painter) {
+    m_crop.paint(painter, mapping(), rect(), m_tool == Tool::crop,
+                 overlayColors(colorRole(m_orientation)));
     painter.save();
     painter.setClipRegion(QRegion(rect()) - upperAndLowerLetters(rect()));
     crosshairLines().paint(painter, size(), m_tool == Tool::crosshair);
@@ -238,6 +243,8 @@ void MprView::mousePressEvent(QMouseEvent *event) {
         if (m_tool == Tool::crosshair && crosshairLines().isHandleAt(m_last, size())) {
             m_dragging = Drag::turn;
             m_turnAngle = crosshairLines().angleAt(m_last);
+        } else if (m_tool == Tool::crop && m_crop.press(mapping(), event->position())) {
+            m_dragging = Drag::crop;
         } else if (m_measure.press(measurePane(), event->position(), measuredBy(m_tool))) {
             m_dragging = Drag::measure;
         } else {
@@ -256,6 +263,9 @@ void MprView::mouseMoveEvent(QMouseEvent *event) {
     if (m_measure.isBusy()) {
         m_measure.move(measurePane(), event->position());
         update();
+    } else if (m_crop.isBusy()) {
+        m_crop.move(mapping(), event->position());
+        update();
     } else if (m_dragging == Drag::turn) {
         turnTo(position);
     } else if (m_dragging == Drag::tool) {
@@ -270,6 +280,11 @@ void MprView::mouseMoveEvent(QMouseEvent *event) {
 }
 
 void MprView::showCursor(const QPointF &position) {
+    const auto onCrop = m_tool == Tool::crop ? m_crop.cursorAt(mapping(), position) : std::nullopt;
+    if (onCrop) {
+        setCursor(*onCrop);
+        return;
+    }
     const bool turns = m_tool == Tool::crosshair && crosshairLines().isHandleAt(position, size());
     setCursor(turns || m_measure.isOver(measurePane(), position) ? Qt::PointingHandCursor
                                                                  : cursorOf(m_tool));
@@ -285,6 +300,8 @@ void MprView::mouseReleaseEvent(QMouseEvent *event) {
         return;
     if (m_dragging == Drag::measure && showsVolume())
         m_measure.release(measurePane(), event->position());
+    if (m_dragging == Drag::crop && showsVolume())
+        m_crop.release();
     m_dragging = Drag::none;
     update();
 }
@@ -407,11 +424,13 @@ void MprView::keyPressEvent(QKeyEvent *event) {
         resetView();
         break;
     case Qt::Key_Escape:
-        if (!m_measure.isBusy()) {
+        if (!m_measure.isBusy() && !m_crop.isBusy()) {
             QWidget::keyPressEvent(event);
             break;
         }
         m_measure.cancel();
+        m_crop.cancel();
+        m_dragging = Drag::none;
         update();
         break;
     default:

@@ -9,6 +9,7 @@
 #include "core/mpr/plane.h"
 #include "ui/commands.h"
 #include "ui/tools.h"
+#include "ui/views/crop_tool.h"
 #include "ui/views/crosshair.h"
 #include "ui/views/measure_tool.h"
 
@@ -55,7 +56,7 @@ protected:
 
 private:
     /// What a drag does.
-    enum class Drag { none, tool, turn, measure };
+    enum class Drag { none, tool, turn, measure, crop };
 
     bool showsVolume() const;
     void refresh();
@@ -76,6 +77,7 @@ private:
     Document &m_document;
     const mpr::Orientation m_orientation;
     MeasureTool m_measure;
+    CropTool m_crop;
     Tool m_tool = Tool::window;
     Tool m_dragTool = Tool::window;
     Drag m_dragging = Drag::none;

@@ -26,6 +26,17 @@ void ProjectionOverlay::setMapping(const PaneMapping &mapping) {
     update();
 }
 
+void ProjectionOverlay::setShowsCrosshair(bool isShown) {
+    m_showsCrosshair = isShown;
+    update();
+}
+
+void ProjectionOverlay::setComparison(const QImage &picture, const QString &name) {
+    m_comparison = picture;
+    m_comparedName = name;
+    update();
+}
+
 void ProjectionOverlay::paintEvent(QPaintEvent *) {
     QPainter painter(this);
     paint(painter);
@@ -33,6 +44,21 @@ void ProjectionOverlay::paintEvent(QPaintEvent *) {
 
 void ProjectionOverlay::paint(QPainter &painter) {
     const OverlayColors colors = overlayColors("accent");
+    if (!m_comparison.isNull()) {
+        painter.setRenderHint(QPainter::SmoothPixmapTransform);
+        painter.drawImage(rect(), m_comparison);
+        painter.setPen(QPen(colors.muted, 1));
+        painter.drawLine(width() / 2, 0, width() / 2, height());
+        const QRect below = rect().adjusted(10, 0, -10, -90);
+        drawText(
+            painter, below.adjusted(0, 0, -width() / 2, 0), Qt::AlignHCenter | Qt::AlignBottom,
+            m_comparedName.isEmpty()
+                ? QCoreApplication::translate("ProjectionView", "Before")
+                : QCoreApplication::translate("ProjectionView", "Before: %1").arg(m_comparedName),
+            colors.text);
+        drawText(painter, below.adjusted(width() / 2, 0, 0, 0), Qt::AlignHCenter | Qt::AlignBottom,
+                 QCoreApplication::translate("ProjectionView", "Now"), colors.text);
+    }
     painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
     const QRect inner = rect().adjusted(10, 8, -10, -8);
     const int line = painter.fontMetrics().height() + 3;
@@ -69,6 +95,15 @@ void ProjectionOverlay::paint(QPainter &painter) {
         paintPicture(painter);
 }
 
+// The point that turning keeps.
+void ProjectionOverlay::paintCrosshair(QPainter &painter) const {
+    constexpr double gap = 4.0, arm = 12.0;
+    const QPointF at = m_mapping.positionOf(m_document.crosshair());
+    painter.setPen(QPen(overlayColors("accent").accent, 1.5));
+    for (const QPointF &way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
+        painter.drawLine(at + gap * way, at + arm * way);
+}
+
 void ProjectionOverlay::paintPicture(QPainter &painter) {
     const OverlayColors colors = overlayColors("accent");
     const int line = painter.fontMetrics().height() + 3;
@@ -79,6 +114,10 @@ void ProjectionOverlay::paintPicture(QPainter &painter) {
     drawOrientationCube(painter, QPointF(58, height() - 58), 40, axes, colors);
     drawScaleBar(painter, QPoint(width() - 180, height() - 34), m_mapping.pixelsPerMm(), 120,
                  colors);
+    if (!m_comparison.isNull())
+        return; // two pictures have no common places
+    if (m_showsCrosshair)
+        paintCrosshair(painter);
     m_measure.paint(painter, {m_mapping, 0.0}, colors);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QImage>
 #include <QWidget>
 
 #include "ui/views/measure_tool.h"
@@ -22,6 +23,10 @@ public:
 
     void setTexts(const Texts &texts);
     void setMapping(const PaneMapping &mapping);
+    void setShowsCrosshair(bool isShown);
+    /// Over the whole pane, in place of what is below; null: nothing. `name`: of the look at the
+    /// left.
+    void setComparison(const QImage &picture, const QString &name);
     /// Over any picture of the pane's size.
     void paint(QPainter &painter);
 
@@ -30,10 +35,14 @@ protected:
 
 private:
     void paintPicture(QPainter &painter);
+    void paintCrosshair(QPainter &painter) const;
 
     const Document &m_document;
     const MeasureTool &m_measure;
     Texts m_texts;
+    QImage m_comparison;
+    QString m_comparedName;
+    bool m_showsCrosshair = false;
     PaneMapping m_mapping;
 };
 

@@ -9,10 +9,10 @@
 #include <QWheelEvent>
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "ui/document.h"
 #include "ui/overlay.h"
+#include "ui/views/camera_moves.h"
 #include "ui/views/projection_overlay.h"
 
 namespace pellucid::ui {
@@ -24,13 +24,13 @@ constexpr double smoothFrameMs = 35.0;
 constexpr int restMs = 120;
 // Beyond this a finer picture shows the reconstruction's smoothness, not the patient.
 constexpr double samplesPerPixel = 4.0;
-constexpr double radiansPerPixel = 0.008;
 
 } // namespace
 
 ProjectionView::ProjectionView(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_canvas(makeProjectionCanvas(this)),
-      m_measure(document, true), m_overlay(new ProjectionOverlay(document, m_measure, this)) {
+      m_measure(document, true), m_overlay(new ProjectionOverlay(document, m_measure, this)),
+      m_comparison(document) {
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));
     setFocusPolicy(Qt::StrongFocus);
@@ -61,8 +61,14 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         m_canvas->setImage({});
         m_zoom = 1.0;
         m_measure.cancel();
+        m_comparison.forget();
+        setComparing(false);
         fitCamera();
         showTexts();
+    });
+    connect(&document, &Document::crosshairChanged, this, [this] {
+        if (m_orbitsCrosshair)
+            m_overlay->update();
     });
     connect(&document, &Document::cameraChanged, this,
             [this] { m_overlay->setMapping(mapping()); });
@@ -182,11 +188,49 @@ void ProjectionView::resetView() {
     }
 }
 
-void ProjectionView::showStandardView(render::StandardView view) {
-    render::Camera camera = m_document.scene().camera;
-    camera.orientation = render::viewOrientation(view);
+void ProjectionView::moveCamera(const render::Camera &camera, bool moving) {
     m_document.setCamera(camera);
-    requestFrame(false);
+    requestFrame(moving);
+}
+
+glm::dvec3 ProjectionView::pivotMm() const {
+    return m_orbitsCrosshair && m_document.volume()
+               ? m_document.crosshair().mm - m_document.volume()->lattice().center().mm
+               : glm::dvec3(0.0);
+}
+
+void ProjectionView::setOrbitsCrosshair(bool isAboutCrosshair) {
+    m_orbitsCrosshair = isAboutCrosshair;
+    m_overlay->setShowsCrosshair(isAboutCrosshair);
+}
+
+void ProjectionView::showStandardView(render::StandardView view) {
+    moveCamera(turnedTo(m_document.scene().camera, render::viewOrientation(view), pivotMm()),
+               false);
+}
+
+void ProjectionView::setComparing(bool isComparing) {
+    m_isComparing = isComparing && m_frame && m_comparison.before();
+    if (!m_isComparing)
+        m_overlay->setComparison({}, {});
+    else
+        showComparison();
+}
+
+void ProjectionView::showComparison() {
+    const ShownLook &before = *m_comparison.before();
+    try {
+        const auto image =
+            m_worker.picture(before.engine, m_document.scene().camera, before.image, before.shading)
+                .get();
+        const auto rgba = render::compose(image, before.tone);
+        const QImage then(rgba.data(), image.width, image.height, QImage::Format_RGBA8888);
+        const QImage now = picture().scaled(then.size());
+        m_overlay->setComparison(besideEachOther(then, now), before.name);
+    } catch (const std::exception &error) {
+        m_isComparing = false;
+        setMessage(QString::fromUtf8(error.what()));
+    }
 }
 
 void ProjectionView::requestFrame(bool moving) {
@@ -234,8 +278,14 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(engine), frame->refusal.isEmpty()
                                                                               ? m_engineReason
                                                                               : frame->refusal));
-    if (showsFinalImage())
+    if (showsFinalImage()) {
+        if (m_planState == PlanState::holds)
+            m_comparison.settled(
+                {m_engine, m_document.scene().image, m_drawnShading, shownTone(), m_lookName});
         emit finalImageShown();
+    }
+    if (m_isComparing)
+        showComparison();
 }
 
 // With both ends: what the user fixed, and for the rest the brightness that was taken.
@@ -277,7 +327,7 @@ render::Scene ProjectionView::sceneOfPicture(int scale) const {
 
 render::ProjectionImage ProjectionView::imageOfPicture(int scale) {
     const render::Scene scene = sceneOfPicture(scale);
-    return m_worker.picture(scene.camera, scene.image, m_drawnShading).get();
+    return m_worker.picture(m_engine, scene.camera, scene.image, m_drawnShading).get();
 }
 
 void ProjectionView::paintAnnotations(QPainter &painter) {
@@ -349,7 +399,7 @@ void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
     if (m_button == Qt::LeftButton)
         orbit(delta);
     else if (m_button == Qt::MiddleButton)
-        pan(delta);
+        moveCamera(panned(m_document.scene().camera, delta, devicePixelRatioF()), true);
     else if (m_button == Qt::RightButton)
         windowBy(delta);
 }
@@ -368,37 +418,16 @@ void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
 }
 
 void ProjectionView::orbit(const QPoint &delta) {
-    // The side that faces the viewer follows the hand, so the camera turns the other way.
-    render::Camera camera = m_document.scene().camera;
-    const glm::dquat turn = glm::angleAxis(-radiansPerPixel * delta.x(), glm::dvec3(0, 1, 0)) *
-                            glm::angleAxis(-radiansPerPixel * delta.y(), glm::dvec3(1, 0, 0));
-    camera.orientation = glm::normalize(camera.orientation * turn);
-    m_document.setCamera(camera);
-    requestFrame(true);
+    moveCamera(orbited(m_document.scene().camera, delta, pivotMm()), true);
 }
 
 void ProjectionView::turnAroundPatient(double degrees) {
-    render::Camera camera = m_document.scene().camera;
-    camera.orientation = glm::normalize(glm::angleAxis(glm::radians(degrees), glm::dvec3(0, 0, 1)) *
-                                        camera.orientation);
-    m_document.setCamera(camera);
-    requestFrame(true);
+    moveCamera(turnedAroundPatient(m_document.scene().camera, degrees, pivotMm()), true);
 }
 
 void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {
-    render::Camera camera = m_document.scene().camera;
-    camera.orientation =
-        glm::normalize(glm::quat_cast(glm::dmat3(right, up, glm::cross(right, up))));
-    m_document.setCamera(camera);
-    requestFrame(false);
-}
-
-void ProjectionView::pan(const QPoint &delta) {
-    render::Camera camera = m_document.scene().camera;
-    const double mm = camera.pixelMm * devicePixelRatioF();
-    camera.panMm += glm::dvec2(-delta.x() * mm, delta.y() * mm);
-    m_document.setCamera(camera);
-    requestFrame(true);
+    const glm::dquat orientation = glm::quat_cast(glm::dmat3(right, up, glm::cross(right, up)));
+    moveCamera(turnedTo(m_document.scene().camera, orientation, pivotMm()), false);
 }
 
 void ProjectionView::windowBy(const QPoint &delta) {

@@ -12,6 +12,7 @@
 #include "ui/render_worker.h"
 #include "ui/shown_engine.h"
 #include "ui/tools.h"
+#include "ui/views/look_comparison.h"
 #include "ui/views/measure_tool.h"
 #include "ui/views/projection_canvas.h"
 
@@ -46,6 +47,12 @@ public:
     void resetView();
     /// Of the tools only that of distances matters here; else the left button orbits.
     void setTool(Tool tool);
+    /// Turning keeps the crosshair, or the middle of the volume, where it is in the picture.
+    void setOrbitsCrosshair(bool isAboutCrosshair);
+    bool orbitsCrosshair() const { return m_orbitsCrosshair; }
+    /// While it is held: the look before the last edit beside the one of now.
+    void setComparing(bool isComparing);
+    bool isComparing() const { return m_isComparing; }
     /// About the patient's long axis.
     void turnAroundPatient(double degrees);
     /// With these image axes, as a distance in the plane of a picture was measured.
@@ -92,8 +99,10 @@ private:
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
     render::Tone shownTone() const;
     void updateTone();
+    void moveCamera(const render::Camera &camera, bool moving);
+    glm::dvec3 pivotMm() const;
     void orbit(const QPoint &delta);
-    void pan(const QPoint &delta);
+    void showComparison();
     void windowBy(const QPoint &delta);
     void zoomBy(double factor);
     double fittingPixelMm() const;
@@ -106,6 +115,7 @@ private:
     MeasureTool m_measure;
     ProjectionOverlay *m_overlay;
     RenderWorker m_worker;
+    LookComparison m_comparison;
     QTimer m_rest;
     std::shared_ptr<render::ProjectionEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
@@ -122,6 +132,7 @@ private:
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
     EngineStage m_stage = EngineStage::coarse;
     bool m_pending = false, m_takesLight = false;
+    bool m_orbitsCrosshair = false, m_isComparing = false;
     PlanState m_planState = PlanState::holds;
     std::uint64_t m_requested = 0, m_generation = 0;
     Tool m_tool = Tool::window;

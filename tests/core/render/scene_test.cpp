@@ -21,6 +21,7 @@ TEST(Scene, JsonKeepsEverything) {
     scene.tolerance = 2e-3;
     scene.plannedFor = render::PlannedFor::volume;
     scene.tone = {0.25, 17.0, true};
+    scene.crop = {{0.1, 0.0, 0.25}, {0.9, 1.0, 0.5}};
     scene.look.transferFunction.weights = {0.0, 0.5, 2.0};
     scene.look.classes = {{"bone", 250, 2500, 150, 1.25, classify::colorFromText("#fff0d0")},
                           {"soft", -100, 100, 20, 0.0, {}, classify::TransferFunction{{0.0, 1.0}}}};

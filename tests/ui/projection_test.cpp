@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The projection: what it turns about, what part of the volume it shows, and looks compared.
+#include "tests/ui/workstation.h"
+
+#include <QListWidget>
+
+#include "ui/commands.h"
+#include "ui/views/mpr_view.h"
+
+namespace pellucid {
+
+using namespace test;
+
+class ProjectionTest : public Workstation {
+    Q_OBJECT
+private slots:
+    void init() {
+        restart();
+        open(headPath());
+    }
+
+    void theCrosshairStaysWhereItIsWhenThePictureTurnsAboutIt() {
+        ui::Document &document = m_window->document();
+        document.setCrosshair({document.volume()->lattice().center().mm + glm::dvec3(40, -30, 25)});
+        const glm::dvec2 before = onPicture(document.crosshair());
+        drag({60, 25});
+        QVERIFY(glm::distance(onPicture(document.crosshair()), before) > 5.0); // about the middle
+        QTest::keyClick(m_window.get(), Qt::Key_O);
+        QVERIFY(find<QAction>("orbitCrosshairAction")->isChecked());
+        const glm::dvec2 now = onPicture(document.crosshair());
+        drag({-130, 70});
+        QVERIFY(glm::distance(onPicture(document.crosshair()), now) < 1e-6);
+        QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
+        QVERIFY(glm::distance(onPicture(document.crosshair()), now) < 1e-6);
+        settle();
+        save("orbit_crosshair");
+    }
+
+    void theCropBoxIsDraggedInAPlaneAndUndone() {
+        const QImage whole = projection()->picture();
+        auto *axial = find<ui::MprView>("axialView");
+        QTest::keyClick(m_window.get(), Qt::Key_K);
+        QVERIFY(find<QAction>("cropToolAction")->isChecked());
+        // The left side of the box, to the middle: the patient's right half goes.
+        const volume::Lattice &lattice = m_window->document().volume()->lattice();
+        const auto at = [&](double column) {
+            return axial->mapping()
+                .positionOf(lattice.patient(
+                    volume::VoxelPoint{{column, 0.5 * lattice.size().j, 0.5 * lattice.size().k}}))
+                .toPoint();
+        };
+        const QImage before = grab("axialView");
+        const QPoint from = at(-0.5), to = at(47.5);
+        dragMouse(axial, Qt::LeftButton, from, to - from);
+        const classify::CropBox crop = m_window->document().scene().crop;
+        QVERIFY2(std::abs(crop.low.x - 0.5) < 0.03, qPrintable(QString::number(crop.low.x)));
+        QCOMPARE(crop.high, glm::dvec3(1.0));
+        QCOMPARE(crop.low.y, 0.0);
+        QVERIFY(changed(before, grab("axialView")) > 0.03); // dimmed
+        settle();
+        const QImage half = projection()->picture();
+        const int w = half.width(), h = half.height();
+        // Nothing is left at the left of the picture, and the right is as it was, but for the
+        // brightness that is taken anew.
+        QVERIFY(meanGrey(half, QRect(0, h / 4, w / 2 - 12, h / 2)) < 2.0);
+        QVERIFY(meanGrey(half, QRect(w / 2, h / 4, w / 4, h / 2)) > 20.0);
+        save("crop");
+        find<QAction>("undoAction")->trigger();
+        settle();
+        QVERIFY(changed(whole, projection()->picture()) < 0.001);
+        find<QAction>("redoAction")->trigger();
+        QTest::keyClick(m_window.get(), Qt::Key_K, Qt::ShiftModifier);
+        QVERIFY(m_window->document().scene().crop.isWhole());
+        settle();
+        QVERIFY(changed(whole, projection()->picture()) < 0.001);
+    }
+
+    void aDragOfTheCropBoxIsGivenUpByEscape() {
+        auto *axial = find<ui::MprView>("axialView");
+        QTest::keyClick(m_window.get(), Qt::Key_K);
+        const volume::Lattice &lattice = m_window->document().volume()->lattice();
+        const QPoint edge = axial->mapping()
+                                .positionOf(lattice.patient(volume::VoxelPoint{
+                                    {-0.5, 0.5 * lattice.size().j, 0.5 * lattice.size().k}}))
+                                .toPoint();
+        QTest::mousePress(axial, Qt::LeftButton, Qt::NoModifier, edge);
+        QMouseEvent move(QEvent::MouseMove, edge + QPoint(50, 0),
+                         axial->mapToGlobal(edge + QPoint(50, 0)), Qt::NoButton, Qt::LeftButton,
+                         Qt::NoModifier);
+        QCoreApplication::sendEvent(axial, &move);
+        QTest::keyClick(axial, Qt::Key_Escape);
+        QTest::mouseRelease(axial, Qt::LeftButton, Qt::NoModifier, edge + QPoint(50, 0));
+        QVERIFY(m_window->document().scene().crop.isWhole());
+        QVERIFY(!m_window->document().undoStack()->canUndo());
+    }
+
+    void theLookBeforeStandsBesideWhileAKeyIsHeld() {
+        QTest::keyPress(m_window.get(), Qt::Key_Q);
+        QVERIFY(!projection()->isComparing()); // nothing was before
+        QTest::keyRelease(m_window.get(), Qt::Key_Q);
+        const QImage xRay = grab("projectionView");
+        choosePreset("Bone");
+        const QImage bone = grab("projectionView");
+        QTest::keyPress(m_window.get(), Qt::Key_Q);
+        QVERIFY(projection()->isComparing());
+        const QImage both = grab("projectionView");
+        // The middle of the former at the left, of this one at the right.
+        const int w = both.width(), h = both.height();
+        const QRect area(0, h / 4, w / 2 - 4, h / 2), middle(w / 4, h / 4, w / 2 - 4, h / 2);
+        QVERIFY(changed(both.copy(area), xRay.copy(middle)) < 0.05);
+        QVERIFY(changed(both.copy(area.translated(w / 2, 0)), bone.copy(middle)) < 0.05);
+        QVERIFY(changed(both.copy(area), bone.copy(middle)) > 0.1);
+        save("compare");
+        // It follows a view that turns.
+        QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
+        settle();
+        QVERIFY(changed(both.copy(area), grab("projectionView").copy(area)) > 0.05);
+        QTest::keyRelease(m_window.get(), Qt::Key_Q);
+        QVERIFY(!projection()->isComparing());
+        QVERIFY(changed(both, grab("projectionView")) > 0.05);
+    }
+
+private:
+    glm::dvec2 onPicture(volume::PatientPoint point) const {
+        const render::Camera &camera = m_window->document().scene().camera;
+        const glm::dmat3 axes = camera.axes();
+        const glm::dvec3 d = point.mm - m_window->document().volume()->lattice().center().mm;
+        return glm::dvec2(glm::dot(axes[0], d), glm::dot(axes[1], d)) - camera.panMm;
+    }
+    void drag(QPoint by) {
+        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), by);
+    }
+    void choosePreset(const QString &name) {
+        auto *gallery = find<QListWidget>("presetGallery");
+        const auto item = gallery->findItems(name, Qt::MatchExactly).front();
+        gallery->scrollToItem(item);
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(item).center());
+        settle();
+    }
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::ProjectionTest>(argc, argv);
+}
+
+#include "projection_test.moc"

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QPoint>
+
+#include <glm/vec3.hpp>
+
+#include "core/render/camera.h"
+
+namespace pellucid::ui {
+
+/// Cameras that a hand has moved. Turning keeps one point of the patient where it is in the
+/// picture. *Units*: `pivotMm`: from the middle of the volume, LPS; 0: about the middle.
+render::Camera turnedTo(const render::Camera &camera, const glm::dquat &orientation,
+                        const glm::dvec3 &pivotMm);
+/// The side that faces the viewer follows the hand. *Units*: logical pixels.
+render::Camera orbited(const render::Camera &camera, const QPoint &delta,
+                       const glm::dvec3 &pivotMm);
+render::Camera turnedAroundPatient(const render::Camera &camera, double degrees,
+                                   const glm::dvec3 &pivotMm);
+/// *Units*: `delta`: logical pixels, `pixelRatio`: device pixels in one of them.
+render::Camera panned(const render::Camera &camera, const QPoint &delta, double pixelRatio);
+
+} // namespace pellucid::ui

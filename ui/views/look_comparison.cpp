@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/look_comparison.h"
+
+#include <QPainter>
+
+#include "ui/document.h"
+
+namespace pellucid::ui {
+
+LookComparison::LookComparison(Document &document, QObject *parent) : QObject(parent) {
+    // Merged edits of a drag have one index.
+    connect(document.undoStack(), &QUndoStack::indexChanged, this, &LookComparison::edited);
+}
+
+void LookComparison::forget() {
+    m_now.reset();
+    m_before.reset();
+}
+
+void LookComparison::edited(int index) {
+    if (index == m_index)
+        return;
+    m_index = index;
+    if (m_now)
+        m_before = m_now;
+    m_now.reset(); // not again before the new one has settled
+}
+
+QImage besideEachOther(const QImage &before, const QImage &now) {
+    QImage both(now.size(), QImage::Format_RGB32);
+    both.fill(Qt::black);
+    QPainter painter(&both);
+    const int half = now.width() / 2, quarter = now.width() / 4;
+    painter.drawImage(0, 0, before.copy(quarter, 0, half, before.height()));
+    painter.drawImage(half, 0, now.copy(quarter, 0, now.width() - half, now.height()));
+    return both;
+}
+
+} // namespace pellucid::ui
