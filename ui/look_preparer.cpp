@@ -47,14 +47,15 @@ classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &
 
 } // namespace
 
-PreparedFor::PreparedFor(const Document &document)
-    : look(document.scene().look), crop(document.scene().crop),
-      tolerance(document.scene().tolerance), interpolation(document.scene().interpolation),
-      image(document.scene().image), cue(render::plannedCue(document.scene().shading.cue)),
-      isLit(document.scene().shading.isLit()) {
+PreparedFor::PreparedFor(const render::Scene &scene)
+    : window(scene.fieldWindow), look(scene.look), crop(scene.crop), tolerance(scene.tolerance),
+      interpolation(scene.interpolation), image(scene.image),
+      cue(render::plannedCue(scene.shading.cue)), isLit(scene.shading.isLit()) {}
+
+PreparedFor::PreparedFor(const Document &document) : PreparedFor(document.scene()) {
     // The volume's own window is the same whether it is named or not.
-    if (document.fieldWindow() != document.defaultFieldWindow())
-        window = document.fieldWindow();
+    if (document.fieldWindow() == document.defaultFieldWindow())
+        window.reset();
 }
 
 bool PreparedFor::hasLayersOf(const PreparedFor &other) const {

@@ -33,6 +33,8 @@ enum class PlanState { holds, underway, givenUp };
 struct PreparedFor {
     PreparedFor() = default;
     explicit PreparedFor(const Document &document);
+    /// Of a volume that is not open yet: the window only if the scene names one.
+    explicit PreparedFor(const render::Scene &scene);
     std::optional<classify::FieldWindow> window; ///< none: the volume's own
     classify::Look look;
     classify::CropBox crop;

@@ -19,6 +19,7 @@
 #include <QStatusBar>
 #include <QTextBrowser>
 #include <QToolBar>
+#include <QVBoxLayout>
 
 #include "core/task/error.h"
 #include "core/task/log.h"
@@ -32,6 +33,7 @@
 #include "ui/look_menu.h"
 #include "ui/panels/job_strip.h"
 #include "ui/panels/measurements_panel.h"
+#include "ui/panels/phase_bar.h"
 #include "ui/panels/presets_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
@@ -48,7 +50,7 @@ namespace pellucid::ui {
 MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, QWidget *parent)
     : QMainWindow(parent), m_theme(theme), m_preparer(m_document, m_jobs), m_card(engine),
       m_copier(m_document, m_jobs, m_card), m_opener(m_document, m_jobs, m_preparer),
-      m_store(m_document) {
+      m_phases(m_document, m_opener, m_jobs), m_store(m_document) {
     setObjectName("mainWindow");
     setWindowTitle("Pellucid");
     setAcceptDrops(true);
@@ -64,7 +66,8 @@ MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, Q
     auto *lookMenu =
         new LookMenu(*menuBar()->addMenu(tr("&Look")), m_document, *m_look, *m_projection);
     m_windowMenu = &lookMenu->windowMenu();
-    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_document, m_mpr, *m_projection);
+    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_document, m_mpr, *m_projection,
+                            m_phases);
     createHelpMenu();
     createToolBar();
     createStatusBar();
@@ -78,6 +81,7 @@ MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, Q
     });
     connect(&m_preparer, &LookPreparer::planChanged, m_projection, &ProjectionView::setPlanState);
     connect(&m_opener, &StudyOpener::cameraKept, m_projection, &ProjectionView::adoptCamera);
+    connect(&m_opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
     connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
     connect(&m_opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);
     connect(&m_document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
@@ -119,7 +123,13 @@ void MainWindow::createPanes() {
     m_start->setRecentPaths(recentPaths());
     m_stack = new QStackedWidget;
     m_stack->addWidget(m_start);
-    m_stack->addWidget(m_panes);
+    auto *viewing = new QWidget;
+    auto *column = new QVBoxLayout(viewing);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(m_panes, 1);
+    column->addWidget(new PhaseBar(m_phases));
+    m_stack->addWidget(viewing);
     setCentralWidget(m_stack);
 }
 
@@ -130,7 +140,11 @@ void MainWindow::createStudyDock() {
     connect(m_studies, &StudyPanel::importRequested, this, &MainWindow::importPaths);
     connect(m_studies, &StudyPanel::libraryVolumeActivated, this,
             [this](const StudyFacts &study, const VolumeFacts &volume) {
-                m_opener.openFromLibrary(study, volume, m_library.files(volume));
+                std::vector<VolumeFacts> series = m_library.volumes(study);
+                std::erase_if(series, [&](const VolumeFacts &v) {
+                    return v.seriesUid != volume.seriesUid || v.file != volume.file;
+                });
+                m_opener.openFromLibrary(study, series, volume.key(), m_library.files(volume));
             });
     connect(&m_library, &StudyLibrary::failed, this, &MainWindow::report);
     connect(&m_library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
@@ -339,9 +353,8 @@ void MainWindow::createStatusBar() {
 }
 
 void MainWindow::showVolumeState() {
-    m_stack->setCurrentWidget(m_document.volume() || m_document.currentSource() >= 0
-                                  ? static_cast<QWidget *>(m_panes)
-                                  : m_start);
+    m_stack->setCurrentWidget(
+        m_document.volume() || m_document.currentSource() >= 0 ? m_panes->parentWidget() : m_start);
 }
 
 void MainWindow::openPaths(const QStringList &paths) {

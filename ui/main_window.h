@@ -13,6 +13,7 @@
 #include "ui/library/study_library.h"
 #include "ui/look_preparer.h"
 #include "ui/measurement_store.h"
+#include "ui/phases.h"
 #include "ui/study_opener.h"
 #include "ui/theme.h"
 
@@ -94,6 +95,7 @@ private:
     GraphicsCard m_card;
     CardCopier m_copier;
     StudyOpener m_opener;
+    Phases m_phases;
     MeasurementStore m_store;
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;

@@ -35,11 +35,29 @@ void StudyOpener::keepCurrent() {
     m_kept.trim(task::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
 
-bool StudyOpener::showKept(int index) {
+void StudyOpener::goOn(const Continuity &continuity) {
+    m_preparer.setHeld(true);
+    render::Scene scene = continuity.scene;
+    m_document.setScene(scene);
+    m_preparer.setHeld(false);
+    m_document.setDisplayWindow(continuity.displayWindow);
+    m_document.setCrosshair(continuity.crosshair);
+    m_document.setCut(continuity.cut);
+    emit cameraKept(scene.camera);
+}
+
+bool StudyOpener::showKept(int index, const std::optional<Continuity> &continuity) {
     const auto kept = m_kept.take(index);
     if (!kept)
         return false;
     m_document.setVolume(kept->volume, kept->initialWindow, kept->fieldWindow, false);
+    if (continuity) {
+        goOn(*continuity);
+        if (kept->engine)
+            m_preparer.adopt(*kept->preparedFor, *kept->engine);
+        m_preparer.prepareAgain();
+        return true;
+    }
     render::Scene scene = kept->scene;
     // The pane may have another size by now; the picture's quality is the person's, not the
     // study's.
@@ -97,10 +115,17 @@ void StudyOpener::openPhantom(const QString &kind) {
     openSource(m_document.addSources({phantomSource(kind)}).front());
 }
 
-void StudyOpener::openFromLibrary(const StudyFacts &study, const VolumeFacts &volume,
+void StudyOpener::openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
+                                  const QString &volume,
                                   const std::vector<dicom::InstanceFile> &files) {
     m_document.clearProblems();
-    openSource(m_document.addSources({librarySource(study, volume, files)}).front());
+    std::vector<StudySource> sources;
+    for (const VolumeFacts &v : series)
+        sources.push_back(librarySource(study, v, files));
+    const auto indices = m_document.addSources(sources);
+    for (std::size_t n = 0; n < series.size(); ++n)
+        if (series[n].key() == volume)
+            openSource(indices[n]);
 }
 
 void StudyOpener::closeSource(int index) {
@@ -112,6 +137,56 @@ void StudyOpener::closeSource(int index) {
         m_document.setCurrentSource(-1);
     }
     m_document.closeSource(index);
+}
+
+StudyOpener::Continuity StudyOpener::leavePhase(int next) {
+    Continuity stays{m_document.scene(), m_document.displayWindow(), m_document.crosshair(),
+                     m_document.cut()};
+    // A volume's own window would differ from phase to phase.
+    if (m_document.volume()->unit() == volume::ValueUnit::none)
+        stays.scene.fieldWindow = m_document.fieldWindow();
+    keepCurrent();
+    m_preparer.forgetVolume();
+    m_document.setCurrentSource(next);
+    emit phaseLeft();
+    return stays;
+}
+
+void StudyOpener::openPhase(int index) {
+    if (!m_document.volume() || m_document.isPreview()) {
+        openSource(index);
+        return;
+    }
+    m_jobs.cancel();
+    if (m_kept.holds(index)) {
+        const Continuity stays = leavePhase(index);
+        showKept(index, stays);
+        return;
+    }
+    // The former phase stays until this one is there.
+    const StudySource source = m_document.sources().at(std::size_t(index));
+    render::Scene scene = m_document.scene();
+    if (m_document.volume()->unit() == volume::ValueUnit::none)
+        scene.fieldWindow = m_document.fieldWindow();
+    const PreparedFor wanted(scene);
+    m_jobs.start(tr("Loading %1").arg(seriesText(source.volume)),
+                 [this, source, index, wanted,
+                  prepare = m_preparer.preparation(wanted, 0.6, false)](const Job &job) {
+                     const dicom::LoadedVolume loaded =
+                         source.load(job.progress().part(0.0, 0.6), {});
+                     const volume::ValueWindow window = initialWindow(loaded.volume);
+                     const auto field = classify::defaultFieldWindow(loaded.volume);
+                     job.deliver([this, loaded, window, field, index, wanted] {
+                         const Continuity stays = leavePhase(index);
+                         m_document.addProblems(loaded.skipped);
+                         m_document.setVolume(loaded.volume, window, field, false);
+                         m_preparer.expect(wanted);
+                         goOn(stays);
+                         m_preparer.prepareAgain(); // the look may have been changed meanwhile
+                     });
+                     job.stage(tr("Preparing the projection"));
+                     prepare(job, loaded.volume);
+                 });
 }
 
 void StudyOpener::openSource(int index) {
@@ -128,7 +203,7 @@ void StudyOpener::openSource(int index) {
     const PreparedFor wanted = m_preparer.forgetVolume();
     m_document.setCurrentSource(index);
     m_document.closeVolume();
-    if (showKept(index))
+    if (showKept(index, std::nullopt))
         return;
     m_jobs.start(
         tr("Loading %1").arg(seriesText(source.volume)),

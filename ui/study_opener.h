@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include <QObject>
 #include <QStringList>
 
+#include "ui/document.h"
 #include "ui/kept_studies.h"
 #include "ui/study_source.h"
 
 namespace pellucid::ui {
 
-class Document;
 class JobRunner;
 
 /// The way from a path to a turning picture, as jobs: scan, choose, load with previews, and have
@@ -23,8 +25,11 @@ public:
     void openPaths(const QStringList &paths);
     void openPhantom(const QString &kind);
     void openSource(int index);
-    void openFromLibrary(const StudyFacts &study, const VolumeFacts &volume,
-                         const std::vector<dicom::InstanceFile> &files);
+    /// Another volume of the same series: look, view, window, crosshair and planes stay.
+    void openPhase(int index);
+    /// *Shape*: `series`: all volumes of it; `volume`: the one that is opened.
+    void openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
+                         const QString &volume, const std::vector<dicom::InstanceFile> &files);
     /// Takes it off the list; if it is the open one, nothing is open then.
     void closeSource(int index);
 
@@ -33,13 +38,24 @@ signals:
     void pathsOpened(const QStringList &paths);
     /// The way the study that came back was looked at.
     void cameraKept(const pellucid::render::Camera &camera);
+    /// The brightness of the projection is to stay, too.
+    void phaseLeft();
     /// The open volume cannot be projected.
     void notProjectable(const QString &reason);
 
 private:
+    /// What stays from phase to phase.
+    struct Continuity {
+        render::Scene scene;
+        volume::ValueWindow displayWindow;
+        volume::PatientPoint crosshair;
+        Cut cut;
+    };
     void endScan();
     void keepCurrent();
-    bool showKept(int index);
+    Continuity leavePhase(int next);
+    void goOn(const Continuity &continuity);
+    bool showKept(int index, const std::optional<Continuity> &continuity);
 
     Document &m_document;
     JobRunner &m_jobs;

@@ -14,6 +14,7 @@
 #include "ui/cine.h"
 #include "ui/commands.h"
 #include "ui/document.h"
+#include "ui/phases.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
 
@@ -28,7 +29,7 @@ constexpr double mostMm = 500.0;
 } // namespace
 
 ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *, 3> &planes,
-                     ProjectionView &projection)
+                     ProjectionView &projection, Phases &phases)
     : QObject(&menu), m_document(document), m_planes(planes), m_projection(projection),
       m_cine(new Cine(planes, projection, this)), m_tools(new QActionGroup(this)),
       m_thicknesses(new QActionGroup(this)), m_modes(new QActionGroup(this)),
@@ -53,6 +54,7 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
                               });
     menu.addSeparator();
     addCine(menu);
+    addPhases(menu, phases);
     connect(&document, &Document::cutChanged, this, &ToolsMenu::showCut);
     connect(&document, &Document::volumeChanged, this, [this] {
         m_cine->stop();
@@ -217,6 +219,29 @@ void ToolsMenu::addCine(QMenu &menu) {
         action->setActionGroup(group);
         action->setChecked(rate == 15);
     }
+}
+
+void ToolsMenu::addPhases(QMenu &menu, Phases &phases) {
+    const struct {
+        QString text;
+        const char *name, *key;
+        std::function<void()> run;
+    } commands[] = {
+        {tr("&Next phase"), "nextPhaseAction", ".", [&phases] { phases.step(1); }},
+        {tr("P&revious phase"), "previousPhaseAction", ",", [&phases] { phases.step(-1); }},
+        {tr("Play p&hases"), "playPhasesAction", "Shift+Space",
+         [&phases] { phases.togglePlaying(); }}};
+    QList<QAction *> actions;
+    for (const auto &c : commands)
+        actions << addCommand(menu, c.text, c.name, QKeySequence(c.key), this, c.run);
+    actions.back()->setCheckable(true);
+    const auto show = [actions, &phases] {
+        for (QAction *action : actions)
+            action->setEnabled(phases.count() > 1);
+        actions.back()->setChecked(phases.isPlaying());
+    };
+    connect(&phases, &Phases::changed, this, show);
+    show();
 }
 
 void ToolsMenu::addTo(QToolBar &bar) {

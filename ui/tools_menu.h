@@ -18,6 +18,7 @@ namespace pellucid::ui {
 class Cine;
 class Document;
 class MprView;
+class Phases;
 class ProjectionView;
 
 /// The menu of what the mouse does and how the planes cut: tools, slab, what is between samples,
@@ -26,7 +27,7 @@ class ToolsMenu : public QObject {
     Q_OBJECT
 public:
     ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *, 3> &planes,
-              ProjectionView &projection);
+              ProjectionView &projection, Phases &phases);
 
     void addTo(QToolBar &bar);
 
@@ -35,6 +36,7 @@ private:
     void addSlab(QMenu &menu);
     void addInterpolation(QMenu &menu);
     void addCine(QMenu &menu);
+    void addPhases(QMenu &menu, Phases &phases);
     void chooseTool(Tool tool);
     void setSlab(const mpr::Slab &slab);
     void toggleSlab();

@@ -2,7 +2,10 @@
 // The projection: what it turns about, what part of the volume it shows, and looks compared.
 #include "tests/ui/workstation.h"
 
+#include <QLabel>
 #include <QListWidget>
+#include <QProcess>
+#include <QToolButton>
 
 #include "ui/commands.h"
 #include "ui/views/mpr_view.h"
@@ -120,7 +123,77 @@ private slots:
         QVERIFY(changed(both, grab("projectionView")) > 0.05);
     }
 
+    void phasesAreChosenAndPlayedWithLookViewAndBrightnessKept() {
+        writePhases();
+        open(QString::fromStdString((m_folder / "phases").string()));
+        QVERIFY(find<QWidget>("phaseBar")->isVisible());
+        QVERIFY(find<QLabel>("phaseLabel")->text().startsWith("Phase 1 of 3"));
+        choosePreset("Bone");
+        QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
+        drag({30, 10});
+        settle();
+        ui::Document &document = m_window->document();
+        const render::Scene before = document.scene();
+        const auto window = document.displayWindow();
+        const QImage first = projection()->picture();
+        QTest::keyClick(m_window.get(), Qt::Key_Period);
+        QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("phaseLabel")->text().startsWith("Phase 2 of 3"),
+                                 patienceMs);
+        settle();
+        const QImage second = projection()->picture();
+        QVERIFY(document.scene().look == before.look);
+        QVERIFY(document.scene().camera == before.camera);
+        QVERIFY(document.displayWindow() == window);
+        // Denser bone under the brightness of the first phase is brighter.
+        QVERIFY2(meanGrey(second) > meanGrey(first) + 1.0,
+                 qPrintable(QString("%1 %2").arg(meanGrey(first)).arg(meanGrey(second))));
+        save("phases");
+        QTest::keyClick(m_window.get(), Qt::Key_Comma);
+        QVERIFY(!m_window->jobs().isRunning()); // it was kept
+        settle();
+        QVERIFY(changed(first, projection()->picture()) < 0.001);
+        // Played: around, each loaded once.
+        QTest::mouseClick(find<QToolButton>("playPhasesButton"), Qt::LeftButton);
+        QSet<int> seen;
+        QTRY_VERIFY_WITH_TIMEOUT((seen << document.currentSource()).size() == 3, patienceMs);
+        const int now = document.currentSource();
+        QTRY_VERIFY_WITH_TIMEOUT(document.currentSource() != now, patienceMs);
+        QTest::keyClick(m_window.get(), Qt::Key_Space, Qt::ShiftModifier);
+        QVERIFY(!find<QToolButton>("playPhasesButton")->isChecked());
+        settle();
+        open(headPath());
+        QVERIFY(!find<QWidget>("phaseBar")->isVisible());
+    }
+
 private:
+    // One series with three temporal positions, its bone denser each time.
+    void writePhases() {
+        const auto lattice =
+            phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{48, 48, 40}});
+        const volume::Volume head = phantom::makePhantom(phantom::Kind::head, lattice);
+        for (int phase = 1; phase <= 3; ++phase) {
+            std::vector<std::int16_t> samples;
+            head.visit([&](const auto &from) {
+                for (const auto value : from)
+                    samples.push_back(
+                        std::int16_t(value > 300 ? value + 250 * (phase - 1) : value));
+            });
+            const auto folder = m_folder / "phases" / std::to_string(phase);
+            dicom::writeCtSeries(folder,
+                                 volume::Volume(lattice, samples, volume::ValueUnit::hounsfield),
+                                 {.patientName = "Phases"}, dicom::TransferSyntax::explicitLittle);
+            QStringList arguments{"-nb",
+                                  "-m",
+                                  "StudyInstanceUID=1.2.276.0.1",
+                                  "-m",
+                                  "SeriesInstanceUID=1.2.276.0.2",
+                                  "-i",
+                                  QString("TemporalPositionIdentifier=%1").arg(phase)};
+            for (const auto &file : std::filesystem::directory_iterator(folder))
+                arguments << QString::fromStdString(file.path().string());
+            QCOMPARE(QProcess::execute("dcmodify", arguments), 0);
+        }
+    }
     glm::dvec2 onPicture(volume::PatientPoint point) const {
         const render::Camera &camera = m_window->document().scene().camera;
         const glm::dmat3 axes = camera.axes();

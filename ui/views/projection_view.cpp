@@ -52,17 +52,23 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         // What was projected belongs to another volume.
         m_engine.reset();
         m_worker.setEngine(nullptr, nullptr, ++m_generation);
+        m_planState = PlanState::holds;
+        m_measure.cancel();
+        m_comparison.forget();
+        setComparing(false);
+        if (m_holdsTone) {
+            m_holdsTone = !m_document.volume(); // closing the former phase comes before
+            m_isPhase = true;
+            return;
+        }
+        m_isPhase = false;
         m_frame.reset();
         m_drawnShading = {};
         m_automaticTone.reset();
         m_retakesTone = true;
-        m_planState = PlanState::holds;
         m_message = m_document.volume() ? tr("Preparing the projection") : QString();
         m_canvas->setImage({});
         m_zoom = 1.0;
-        m_measure.cancel();
-        m_comparison.forget();
-        setComparing(false);
         fitCamera();
         showTexts();
     });
@@ -82,6 +88,10 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         if (shading.lights.size() != m_drawnShading.lights.size() ||
             shading.cue.kind != m_drawnShading.cue.kind)
             m_retakesTone = true;
+        // Phases share a brightness as long as they share a look.
+        if (m_isPhase && m_document.scene().look != m_drawnLook)
+            m_isPhase = false;
+        m_drawnLook = m_document.scene().look;
         updateTone();
         requestFrame(false);
     });
@@ -101,7 +111,7 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     // after the coarse one, has a brightness of its own.
     const bool sameFields = stage == EngineStage::live || stage == EngineStage::settled;
     if (!sameFields) {
-        m_retakesTone = true;
+        m_retakesTone = m_retakesTone || !m_isPhase;
         m_fullFrameMs = 0.0;
     }
     // Frames of the weights of a moment ago are shown: the hand may be faster than they are.
@@ -139,7 +149,12 @@ void ProjectionView::setLookName(const QString &name) {
     showTexts();
 }
 
+void ProjectionView::holdTone() {
+    m_holdsTone = m_frame != nullptr;
+}
+
 void ProjectionView::retakeTone() {
+    m_isPhase = false;
     m_retakesTone = true;
     requestFrame(false);
 }

@@ -37,6 +37,8 @@ public:
     PlanState planState() const { return m_planState; }
     /// Takes the brightness anew from the next frame.
     void retakeTone();
+    /// The next volume is another phase: brightness and picture stay till its own is there.
+    void holdTone();
     void setMessage(const QString &message);
     /// Looks the way another camera does, as far as the pane allows.
     void adoptCamera(const render::Camera &wanted);
@@ -127,6 +129,9 @@ private:
     std::optional<render::ToneRange> m_automaticTone;
     /// The next frame tells the brightness anew; what is shown keeps its own till then.
     bool m_retakesTone = true;
+    /// Another phase comes; one has come, and its look.
+    bool m_holdsTone = false, m_isPhase = false;
+    classify::Look m_drawnLook;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last frame that was asked for
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+class QLabel;
+class QSlider;
+class QToolButton;
+
+namespace pellucid::ui {
+
+class Phases;
+
+/// Chooses and plays the phases of the open series; hidden while it has one.
+class PhaseBar : public QWidget {
+    Q_OBJECT
+public:
+    explicit PhaseBar(Phases &phases, QWidget *parent = nullptr);
+
+private:
+    void showPhases();
+
+    Phases &m_phases;
+    QToolButton *m_play;
+    QSlider *m_slider;
+    QLabel *m_label;
+};
+
+} // namespace pellucid::ui
