@@ -23,6 +23,7 @@ template <class Value> class EditValue : public QUndoCommand {
 public:
     void undo() override { apply(m_before); }
     void redo() override { apply(m_after); }
+    DragId drag() const { return m_drag; }
     bool mergeWith(const QUndoCommand *other) override {
         const auto *next = static_cast<const EditValue *>(other); // of the same id
         if (m_drag == 0 || next->m_drag != m_drag)

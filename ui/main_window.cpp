@@ -15,10 +15,12 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
+#include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTextBrowser>
 #include <QToolBar>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "core/task/error.h"
@@ -39,6 +41,7 @@
 #include "ui/panels/study_panel.h"
 #include "ui/recent_paths.h"
 #include "ui/scene_files.h"
+#include "ui/study_beside.h"
 #include "ui/tools_menu.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
@@ -95,6 +98,7 @@ MainWindow::~MainWindow() {
     // Work that still runs looks at the members.
     m_jobs.join();
     m_library.jobs().join();
+    delete m_beside;        // it looks at the open study
     m_store.writePending(); // while somebody can say that it failed
 }
 
@@ -127,7 +131,23 @@ void MainWindow::createPanes() {
     auto *column = new QVBoxLayout(viewing);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    column->addWidget(m_panes, 1);
+    m_heading = new QLabel;
+    m_heading->setObjectName("studyHeading");
+    m_heading->setProperty("role", "studyHeading");
+    m_heading->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    m_heading->setFixedHeight(headingHeight);
+    m_heading->hide();
+    auto *open = new QWidget;
+    auto *openColumn = new QVBoxLayout(open);
+    openColumn->setContentsMargins(0, 0, 0, 0);
+    openColumn->setSpacing(0);
+    openColumn->addWidget(m_heading);
+    openColumn->addWidget(m_panes, 1);
+    m_viewers = new QSplitter;
+    m_viewers->setObjectName("viewers");
+    m_viewers->setChildrenCollapsible(false);
+    m_viewers->addWidget(open);
+    column->addWidget(m_viewers, 1);
     column->addWidget(new PhaseBar(m_phases));
     m_stack->addWidget(viewing);
     setCentralWidget(m_stack);
@@ -138,6 +158,7 @@ void MainWindow::createStudyDock() {
     connect(m_studies, &StudyPanel::sourceActivated, &m_opener, &StudyOpener::openSource);
     connect(m_studies, &StudyPanel::closeRequested, &m_opener, &StudyOpener::closeSource);
     connect(m_studies, &StudyPanel::importRequested, this, &MainWindow::importPaths);
+    connect(m_studies, &StudyPanel::besideRequested, this, &MainWindow::openBeside);
     connect(m_studies, &StudyPanel::libraryVolumeActivated, this,
             [this](const StudyFacts &study, const VolumeFacts &volume) {
                 std::vector<VolumeFacts> series = m_library.volumes(study);
@@ -267,6 +288,13 @@ void MainWindow::createViewMenu() {
     compare->setCheckable(true);
     connect(menu, &QMenu::aboutToShow, this,
             [this, compare] { compare->setChecked(m_projection->isComparing()); });
+    m_linkAction =
+        command(*menu, tr("Lin&k the studies"), "linkStudiesAction", QKeySequence("Shift+Y"),
+                [this] { m_beside->findChild<QToolButton *>("linkButton")->toggle(); });
+    m_linkAction->setCheckable(true);
+    m_closeBesideAction = command(*menu, tr("Close the study besi&de"), "closeBesideAction",
+                                  QKeySequence("Ctrl+Shift+W"), [this] { closeBeside(); });
+    closeBeside();
     command(*menu, tr("Prepare the projection a&gain"), "prepareAgainAction", QKeySequence("F5"),
             [this] { m_preparer.prepareAgain(); });
     menu->addSeparator();
@@ -353,8 +381,10 @@ void MainWindow::createStatusBar() {
 }
 
 void MainWindow::showVolumeState() {
-    m_stack->setCurrentWidget(
-        m_document.volume() || m_document.currentSource() >= 0 ? m_panes->parentWidget() : m_start);
+    showHeading();
+    m_stack->setCurrentWidget(m_document.volume() || m_document.currentSource() >= 0
+                                  ? m_viewers->parentWidget()
+                                  : m_start);
 }
 
 void MainWindow::openPaths(const QStringList &paths) {
@@ -503,6 +533,43 @@ void MainWindow::compareLooks(bool isComparing) {
     m_projection->setComparing(isComparing);
     if (isComparing && !m_projection->isComparing())
         statusBar()->showMessage(tr("There is no look before this one"), 4000);
+}
+
+void MainWindow::openBeside(const StudySource &source) {
+    if (m_beside == nullptr) {
+        m_beside = new StudyBeside({m_document, m_mpr, m_projection, m_panes}, m_card);
+        m_viewers->addWidget(m_beside);
+        m_viewers->setSizes({1, 1});
+        m_beside->setTool(m_tools->tool());
+        connect(m_tools, &ToolsMenu::toolChosen, m_beside, &StudyBeside::setTool);
+        connect(m_beside, &StudyBeside::closeRequested, this, &MainWindow::closeBeside,
+                Qt::QueuedConnection); // a button of what is deleted then
+        connect(m_beside, &StudyBeside::linkChanged, m_linkAction, &QAction::setChecked);
+        connect(m_beside, &StudyBeside::readoutChanged, m_readout, &QLabel::setText);
+        connect(m_beside, &StudyBeside::failed, this, &MainWindow::report);
+        m_linkAction->setChecked(true);
+    }
+    m_linkAction->setEnabled(true);
+    m_closeBesideAction->setEnabled(true);
+    showHeading();
+    m_beside->open(source);
+}
+
+void MainWindow::closeBeside() {
+    delete m_beside;
+    m_beside = nullptr;
+    m_linkAction->setEnabled(false);
+    m_linkAction->setChecked(false);
+    m_closeBesideAction->setEnabled(false);
+    showHeading();
+}
+
+// Which is which is asked only where there are two.
+void MainWindow::showHeading() {
+    const int open = m_document.currentSource();
+    m_heading->setVisible(m_beside != nullptr && open >= 0);
+    if (open >= 0)
+        m_heading->setText(headingText(m_document.sources()[std::size_t(open)]));
 }
 
 void MainWindow::keyPressEvent(QKeyEvent *event) {

@@ -19,6 +19,7 @@
 
 class QActionGroup;
 class QLabel;
+class QSplitter;
 class QStackedWidget;
 
 namespace pellucid::ui {
@@ -29,6 +30,7 @@ class MprView;
 class PaneArea;
 class ProjectionView;
 class StartPage;
+class StudyBeside;
 class StudyPanel;
 class ToolsMenu;
 
@@ -71,6 +73,9 @@ private:
     void createStatusBar();
     void showVolumeState();
     void compareLooks(bool isComparing);
+    void openBeside(const StudySource &source);
+    void closeBeside();
+    void showHeading();
     void chooseFiles();
     void chooseFolder();
     void savePicture();
@@ -101,6 +106,11 @@ private:
     ProjectionView *m_projection = nullptr;
     LookDocks *m_look = nullptr;
     PaneArea *m_panes = nullptr;
+    /// The two studies, while there is a second one.
+    QSplitter *m_viewers = nullptr;
+    StudyBeside *m_beside = nullptr;
+    QLabel *m_heading = nullptr;
+    QAction *m_linkAction = nullptr, *m_closeBesideAction = nullptr;
     StartPage *m_start = nullptr;
     QStackedWidget *m_stack = nullptr;
     StudyPanel *m_studies = nullptr;

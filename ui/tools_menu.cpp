@@ -98,6 +98,8 @@ void ToolsMenu::chooseTool(Tool tool) {
     for (MprView *plane : m_planes)
         plane->setTool(tool);
     m_projection.setTool(tool);
+    m_tool = tool;
+    emit toolChosen(tool);
 }
 
 void ToolsMenu::addSlab(QMenu &menu) {

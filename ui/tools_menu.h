@@ -30,6 +30,10 @@ public:
               ProjectionView &projection, Phases &phases);
 
     void addTo(QToolBar &bar);
+    Tool tool() const { return m_tool; }
+
+signals:
+    void toolChosen(pellucid::ui::Tool tool);
 
 private:
     void addTools(QMenu &menu);
@@ -49,6 +53,7 @@ private:
     std::array<MprView *, 3> m_planes;
     ProjectionView &m_projection;
     Cine *m_cine;
+    Tool m_tool = Tool::window;
     QActionGroup *m_tools, *m_thicknesses, *m_modes, *m_interpolations;
     QMenu *m_slabMenu = nullptr;
     QAction *m_slab = nullptr, *m_straighten = nullptr, *m_wholeVolume = nullptr;

@@ -13,9 +13,11 @@
 #include <QProcess>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QToolButton>
 #include <QTreeView>
 
 #include "ui/library/study_list.h"
+#include "ui/study_beside.h"
 
 namespace pellucid {
 
@@ -204,6 +206,73 @@ private slots:
         QTRY_VERIFY(dialog("importDialog") != nullptr);
         acceptImport(false);
         QCOMPARE(rows(), QStringList({"Secret Name"}));
+    }
+
+    void aPriorStandsBesideAndMovesAlong() {
+        open(headPath());
+        import(m_folder / "three", false);
+        const render::Camera camera = m_window->document().scene().camera;
+        choose(volumeRow("Zhang Wei"), "openBesideAction");
+        auto *beside = find<ui::StudyBeside>("studyBeside");
+        auto *other = find<ui::ProjectionView>("beside_projectionView");
+        QTRY_VERIFY_WITH_TIMEOUT(other->showsFinalImage() && !beside->jobs().isRunning(),
+                                 patienceMs);
+        QVERIFY(find<QLabel>("studyHeading")->isVisible());
+        QVERIFY(find<QLabel>("besideName")->text().contains("Zhang Wei"));
+        ui::Document &open = m_window->document(), &prior = beside->document();
+        QCOMPARE(open.scene().camera.orientation, camera.orientation); // the open one led
+        QCOMPARE(open.scene().camera.panMm, camera.panMm);
+        // The projection turns alike, from either side.
+        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
+        QVERIFY(prior.scene().camera.orientation == open.scene().camera.orientation);
+        dragMouse(other, Qt::LeftButton, other->rect().center(), {-90, 0});
+        QVERIFY(prior.scene().camera.orientation == open.scene().camera.orientation);
+        QVERIFY(std::abs(prior.scene().camera.pixelMm - open.scene().camera.pixelMm) < 1e-9);
+        // So do planes and windows, and the window of either is one step to undo.
+        const glm::dvec3 apart = prior.crosshair().mm - open.crosshair().mm;
+        turnWheel(find<QWidget>("axialView"), 2);
+        QVERIFY(glm::distance(prior.crosshair().mm - open.crosshair().mm, apart) < 1e-6);
+        turnWheel(find<QWidget>("beside_axialView"), -1);
+        QVERIFY(glm::distance(prior.crosshair().mm - open.crosshair().mm, apart) < 1e-6);
+        QTest::keyClick(m_window.get(), Qt::Key_S);
+        QVERIFY(prior.cut() == open.cut());
+        const auto before = open.displayWindow();
+        dragMouse(find<QWidget>("beside_coronalView"), Qt::LeftButton, {60, 60}, {40, -20});
+        QVERIFY(!(open.displayWindow() == before));
+        QVERIFY(prior.displayWindow() == open.displayWindow());
+        find<QAction>("undoAction")->trigger();
+        QVERIFY(open.displayWindow() == before);
+        QVERIFY(prior.displayWindow() == before);
+        // And looks, and layouts.
+        auto *gallery = find<QListWidget>("presetGallery");
+        const auto bone = gallery->findItems("Bone", Qt::MatchExactly).front();
+        gallery->scrollToItem(bone);
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(bone).center());
+        settle();
+        QVERIFY(prior.scene().look == open.scene().look);
+        QTRY_VERIFY_WITH_TIMEOUT(other->showsFinalImage() && !beside->jobs().isRunning(),
+                                 patienceMs);
+        save("beside");
+        QTest::mouseDClick(find<QWidget>("beside_axialView"), Qt::LeftButton, {}, {50, 80});
+        QVERIFY(find<QWidget>("axialView")->isVisible());
+        QVERIFY(!projection()->isVisible());
+        QTest::mouseDClick(find<QWidget>("axialView"), Qt::LeftButton, {}, {50, 80});
+        QVERIFY(other->isVisible());
+        // Matched by hand: unlinked, moved, linked again.
+        QTest::mouseClick(find<QToolButton>("linkButton"), Qt::LeftButton);
+        QVERIFY(!find<QAction>("linkStudiesAction")->isChecked());
+        turnWheel(find<QWidget>("beside_axialView"), 1);
+        const glm::dvec3 matched = prior.crosshair().mm - open.crosshair().mm;
+        QVERIFY(glm::distance(matched, apart) > 0.5);
+        find<QAction>("linkStudiesAction")->trigger();
+        turnWheel(find<QWidget>("axialView"), 1);
+        QVERIFY(glm::distance(prior.crosshair().mm - open.crosshair().mm, matched) < 1e-6);
+        QTest::mouseClick(find<QToolButton>("closeBesideButton"), Qt::LeftButton);
+        QTRY_VERIFY(m_window->findChild<ui::StudyBeside *>("studyBeside") == nullptr);
+        QVERIFY(!find<QLabel>("studyHeading")->isVisible());
+        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
+        settle();
     }
 
 private:

@@ -186,6 +186,8 @@ void StudyPanel::showMenu(const QPoint &at) {
     };
     if (volume != nullptr) {
         add(tr("Open"), "openVolumeAction", [this, row] { activate(row); });
+        if (m_document.volume())
+            add(tr("Open beside"), "openBesideAction", [this, row] { openBeside(row); });
         add(tr("Details..."), "volumeDetailsAction", [this, row] { showDetails(row); });
         menu->addSeparator();
     }
@@ -199,6 +201,16 @@ void StudyPanel::showMenu(const QPoint &at) {
         add(tr("Close"), "closeStudyAction", [this, study] { close(study); });
     }
     menu->popup(m_tree->viewport()->mapToGlobal(at));
+}
+
+void StudyPanel::openBeside(const QModelIndex &index) {
+    const VolumeFacts *const volume = m_list.volume(index);
+    if (volume == nullptr)
+        return;
+    const int source = m_list.source(index);
+    emit besideRequested(
+        source >= 0 ? m_document.sources()[std::size_t(source)]
+                    : librarySource(m_list.study(index), *volume, m_library.files(*volume)));
 }
 
 void StudyPanel::showDetails(const QModelIndex &index) {

@@ -5,6 +5,7 @@
 #include <QWidget>
 
 #include "ui/library/study_list.h"
+#include "ui/study_source.h"
 #include "ui/theme.h"
 
 class QLineEdit;
@@ -35,6 +36,7 @@ signals:
     /// Empty: the user is asked for the paths too.
     void importRequested(const QStringList &paths);
     void closeRequested(int index);
+    void besideRequested(const pellucid::ui::StudySource &source);
 
 protected:
     void dragEnterEvent(QDragEnterEvent *event) override;
@@ -45,6 +47,7 @@ private:
     void showCurrent();
     void expandFew();
     void showMenu(const QPoint &at);
+    void openBeside(const QModelIndex &index);
     void showDetails(const QModelIndex &index);
     void importOpen(const StudyFacts &study);
     void remove(const StudyFacts &study);

@@ -120,11 +120,11 @@ mpr::Plane MprView::plane() const {
         halfHeight += 0.5 * lattice.size()[d] * std::abs(glm::dot(lattice.step(d), upright.up));
     }
     plane.pixelMm =
-        std::max(2.0 * halfWidth / plane.width, 2.0 * halfHeight / plane.height) / m_zoom;
+        std::max(2.0 * halfWidth / plane.width, 2.0 * halfHeight / plane.height) / m_view.zoom;
     const glm::dvec3 axis = scrollAxis();
     const double depth = glm::dot(m_document.crosshair().mm - lattice.center().mm, axis);
-    plane.center = {lattice.center().mm + depth * axis + m_panMm.x * plane.axes.right +
-                    m_panMm.y * plane.axes.up};
+    plane.center = {lattice.center().mm + depth * axis + m_view.panMm.x * plane.axes.right +
+                    m_view.panMm.y * plane.axes.up};
     return plane;
 }
 
@@ -326,8 +326,7 @@ void MprView::drag(const QPoint &delta, const QPoint &to) {
         break;
     case Tool::pan: {
         const double pixelsPerMm = mapping().pixelsPerMm();
-        m_panMm += glm::dvec2(-delta.x(), delta.y()) / pixelsPerMm;
-        refresh();
+        moveView({m_view.zoom, m_view.panMm + glm::dvec2(-delta.x(), delta.y()) / pixelsPerMm});
         break;
     }
     default: // what measures has its own drags
@@ -384,14 +383,19 @@ bool MprView::isAtEnd() const {
 }
 
 void MprView::zoomBy(double factor) {
-    m_zoom = std::clamp(m_zoom * factor, 0.2, 40.0);
+    moveView({std::clamp(m_view.zoom * factor, 0.2, 40.0), m_view.panMm});
+}
+
+void MprView::moveView(const View &view) {
+    const bool isNew = !(view == m_view);
+    m_view = view;
     refresh();
+    if (isNew)
+        emit viewMoved();
 }
 
 void MprView::resetView() {
-    m_zoom = 1.0;
-    m_panMm = {0.0, 0.0};
-    refresh();
+    moveView({});
 }
 
 void MprView::wheelEvent(QWheelEvent *event) {

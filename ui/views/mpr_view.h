@@ -38,7 +38,18 @@ public:
     /// What is shown, of as many pixels for one of the pane's, a side.
     QImage picture(int scale, bool isAnnotated);
 
+    /// What of the plane the pane shows.
+    struct View {
+        double zoom = 1.0; ///< 1: the volume fits
+        glm::dvec2 panMm{0.0};
+        bool operator==(const View &) const = default;
+    };
+    const View &view() const { return m_view; }
+    void moveView(const View &view);
+
 signals:
+    /// Zoomed or panned.
+    void viewMoved();
     void maximizeRequested(QWidget *pane);
     /// The position and value under the cursor; an empty text when there is none.
     void readoutChanged(const QString &text);
@@ -84,8 +95,7 @@ private:
     DragId m_drag = 0;
     double m_turnAngle = 0.0;
     QPoint m_last;
-    double m_zoom = 1.0;
-    glm::dvec2 m_panMm{0.0};
+    View m_view;
     QImage m_image;
     bool m_imageValid = false;
     /// Cuts slower than the hand are made of half the pixels while it moves.

@@ -14,18 +14,31 @@ PaneArea::PaneArea(const std::array<QWidget *, 4> &panes, QWidget *parent)
     setObjectName("paneArea");
     for (QWidget *pane : m_panes)
         pane->setParent(this);
-    setMinimumSize(480, 360);
+    setMinimumSize(330, 330); // two of them fit a small screen
+}
+
+void PaneArea::setArrangement(PaneLayout layout, QWidget *maximized) {
+    if (layout == m_layout && maximized == m_maximized)
+        return;
+    m_layout = layout;
+    m_maximized = maximized;
+    arrange();
+    emit arranged();
 }
 
 void PaneArea::setPaneLayout(PaneLayout layout) {
-    m_layout = layout;
-    m_maximized = nullptr;
-    arrange();
+    setArrangement(layout, nullptr);
 }
 
 void PaneArea::toggleMaximized(QWidget *pane) {
-    m_maximized = m_maximized == pane ? nullptr : pane;
-    arrange();
+    setArrangement(m_layout, m_maximized == pane ? nullptr : pane);
+}
+
+void PaneArea::arrangeAs(const PaneArea &other) {
+    const auto at = std::find(other.m_panes.begin(), other.m_panes.end(), other.m_maximized);
+    setArrangement(other.m_layout, at == other.m_panes.end()
+                                       ? nullptr
+                                       : m_panes[std::size_t(at - other.m_panes.begin())]);
 }
 
 void PaneArea::resizeEvent(QResizeEvent *) {

@@ -22,11 +22,18 @@ public:
     /// Fills the area with a pane, or brings the others back if it does so already.
     void toggleMaximized(QWidget *pane);
     bool isMaximized() const { return m_maximized != nullptr; }
+    /// In the layout of another one, the same pane alone.
+    void arrangeAs(const PaneArea &other);
+
+signals:
+    /// Another layout, or a pane fills the area or does no more.
+    void arranged();
 
 protected:
     void resizeEvent(QResizeEvent *event) override;
 
 private:
+    void setArrangement(PaneLayout layout, QWidget *maximized);
     void arrange();
     std::array<QWidget *, 4> m_panes;
     PaneLayout m_layout = PaneLayout::onePlusThree;

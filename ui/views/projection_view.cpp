@@ -141,7 +141,7 @@ void ProjectionView::adoptCamera(const render::Camera &wanted) {
     m_document.setCamera(camera);
     m_zoom = std::clamp(fittingPixelMm() / wanted.pixelMm, 0.2, 20.0);
     fitCamera();
-    requestFrame(false);
+    requestFrame(true); // another view may be moving with it
 }
 
 void ProjectionView::setLookName(const QString &name) {
