@@ -12,10 +12,13 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
+#include <QSpinBox>
 #include <QStyle>
 
 #include "core/task/error.h"
 #include "ui/document.h"
+#include "ui/job_runner.h"
+#include "ui/panels/job_strip.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
 
@@ -24,10 +27,6 @@ namespace pellucid::ui {
 namespace {
 
 constexpr const char *folderKey = "exportFolder";
-
-QString suffixOf(PictureFormat format) {
-    return format == PictureFormat::npy ? ".npy" : format == PictureFormat::nrrd ? ".nrrd" : ".png";
-}
 
 QComboBox *box(const char *name, const QStringList &entries) {
     auto *box = new QComboBox;
@@ -38,14 +37,17 @@ QComboBox *box(const char *name, const QStringList &entries) {
 
 } // namespace
 
-ExportDialog::ExportDialog(const Document &document, const Panes &panes, QWidget *parent)
-    : QDialog(parent), m_document(document), m_panes(panes),
+ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunner &jobs,
+                           QWidget *parent)
+    : QDialog(parent), m_document(document), m_panes(panes), m_jobs(jobs),
       m_pane(box("exportPaneBox", {tr("Axial"), tr("Coronal"), tr("Sagittal"), tr("Projection")})),
       m_format(box("exportFormatBox", {tr("As it looks (PNG)"), tr("Grey in 16 bits (PNG)"),
-                                       tr("Values (NumPy, float)"), tr("Values (NRRD, float)")})),
+                                       tr("Values (NumPy, float)"), tr("Values (NRRD, float)"),
+                                       tr("DICOM Secondary Capture"), tr("Turntable, frames (PNG)"),
+                                       tr("Turntable, video (MP4)")})),
       m_scale(box("exportScaleBox", {"1 x", "2 x", "3 x", "4 x"})),
       m_annotated(new QCheckBox(tr("With annotations"))), m_path(new QLineEdit),
-      m_said(new QLabel) {
+      m_frames(new QSpinBox), m_said(new QLabel) {
     setObjectName("exportDialog");
     setWindowTitle(tr("Export picture"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -54,6 +56,10 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, QWidget
     m_annotated->setChecked(true);
     m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them a picture "
                                "has no patient's side on it"));
+    m_frames->setObjectName("exportFramesBox");
+    m_frames->setRange(2, 720);
+    m_frames->setValue(PictureExport().frameCount);
+    m_frames->setToolTip(tr("Pictures of one turn around the patient"));
     m_path->setObjectName("exportPathEdit");
     m_path->setMinimumWidth(360);
     m_path->setText(
@@ -70,12 +76,14 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, QWidget
     form->addRow(tr("Format"), m_format);
     form->addRow(tr("Size"), m_scale);
     form->addRow(QString(), m_annotated);
+    form->addRow(tr("Frames"), m_frames);
     form->addRow(tr("File"), where);
     form->addRow(m_said);
     auto *buttons = new QDialogButtonBox;
     m_write = buttons->addButton(tr("Write"), QDialogButtonBox::AcceptRole);
     m_write->setObjectName("exportWriteButton");
     buttons->addButton(QDialogButtonBox::Cancel);
+    form->addRow(new JobStrip(jobs, "export"));
     form->addRow(buttons);
     for (QComboBox *choice : {m_pane, m_format, m_scale})
         connect(choice, &QComboBox::currentIndexChanged, this, &ExportDialog::showChosen);
@@ -84,28 +92,44 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, QWidget
     connect(other, &QPushButton::clicked, this, &ExportDialog::browse);
     connect(buttons, &QDialogButtonBox::accepted, this, &ExportDialog::write);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
+    connect(&jobs, &JobRunner::failed, this, [this](const QString &what) { m_failure = what; });
+    connect(&jobs, &JobRunner::finished, this, [this] {
+        showChosen();
+        if (!m_failure.isEmpty())
+            say(m_failure, "warning");
+        m_failure.clear();
+    });
     showChosen();
+}
+
+ExportDialog::~ExportDialog() {
+    m_jobs.cancel();
 }
 
 PictureExport ExportDialog::chosen() const {
     return {Pane(m_pane->currentIndex()), PictureFormat(m_format->currentIndex()),
-            m_scale->currentIndex() + 1, m_annotated->isChecked()};
+            m_scale->currentIndex() + 1, m_annotated->isChecked(), m_frames->value()};
 }
 
 void ExportDialog::showChosen() {
     const PictureExport what = chosen();
-    m_annotated->setEnabled(what.format == PictureFormat::png);
+    m_annotated->setEnabled(what.isPicture());
+    m_frames->setEnabled(what.isTurn());
     const QWidget *const pane = m_panes.of(what.pane);
     const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
     const QString why = obstacle(what, m_panes, m_document);
-    m_said->setText(why.isEmpty() ? tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height())
-                                  : why);
-    m_said->setProperty("role", why.isEmpty() ? "muted" : "warning");
-    m_said->style()->polish(m_said);
+    if (m_jobs.isRunning()) // what it writes is decided
+        return;
+    QString text = tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height());
+    if (what.format == PictureFormat::capture)
+        text += "; " + tr("holds the patient's name and identifier");
+    if (what.format == PictureFormat::frames)
+        text += "; " + tr("one file for each frame, numbered");
+    say(why.isEmpty() ? text : why, why.isEmpty() ? "muted" : "warning");
     m_write->setEnabled(why.isEmpty());
     // The name goes with the format, as long as it is one of ours.
     QString path = m_path->text();
-    for (const QString &known : {".png", ".npy", ".nrrd"})
+    for (const QString &known : {".png", ".npy", ".nrrd", ".dcm", ".mp4"})
         if (path.endsWith(known, Qt::CaseInsensitive)) {
             path.chop(known.size());
             m_path->setText(path + suffixOf(what.format));
@@ -121,15 +145,27 @@ void ExportDialog::browse() {
         m_path->setText(path);
 }
 
+void ExportDialog::say(const QString &text, const char *role) {
+    m_said->setText(text);
+    m_said->setProperty("role", role);
+    m_said->style()->polish(m_said);
+}
+
 void ExportDialog::write() {
     try {
-        writePicture(chosen(), m_panes, m_document, m_path->text());
-        QSettings().setValue(folderKey, QFileInfo(m_path->text()).absolutePath());
-        close();
+        const QString path = m_path->text();
+        m_jobs.start(tr("Writing"),
+                     [this, path,
+                      writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {
+                         writer(job.progress());
+                         job.deliver([this, path] {
+                             QSettings().setValue(folderKey, QFileInfo(path).absolutePath());
+                             close();
+                         });
+                     });
+        m_write->setEnabled(false);
     } catch (const task::Error &error) {
-        m_said->setText(QString::fromStdString(error.reason()));
-        m_said->setProperty("role", "warning");
-        m_said->style()->polish(m_said);
+        say(QString::fromStdString(error.reason()), "warning");
     }
 }
 

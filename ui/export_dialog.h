@@ -10,28 +10,38 @@ class QComboBox;
 class QLabel;
 class QLineEdit;
 class QPushButton;
+class QSpinBox;
 
 namespace pellucid::ui {
 
+class JobRunner;
+
 /// Which pane, in which format and size, with or without annotations, and where to. What cannot be
-/// written is said before, what could not be stays in the dialog.
+/// written is said before, what could not be stays in the dialog. Writing is a job: the dialog
+/// closes when it is done, and closing it earlier cancels it.
 class ExportDialog : public QDialog {
     Q_OBJECT
 public:
-    ExportDialog(const Document &document, const Panes &panes, QWidget *parent = nullptr);
+    ExportDialog(const Document &document, const Panes &panes, JobRunner &jobs,
+                 QWidget *parent = nullptr);
+    ~ExportDialog() override;
 
 private:
     PictureExport chosen() const;
     void showChosen();
     void browse();
     void write();
+    void say(const QString &text, const char *role);
 
     const Document &m_document;
     Panes m_panes;
+    JobRunner &m_jobs;
     QComboBox *m_pane, *m_format, *m_scale;
     QCheckBox *m_annotated;
     QLineEdit *m_path;
+    QSpinBox *m_frames;
     QLabel *m_said;
+    QString m_failure; ///< of the job that ends
     QPushButton *m_write = nullptr;
 };
 

@@ -97,6 +97,7 @@ MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, Q
 MainWindow::~MainWindow() {
     // Work that still runs looks at the members.
     m_jobs.join();
+    m_exports.join();
     m_library.jobs().join();
     delete m_beside;        // it looks at the open study
     m_store.writePending(); // while somebody can say that it failed
@@ -455,7 +456,7 @@ void MainWindow::savePicture() {
 
 void MainWindow::exportPicture() {
     // Beside the window, which goes on: it may be turned to what is to be written.
-    (new ExportDialog(m_document, {m_mpr, m_projection}, this))->show();
+    (new ExportDialog(m_document, {m_mpr, m_projection}, m_exports, this))->show();
 }
 
 void MainWindow::exportMeasurements() {

@@ -94,7 +94,7 @@ private:
 
     Theme m_theme;
     Document m_document;
-    JobRunner m_jobs;
+    JobRunner m_jobs, m_exports;
     StudyLibrary m_library;
     LookPreparer m_preparer;
     GraphicsCard m_card;

@@ -3,23 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <QCoreApplication>
 #include <QImage>
 #include <QPainter>
+#include <QPicture>
 
+#include "core/dicom/write_capture.h"
 #include "core/files/image_files.h"
 #include "core/render/projection_volume.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 #include "ui/document.h"
 #include "ui/scene_files.h"
+#include "ui/video_writer.h"
+#include "ui/views/camera_moves.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
 
 namespace pellucid::ui {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int framesPerSecond = 25;
 
 QString tr(const char *text) {
     return QCoreApplication::translate("PictureExport", text);
@@ -40,20 +49,178 @@ QImage sixteenBits(const render::ProjectionImage &image, const render::Tone &ton
     return out;
 }
 
-QImage asItLooks(const PictureExport &what, const Panes &panes) {
-    if (what.pane != Pane::projection)
-        return panes.planes[std::size_t(what.pane)]->picture(what.scale, what.isAnnotated);
-    ProjectionView &view = *panes.projection;
-    const render::ProjectionImage image = view.imageOfPicture(what.scale);
-    const auto rgba = render::compose(image, view.sceneOfPicture(what.scale).tone);
-    QImage picture = QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888)
-                         .convertToFormat(QImage::Format_RGB32);
-    picture.setDevicePixelRatio(view.devicePixelRatioF() * what.scale);
-    if (what.isAnnotated) {
-        QPainter painter(&picture);
-        view.paintAnnotations(painter);
+QImage asItLooks(const render::ProjectionImage &image, const render::Tone &tone) {
+    const auto rgba = render::compose(image, tone);
+    return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888)
+        .convertToFormat(QImage::Format_RGB32);
+}
+
+// What is drawn over a picture is drawn once, where the panes are, and put over it elsewhere.
+// *Units*: logical pixels.
+using Annotations = std::shared_ptr<const QPicture>;
+
+template <class Paint> Annotations recorded(bool isWanted, const Paint &paint) {
+    auto picture = std::make_shared<QPicture>();
+    if (isWanted) {
+        QPainter painter(picture.get());
+        paint(painter);
     }
     return picture;
+}
+
+void putOver(QImage &picture, const Annotations &annotations, double pixelRatio) {
+    if (annotations->isNull())
+        return;
+    picture.setDevicePixelRatio(pixelRatio);
+    QPainter painter(&picture);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.drawPicture(0, 0, *annotations);
+    painter.end();
+    picture.setDevicePixelRatio(1.0);
+}
+
+void write(const QImage &picture, PictureFormat format, const QString &path,
+           const dicom::CaptureLabels &labels) {
+    if (format != PictureFormat::capture) {
+        QImage said = picture;
+        said.setText("Comment", "Not for diagnostic use");
+        writePictureFile(path, said);
+        return;
+    }
+    const QImage rgba = picture.convertToFormat(QImage::Format_RGBA8888);
+    dicom::writeCapture(path.toStdString(), {rgba.constBits(), std::size_t(rgba.sizeInBytes())},
+                        rgba.height(), rgba.width(), labels);
+}
+
+dicom::CaptureLabels labelsOf(const Document &document, const render::Camera *camera) {
+    const StudyFacts &study = document.sources().at(std::size_t(document.currentSource())).study;
+    dicom::CaptureLabels labels;
+    labels.patientId = study.patientId.toStdString();
+    labels.patientName = study.patientName.toStdString();
+    labels.birthDate = study.birthDate.toStdString();
+    labels.sex = study.sex.toStdString();
+    labels.studyUid = study.uid.toStdString();
+    labels.studyDate = study.date.toStdString();
+    labels.studyDescription = study.description.toStdString();
+    if (camera != nullptr) {
+        labels.pixelMm = camera->pixelMm;
+        labels.patientOrientation = render::dicomOrientation(*camera);
+    } else {
+        labels.seriesDescription = "Plane";
+    }
+    return labels;
+}
+
+PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const Document &document,
+                          const QString &path) {
+    const MprView &view = *panes.planes[std::size_t(what.pane)];
+    const double ratio = view.devicePixelRatioF() * what.scale;
+    return [make = view.pictureMaker(what.scale), what, path, ratio,
+            labels = labelsOf(document, nullptr),
+            over = recorded(what.isAnnotated, [&](QPainter &painter) { view.paintOver(painter); })](
+               const task::Progress &progress) {
+        QImage picture = make();
+        progress.report(0.3);
+        putOver(picture, over, ratio);
+        write(picture, what.format, path, labels);
+    };
+}
+
+// Frame by frame: each has letters and a cube of its own.
+struct Turn {
+    std::vector<render::Camera> cameras;
+    std::vector<Annotations> over;
+};
+
+// DESTINATION_0007.png of DESTINATION.png, as the command line names them.
+QString framePath(const QString &path, int frame) {
+    const QString stem = path.endsWith(".png", Qt::CaseInsensitive) ? path.chopped(4) : path;
+    return QString("%1_%2.png").arg(stem).arg(frame, 4, 10, QChar('0'));
+}
+
+class FrameFiles {
+public:
+    explicit FrameFiles(QString path) : m_path(std::move(path)) {}
+    ~FrameFiles() {
+        std::error_code ignored;
+        for (const QString &path : m_written)
+            fs::remove(path.toStdString(), ignored);
+    }
+    FrameFiles(const FrameFiles &) = delete;
+    FrameFiles &operator=(const FrameFiles &) = delete;
+    void add(const QImage &picture, int frame) {
+        const QString path = framePath(m_path, frame);
+        write(picture, PictureFormat::png, path, {});
+        m_written << path;
+    }
+    void keep() { m_written.clear(); }
+
+private:
+    QString m_path;
+    QStringList m_written;
+};
+
+PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
+                               const Document &document, const QString &path) {
+    ProjectionView &view = *panes.projection;
+    const render::Scene scene = view.sceneOfPicture(what.scale);
+    const auto render = view.pictureRenderer();
+    const double ratio = view.devicePixelRatioF() * what.scale;
+    Turn turn;
+    const int count = what.isTurn() ? what.frameCount : 1;
+    for (int n = 0; n < count; ++n) {
+        const double degrees = 360.0 * n / count;
+        turn.cameras.push_back(view.turnedAroundPatient(scene.camera, degrees));
+        turn.over.push_back(recorded(what.isAnnotated && what.isPicture(), [&](QPainter &painter) {
+            view.paintAnnotations(painter,
+                                  view.turnedAroundPatient(document.scene().camera, degrees));
+        }));
+    }
+    return [what, path, scene, render, ratio, turn, lattice = document.volume()->lattice(),
+            labels = labelsOf(document, &scene.camera)](const task::Progress &progress) {
+        const auto picture = [&](std::size_t n) {
+            QImage made = asItLooks(render(turn.cameras[n]), scene.tone);
+            putOver(made, turn.over[n], ratio);
+            return made;
+        };
+        const std::string file = path.toStdString();
+        const auto everyFrame = [&](const auto &add) {
+            for (std::size_t n = 0; n < turn.cameras.size(); ++n) {
+                progress.report(double(n) / double(turn.cameras.size()));
+                add(picture(n), int(n));
+            }
+        };
+        switch (what.format) {
+        case PictureFormat::png:
+        case PictureFormat::capture:
+            write(picture(0), what.format, path, labels);
+            break;
+        case PictureFormat::png16:
+            writePictureFile(path, sixteenBits(render(scene.camera), scene.tone));
+            break;
+        case PictureFormat::npy: {
+            const render::ProjectionImage image = render(scene.camera);
+            files::writeNpy(file, image.samples, image.height, image.width, image.channels);
+            break;
+        }
+        case PictureFormat::nrrd:
+            volume::writeNrrd(
+                file, render::projectionVolume(render(scene.camera), scene.camera, lattice));
+            break;
+        case PictureFormat::frames: {
+            FrameFiles files(path);
+            everyFrame([&](const QImage &frame, int n) { files.add(frame, n); });
+            files.keep();
+            break;
+        }
+        case PictureFormat::video: {
+            VideoWriter video(path, {scene.camera.width, scene.camera.height}, framesPerSecond);
+            everyFrame([&](const QImage &frame, int) { video.add(frame, progress); });
+            video.finish(progress);
+            break;
+        }
+        }
+    };
 }
 
 } // namespace
@@ -63,14 +230,33 @@ QWidget *Panes::of(Pane pane) const {
                                     : planes[std::size_t(pane)];
 }
 
+QString suffixOf(PictureFormat format) {
+    switch (format) {
+    case PictureFormat::npy:
+        return ".npy";
+    case PictureFormat::nrrd:
+        return ".nrrd";
+    case PictureFormat::capture:
+        return ".dcm";
+    case PictureFormat::video:
+        return ".mp4";
+    default:
+        return ".png";
+    }
+}
+
 QString obstacle(const PictureExport &what, const Panes &panes, const Document &document) {
-    if (!document.volume())
+    if (!document.volume() || document.currentSource() < 0)
         return tr("No study is open");
     const bool isPlane = what.pane != Pane::projection;
     if (!isPlane && !panes.projection->showsWhatIsAskedFor())
         return tr("The projection is still being made");
-    if (isPlane && what.format != PictureFormat::png)
+    if (isPlane && !what.isPicture())
         return tr("Values are written of the projection only");
+    if (isPlane && what.isTurn())
+        return tr("Only the projection turns");
+    if (what.format == PictureFormat::video && !VideoWriter::isAvailable())
+        return tr("Videos need the program ffmpeg, which is not installed; frames do not");
     const render::Scene &scene = document.scene();
     const bool isGrey = classify::isGrey(scene.look) && scene.shading.isGrey();
     if (!isGrey && (what.format == PictureFormat::png16 || what.format == PictureFormat::nrrd))
@@ -81,29 +267,12 @@ QString obstacle(const PictureExport &what, const Panes &panes, const Document &
     return {};
 }
 
-void writePicture(const PictureExport &what, const Panes &panes, const Document &document,
-                  const QString &path) {
+PictureWriter pictureWriter(const PictureExport &what, const Panes &panes, const Document &document,
+                            const QString &path) {
     if (const QString why = obstacle(what, panes, document); !why.isEmpty())
         throw task::Error(task::ErrorCode::usage, why.toStdString());
-    ProjectionView &view = *panes.projection;
-    if (what.format == PictureFormat::png) {
-        QImage picture = asItLooks(what, panes);
-        picture.setDevicePixelRatio(1.0);
-        picture.setText("Comment", "Not for diagnostic use");
-        writePictureFile(path, picture);
-        return;
-    }
-    const render::ProjectionImage image = view.imageOfPicture(what.scale);
-    const render::Scene scene = view.sceneOfPicture(what.scale);
-    if (what.format == PictureFormat::png16)
-        writePictureFile(path, sixteenBits(image, scene.tone));
-    else if (what.format == PictureFormat::npy)
-        files::writeNpy(path.toStdString(), image.samples, image.height, image.width,
-                        image.channels);
-    else
-        volume::writeNrrd(
-            path.toStdString(),
-            render::projectionVolume(image, scene.camera, document.volume()->lattice()));
+    return what.pane == Pane::projection ? projectionWriter(what, panes, document, path)
+                                         : planeWriter(what, panes, document, path);
 }
 
 } // namespace pellucid::ui

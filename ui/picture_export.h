@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include <QString>
+
+#include "core/task/progress.h"
 
 class QWidget;
 
@@ -25,21 +28,38 @@ struct Panes {
 };
 
 /// `png`: as it looks; `png16`: grey from the lower to the upper end of the window, in a straight
-/// line, 16 bits; `npy`, `nrrd`: the values of the projection, single precision.
-enum class PictureFormat { png, png16, npy, nrrd };
+/// line, 16 bits; `npy`, `nrrd`: the values of the projection, single precision; `capture`: as it
+/// looks, a DICOM image of the open study; `frames`, `video`: once around the patient, as it looks.
+enum class PictureFormat { png, png16, npy, nrrd, capture, frames, video };
 
 struct PictureExport {
     Pane pane = Pane::projection;
     PictureFormat format = PictureFormat::png;
     int scale = 1; ///< pixels for one of the screen, a side
     bool isAnnotated = true;
+    int frameCount = 120; ///< of a turn
+
+    /// Whether it shows colours and annotations.
+    bool isPicture() const {
+        return format != PictureFormat::png16 && format != PictureFormat::npy &&
+               format != PictureFormat::nrrd;
+    }
+    bool isTurn() const {
+        return format == PictureFormat::frames || format == PictureFormat::video;
+    }
 };
 
-/// What an export cannot hold; empty if it can be made.
+/// ".png", of the file that is written.
+QString suffixOf(PictureFormat format);
+
+/// What an export cannot hold or make here; empty if it can be made.
 QString obstacle(const PictureExport &what, const Panes &panes, const Document &document);
 
-/// Writes a picture of a pane; the file appears only when complete. *Throws* task::Error.
-void writePicture(const PictureExport &what, const Panes &panes, const Document &document,
-                  const QString &path);
+/// Writes a picture of a pane as it is now; run it on any thread. The file appears only when
+/// complete; of frames that are cancelled none is left. It *throws* task::Error, task::Cancelled.
+using PictureWriter = std::function<void(const task::Progress &)>;
+/// *Throws* Error{usage} with the obstacle.
+PictureWriter pictureWriter(const PictureExport &what, const Panes &panes, const Document &document,
+                            const QString &path);
 
 } // namespace pellucid::ui

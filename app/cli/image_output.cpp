@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-enum class OutputKind { png, npy, nrrd };
+enum class OutputKind { png, npy, nrrd, capture };
 
 OutputKind outputKind(const fs::path &out) {
     const std::string suffix = out.extension().string();
@@ -28,20 +28,21 @@ OutputKind outputKind(const fs::path &out) {
     if (suffix == ".nrrd")
         return OutputKind::nrrd;
     if (suffix == ".dcm")
-        throw Error(ErrorCode::usage,
-                    "-o: writing Secondary Captures (.dcm) is not available in this version");
-    throw Error(ErrorCode::usage, "-o: '" + out.string() + "' must end in .png, .npy or .nrrd");
+        return OutputKind::capture;
+    throw Error(ErrorCode::usage,
+                "-o: '" + out.string() + "' must end in .png, .npy, .nrrd or .dcm");
 }
 
 } // namespace
 
 void checkOutput(const fs::path &out, bool isGrey) {
     if (outputKind(out) == OutputKind::nrrd && !isGrey)
-        throw Error(ErrorCode::usage, "-o: coloured pictures are written as .png or .npy");
+        throw Error(ErrorCode::usage, "-o: coloured pictures are written as .png, .npy or .dcm");
 }
 
 void writeImage(const fs::path &path, const render::ProjectionImage &image,
-                const render::Scene &scene, const volume::Lattice &patient) {
+                const render::Scene &scene, const volume::Lattice &patient,
+                const dicom::CaptureLabels &labels) {
     switch (outputKind(path)) {
     case OutputKind::png:
         files::writePng(path, render::compose(image, scene.tone), image.height, image.width);
@@ -49,6 +50,14 @@ void writeImage(const fs::path &path, const render::ProjectionImage &image,
     case OutputKind::npy:
         files::writeNpy(path, image.samples, image.height, image.width, image.channels);
         break;
+    case OutputKind::capture: {
+        dicom::CaptureLabels of = labels;
+        of.pixelMm = scene.camera.pixelMm;
+        of.patientOrientation = render::dicomOrientation(scene.camera);
+        dicom::writeCapture(path, render::compose(image, scene.tone), image.height, image.width,
+                            of);
+        break;
+    }
     case OutputKind::nrrd:
         volume::writeNrrd(path, render::projectionVolume(image, scene.camera, patient));
         break;

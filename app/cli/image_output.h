@@ -3,19 +3,22 @@
 
 #include <filesystem>
 
+#include "core/dicom/write_capture.h"
 #include "core/render/projection_image.h"
 #include "core/render/scene.h"
 
 namespace pellucid::cli {
 
-/// *Throws* Error{usage} unless the path ends in .png or .npy, or in .nrrd for a picture without
-/// colour.
+/// *Throws* Error{usage} unless the path ends in .png, .npy or .dcm, or in .nrrd for a picture
+/// without colour.
 void checkOutput(const std::filesystem::path &out, bool isGrey);
 
-/// Writes a projection: as a picture through the scene's tone (.png), or its values (.npy, .nrrd).
+/// Writes a projection: as a picture through the scene's tone (.png, .dcm), or its values (.npy,
+/// .nrrd). `labels`: of a Secondary Capture.
 /// *Throws* Error{output}, Error{usage} for a kind that cannot hold it.
 void writeImage(const std::filesystem::path &path, const render::ProjectionImage &image,
-                const render::Scene &scene, const volume::Lattice &patient);
+                const render::Scene &scene, const volume::Lattice &patient,
+                const dicom::CaptureLabels &labels);
 
 /// OUT_0007.png for frame 7.
 std::filesystem::path framePath(const std::filesystem::path &out, int frame);

@@ -65,6 +65,7 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
                     path);
     input.seriesUid = selection.series->uid;
     input.seriesDescription = selection.series->description;
+    input.labels = dicom::captureLabels(selection);
     input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
                          input.loaded.skipped.end());
     // A slice that is left out is said even where no JSON is asked for.

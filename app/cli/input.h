@@ -9,6 +9,7 @@
 #include "core/classify/density_field.h"
 #include "core/dicom/catalogue.h"
 #include "core/dicom/load_volume.h"
+#include "core/dicom/write_capture.h"
 
 namespace pellucid::cli {
 
@@ -16,6 +17,7 @@ namespace pellucid::cli {
 struct Input {
     dicom::LoadedVolume loaded;
     std::string seriesUid, seriesDescription;
+    dicom::CaptureLabels labels; ///< of pictures that are made of it
     std::vector<dicom::Skipped> skipped;
     double scanMs = 0.0, loadMs = 0.0;
 };

@@ -129,6 +129,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     render::FrameTimes times;
     double writeMs = 0.0;
     const int frames = std::max(1, o.frames);
+    dicom::CaptureLabels labels = input.labels;
+    labels.seriesUid = dicom::newSeriesUid(); // one for all frames
     for (int frame = 0; frame < frames; ++frame) {
         task::Progress(context.stop).check();
         render::Scene turned = scene;
@@ -138,7 +140,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         const auto image = renderer.image(turned.camera, times);
         task::Progress(context.stop).check();
         watch.lapMs();
-        writeImage(o.frames > 0 ? framePath(out, frame) : out, image, turned, volume.lattice());
+        labels.instanceNumber = frame + 1;
+        writeImage(o.frames > 0 ? framePath(out, frame) : out, image, turned, volume.lattice(),
+                   labels);
         writeMs += watch.lapMs();
     }
     if (!o.json)
@@ -196,7 +200,8 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     CLI::App *c = app.add_subcommand("render", "Project a volume into an image");
     c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR, a ZIP archive or an NRRD file")
         ->required();
-    c->add_option("-o,--output", o->out, "The image: .png, .npy or .nrrd")->required();
+    c->add_option("-o,--output", o->out, "The image: .png, .npy, .nrrd or .dcm (Secondary Capture)")
+        ->required();
     c->add_option("--series", o->series,
                   "Series number or UID; default: the volume with most voxels");
     addSceneOptions(*c, o->scene);

@@ -6,16 +6,13 @@
 #include <atomic>
 #include <cstring>
 #include <mutex>
-#include <span>
 
 #include <dcmtk/config/osconfig.h>
 
-#include <dcmtk/dcmdata/dcostrmb.h>
 #include <dcmtk/dcmdata/dcpixel.h>
 #include <dcmtk/dcmdata/dcpixseq.h>
 #include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
-#include <dcmtk/dcmdata/dcwcache.h>
 #include <dcmtk/dcmjpeg/djrplol.h>
 #include <dcmtk/dcmjpls/djrparam.h>
 
@@ -24,7 +21,7 @@
 
 #include "core/dicom/dictionary.h"
 #include "core/dicom/jpeg2000.h"
-#include "core/files/atomic_file.h"
+#include "core/dicom/write_dataset.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {
@@ -54,34 +51,6 @@ const std::array<Syntax, 8> &syntaxes() {
     return all;
 }
 
-// Decimal strings hold 16 characters at most.
-std::string decimal(double value) {
-    for (int digits = 12; digits > 0; --digits) {
-        std::string text = fmt::format("{:.{}g}", value, digits);
-        if (text.size() <= 16)
-            return text;
-    }
-    return "0";
-}
-
-std::string newUid(const char *root) {
-    std::array<char, 100> uid{};
-    return dcmGenerateUniqueIdentifier(uid.data(), root);
-}
-
-void put(DcmDataset &dataset, const DcmTagKey &tag, const std::string &value) {
-    if (dataset.putAndInsertOFStringArray(tag, value.c_str()).bad())
-        throw Error(ErrorCode::internal, fmt::format("attribute ({:04x},{:04x}) cannot be set",
-                                                     tag.getGroup(), tag.getElement()));
-}
-
-std::string joined(std::initializer_list<double> values) {
-    std::string text;
-    for (const double v : values)
-        text += (text.empty() ? "" : "\\") + decimal(v);
-    return text;
-}
-
 // Moves pixels that were set uncompressed into a JPEG 2000 codestream, which DCMTK does not write.
 void compressJpeg2000(DcmDataset &dataset, const std::int16_t *slice, volume::GridSize size) {
     const Jpeg2000Image image{
@@ -100,47 +69,19 @@ void compressJpeg2000(DcmDataset &dataset, const std::int16_t *slice, volume::Gr
     dataset.insert(pixels, OFTrue);
 }
 
-// DCMTK's own file output does not notice a disk that fills at the last flush.
-void writeThrough(DcmFileFormat &file, E_TransferSyntax syntax, files::AtomicFile &target,
-                  const fs::path &path) {
-    std::vector<std::byte> buffer(1 << 20);
-    DcmOutputBufferStream stream(buffer.data(), offile_off_t(buffer.size()));
-    DcmWriteCache cache;
-    const auto drain = [&] {
-        void *data = nullptr;
-        offile_off_t count = 0;
-        stream.flushBuffer(data, count);
-        target.write(std::span(static_cast<const std::byte *>(data), std::size_t(count)));
-        return count;
-    };
-    file.transferInit();
-    OFCondition written = EC_StreamNotifyClient;
-    while (written == EC_StreamNotifyClient) {
-        written =
-            file.write(stream, syntax, EET_ExplicitLength, &cache, EGL_recalcGL, EPD_noChange);
-        drain();
-    }
-    file.transferEnd();
-    if (written.bad())
-        throw Error(ErrorCode::output, std::string("cannot be encoded: ") + written.text(), path);
-    do // a deflating stream still holds its end back
-        stream.flush();
-    while (drain() > 0 || !stream.isFlushed());
-}
-
 class SeriesWriter {
 public:
     SeriesWriter(const volume::Volume &volume, const SeriesLabels &labels, TransferSyntax syntax)
         : m_volume(volume), m_labels(labels), m_syntax(syntaxes()[std::size_t(syntax)].transfer),
-          m_study(newUid(SITE_STUDY_UID_ROOT)), m_series(newUid(SITE_SERIES_UID_ROOT)),
-          m_frame(newUid(SITE_SERIES_UID_ROOT)) {}
+          m_study(newUid(UidKind::study)), m_series(newUid(UidKind::series)),
+          m_frame(newUid(UidKind::series)) {}
 
     void write(int slice, const std::int16_t *samples, const fs::path &path) const {
         DcmFileFormat file;
         DcmDataset &d = *file.getDataset();
         const volume::Lattice &lattice = m_volume.lattice();
         const volume::GridSize size = lattice.size();
-        const std::string instance = newUid(SITE_INSTANCE_UID_ROOT);
+        const std::string instance = newUid(UidKind::instance);
         put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
         put(d, DCM_ImageType, "ORIGINAL\\PRIMARY\\AXIAL");
         put(d, DCM_SOPClassUID, UID_CTImageStorage);
@@ -169,16 +110,16 @@ public:
         const glm::dvec3 position = lattice.patient(volume::VoxelIndex{0, 0, slice}).mm;
         const glm::dvec3 row = lattice.step(0) / lattice.spacingMm(0),
                          column = lattice.step(1) / lattice.spacingMm(1);
-        put(d, DCM_ImagePositionPatient, joined({position.x, position.y, position.z}));
+        put(d, DCM_ImagePositionPatient, decimals({position.x, position.y, position.z}));
         put(d, DCM_ImageOrientationPatient,
-            joined({row.x, row.y, row.z, column.x, column.y, column.z}));
+            decimals({row.x, row.y, row.z, column.x, column.y, column.z}));
         put(d, DCM_FrameOfReferenceUID, m_frame);
         put(d, DCM_PositionReferenceIndicator, "");
         d.putAndInsertUint16(DCM_SamplesPerPixel, 1);
         put(d, DCM_PhotometricInterpretation, "MONOCHROME2");
         d.putAndInsertUint16(DCM_Rows, Uint16(size.j));
         d.putAndInsertUint16(DCM_Columns, Uint16(size.i));
-        put(d, DCM_PixelSpacing, joined({lattice.spacingMm(1), lattice.spacingMm(0)}));
+        put(d, DCM_PixelSpacing, decimals({lattice.spacingMm(1), lattice.spacingMm(0)}));
         d.putAndInsertUint16(DCM_BitsAllocated, 16);
         d.putAndInsertUint16(DCM_BitsStored, 16);
         d.putAndInsertUint16(DCM_HighBit, 15);
@@ -202,9 +143,7 @@ public:
                                       static_cast<unsigned long>(size.i) * size.j);
             compress(d);
         }
-        files::AtomicFile target(path);
-        writeThrough(file, m_syntax, target, path);
-        target.commit();
+        writeDataset(file, m_syntax, path);
     }
 
 private:

@@ -56,6 +56,14 @@ std::string patientLetters(const glm::dvec3 &direction) {
     return letters;
 }
 
+std::string dicomOrientation(const Camera &camera) {
+    const glm::dmat3 axes = camera.axes();
+    std::string letters = patientLetters(axes[0]) + "\\" + patientLetters(-axes[1]);
+    std::replace(letters.begin(), letters.end(), 'S', 'H');
+    std::replace(letters.begin(), letters.end(), 'I', 'F');
+    return letters;
+}
+
 Camera defaultCamera(const volume::Lattice &lattice) {
     Camera camera;
     camera.orientation = viewOrientation(StandardView::front);

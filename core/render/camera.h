@@ -42,6 +42,10 @@ glm::dquat viewOrientation(StandardView view, const ViewAngles &angles = {});
 /// the strongest component first.
 std::string patientLetters(const glm::dvec3 &direction);
 
+/// Where rows and columns of a picture lead, as DICOM says it (PS3.3 C.7.6.1.1.1): "L\F", with H
+/// and F for superior and inferior.
+std::string dicomOrientation(const Camera &camera);
+
 /// Pixel = shortest step; the smallest even square size that holds every view of the lattice.
 /// *Throws* Error{usage} if that is more than `largestImageSize`.
 Camera defaultCamera(const volume::Lattice &lattice);

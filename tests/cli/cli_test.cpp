@@ -136,6 +136,31 @@ TEST_F(Cli, DcmtkFindsThePhantomValid) {
     EXPECT_NE(dump.out.find("CTImageStorage"), std::string::npos);
 }
 
+TEST_F(Cli, SecondaryCapturesBelongToTheStudy) {
+    const fs::path series = phantomFolder("--kind head --size 40x40x30"), out = folder / "shot.dcm";
+    ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(out) + " --view left").exitCode, 0);
+    const auto dump = run("dcmdump " + quoted(out));
+    EXPECT_EQ(dump.error, "");
+    const auto value = [](const std::string &text, const std::string &tag) {
+        const auto at = text.find(tag), from = text.find('[', at);
+        return text.substr(from + 1, text.find(']', from) - from - 1);
+    };
+    const auto slice = run("dcmdump " + quoted(series / "IM0001.dcm"));
+    EXPECT_EQ(value(dump.out, "(0020,000d)"), value(slice.out, "(0020,000d)")); // the study
+    EXPECT_NE(value(dump.out, "(0020,000e)"),
+              value(slice.out, "(0020,000e)"));        // a series of its own
+    EXPECT_EQ(value(dump.out, "(0020,0020)"), "P\\F"); // from the left: posterior at the right
+    // Frames of a turn are one series.
+    ASSERT_EQ(
+        cli("render " + quoted(series) + " -o " + quoted(out) + " --frames 2 --turntable").exitCode,
+        0);
+    const auto first = run("dcmdump " + quoted(folder / "shot_0000.dcm")),
+               second = run("dcmdump " + quoted(folder / "shot_0001.dcm"));
+    EXPECT_EQ(value(first.out, "(0020,000e)"), value(second.out, "(0020,000e)"));
+    EXPECT_NE(value(first.out, "(0008,0018)"), value(second.out, "(0008,0018)"));
+    EXPECT_EQ(value(second.out, "(0020,0013)"), "2");
+}
+
 TEST_F(Cli, VolumeWritesValuesAndField) {
     const fs::path series = phantomFolder("--kind head --size 32x30x8 --tilt 15");
     ASSERT_EQ(cli("volume " + quoted(series) + " -o " + quoted(folder / "v.nrrd")).exitCode, 0);
@@ -253,7 +278,6 @@ TEST_F(Cli, UsageErrorsNameTheOption) {
     for (const char *bad : {"1", "1,x", "1,3", "1,1,", "1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1"})
         expectOneLine(cli("render /tmp" + out + " --bezier " + bad), 2, "");
     expectOneLine(cli("render /tmp" + out + " --view sideways"), 2, "--view");
-    expectOneLine(cli("render /tmp -o /tmp/x.dcm"), 2, ".dcm");
     expectOneLine(cli("render /tmp -o /tmp/x.bmp"), 2, "x.bmp");
     expectOneLine(cli("render /tmp" + out + " --frames 3"), 2, "--turntable");
     expectOneLine(cli("render /tmp" + out + " --engine fast"), 2, "--engine");

@@ -92,7 +92,9 @@ private slots:
         find<QAction>("depthCueAction")->trigger();
         settle();
         const QImage byProcessor = byCommandLine("cpu");
-        QCOMPARE(largestDifference(byProcessor, composed(projection()->imageOfPicture())), 0);
+        QCOMPARE(largestDifference(byProcessor, composed(projection()->pictureRenderer()(
+                                                    projection()->sceneOfPicture().camera))),
+                 0);
         QCOMPARE(largestDifference(byProcessor, projection()->picture()), 0);
         const auto &window = ui::windowCapabilities();
         if (!window || !window->canRender())

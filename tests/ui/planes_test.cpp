@@ -4,16 +4,9 @@
 
 #include <fstream>
 
-#include <QCheckBox>
-#include <QComboBox>
-#include <QDialog>
-#include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
 #include <QToolButton>
 #include <QTreeWidget>
 
-#include "core/volume/nrrd.h"
 #include "ui/cine.h"
 #include "ui/measurement_store.h"
 #include "ui/views/mpr_view.h"
@@ -216,52 +209,6 @@ private slots:
         }));
     }
 
-    void picturesAreExportedInEveryFormat() {
-        const QSize pane = projection()->size();
-        const QImage plain = exported("Projection", 0, 1, false);
-        QCOMPARE(plain.size(), pane);
-        // In a large pane a small volume is shown with fewer pixels than it is written with.
-        const QImage shown =
-            projection()->picture().scaled(pane, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
-        QVERIFY(changed(plain, shown) < 0.02);
-        QCOMPARE(plain.text("Comment"), QString("Not for diagnostic use"));
-        const QImage annotated = exported("Projection", 0, 2, true);
-        QCOMPARE(annotated.size(), 2 * pane);
-        // Computed, not magnified: small it is the same, and it has the letters.
-        const QImage small =
-            annotated.scaled(pane, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
-        QVERIFY(changed(small, plain) > 0.002 && changed(small, plain) < 0.1);
-        QVERIFY(colorfulness(annotated) > colorfulness(plain));
-        const QImage grey = exported("Projection", 1, 1, true);
-        QCOMPARE(grey.format(), QImage::Format_Grayscale16);
-        const QImage axial = exported("Axial", 0, 4, true);
-        QCOMPARE(axial.size(), 4 * find<QWidget>("axialView")->size());
-        if (const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS"); !folder.isEmpty()) {
-            QVERIFY(annotated.save(folder + "/exported_projection.png"));
-            QVERIFY(axial.save(folder + "/exported_axial.png"));
-        }
-        // The values of the file are those of the picture.
-        exported("Projection", 3, 1, false);
-        const volume::Volume values = volume::readNrrd(m_folder / "out.nrrd");
-        const render::ProjectionImage image = projection()->imageOfPicture();
-        QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));
-        QCOMPARE(float(values.value({100, 200, 0})),
-                 image.samples[200 * std::size_t(image.width) + 100]);
-    }
-
-    void whatCannotBeExportedIsSaid() {
-        find<QAction>("exportPictureAction")->trigger();
-        find<QComboBox>("exportPaneBox")->setCurrentText("Coronal");
-        find<QComboBox>("exportFormatBox")->setCurrentIndex(2);
-        QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
-        QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("projection only"));
-        find<QComboBox>("exportFormatBox")->setCurrentIndex(0);
-        find<QLineEdit>("exportPathEdit")->setText("/nowhere/at/all/x.png");
-        find<QPushButton>("exportWriteButton")->click();
-        QVERIFY(find<QDialog>("exportDialog")->isVisible());
-        QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("cannot be written"));
-    }
-
     void cinePlaysTheFocusedPane() {
         auto *axial = find<ui::MprView>("axialView");
         axial->setFocus();
@@ -289,19 +236,6 @@ private slots:
 private:
     void key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
         QTest::keyClick(m_window.get(), key, modifiers);
-    }
-    QImage exported(const QString &pane, int format, int times, bool isAnnotated) {
-        find<QAction>("exportPictureAction")->trigger();
-        find<QComboBox>("exportPaneBox")->setCurrentText(pane);
-        find<QComboBox>("exportScaleBox")->setCurrentIndex(times - 1);
-        find<QCheckBox>("exportAnnotatedBox")->setChecked(isAnnotated);
-        auto *path = find<QLineEdit>("exportPathEdit");
-        path->setText(QString::fromStdString((m_folder / "out.png").string()));
-        find<QComboBox>("exportFormatBox")->setCurrentIndex(format);
-        find<QPushButton>("exportWriteButton")->click();
-        const QString written = path->text();
-        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-        return QImage(written);
     }
     const ui::Cut &cut() { return m_window->document().cut(); }
     const std::vector<ui::Measured> &measured() { return m_window->document().measured(); }

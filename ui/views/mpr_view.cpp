@@ -189,7 +189,7 @@ void MprView::paintEvent(QPaintEvent *) {
     }
 }
 
-void MprView::paintAnnotations(QPainter &painter) {
+void MprView::paintAnnotations(QPainter &painter) const {
     m_crop.paint(painter, mapping(), rect(), m_tool == Tool::crop,
                  overlayColors(colorRole(m_orientation)));
     painter.save();
@@ -200,26 +200,25 @@ void MprView::paintAnnotations(QPainter &painter) {
     paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation);
 }
 
-QImage MprView::picture(int scale, bool isAnnotated) {
-    const volume::Volume &volume = *m_document.volume();
+std::function<QImage()> MprView::pictureMaker(int scale) const {
     mpr::Plane cut = plane();
     cut.width *= scale;
     cut.height *= scale;
     cut.pixelMm /= scale;
-    QImage picture =
-        slicePicture(mpr::reslice(volume, cut, m_document.cut().options),
-                     m_document.displayWindow(), volume.notes().darkIsHigh, m_document.tint())
+    return [cut, volume = *m_document.volume(), options = m_document.cut().options,
+            window = m_document.displayWindow(), tint = m_document.tint()] {
+        return slicePicture(mpr::reslice(volume, cut, options), window, volume.notes().darkIsHigh,
+                            tint)
             .convertToFormat(QImage::Format_RGB32);
-    picture.setDevicePixelRatio(devicePixelRatioF() * scale);
-    if (isAnnotated) {
-        QPainter painter(&picture);
-        paintAnnotations(painter);
-        const OverlayColors colors = overlayColors(colorRole(m_orientation));
-        const int line = painter.fontMetrics().height() + 3;
-        drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,
-                 tr("Not for diagnostic use"), colors.muted);
-    }
-    return picture;
+    };
+}
+
+void MprView::paintOver(QPainter &painter) const {
+    paintAnnotations(painter);
+    const OverlayColors colors = overlayColors(colorRole(m_orientation));
+    const int line = painter.fontMetrics().height() + 3;
+    drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,
+             tr("Not for diagnostic use"), colors.muted);
 }
 
 void MprView::resizeEvent(QResizeEvent *) {

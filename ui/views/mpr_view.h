@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include <QElapsedTimer>
 #include <QImage>
 #include <QTimer>
@@ -35,8 +37,10 @@ public:
     /// Whether the last slice is shown.
     bool isAtEnd() const;
     void resetView();
-    /// What is shown, of as many pixels for one of the pane's, a side.
-    QImage picture(int scale, bool isAnnotated);
+    /// Makes what is shown, of as many pixels for one of the pane's, a side; on any thread.
+    std::function<QImage()> pictureMaker(int scale) const;
+    /// What stands over it where it is exported. *Units*: logical pixels.
+    void paintOver(QPainter &painter) const;
 
     /// What of the plane the pane shows.
     struct View {
@@ -72,7 +76,7 @@ private:
     bool showsVolume() const;
     void refresh();
     void updateImage();
-    void paintAnnotations(QPainter &painter);
+    void paintAnnotations(QPainter &painter) const;
     void drag(const QPoint &delta, const QPoint &to);
     void moveCrosshair(const QPoint &to);
     void turnTo(const QPoint &to);

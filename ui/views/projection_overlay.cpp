@@ -39,10 +39,10 @@ void ProjectionOverlay::setComparison(const QImage &picture, const QString &name
 
 void ProjectionOverlay::paintEvent(QPaintEvent *) {
     QPainter painter(this);
-    paint(painter);
+    paint(painter, m_mapping);
 }
 
-void ProjectionOverlay::paint(QPainter &painter) {
+void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping) const {
     const OverlayColors colors = overlayColors("accent");
     if (!m_comparison.isNull()) {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
@@ -92,33 +92,33 @@ void ProjectionOverlay::paint(QPainter &painter) {
                          m_texts.message);
     }
     if (!m_texts.figures.isEmpty())
-        paintPicture(painter);
+        paintPicture(painter, mapping);
 }
 
 // The point that turning keeps.
-void ProjectionOverlay::paintCrosshair(QPainter &painter) const {
+void ProjectionOverlay::paintCrosshair(QPainter &painter, const PaneMapping &mapping) const {
     constexpr double gap = 4.0, arm = 12.0;
-    const QPointF at = m_mapping.positionOf(m_document.crosshair());
+    const QPointF at = mapping.positionOf(m_document.crosshair());
     painter.setPen(QPen(overlayColors("accent").accent, 1.5));
     for (const QPointF &way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
         painter.drawLine(at + gap * way, at + arm * way);
 }
 
-void ProjectionOverlay::paintPicture(QPainter &painter) {
+void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mapping) const {
     const OverlayColors colors = overlayColors("accent");
     const int line = painter.fontMetrics().height() + 3;
     drawText(painter, rect().adjusted(10, 8, -10, -8), Qt::AlignRight | Qt::AlignTop,
              m_texts.figures, colors.text);
-    const glm::dmat3 axes = m_document.scene().camera.axes();
+    const mpr::Axes &seen = mapping.plane.axes;
+    const glm::dmat3 axes(seen.right, seen.up, seen.toViewer());
     drawOrientationLetters(painter, rect().adjusted(0, line, 0, -line), axes[0], axes[1], colors);
     drawOrientationCube(painter, QPointF(58, height() - 58), 40, axes, colors);
-    drawScaleBar(painter, QPoint(width() - 180, height() - 34), m_mapping.pixelsPerMm(), 120,
-                 colors);
+    drawScaleBar(painter, QPoint(width() - 180, height() - 34), mapping.pixelsPerMm(), 120, colors);
     if (!m_comparison.isNull())
         return; // two pictures have no common places
     if (m_showsCrosshair)
-        paintCrosshair(painter);
-    m_measure.paint(painter, {m_mapping, 0.0}, colors);
+        paintCrosshair(painter, mapping);
+    m_measure.paint(painter, {mapping, 0.0}, colors);
 }
 
 } // namespace pellucid::ui

@@ -28,14 +28,14 @@ public:
     /// left.
     void setComparison(const QImage &picture, const QString &name);
     /// Over any picture of the pane's size.
-    void paint(QPainter &painter);
+    void paint(QPainter &painter, const PaneMapping &mapping) const;
 
 protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
-    void paintPicture(QPainter &painter);
-    void paintCrosshair(QPainter &painter) const;
+    void paintPicture(QPainter &painter, const PaneMapping &mapping) const;
+    void paintCrosshair(QPainter &painter, const PaneMapping &mapping) const;
 
     const Document &m_document;
     const MeasureTool &m_measure;

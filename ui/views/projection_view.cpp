@@ -340,13 +340,20 @@ render::Scene ProjectionView::sceneOfPicture(int scale) const {
     return scene;
 }
 
-render::ProjectionImage ProjectionView::imageOfPicture(int scale) {
-    const render::Scene scene = sceneOfPicture(scale);
-    return m_worker.picture(m_engine, scene.camera, scene.image, m_drawnShading).get();
+std::function<render::ProjectionImage(const render::Camera &)> ProjectionView::pictureRenderer() {
+    return [this, engine = m_engine, image = m_document.scene().image,
+            shading = m_drawnShading](const render::Camera &camera) {
+        return m_worker.picture(engine, camera, image, shading).get();
+    };
 }
 
-void ProjectionView::paintAnnotations(QPainter &painter) {
-    m_overlay->paint(painter);
+void ProjectionView::paintAnnotations(QPainter &painter, const render::Camera &camera) const {
+    m_overlay->paint(painter, mapping(camera));
+}
+
+render::Camera ProjectionView::turnedAroundPatient(const render::Camera &camera,
+                                                   double degrees) const {
+    return ui::turnedAroundPatient(camera, degrees, pivotMm());
 }
 
 void ProjectionView::resizeEvent(QResizeEvent *) {
@@ -357,9 +364,12 @@ void ProjectionView::resizeEvent(QResizeEvent *) {
 }
 
 PaneMapping ProjectionView::mapping() const {
+    return mapping(m_document.scene().camera);
+}
+
+PaneMapping ProjectionView::mapping(const render::Camera &camera) const {
     PaneMapping mapping;
     mapping.pixelRatio = devicePixelRatioF();
-    const render::Camera &camera = m_document.scene().camera;
     const glm::dmat3 axes = camera.axes();
     mapping.plane = {{}, {axes[0], axes[1]}, camera.pixelMm, camera.width, camera.height};
     if (m_document.volume())
@@ -437,7 +447,7 @@ void ProjectionView::orbit(const QPoint &delta) {
 }
 
 void ProjectionView::turnAroundPatient(double degrees) {
-    moveCamera(turnedAroundPatient(m_document.scene().camera, degrees, pivotMm()), true);
+    moveCamera(turnedAroundPatient(m_document.scene().camera, degrees), true);
 }
 
 void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {

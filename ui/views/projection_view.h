@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -65,10 +66,13 @@ public:
     /// The scene that makes the picture of this pane again anywhere, pixel for pixel: with the
     /// brightness that is shown, planned as it was. `scale`: pixels for one of the pane, a side.
     render::Scene sceneOfPicture(int scale = 1) const;
-    /// What that scene makes, by the processor. *Throws* as the engine.
-    render::ProjectionImage imageOfPicture(int scale = 1);
-    /// What stands over it, for a picture of that scale.
-    void paintAnnotations(QPainter &painter);
+    /// Makes the picture of any camera as it looks now, by the processor; to be called from any
+    /// thread as long as the view is there. It *throws* as the engine.
+    std::function<render::ProjectionImage(const render::Camera &)> pictureRenderer();
+    /// What stands over the picture of a camera of the pane's size. *Units*: logical pixels.
+    void paintAnnotations(QPainter &painter, const render::Camera &camera) const;
+    /// As the cine turns it.
+    render::Camera turnedAroundPatient(const render::Camera &camera, double degrees) const;
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
     /// The final image of what the scene asks for.
     bool showsWhatIsAskedFor() const;
@@ -111,6 +115,7 @@ private:
     void showTexts();
     void showCursor();
     PaneMapping mapping() const;
+    PaneMapping mapping(const render::Camera &camera) const;
 
     Document &m_document;
     std::unique_ptr<ProjectionCanvas> m_canvas;

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/write_capture.h"
+
+#include <ctime>
+#include <vector>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <fmt/format.h>
+
+#include "core/dicom/dictionary.h"
+#include "core/dicom/write_dataset.h"
+
+namespace pellucid::dicom {
+
+namespace {
+
+std::string now(const char *format) {
+    const std::time_t time = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&time, &local);
+    char text[32] = {};
+    std::strftime(text, sizeof text, format, &local);
+    return text;
+}
+
+bool isGrey(std::span<const std::uint8_t> rgba) {
+    for (std::size_t n = 0; n + 3 < rgba.size(); n += 4)
+        if (rgba[n] != rgba[n + 1] || rgba[n] != rgba[n + 2])
+            return false;
+    return true;
+}
+
+// Even in length, as DICOM asks.
+std::vector<std::uint8_t> samples(std::span<const std::uint8_t> rgba, bool grey) {
+    std::vector<std::uint8_t> out;
+    out.reserve(rgba.size() + 1);
+    for (std::size_t n = 0; n + 3 < rgba.size(); n += 4) {
+        out.push_back(rgba[n]);
+        if (!grey)
+            out.insert(out.end(), {rgba[n + 1], rgba[n + 2]});
+    }
+    if (out.size() % 2 != 0)
+        out.push_back(0);
+    return out;
+}
+
+} // namespace
+
+CaptureLabels captureLabels(const Selection &s) {
+    CaptureLabels labels;
+    labels.studyUid = s.study->uid;
+    if (!s.volume->nrrd.empty())
+        return labels; // a file is nobody's
+    labels.patientId = s.patient->id;
+    labels.patientName = s.patient->name;
+    labels.birthDate = s.patient->birthDate;
+    labels.sex = s.patient->sex;
+    labels.studyDate = s.study->date;
+    labels.studyDescription = s.study->description;
+    return labels;
+}
+
+std::string newSeriesUid() {
+    return newUid(UidKind::series);
+}
+
+void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
+                  int width, const CaptureLabels &labels) {
+    prepareDcmtk();
+    const bool grey = isGrey(rgba);
+    DcmFileFormat file;
+    DcmDataset &d = *file.getDataset();
+    put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
+    put(d, DCM_ImageType, "DERIVED\\SECONDARY");
+    put(d, DCM_SOPClassUID, UID_SecondaryCaptureImageStorage);
+    put(d, DCM_SOPInstanceUID, newUid(UidKind::instance));
+    put(d, DCM_StudyDate, labels.studyDate);
+    put(d, DCM_StudyTime, "");
+    put(d, DCM_ContentDate, now("%Y%m%d"));
+    put(d, DCM_ContentTime, now("%H%M%S"));
+    put(d, DCM_AccessionNumber, "");
+    put(d, DCM_Modality, "OT");
+    put(d, DCM_ConversionType, "WSD");
+    put(d, DCM_Manufacturer, "Pellucid");
+    put(d, DCM_ReferringPhysicianName, "");
+    put(d, DCM_StudyDescription, labels.studyDescription);
+    put(d, DCM_SeriesDescription, labels.seriesDescription);
+    put(d, DCM_SecondaryCaptureDeviceManufacturer, "Pellucid");
+    put(d, DCM_DerivationDescription, "Fourier volume rendering, parallel projection");
+    put(d, DCM_PatientName, labels.patientName);
+    put(d, DCM_PatientID, labels.patientId);
+    put(d, DCM_PatientBirthDate, labels.birthDate);
+    put(d, DCM_PatientSex, labels.sex);
+    put(d, DCM_StudyInstanceUID,
+        labels.studyUid.empty() ? newUid(UidKind::study) : labels.studyUid);
+    put(d, DCM_SeriesInstanceUID, labels.seriesUid.empty() ? newSeriesUid() : labels.seriesUid);
+    put(d, DCM_StudyID, "");
+    put(d, DCM_SeriesNumber, std::to_string(labels.seriesNumber));
+    put(d, DCM_InstanceNumber, std::to_string(labels.instanceNumber));
+    put(d, DCM_PatientOrientation, labels.patientOrientation);
+    put(d, DCM_ImageComments, "Not for diagnostic use");
+    put(d, DCM_BurnedInAnnotation, "NO");
+    if (labels.pixelMm > 0.0)
+        put(d, DCM_PixelSpacing, decimals({labels.pixelMm, labels.pixelMm}));
+    d.putAndInsertUint16(DCM_SamplesPerPixel, grey ? 1 : 3);
+    put(d, DCM_PhotometricInterpretation, grey ? "MONOCHROME2" : "RGB");
+    if (!grey)
+        d.putAndInsertUint16(DCM_PlanarConfiguration, 0);
+    d.putAndInsertUint16(DCM_Rows, Uint16(height));
+    d.putAndInsertUint16(DCM_Columns, Uint16(width));
+    d.putAndInsertUint16(DCM_BitsAllocated, 8);
+    d.putAndInsertUint16(DCM_BitsStored, 8);
+    d.putAndInsertUint16(DCM_HighBit, 7);
+    d.putAndInsertUint16(DCM_PixelRepresentation, 0);
+    const std::vector<std::uint8_t> pixels = samples(rgba, grey);
+    d.putAndInsertUint8Array(DCM_PixelData, pixels.data(),
+                             static_cast<unsigned long>(pixels.size()));
+    writeDataset(file, EXS_LittleEndianExplicit, path);
+}
+
+} // namespace pellucid::dicom

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+
+class DcmDataset;
+class DcmFileFormat;
+class DcmTagKey;
+
+namespace pellucid::dicom {
+
+/// A number as a decimal string, which holds 16 characters at most; several with backslashes.
+std::string decimal(double value);
+std::string decimals(std::initializer_list<double> values);
+
+/// A new UID below this program's root.
+enum class UidKind { study, series, instance };
+std::string newUid(UidKind kind);
+
+/// *Throws* Error{internal} if the attribute does not take the value.
+void put(DcmDataset &dataset, const DcmTagKey &tag, const std::string &value);
+
+/// Writes a file in a transfer syntax (DCMTK's E_TransferSyntax) that its pixels already have; it
+/// appears only when complete. *Throws* Error{output}, when the disk is full too.
+void writeDataset(DcmFileFormat &file, int transferSyntax, const std::filesystem::path &path);
+
+} // namespace pellucid::dicom

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/write_dataset.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dcostrmb.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmdata/dcwcache.h>
+
+#include <fmt/format.h>
+
+#include "core/files/atomic_file.h"
+#include "core/task/error.h"
+
+namespace pellucid::dicom {
+
+using task::Error;
+using task::ErrorCode;
+
+std::string decimal(double value) {
+    for (int digits = 12; digits > 0; --digits) {
+        std::string text = fmt::format("{:.{}g}", value, digits);
+        if (text.size() <= 16)
+            return text;
+    }
+    return "0";
+}
+
+std::string decimals(std::initializer_list<double> values) {
+    std::string text;
+    for (const double v : values)
+        text += (text.empty() ? "" : "\\") + decimal(v);
+    return text;
+}
+
+std::string newUid(UidKind kind) {
+    std::array<char, 100> uid{};
+    return dcmGenerateUniqueIdentifier(uid.data(), kind == UidKind::study ? SITE_STUDY_UID_ROOT
+                                                   : kind == UidKind::series
+                                                       ? SITE_SERIES_UID_ROOT
+                                                       : SITE_INSTANCE_UID_ROOT);
+}
+
+void put(DcmDataset &dataset, const DcmTagKey &tag, const std::string &value) {
+    if (dataset.putAndInsertOFStringArray(tag, value.c_str()).bad())
+        throw Error(ErrorCode::internal, fmt::format("attribute ({:04x},{:04x}) cannot be set",
+                                                     tag.getGroup(), tag.getElement()));
+}
+
+// DCMTK's own file output does not notice a disk that fills at the last flush.
+void writeDataset(DcmFileFormat &file, int transferSyntax, const std::filesystem::path &path) {
+    files::AtomicFile target(path);
+    std::vector<std::byte> buffer(1 << 20);
+    DcmOutputBufferStream stream(buffer.data(), offile_off_t(buffer.size()));
+    DcmWriteCache cache;
+    const auto drain = [&] {
+        void *data = nullptr;
+        offile_off_t count = 0;
+        stream.flushBuffer(data, count);
+        target.write(std::span(static_cast<const std::byte *>(data), std::size_t(count)));
+        return count;
+    };
+    file.transferInit();
+    OFCondition written = EC_StreamNotifyClient;
+    while (written == EC_StreamNotifyClient) {
+        written = file.write(stream, E_TransferSyntax(transferSyntax), EET_ExplicitLength, &cache,
+                             EGL_recalcGL, EPD_noChange);
+        drain();
+    }
+    file.transferEnd();
+    if (written.bad())
+        throw Error(ErrorCode::output, std::string("cannot be encoded: ") + written.text(), path);
+    do // a deflating stream still holds its end back
+        stream.flush();
+    while (drain() > 0 || !stream.isFlushed());
+    target.commit();
+}
+
+} // namespace pellucid::dicom

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What leaves the workstation: pictures in every format, captures, turntables.
+#include "tests/ui/workstation.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProcess>
+#include <QPushButton>
+#include <QSpinBox>
+
+#include "core/volume/nrrd.h"
+#include "ui/video_writer.h"
+
+namespace pellucid {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+class ExportTest : public Workstation {
+    Q_OBJECT
+private slots:
+    void init() {
+        restart();
+        open(headPath());
+    }
+
+    void picturesAreExportedInEveryFormat() {
+        const QSize pane = projection()->size();
+        const QImage plain = exported("Projection", 0, 1, false);
+        QCOMPARE(plain.size(), pane);
+        // In a large pane a small volume is shown with fewer pixels than it is written with.
+        const QImage shown =
+            projection()->picture().scaled(pane, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+        QVERIFY(changed(plain, shown) < 0.02);
+        QCOMPARE(plain.text("Comment"), QString("Not for diagnostic use"));
+        const QImage annotated = exported("Projection", 0, 2, true);
+        QCOMPARE(annotated.size(), 2 * pane);
+        // Computed, not magnified: small it is the same, and it has the letters.
+        const QImage small =
+            annotated.scaled(pane, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+        QVERIFY(changed(small, plain) > 0.002 && changed(small, plain) < 0.1);
+        QVERIFY(colorfulness(annotated) > colorfulness(plain));
+        const QImage grey = exported("Projection", 1, 1, true);
+        QCOMPARE(grey.format(), QImage::Format_Grayscale16);
+        const QImage axial = exported("Axial", 0, 4, true);
+        QCOMPARE(axial.size(), 4 * find<QWidget>("axialView")->size());
+        if (const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS"); !folder.isEmpty()) {
+            QVERIFY(annotated.save(folder + "/exported_projection.png"));
+            QVERIFY(axial.save(folder + "/exported_axial.png"));
+        }
+        // The values of the file are those of the picture.
+        exported("Projection", 3, 1, false);
+        const volume::Volume values = volume::readNrrd(m_folder / "out.nrrd");
+        const render::ProjectionImage image =
+            projection()->pictureRenderer()(projection()->sceneOfPicture().camera);
+        QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));
+        QCOMPARE(float(values.value({100, 200, 0})),
+                 image.samples[200 * std::size_t(image.width) + 100]);
+    }
+
+    void whatCannotBeExportedIsSaid() {
+        find<QAction>("exportPictureAction")->trigger();
+        find<QComboBox>("exportPaneBox")->setCurrentText("Coronal");
+        find<QComboBox>("exportFormatBox")->setCurrentIndex(2);
+        QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
+        QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("projection only"));
+        find<QComboBox>("exportFormatBox")->setCurrentIndex(0);
+        find<QLineEdit>("exportPathEdit")->setText("/nowhere/at/all/x.png");
+        find<QPushButton>("exportWriteButton")->click();
+        QTRY_VERIFY(find<QLabel>("exportSaidLabel")->text().contains("cannot be written"));
+        QVERIFY(find<QDialog>("exportDialog")->isVisible());
+        QVERIFY(find<QPushButton>("exportWriteButton")->isEnabled());
+    }
+
+    void aCaptureBelongsToTheStudy() {
+        exported("Projection", 4, 1, true);
+        const QString file = QString::fromStdString((m_folder / "out.dcm").string());
+        QProcess dump;
+        dump.start("dcmdump", {"-q", file});
+        QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
+        const QString said = QString::fromUtf8(dump.readAll());
+        const ui::StudyFacts study = m_window->document().sources().at(0).study;
+        QVERIFY(said.contains("=SecondaryCaptureImageStorage"));
+        QVERIFY(said.contains("[" + study.uid + "]"));
+        QVERIFY(said.contains("[Secret^Name]"));
+        QVERIFY(said.contains("[L\\F]"));
+        QVERIFY(said.contains("RGB")); // letters are coloured
+        // Read by somebody else it is the picture.
+        const QString png = file + ".png";
+        QCOMPARE(QProcess::execute("dcm2pnm", {"+on", file, png}), 0);
+        const QImage back(png), direct = exported("Projection", 0, 1, true);
+        QCOMPARE(back.size(), direct.size());
+        QVERIFY(changed(back, direct) < 0.001);
+        // Without annotations it is grey, and of a plane as well.
+        exported("Axial", 4, 1, false);
+        dump.start("dcmdump", {"-q", "+P", "0028,0004", file});
+        QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
+        QVERIFY(dump.readAll().contains("MONOCHROME2"));
+    }
+
+    void aTurnIsWrittenAsFramesAndCancelledWithoutATrace() {
+        dialogFor("Projection", 5, 1, false);
+        find<QSpinBox>("exportFramesBox")->setValue(4);
+        finish();
+        for (int n = 0; n < 4; ++n)
+            QVERIFY(!frame(n).isNull());
+        QVERIFY(frame(4).isNull());
+        QVERIFY(changed(frame(0), exported("Projection", 0, 1, false)) == 0.0);
+        QVERIFY(changed(frame(0), frame(1)) > 0.05);
+        // Half a turn is the mirrored view: rays run both ways through the same.
+        QVERIFY(changed(frame(2), frame(0).mirrored(true, false)) < 0.02);
+        for (int n = 0; n < 4; ++n)
+            QFile::remove(framePath(n));
+        dialogFor("Projection", 5, 4, true);
+        find<QSpinBox>("exportFramesBox")->setValue(200);
+        find<QPushButton>("exportWriteButton")->click();
+        QTRY_VERIFY(QFile::exists(framePath(0)));
+        QTest::mouseClick(find<QPushButton>("exportCancel"), Qt::LeftButton);
+        QVERIFY(find<QDialog>("exportDialog")->isVisible());
+        QTRY_VERIFY_WITH_TIMEOUT(!QFile::exists(framePath(0)), patienceMs);
+        QVERIFY(find<QPushButton>("exportWriteButton")->isEnabled());
+        find<QDialog>("exportDialog")->close();
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    }
+
+    void aVideoNeedsItsProgramAndIsWrittenWhereItIs() {
+        dialogFor("Projection", 6, 1, true);
+        const QString path = find<QLineEdit>("exportPathEdit")->text();
+        if (!ui::VideoWriter::isAvailable()) {
+            QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
+            QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("ffmpeg"));
+            return;
+        }
+        find<QSpinBox>("exportFramesBox")->setValue(10);
+        finish();
+        QVERIFY(QFileInfo(path).size() > 2000);
+        QProcess probe;
+        probe.start("ffprobe", {"-v", "error", "-count_frames", "-show_entries",
+                                "stream=nb_read_frames,codec_name", path});
+        QVERIFY(probe.waitForFinished() && probe.exitCode() == 0);
+        const QByteArray said = probe.readAll();
+        QVERIFY(said.contains("h264") && said.contains("nb_read_frames=10"));
+        QVERIFY(QDir(QString::fromStdString(m_folder.path().string()))
+                    .entryList({".*part*"}, QDir::Hidden | QDir::Files)
+                    .isEmpty());
+    }
+
+private:
+    QString framePath(int n) {
+        return QString::fromStdString(
+            (m_folder / ("out_000" + std::to_string(n) + ".png")).string());
+    }
+    QImage frame(int n) { return QImage(framePath(n)); }
+
+    void dialogFor(const QString &pane, int format, int times, bool isAnnotated) {
+        find<QAction>("exportPictureAction")->trigger();
+        find<QComboBox>("exportPaneBox")->setCurrentText(pane);
+        find<QComboBox>("exportScaleBox")->setCurrentIndex(times - 1);
+        find<QCheckBox>("exportAnnotatedBox")->setChecked(isAnnotated);
+        auto *path = find<QLineEdit>("exportPathEdit");
+        path->setText(QString::fromStdString((m_folder / "out.png").string()));
+        find<QComboBox>("exportFormatBox")->setCurrentIndex(format);
+    }
+    // Written, and the dialog is gone.
+    void finish() {
+        find<QPushButton>("exportWriteButton")->click();
+        QTRY_VERIFY_WITH_TIMEOUT(m_window->findChild<QDialog *>("exportDialog") == nullptr,
+                                 patienceMs);
+    }
+    QImage exported(const QString &pane, int format, int times, bool isAnnotated) {
+        dialogFor(pane, format, times, isAnnotated);
+        const QString written = find<QLineEdit>("exportPathEdit")->text();
+        finish();
+        return QImage(written);
+    }
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::ExportTest>(argc, argv);
+}
+
+#include "export_test.moc"
