@@ -93,6 +93,20 @@ void Document::closeVolume() {
     emit volumeChanged();
 }
 
+void Document::announce() {
+    emit sourcesChanged();
+    emit problemsChanged();
+    emit currentSourceChanged();
+    if (!m_volume)
+        return;
+    emit volumeChanged();
+    emit sceneChanged();
+    emit displayWindowChanged();
+    emit crosshairChanged();
+    emit cutChanged();
+    emit measurementsChanged();
+}
+
 void Document::setCamera(const render::Camera &camera) {
     if (m_scene.camera == camera)
         return;

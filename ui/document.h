@@ -101,6 +101,9 @@ public:
 
     QUndoStack *undoStack() { return &m_undo; }
 
+    /// Tells everything anew, to a window that has just been made.
+    void announce();
+
 signals:
     void sourcesChanged();
     void currentSourceChanged();

@@ -5,32 +5,29 @@
 #include <QActionGroup>
 #include <QCloseEvent>
 #include <QComboBox>
-#include <QCoreApplication>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
-#include <QTextBrowser>
+#include <QTimer>
 #include <QToolBar>
 #include <QToolButton>
+#include <QUndoView>
 #include <QVBoxLayout>
 
-#include "core/task/error.h"
 #include "core/task/log.h"
 #include "ui/add_command.h"
-#include "ui/commands.h"
 #include "ui/dock.h"
 #include "ui/engine_menu.h"
-#include "ui/export_dialog.h"
-#include "ui/import_dialog.h"
+#include "ui/file_menu.h"
+#include "ui/help_menu.h"
+#include "ui/icons.h"
 #include "ui/look_docks.h"
 #include "ui/look_menu.h"
 #include "ui/panels/job_strip.h"
@@ -39,8 +36,10 @@
 #include "ui/panels/presets_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
+#include "ui/preferences_dialog.h"
 #include "ui/recent_paths.h"
-#include "ui/scene_files.h"
+#include "ui/session.h"
+#include "ui/shortcuts.h"
 #include "ui/study_beside.h"
 #include "ui/tools_menu.h"
 #include "ui/views/mpr_view.h"
@@ -50,44 +49,48 @@
 
 namespace pellucid::ui {
 
-MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, QWidget *parent)
-    : QMainWindow(parent), m_theme(theme), m_preparer(m_document, m_jobs), m_card(engine),
-      m_copier(m_document, m_jobs, m_card), m_opener(m_document, m_jobs, m_preparer),
-      m_phases(m_document, m_opener, m_jobs), m_store(m_document) {
+MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &preferences,
+                       QWidget *parent)
+    : QMainWindow(parent), m_bench(bench), m_theme(theme), m_preferences(preferences) {
+    const render::Camera camera = bench.document.scene().camera; // panes fit their own
     setObjectName("mainWindow");
-    setWindowTitle("Pellucid");
     setAcceptDrops(true);
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
     createPanes();
     createStudyDock();
     createMeasurementsDock();
-    m_look = new LookDocks(*this, m_document, m_preparer, m_copier, *m_projection, m_theme);
+    createHistoryDock();
+    m_look = new LookDocks(*this, m_bench.document, m_bench.preparer, m_bench.copier, *m_projection,
+                           m_theme);
     connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
     createFileMenu();
     createEditMenu();
     createViewMenu();
     auto *lookMenu =
-        new LookMenu(*menuBar()->addMenu(tr("&Look")), m_document, *m_look, *m_projection);
+        new LookMenu(*menuBar()->addMenu(tr("&Look")), m_bench.document, *m_look, *m_projection);
     m_windowMenu = &lookMenu->windowMenu();
-    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_document, m_mpr, *m_projection,
-                            m_phases);
+    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_bench.document, m_mpr,
+                            *m_projection, m_bench.phases);
     createHelpMenu();
+    giveIcons();
     createToolBar();
     createStatusBar();
-    connect(&m_document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
-    connect(&m_preparer, &LookPreparer::engineReady, &m_copier, &CardCopier::show);
-    connect(&m_copier, &CardCopier::engineReady, m_projection, &ProjectionView::setEngine);
-    connect(m_projection, &ProjectionView::cardFailed, &m_card, &GraphicsCard::giveUp);
-    connect(&m_card, &GraphicsCard::changed, this, [this] {
-        if (!m_document.volume())
-            m_engine->setText(m_card.description());
+    applyShortcuts(*this);
+    connect(&m_bench.document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
+    connect(&m_bench.copier, &CardCopier::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(m_projection, &ProjectionView::cardFailed, &m_bench.card, &GraphicsCard::giveUp);
+    connect(&m_bench.card, &GraphicsCard::changed, this, [this] {
+        if (!m_bench.document.volume())
+            m_engine->setText(m_bench.card.description());
     });
-    connect(&m_preparer, &LookPreparer::planChanged, m_projection, &ProjectionView::setPlanState);
-    connect(&m_opener, &StudyOpener::cameraKept, m_projection, &ProjectionView::adoptCamera);
-    connect(&m_opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
-    connect(&m_opener, &StudyOpener::notProjectable, m_projection, &ProjectionView::setMessage);
-    connect(&m_opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);
-    connect(&m_document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
+    connect(&m_bench.preparer, &LookPreparer::planChanged, m_projection,
+            &ProjectionView::setPlanState);
+    connect(&m_bench.opener, &StudyOpener::cameraKept, m_projection, &ProjectionView::adoptCamera);
+    connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
+    connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
+            &ProjectionView::setMessage);
+    connect(&m_bench.opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);
+    connect(&m_bench.document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
@@ -96,11 +99,11 @@ MainWindow::MainWindow(const Theme &theme, std::optional<EngineChoice> engine, Q
 
 MainWindow::~MainWindow() {
     // Work that still runs looks at the members.
-    m_jobs.join();
-    m_exports.join();
-    m_library.jobs().join();
-    delete m_beside;        // it looks at the open study
-    m_store.writePending(); // while somebody can say that it failed
+    m_bench.jobs.join();
+    m_bench.exports.join();
+    m_bench.library.jobs().join();
+    delete m_beside;                     // it looks at the open study
+    m_bench.measurements.writePending(); // while somebody can say that it failed
 }
 
 void MainWindow::createPanes() {
@@ -108,11 +111,11 @@ void MainWindow::createPanes() {
     std::size_t n = 0;
     for (const auto orientation :
          {mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal}) {
-        m_mpr[n] = new MprView(m_document, orientation);
+        m_mpr[n] = new MprView(m_bench.document, orientation);
         panes[n] = m_mpr[n];
         ++n;
     }
-    m_projection = new ProjectionView(m_document);
+    m_projection = new ProjectionView(m_bench.document);
     panes[3] = m_projection;
     m_panes = new PaneArea(panes);
     for (MprView *view : m_mpr)
@@ -120,12 +123,11 @@ void MainWindow::createPanes() {
     connect(m_projection, &ProjectionView::maximizeRequested, m_panes, &PaneArea::toggleMaximized);
 
     m_start = new StartPage;
-    connect(m_start, &StartPage::openFilesRequested, this, &MainWindow::chooseFiles);
-    connect(m_start, &StartPage::openFolderRequested, this, &MainWindow::chooseFolder);
     connect(m_start, &StartPage::phantomRequested, this, &MainWindow::openPhantom);
     connect(m_start, &StartPage::pathRequested, this,
             [this](const QString &path) { openPaths({path}); });
-    m_start->setRecentPaths(recentPaths());
+    connect(m_start, &StartPage::resumeRequested, this, &MainWindow::resumeSession);
+    showStart();
     m_stack = new QStackedWidget;
     m_stack->addWidget(m_start);
     auto *viewing = new QWidget;
@@ -149,52 +151,60 @@ void MainWindow::createPanes() {
     m_viewers->setChildrenCollapsible(false);
     m_viewers->addWidget(open);
     column->addWidget(m_viewers, 1);
-    column->addWidget(new PhaseBar(m_phases));
+    column->addWidget(new PhaseBar(m_bench.phases));
     m_stack->addWidget(viewing);
     setCentralWidget(m_stack);
 }
 
 void MainWindow::createStudyDock() {
-    m_studies = new StudyPanel(m_document, m_library, m_theme);
-    connect(m_studies, &StudyPanel::sourceActivated, &m_opener, &StudyOpener::openSource);
-    connect(m_studies, &StudyPanel::closeRequested, &m_opener, &StudyOpener::closeSource);
-    connect(m_studies, &StudyPanel::importRequested, this, &MainWindow::importPaths);
+    m_studies = new StudyPanel(m_bench.document, m_bench.library, m_theme);
+    connect(m_studies, &StudyPanel::sourceActivated, &m_bench.opener, &StudyOpener::openSource);
+    connect(m_studies, &StudyPanel::closeRequested, &m_bench.opener, &StudyOpener::closeSource);
     connect(m_studies, &StudyPanel::besideRequested, this, &MainWindow::openBeside);
     connect(m_studies, &StudyPanel::libraryVolumeActivated, this,
             [this](const StudyFacts &study, const VolumeFacts &volume) {
-                std::vector<VolumeFacts> series = m_library.volumes(study);
+                std::vector<VolumeFacts> series = m_bench.library.volumes(study);
                 std::erase_if(series, [&](const VolumeFacts &v) {
                     return v.seriesUid != volume.seriesUid || v.file != volume.file;
                 });
-                m_opener.openFromLibrary(study, series, volume.key(), m_library.files(volume));
+                m_bench.opener.openFromLibrary(study, series, volume.key(),
+                                               m_bench.library.files(volume));
             });
-    connect(&m_library, &StudyLibrary::failed, this, &MainWindow::report);
-    connect(&m_library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
-        m_document.clearProblems();
-        m_document.addProblems(result.skipped);
+    connect(&m_bench.library, &StudyLibrary::failed, this, &MainWindow::report);
+    connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
+        m_bench.document.clearProblems();
+        m_bench.document.addProblems(result.skipped);
         statusBar()->showMessage(tr("Imported: %1 series, %2 files; %3 not used")
                                      .arg(result.series)
                                      .arg(result.files)
                                      .arg(result.skipped.size()),
                                  8000);
     });
-    m_document.addProblems(m_library.notices());
     QDockWidget *dock = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
     m_studies->setMinimumWidth(250);
     addDockWidget(Qt::LeftDockWidgetArea, dock);
 }
 
 void MainWindow::createMeasurementsDock() {
-    m_measurements = new MeasurementsPanel(m_document);
-    connect(m_measurements, &MeasurementsPanel::exportRequested, this,
-            &MainWindow::exportMeasurements);
+    m_measurements = new MeasurementsPanel(m_bench.document);
     connect(m_measurements, &MeasurementsPanel::viewRequested, m_projection,
             &ProjectionView::lookAlong);
-    connect(&m_store, &MeasurementStore::failed, this, &MainWindow::report);
+    connect(&m_bench.measurements, &MeasurementStore::failed, this, &MainWindow::report);
     auto *dock =
         makeDock(tr("MEASUREMENTS"), "measurementsDock", m_measurements, m_measurements->corner());
     addDockWidget(Qt::LeftDockWidgetArea, dock);
     resizeDocks({findChild<QDockWidget *>("studyDock"), dock}, {700, 180}, Qt::Vertical);
+}
+
+void MainWindow::createHistoryDock() {
+    auto *history = new QUndoView(m_bench.document.undoStack());
+    history->setObjectName("historyView");
+    history->setAccessibleName(tr("History of edits"));
+    history->setToolTip(tr("A click goes back to how it was after that edit"));
+    history->setEmptyLabel(tr("As it was opened"));
+    QDockWidget *dock = makeDock(tr("HISTORY"), "historyDock", history, nullptr);
+    addDockWidget(Qt::LeftDockWidgetArea, dock);
+    dock->hide();
 }
 
 QAction *MainWindow::command(QMenu &menu, const QString &text, const char *name,
@@ -203,42 +213,36 @@ QAction *MainWindow::command(QMenu &menu, const QString &text, const char *name,
 }
 
 void MainWindow::createFileMenu() {
-    QMenu *menu = menuBar()->addMenu(tr("&File"));
-    command(*menu, tr("&Open files..."), "openFilesAction", QKeySequence::Open, [this] {
-        chooseFiles();
-    })->setIconText(tr("Open"));
-    command(*menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"),
-            [this] { chooseFolder(); });
-    command(*menu, tr("&Import into the library..."), "importAction", QKeySequence("Ctrl+I"),
-            [this] { importPaths({}); })
-        ->setIconText(tr("Import"));
-    QMenu *phantoms = menu->addMenu(tr("Open &phantom"));
-    command(*phantoms, tr("&Head"), "headPhantomAction", {}, [this] { openPhantom("head"); });
-    command(*phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { openPhantom("chest"); });
-    menu->addSeparator();
-    command(*menu, tr("Open &scene..."), "openSceneAction", {}, [this] { openScene(); });
-    command(*menu, tr("Save s&cene as..."), "saveSceneAction", {}, [this] { saveScene(); });
-    command(*menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] {
-        savePicture();
-    })->setIconText(tr("Picture"));
-    command(*menu, tr("&Export picture..."), "exportPictureAction", QKeySequence("Ctrl+E"),
-            [this] { exportPicture(); });
-    command(*menu, tr("Export &measurements..."), "exportMeasurementsAction", {},
-            [this] { exportMeasurements(); });
-    menu->addSeparator();
-    command(*menu, tr("&Forget recent studies"), "forgetRecentAction", {}, [this] {
+    m_file = new FileMenu(*menuBar()->addMenu(tr("&File")), *this, m_bench, {m_mpr, m_projection});
+    connect(m_file, &FileMenu::pathsChosen, this, &MainWindow::openPaths);
+    connect(m_file, &FileMenu::phantomChosen, this, &MainWindow::openPhantom);
+    connect(m_file, &FileMenu::failed, this, &MainWindow::report);
+    connect(m_file, &FileMenu::said, this,
+            [this](const QString &text) { statusBar()->showMessage(text, 4000); });
+    connect(m_file, &FileMenu::quitRequested, this, &QWidget::close);
+    connect(m_file, &FileMenu::recentForgotten, this, [this] {
         forgetRecentPaths();
-        m_start->setRecentPaths({});
+        keepSession(std::nullopt);
+        showStart();
     });
-    command(*menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { close(); });
+    connect(m_file, &FileMenu::preferencesRequested, this, [this] {
+        auto *dialog = new PreferencesDialog(this);
+        connect(dialog, &PreferencesDialog::changed, this, &MainWindow::preferencesChanged);
+        dialog->show();
+    });
+    connect(m_measurements, &MeasurementsPanel::exportRequested, m_file,
+            &FileMenu::exportMeasurements);
+    connect(m_studies, &StudyPanel::importRequested, m_file, &FileMenu::importPaths);
+    connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
+    connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
 }
 
 void MainWindow::createEditMenu() {
     QMenu *menu = menuBar()->addMenu(tr("&Edit"));
-    QAction *undo = m_document.undoStack()->createUndoAction(this, tr("Undo"));
+    QAction *undo = m_bench.document.undoStack()->createUndoAction(this, tr("Undo"));
     undo->setObjectName("undoAction");
     undo->setShortcut(QKeySequence::Undo);
-    QAction *redo = m_document.undoStack()->createRedoAction(this, tr("Redo"));
+    QAction *redo = m_bench.document.undoStack()->createRedoAction(this, tr("Redo"));
     redo->setObjectName("redoAction");
     redo->setShortcut(QKeySequence("Ctrl+Shift+Z"));
     menu->addActions({undo, redo});
@@ -274,10 +278,10 @@ void MainWindow::createViewMenu() {
         m_projection->resetView();
         for (MprView *view : m_mpr)
             view->resetView();
-        Cut cut = m_document.cut();
+        Cut cut = m_bench.document.cut();
         cut.axes = {};
-        m_document.setCut(cut);
-        m_document.centerCrosshair();
+        m_bench.document.setCut(cut);
+        m_bench.document.centerCrosshair();
     });
     QAction *about =
         command(*menu, tr("&Orbit about the crosshair"), "orbitCrosshairAction", QKeySequence("O"),
@@ -297,7 +301,7 @@ void MainWindow::createViewMenu() {
                                   QKeySequence("Ctrl+Shift+W"), [this] { closeBeside(); });
     closeBeside();
     command(*menu, tr("Prepare the projection a&gain"), "prepareAgainAction", QKeySequence("F5"),
-            [this] { m_preparer.prepareAgain(); });
+            [this] { m_bench.preparer.prepareAgain(); });
     menu->addSeparator();
     m_layouts = new QActionGroup(this);
     const auto layout = [&](const QString &text, const char *name, PaneLayout which) {
@@ -310,7 +314,7 @@ void MainWindow::createViewMenu() {
     layout(tr("1 + 3"), "onePlusThreeAction", PaneLayout::onePlusThree)->setChecked(true);
     layout(tr("2 x 2"), "twoByTwoAction", PaneLayout::twoByTwo);
     menu->addSeparator();
-    addEngineMenu(*menu->addMenu(tr("Projection &engine")), m_card);
+    addEngineMenu(*menu->addMenu(tr("Projection &engine")), m_bench.card);
     menu->addSeparator();
     QAction *full = command(*menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"),
                             [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
@@ -319,20 +323,22 @@ void MainWindow::createViewMenu() {
 
 void MainWindow::createHelpMenu() {
     QMenu *window = menuBar()->addMenu(tr("W&indow"));
-    for (const char *dock : {"studyDock", "measurementsDock"})
+    for (const char *dock : {"studyDock", "measurementsDock", "historyDock"})
         window->addAction(findChild<QDockWidget *>(dock)->toggleViewAction());
     for (QDockWidget *dock : m_look->docks())
         window->addAction(dock->toggleViewAction());
-    QMenu *menu = menuBar()->addMenu(tr("&Help"));
-    command(*menu, tr("&Manual"), "manualAction", QKeySequence("F1"), [this] { showManual(); });
-    command(*menu, tr("&About Pellucid"), "aboutAction", {}, [this] { showAbout(); });
+    addHelpMenu(*menuBar()->addMenu(tr("&Help")), *this);
 }
 
 void MainWindow::createToolBar() {
     QToolBar *bar = addToolBar(tr("Tools"));
     bar->setObjectName("toolBar");
     bar->setMovable(false);
-    bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    bar->setIconSize({20, 20});
+    bar->setToolButtonStyle(m_preferences.toolBar == ToolBarStyle::icons ? Qt::ToolButtonIconOnly
+                            : m_preferences.toolBar == ToolBarStyle::words
+                                ? Qt::ToolButtonTextOnly
+                                : Qt::ToolButtonTextBesideIcon);
     bar->addAction(findChild<QAction *>("openFilesAction"));
     bar->addAction(findChild<QAction *>("importAction"));
     bar->addSeparator();
@@ -341,6 +347,7 @@ void MainWindow::createToolBar() {
     bar->addActions(m_layouts->actions());
     bar->addSeparator();
     bar->addAction(findChild<QAction *>("savePictureAction"));
+    bar->addAction(findChild<QAction *>("exportPictureAction"));
     auto *space = new QWidget;
     space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
     bar->addWidget(space);
@@ -350,7 +357,41 @@ void MainWindow::createToolBar() {
     windowBox->setToolTip(tr("Window of the planes: width / center (keys 0 to 5)"));
     windowBox->setMinimumWidth(230);
     bar->addWidget(windowBox);
-    new WindowChooser(m_document, *m_windowMenu, *windowBox);
+    new WindowChooser(m_bench.document, *m_windowMenu, *windowBox);
+}
+
+void MainWindow::giveIcons() {
+    const struct {
+        const char *action, *icon;
+    } icons[] = {{"openFilesAction", "open"},
+                 {"importAction", "import"},
+                 {"savePictureAction", "picture"},
+                 {"exportPictureAction", "export"},
+                 {"preferencesAction", "preferences"},
+                 {"undoAction", "undo"},
+                 {"redoAction", "redo"},
+                 {"findStudyAction", "search"},
+                 {"windowToolAction", "window"},
+                 {"panToolAction", "pan"},
+                 {"zoomToolAction", "zoom"},
+                 {"crosshairToolAction", "crosshair"},
+                 {"slabAction", "slab"},
+                 {"distanceToolAction", "distance"},
+                 {"angleToolAction", "angle"},
+                 {"ellipseToolAction", "ellipse"},
+                 {"rectangleToolAction", "rectangle"},
+                 {"cropToolAction", "crop"},
+                 {"playAction", "play"},
+                 {"onePlusThreeAction", "one-plus-three"},
+                 {"twoByTwoAction", "two-by-two"},
+                 {"linkStudiesAction", "link"},
+                 {"manualAction", "manual"}};
+    for (const auto &[action, icon] : icons) {
+        QAction *const found = findChild<QAction *>(action);
+        found->setIcon(themedIcon(icon, m_theme));
+        // Menus stay words; the same drawings beside them would be noise.
+        found->setIconVisibleInMenu(false);
+    }
 }
 
 void MainWindow::createStatusBar() {
@@ -361,16 +402,16 @@ void MainWindow::createStatusBar() {
     m_engine->setObjectName("engineLabel");
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_readout);
-    statusBar()->addWidget(new JobStrip(m_jobs, "job"));
+    statusBar()->addWidget(new JobStrip(m_bench.jobs, "job"));
     statusBar()->addPermanentWidget(m_engine);
-    connect(&m_jobs, &JobRunner::started, m_projection, &ProjectionView::jobStarted);
-    connect(&m_jobs, &JobRunner::finished, this, [this] {
+    connect(&m_bench.jobs, &JobRunner::started, m_projection, &ProjectionView::jobStarted);
+    connect(&m_bench.jobs, &JobRunner::finished, this, [this] {
         m_projection->jobEnded();
         // A load that was cancelled leaves nothing selected.
-        if (!m_document.volume())
-            m_document.setCurrentSource(-1);
+        if (!m_bench.document.volume())
+            m_bench.document.setCurrentSource(-1);
     });
-    connect(&m_jobs, &JobRunner::failed, this, &MainWindow::report);
+    connect(&m_bench.jobs, &JobRunner::failed, this, &MainWindow::report);
     connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
         if (text != m_engine->text())
             task::log(text.toStdString());
@@ -378,12 +419,13 @@ void MainWindow::createStatusBar() {
     });
     for (MprView *view : m_mpr)
         connect(view, &MprView::readoutChanged, m_readout, &QLabel::setText);
-    m_engine->setText(m_card.description());
+    m_engine->setText(m_bench.card.description());
 }
 
 void MainWindow::showVolumeState() {
     showHeading();
-    m_stack->setCurrentWidget(m_document.volume() || m_document.currentSource() >= 0
+    showTitle();
+    m_stack->setCurrentWidget(m_bench.document.volume() || m_bench.document.currentSource() >= 0
                                   ? m_viewers->parentWidget()
                                   : m_start);
 }
@@ -393,126 +435,53 @@ void MainWindow::openPaths(const QStringList &paths) {
     QStringList absolute;
     for (const QString &path : paths)
         absolute << QFileInfo(path).absoluteFilePath();
-    m_opener.openPaths(absolute);
+    m_bench.opener.openPaths(absolute);
+}
+
+void MainWindow::showStart() {
+    const bool remembers = m_preferences.remembersStudies;
+    m_start->setRecentPaths(remembers ? recentPaths() : QStringList());
+    m_start->setOffersResuming(remembers && keptSession().has_value());
+}
+
+void MainWindow::resumeSession() {
+    if (const auto session = keptSession())
+        resume(*session, m_bench.opener);
+}
+
+void MainWindow::setPreferences(const Preferences &preferences) {
+    m_preferences = preferences;
+    showStart();
+    showTitle();
+}
+
+// A name only where its owner asked for it.
+void MainWindow::showTitle() {
+    const int open = m_bench.document.currentSource();
+    setWindowTitle(m_preferences.showsPatientInTitle && open >= 0
+                       ? patientText(m_bench.document.sources()[std::size_t(open)].study) +
+                             " - Pellucid"
+                       : QString("Pellucid"));
 }
 
 void MainWindow::openPhantom(const QString &kind) {
-    m_opener.openPhantom(kind);
-}
-
-void MainWindow::importPaths(const QStringList &paths) {
-    auto *dialog = new ImportDialog(paths, this);
-    connect(dialog, &ImportDialog::chosen, &m_library, &StudyLibrary::import);
-    dialog->open();
+    m_bench.opener.openPhantom(kind);
 }
 
 void MainWindow::remember(const QStringList &paths) {
-    addRecentPaths(paths);
-    m_start->setRecentPaths(recentPaths());
+    if (m_preferences.remembersStudies)
+        addRecentPaths(paths);
+    showStart();
 }
 
 void MainWindow::report(const QString &what, const QString &path) {
-    m_document.addProblems({{path.toStdString(), what.toStdString()}});
+    m_bench.document.addProblems({{path.toStdString(), what.toStdString()}});
     // The window stays usable: what was open stays, or the start page is there again.
-    if (!m_document.volume())
-        m_document.setCurrentSource(-1);
+    if (!m_bench.document.volume())
+        m_bench.document.setCurrentSource(-1);
     else
         m_projection->setMessage(what);
     statusBar()->showMessage(what, 8000);
-}
-
-void MainWindow::attempt(const std::function<void()> &what) {
-    try {
-        what();
-    } catch (const task::Error &error) {
-        report(QString::fromStdString(error.reason()),
-               QString::fromStdString(error.path().string()));
-    }
-}
-
-void MainWindow::chooseFiles() {
-    openPaths(QFileDialog::getOpenFileNames(this, tr("Open files")));
-}
-
-void MainWindow::chooseFolder() {
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Open folder"));
-    if (!folder.isEmpty())
-        openPaths({folder});
-}
-
-void MainWindow::savePicture() {
-    attempt([&] {
-        const QImage picture = m_projection->picture();
-        if (picture.isNull()) {
-            statusBar()->showMessage(tr("There is no projection to save yet"), 4000);
-            return;
-        }
-        const QString path = QFileDialog::getSaveFileName(
-            this, tr("Save picture"), "projection.png", tr("PNG image (*.png)"));
-        if (!path.isEmpty())
-            writePictureFile(path, picture);
-    });
-}
-
-void MainWindow::exportPicture() {
-    // Beside the window, which goes on: it may be turned to what is to be written.
-    (new ExportDialog(m_document, {m_mpr, m_projection}, m_exports, this))->show();
-}
-
-void MainWindow::exportMeasurements() {
-    if (m_document.measured().empty()) {
-        statusBar()->showMessage(tr("There are no measurements to export yet"), 4000);
-        return;
-    }
-    const QString path = QFileDialog::getSaveFileName(this, tr("Export measurements"),
-                                                      "measurements.csv", tr("Table (*.csv)"));
-    if (!path.isEmpty())
-        attempt([&] { m_store.exportTable(path); });
-}
-
-void MainWindow::saveScene() {
-    if (!m_projection->showsWhatIsAskedFor()) {
-        statusBar()->showMessage(tr("There is no projection of this scene yet"), 4000);
-        return;
-    }
-    const QString path =
-        QFileDialog::getSaveFileName(this, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
-    if (path.isEmpty())
-        return;
-    attempt([&] { writeSceneFile(path, m_projection->sceneOfPicture()); });
-}
-
-void MainWindow::openScene() {
-    const QString path =
-        QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scene (*.json)"));
-    if (path.isEmpty())
-        return;
-    attempt([&] {
-        render::Scene scene = readSceneFile(path);
-        scene.plannedFor = {}; // the window plans for the volume, whatever a file says
-        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Open scene")));
-        m_projection->adoptCamera(scene.camera);
-    });
-}
-
-void MainWindow::showManual() {
-    // Beside the window, not over it: people read and try.
-    auto *manual = new QTextBrowser;
-    manual->setObjectName("manual");
-    manual->setAttribute(Qt::WA_DeleteOnClose);
-    manual->setWindowTitle(tr("Pellucid manual"));
-    manual->setSource(QUrl("qrc:/pellucid/manual/manual.html"));
-    manual->resize(640, 760);
-    manual->show();
-}
-
-void MainWindow::showAbout() {
-    QMessageBox::about(
-        this, tr("About Pellucid"),
-        tr("<b>Pellucid %1</b><br>Projections of DICOM studies in the frequency domain.<br><br>"
-           "<b>Not for diagnostic use.</b><br><br>GPL-3.0-or-later. Built on Qt %2, DCMTK, "
-           "OpenJPEG, FFTW, GLM, oneTBB, libepoxy.")
-            .arg(QCoreApplication::applicationVersion(), qVersion()));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent *event) {
@@ -538,7 +507,7 @@ void MainWindow::compareLooks(bool isComparing) {
 
 void MainWindow::openBeside(const StudySource &source) {
     if (m_beside == nullptr) {
-        m_beside = new StudyBeside({m_document, m_mpr, m_projection, m_panes}, m_card);
+        m_beside = new StudyBeside({m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
         m_viewers->addWidget(m_beside);
         m_viewers->setSizes({1, 1});
         m_beside->setTool(m_tools->tool());
@@ -567,15 +536,15 @@ void MainWindow::closeBeside() {
 
 // Which is which is asked only where there are two.
 void MainWindow::showHeading() {
-    const int open = m_document.currentSource();
+    const int open = m_bench.document.currentSource();
     m_heading->setVisible(m_beside != nullptr && open >= 0);
     if (open >= 0)
-        m_heading->setText(headingText(m_document.sources()[std::size_t(open)]));
+        m_heading->setText(headingText(m_bench.document.sources()[std::size_t(open)]));
 }
 
 void MainWindow::keyPressEvent(QKeyEvent *event) {
-    if (event->key() == Qt::Key_Escape && m_jobs.isRunning())
-        m_jobs.cancel();
+    if (event->key() == Qt::Key_Escape && m_bench.jobs.isRunning())
+        m_bench.jobs.cancel();
     else if (event->key() == Qt::Key_Q && event->modifiers() == Qt::NoModifier) {
         if (!event->isAutoRepeat()) // held: side by side till it is let go
             compareLooks(true);
@@ -597,11 +566,15 @@ void MainWindow::changeEvent(QEvent *event) {
     QMainWindow::changeEvent(event);
 }
 
-void MainWindow::closeEvent(QCloseEvent *event) {
+void MainWindow::keepLayout() {
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("windowState", saveState());
-    m_jobs.cancel();
+}
+
+void MainWindow::closeEvent(QCloseEvent *event) {
+    keepLayout();
+    m_bench.jobs.cancel();
     QMainWindow::closeEvent(event);
 }
 

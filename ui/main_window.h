@@ -6,16 +6,9 @@
 
 #include <QMainWindow>
 
-#include "ui/card_copier.h"
-#include "ui/document.h"
-#include "ui/graphics_card.h"
-#include "ui/job_runner.h"
-#include "ui/library/study_library.h"
-#include "ui/look_preparer.h"
-#include "ui/measurement_store.h"
-#include "ui/phases.h"
-#include "ui/study_opener.h"
+#include "ui/preferences.h"
 #include "ui/theme.h"
+#include "ui/workbench.h"
 
 class QActionGroup;
 class QLabel;
@@ -24,6 +17,7 @@ class QStackedWidget;
 
 namespace pellucid::ui {
 
+class FileMenu;
 class LookDocks;
 class MeasurementsPanel;
 class MprView;
@@ -34,24 +28,32 @@ class StudyBeside;
 class StudyPanel;
 class ToolsMenu;
 
-/// The workstation's window: creates the panes and docks, names the menus, connects intents.
+/// The workstation's window: creates the panes and docks, names the menus, connects intents. It
+/// shows what is on the bench, also what was open before it was made.
 class MainWindow : public QMainWindow {
     Q_OBJECT
 public:
-    /// `engine`: of this run alone; else what was chosen before.
-    explicit MainWindow(const Theme &theme, std::optional<EngineChoice> engine = std::nullopt,
-                        QWidget *parent = nullptr);
+    MainWindow(Workbench &bench, const Theme &theme, const Preferences &preferences = {},
+               QWidget *parent = nullptr);
     ~MainWindow() override;
 
     void openPaths(const QStringList &paths);
     void openPhantom(const QString &kind);
-    /// Asks how, and for what is to be imported if there are no paths.
-    void importPaths(const QStringList &paths);
+    /// What was open when the program ended.
+    void resumeSession();
+    /// Those that need no new window.
+    void setPreferences(const Preferences &preferences);
+    /// Sizes and places of window and docks.
+    void keepLayout();
 
-    Document &document() { return m_document; }
-    JobRunner &jobs() { return m_jobs; }
-    StudyLibrary &library() { return m_library; }
-    GraphicsCard &graphicsCard() { return m_card; }
+    Document &document() { return m_bench.document; }
+    JobRunner &jobs() { return m_bench.jobs; }
+    StudyLibrary &library() { return m_bench.library; }
+    GraphicsCard &graphicsCard() { return m_bench.card; }
+    FileMenu &fileMenu() { return *m_file; }
+
+signals:
+    void preferencesChanged(const pellucid::ui::Preferences &preferences);
 
 protected:
     void dragEnterEvent(QDragEnterEvent *event) override;
@@ -65,10 +67,12 @@ private:
     void createPanes();
     void createStudyDock();
     void createMeasurementsDock();
+    void createHistoryDock();
     void createFileMenu();
     void createEditMenu();
     void createViewMenu();
     void createHelpMenu();
+    void giveIcons();
     void createToolBar();
     void createStatusBar();
     void showVolumeState();
@@ -76,32 +80,17 @@ private:
     void openBeside(const StudySource &source);
     void closeBeside();
     void showHeading();
-    void chooseFiles();
-    void chooseFolder();
-    void savePicture();
-    void exportPicture();
-    void exportMeasurements();
-    void saveScene();
-    void openScene();
-    void showManual();
-    void showAbout();
+    void showStart();
+    void showTitle();
     void remember(const QStringList &paths);
     void report(const QString &what, const QString &path);
-    /// Runs it and reports what it throws.
-    void attempt(const std::function<void()> &what);
     QAction *command(QMenu &menu, const QString &text, const char *name, const QKeySequence &key,
                      const std::function<void()> &run);
 
+    Workbench &m_bench;
     Theme m_theme;
-    Document m_document;
-    JobRunner m_jobs, m_exports;
-    StudyLibrary m_library;
-    LookPreparer m_preparer;
-    GraphicsCard m_card;
-    CardCopier m_copier;
-    StudyOpener m_opener;
-    Phases m_phases;
-    MeasurementStore m_store;
+    Preferences m_preferences;
+    FileMenu *m_file = nullptr;
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;
     LookDocks *m_look = nullptr;

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include <QCryptographicHash>
 #include <QFile>
 
 #include "core/files/atomic_file.h"
@@ -45,11 +44,8 @@ std::optional<fs::path> MeasurementStore::file() const {
     const int source = m_document.currentSource();
     if (!folder || source < 0)
         return std::nullopt;
-    // No name of a patient in the name of a file.
-    const QByteArray key = m_document.sources()[std::size_t(source)].key().toUtf8();
-    return *folder / "measurements" /
-           (QCryptographicHash::hash(key, QCryptographicHash::Sha256).toHex().toStdString() +
-            ".json");
+    const QString digest = m_document.sources()[std::size_t(source)].digest();
+    return *folder / "measurements" / (digest.toStdString() + ".json");
 }
 
 void MeasurementStore::load() {

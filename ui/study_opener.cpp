@@ -105,10 +105,28 @@ void StudyOpener::openPaths(const QStringList &paths) {
                 m_kept.take(index);
             emit pathsOpened(paths);
             endScan();
-            openSource(indices[defaultSource(*catalogue)]);
+            openSource(wantedOf(indices, indices[defaultSource(*catalogue)]));
         });
     });
     m_preparer.setHeld(true);
+}
+
+int StudyOpener::wantedOf(const std::vector<int> &indices, int usual) const {
+    if (m_resumption)
+        for (const int index : indices)
+            if (m_document.sources()[std::size_t(index)].digest() == m_resumption->digest)
+                return index;
+    return usual;
+}
+
+void StudyOpener::takeUp() {
+    if (!m_resumption)
+        return;
+    const Resumption resumption = *m_resumption;
+    m_resumption.reset();
+    const StudySource &open = m_document.sources()[std::size_t(m_document.currentSource())];
+    if (open.digest() == resumption.digest)
+        goOn(resumption.shown);
 }
 
 void StudyOpener::openPhantom(const QString &kind) {
@@ -139,7 +157,7 @@ void StudyOpener::closeSource(int index) {
     m_document.closeSource(index);
 }
 
-StudyOpener::Continuity StudyOpener::leavePhase(int next) {
+Continuity StudyOpener::leavePhase(int next) {
     Continuity stays{m_document.scene(), m_document.displayWindow(), m_document.crosshair(),
                      m_document.cut()};
     // A volume's own window would differ from phase to phase.
@@ -221,6 +239,7 @@ void StudyOpener::openSource(int index) {
             job.deliver([this, loaded, window, field] {
                 m_document.addProblems(loaded.skipped);
                 m_document.setVolume(loaded.volume, window, field, false);
+                takeUp();
                 // The quality may have been changed while the volume came.
                 m_preparer.prepareAgain();
             });

@@ -14,6 +14,14 @@ namespace pellucid::ui {
 
 class JobRunner;
 
+/// How a volume is looked at, as far as it holds for another one too.
+struct Continuity {
+    render::Scene scene;
+    volume::ValueWindow displayWindow;
+    volume::PatientPoint crosshair;
+    Cut cut;
+};
+
 /// The way from a path to a turning picture, as jobs: scan, choose, load with previews, and have
 /// the projection prepared.
 class StudyOpener : public QObject {
@@ -30,6 +38,12 @@ public:
     /// *Shape*: `series`: all volumes of it; `volume`: the one that is opened.
     void openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
                          const QString &volume, const std::vector<dicom::InstanceFile> &files);
+    /// What is opened next is looked at like this, if it is that source.
+    struct Resumption {
+        QString digest; ///< of the source
+        Continuity shown;
+    };
+    void resumeWith(const Resumption &resumption) { m_resumption = resumption; }
     /// Takes it off the list; if it is the open one, nothing is open then.
     void closeSource(int index);
 
@@ -44,14 +58,10 @@ signals:
     void notProjectable(const QString &reason);
 
 private:
-    /// What stays from phase to phase.
-    struct Continuity {
-        render::Scene scene;
-        volume::ValueWindow displayWindow;
-        volume::PatientPoint crosshair;
-        Cut cut;
-    };
     void endScan();
+    /// The one that is to be resumed, or else the usual one.
+    int wantedOf(const std::vector<int> &indices, int usual) const;
+    void takeUp();
     void keepCurrent();
     Continuity leavePhase(int next);
     void goOn(const Continuity &continuity);
@@ -61,6 +71,7 @@ private:
     JobRunner &m_jobs;
     LookPreparer &m_preparer;
     KeptStudies m_kept;
+    std::optional<Resumption> m_resumption;
 };
 
 } // namespace pellucid::ui

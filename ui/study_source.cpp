@@ -2,6 +2,7 @@
 #include "ui/study_source.h"
 
 #include <QCoreApplication>
+#include <QCryptographicHash>
 
 #include "core/dicom/scan.h"
 #include "core/phantom/phantom.h"
@@ -58,6 +59,10 @@ dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
 
 } // namespace
 
+QString StudySource::digest() const {
+    return QCryptographicHash::hash(key().toUtf8(), QCryptographicHash::Sha256).toHex();
+}
+
 std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogue> &catalogue) {
     std::vector<StudySource> sources;
     for (const dicom::Selection &s : dicom::selections(*catalogue)) {
@@ -104,6 +109,7 @@ StudySource phantomSource(const QString &name) {
     const phantom::Kind kind = phantom::kindFromName(name.toStdString());
     const volume::Lattice lattice = phantom::phantomLattice(kind, {});
     StudySource source;
+    source.phantom = name;
     source.study.patientId = "phantoms";
     source.study.patientName = tr("Phantoms");
     source.study.description = tr("Made by Pellucid");

@@ -17,8 +17,9 @@ namespace pellucid::ui {
 struct StudySource {
     StudyFacts study;
     VolumeFacts volume;
-    /// Of its series.
+    /// Of its series; a phantom has a name instead.
     QStringList files;
+    QString phantom;
     /// Thread-safe; see dicom::loadVolume.
     std::function<dicom::LoadedVolume(const task::Progress &, const dicom::LoadObserver &)> load;
     /// Thread-safe; for volumes whose facts have none.
@@ -28,6 +29,8 @@ struct StudySource {
 
     /// What tells it from every other.
     QString key() const { return study.key() + "\n" + volume.key(); }
+    /// The same without names in it, for files.
+    QString digest() const;
 };
 
 /// One source per volume of a catalogue.

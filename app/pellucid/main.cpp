@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 #include <QApplication>
-#include <QSettings>
 #include <QSurfaceFormat>
 
 #include <CLI/CLI.hpp>
@@ -17,7 +16,7 @@
 #include "core/task/log.h"
 #include "ui/graphics_card.h"
 #include "ui/main_window.h"
-#include "ui/theme.h"
+#include "ui/workstation.h"
 
 int main(int argc, char **argv) {
     using namespace pellucid;
@@ -86,15 +85,14 @@ int main(int argc, char **argv) {
                  : engine == "cpu" ? ui::EngineChoice::processor
                                    : ui::EngineChoice::automatic;
     try {
-        const ui::Theme theme = ui::Theme::named(QSettings().value("theme", "dark").toString());
-        theme.apply(application);
-        ui::MainWindow window(theme, choice);
-        window.show();
+        ui::Workstation workstation(choice);
         QStringList files;
         for (const std::string &path : paths)
             files << QString::fromStdString(path);
         if (!files.isEmpty())
-            window.openPaths(files);
+            workstation.window().openPaths(files);
+        else if (ui::Preferences::load().resumesAtStart)
+            workstation.window().resumeSession();
         return QApplication::exec();
     } catch (const task::Error &error) {
         std::fprintf(stderr, "pellucid: %s\n", error.what());

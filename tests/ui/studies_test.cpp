@@ -16,6 +16,7 @@
 #include <QToolButton>
 #include <QTreeView>
 
+#include "ui/file_menu.h"
 #include "ui/library/study_list.h"
 #include "ui/study_beside.h"
 
@@ -334,7 +335,7 @@ private:
     }
 
     void import(const fs::path &path, bool copies) {
-        m_window->importPaths({QString::fromStdString(path.string())});
+        m_window->fileMenu().importPaths({QString::fromStdString(path.string())});
         QTRY_VERIFY(dialog("importDialog") != nullptr);
         acceptImport(copies);
     }

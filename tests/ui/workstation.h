@@ -133,13 +133,18 @@ protected slots:
     }
 
     void init() { restart(); }
-    void cleanup() { m_window.reset(); }
+    void cleanup() {
+        m_window.reset();
+        m_bench.reset();
+    }
 
 protected:
     // As if the program had ended and been started again.
     void restart() {
         m_window.reset();
-        m_window = std::make_unique<ui::MainWindow>(ui::Theme::named("dark"));
+        m_bench.reset();
+        m_bench = std::make_unique<ui::Workbench>();
+        m_window = std::make_unique<ui::MainWindow>(*m_bench, ui::Theme::named("dark"));
         m_window->resize(1600, 1000);
         m_window->show();
         m_window->activateWindow();
@@ -178,6 +183,7 @@ protected:
     }
 
     test::TemporaryFolder m_folder;
+    std::unique_ptr<ui::Workbench> m_bench;
     std::unique_ptr<ui::MainWindow> m_window;
 };
 

@@ -20,7 +20,10 @@ QPushButton *button(const QString &text, const char *name, const QString &tip) {
 
 } // namespace
 
-StartPage::StartPage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxLayout) {
+StartPage::StartPage(QWidget *parent)
+    : QWidget(parent), m_resume(button(tr("Go on where you ended"), "resumeButton",
+                                       tr("The study that was open last, as it was looked at"))),
+      m_recent(new QVBoxLayout) {
     setObjectName("startPage");
     setAttribute(Qt::WA_StyledBackground);
     auto *title = new QLabel(tr("Open a study"));
@@ -46,6 +49,7 @@ StartPage::StartPage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxLayou
     };
     add(title, 0);
     add(hint, 0);
+    add(m_resume, 12);
     add(files, 12);
     add(folder, 0);
     add(phantomTitle, 16);
@@ -54,10 +58,16 @@ StartPage::StartPage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxLayou
     layout->addSpacing(16);
     layout->addLayout(m_recent);
     layout->addStretch(3);
+    m_resume->hide();
+    connect(m_resume, &QPushButton::clicked, this, &StartPage::resumeRequested);
     connect(files, &QPushButton::clicked, this, &StartPage::openFilesRequested);
     connect(folder, &QPushButton::clicked, this, &StartPage::openFolderRequested);
     connect(head, &QPushButton::clicked, this, [this] { emit phantomRequested("head"); });
     connect(chest, &QPushButton::clicked, this, [this] { emit phantomRequested("chest"); });
+}
+
+void StartPage::setOffersResuming(bool offers) {
+    m_resume->setVisible(offers);
 }
 
 void StartPage::setRecentPaths(const QStringList &paths) {

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+class QPushButton;
 class QVBoxLayout;
 
 namespace pellucid::ui {
@@ -14,14 +15,18 @@ public:
     explicit StartPage(QWidget *parent = nullptr);
 
     void setRecentPaths(const QStringList &paths);
+    /// What was open when the program ended is there to be taken up.
+    void setOffersResuming(bool offers);
 
 signals:
     void openFilesRequested();
     void openFolderRequested();
     void phantomRequested(const QString &kind);
     void pathRequested(const QString &path);
+    void resumeRequested();
 
 private:
+    QPushButton *m_resume;
     QVBoxLayout *m_recent;
 };
 

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/file_menu.h"
+
+#include <QAction>
+#include <QFileDialog>
+#include <QMenu>
+
+#include "core/task/error.h"
+#include "ui/add_command.h"
+#include "ui/commands.h"
+#include "ui/export_dialog.h"
+#include "ui/import_dialog.h"
+#include "ui/scene_files.h"
+#include "ui/views/projection_view.h"
+#include "ui/workbench.h"
+
+namespace pellucid::ui {
+
+FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &panes)
+    : QObject(&menu), m_window(window), m_bench(bench), m_panes(panes) {
+    const auto add = [&](QMenu &to, const QString &text, const char *name, const QKeySequence &key,
+                         const std::function<void()> &run) {
+        return addCommand(to, text, name, key, this, run);
+    };
+    add(menu, tr("&Open files..."), "openFilesAction", QKeySequence::Open, [this] {
+        chooseFiles();
+    })->setIconText(tr("Open"));
+    add(menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"),
+        [this] { chooseFolder(); });
+    add(menu, tr("&Import into the library..."), "importAction", QKeySequence("Ctrl+I"), [this] {
+        importPaths({});
+    })->setIconText(tr("Import"));
+    QMenu *phantoms = menu.addMenu(tr("Open &phantom"));
+    add(*phantoms, tr("&Head"), "headPhantomAction", {}, [this] { emit phantomChosen("head"); });
+    add(*phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { emit phantomChosen("chest"); });
+    menu.addSeparator();
+    add(menu, tr("Open &scene..."), "openSceneAction", {}, [this] { openScene(); });
+    add(menu, tr("Save s&cene as..."), "saveSceneAction", {}, [this] { saveScene(); });
+    add(menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] {
+        savePicture();
+    })->setIconText(tr("Picture"));
+    add(menu, tr("&Export picture..."), "exportPictureAction", QKeySequence("Ctrl+E"), [this] {
+        exportPicture();
+    })->setIconText(tr("Export"));
+    add(menu, tr("Export &measurements..."), "exportMeasurementsAction", {},
+        [this] { exportMeasurements(); });
+    menu.addSeparator();
+    add(menu, tr("P&references..."), "preferencesAction", QKeySequence("Ctrl+,"),
+        [this] { emit preferencesRequested(); });
+    add(menu, tr("For&get recent studies"), "forgetRecentAction", {},
+        [this] { emit recentForgotten(); });
+    add(menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { emit quitRequested(); });
+}
+
+void FileMenu::attempt(const std::function<void()> &what) {
+    try {
+        what();
+    } catch (const task::Error &error) {
+        emit failed(QString::fromStdString(error.reason()),
+                    QString::fromStdString(error.path().string()));
+    }
+}
+
+void FileMenu::chooseFiles() {
+    emit pathsChosen(QFileDialog::getOpenFileNames(&m_window, tr("Open files")));
+}
+
+void FileMenu::chooseFolder() {
+    const QString folder = QFileDialog::getExistingDirectory(&m_window, tr("Open folder"));
+    if (!folder.isEmpty())
+        emit pathsChosen({folder});
+}
+
+void FileMenu::importPaths(const QStringList &paths) {
+    auto *dialog = new ImportDialog(paths, &m_window);
+    connect(dialog, &ImportDialog::chosen, &m_bench.library, &StudyLibrary::import);
+    dialog->open();
+}
+
+void FileMenu::savePicture() {
+    attempt([&] {
+        const QImage picture = m_panes.projection->picture();
+        if (picture.isNull()) {
+            emit said(tr("There is no projection to save yet"));
+            return;
+        }
+        const QString path = QFileDialog::getSaveFileName(
+            &m_window, tr("Save picture"), "projection.png", tr("PNG image (*.png)"));
+        if (!path.isEmpty())
+            writePictureFile(path, picture);
+    });
+}
+
+void FileMenu::exportPicture() {
+    // Beside the window, which goes on: it may be turned to what is to be written.
+    (new ExportDialog(m_bench.document, m_panes, m_bench.exports, &m_window))->show();
+}
+
+void FileMenu::exportMeasurements() {
+    if (m_bench.document.measured().empty()) {
+        emit said(tr("There are no measurements to export yet"));
+        return;
+    }
+    const QString path = QFileDialog::getSaveFileName(&m_window, tr("Export measurements"),
+                                                      "measurements.csv", tr("Table (*.csv)"));
+    if (!path.isEmpty())
+        attempt([&] { m_bench.measurements.exportTable(path); });
+}
+
+void FileMenu::saveScene() {
+    if (!m_panes.projection->showsWhatIsAskedFor()) {
+        emit said(tr("There is no projection of this scene yet"));
+        return;
+    }
+    const QString path = QFileDialog::getSaveFileName(&m_window, tr("Save scene"), "scene.json",
+                                                      tr("Scene (*.json)"));
+    if (path.isEmpty())
+        return;
+    attempt([&] { writeSceneFile(path, m_panes.projection->sceneOfPicture()); });
+}
+
+void FileMenu::openScene() {
+    const QString path =
+        QFileDialog::getOpenFileName(&m_window, tr("Open scene"), {}, tr("Scene (*.json)"));
+    if (path.isEmpty())
+        return;
+    attempt([&] {
+        render::Scene scene = readSceneFile(path);
+        scene.plannedFor = {}; // the window plans for the volume, whatever a file says
+        Document &document = m_bench.document;
+        document.undoStack()->push(new EditScene(document, scene, tr("Open scene")));
+        m_panes.projection->adoptCamera(scene.camera);
+    });
+}
+
+} // namespace pellucid::ui

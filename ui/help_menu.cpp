@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/help_menu.h"
+
+#include <QCoreApplication>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QFile>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
+#include <QMenu>
+#include <QPlainTextEdit>
+#include <QTabWidget>
+#include <QTextBrowser>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "ui/add_command.h"
+#include "ui/libraries.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+struct Said {
+    Q_DECLARE_TR_FUNCTIONS(HelpMenu)
+};
+
+// The manual in the language of the program, as far as there is one.
+QUrl manual() {
+    const QString translated = QCoreApplication::translate("HelpMenu", "manual.html",
+                                                           "file name of the translated manual");
+    return QUrl("qrc:/pellucid/manual/" + translated);
+}
+
+void showManual() {
+    // Beside the window, not over it: people read and try.
+    auto *browser = new QTextBrowser;
+    browser->setObjectName("manual");
+    browser->setAttribute(Qt::WA_DeleteOnClose);
+    browser->setWindowTitle(Said::tr("Pellucid manual"));
+    browser->setSource(manual());
+    browser->resize(640, 760);
+    browser->show();
+}
+
+QWidget *libraryTable() {
+    auto *table = new QTreeWidget;
+    table->setObjectName("aboutLibraries");
+    table->setAccessibleName(Said::tr("Libraries"));
+    table->setHeaderLabels({Said::tr("Library"), Said::tr("Version"), Said::tr("Licence")});
+    table->setRootIsDecorated(false);
+    for (const ThirdParty &library : thirdParties)
+        new QTreeWidgetItem(table, {library.name,
+                                    QString(library.name) == "Qt" ? qVersion() : library.version,
+                                    library.licence});
+    table->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    return table;
+}
+
+QWidget *licence() {
+    auto *text = new QPlainTextEdit;
+    text->setReadOnly(true);
+    text->setAccessibleName(Said::tr("Licence"));
+    QFile file(":/pellucid/LICENSE");
+    if (file.open(QIODevice::ReadOnly))
+        text->setPlainText(QString::fromUtf8(file.readAll()));
+    return text;
+}
+
+void showAbout(QWidget &window) {
+    auto *dialog = new QDialog(&window);
+    dialog->setObjectName("aboutDialog");
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(Said::tr("About Pellucid"));
+    auto *name = new QLabel("Pellucid " + QCoreApplication::applicationVersion());
+    name->setProperty("role", "title");
+    auto *what = new QLabel(Said::tr("Projections of DICOM studies in the frequency domain."));
+    auto *warning = new QLabel(Said::tr("Not for diagnostic use."));
+    warning->setObjectName("aboutWarning");
+    warning->setProperty("role", "warning");
+    auto *terms =
+        new QLabel(Said::tr("Free software under the GNU General Public License, version 3 "
+                            "or later; without any warranty."));
+    terms->setWordWrap(true);
+    auto *tabs = new QTabWidget;
+    tabs->addTab(libraryTable(), Said::tr("Libraries"));
+    tabs->addTab(licence(), Said::tr("Licence"));
+    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
+    auto *layout = new QVBoxLayout(dialog);
+    for (QWidget *part : std::initializer_list<QWidget *>{name, what, warning, terms})
+        layout->addWidget(part);
+    layout->addWidget(tabs, 1);
+    layout->addWidget(buttons);
+    dialog->resize(560, 560);
+    dialog->show();
+}
+
+} // namespace
+
+void addHelpMenu(QMenu &menu, QWidget &window) {
+    addCommand(menu, Said::tr("&Manual"), "manualAction", QKeySequence("F1"), &menu,
+               [] { showManual(); });
+    addCommand(menu, Said::tr("&About Pellucid"), "aboutAction", {}, &menu,
+               [&window] { showAbout(window); });
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/icons.h"
+
+#include <QFile>
+#include <QIconEngine>
+#include <QPainter>
+#include <QSvgRenderer>
+
+#include "core/task/error.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// Drawn for the size that is asked for, not scaled from another.
+class ThemedIcon : public QIconEngine {
+public:
+    ThemedIcon(QByteArray drawing, const Theme &theme)
+        : m_drawing(std::move(drawing)), m_theme(theme) {}
+
+    void paint(QPainter *painter, const QRect &rect, QIcon::Mode mode,
+               QIcon::State state) override {
+        const char *const role = mode == QIcon::Disabled ? "muted"
+                                 : state == QIcon::On    ? "accent"
+                                                         : "text";
+        QByteArray drawing = m_drawing;
+        drawing.replace("currentColor", m_theme.color(role).name().toUtf8());
+        QSvgRenderer(drawing).render(painter, rect);
+    }
+    QPixmap pixmap(const QSize &size, QIcon::Mode mode, QIcon::State state) override {
+        QPixmap pixmap(size);
+        pixmap.fill(Qt::transparent);
+        QPainter painter(&pixmap);
+        paint(&painter, QRect(QPoint(), size), mode, state);
+        return pixmap;
+    }
+    QIconEngine *clone() const override { return new ThemedIcon(*this); }
+
+private:
+    QByteArray m_drawing;
+    Theme m_theme;
+};
+
+} // namespace
+
+QIcon themedIcon(const QString &name, const Theme &theme) {
+    QFile file(":/pellucid/icons/" + name + ".svg");
+    if (!file.open(QIODevice::ReadOnly))
+        throw task::Error(task::ErrorCode::internal, "no icon " + name.toStdString());
+    return QIcon(new ThemedIcon(file.readAll(), theme));
+}
+
+} // namespace pellucid::ui

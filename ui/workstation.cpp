@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/workstation.h"
+
+#include <QApplication>
+#include <QLibraryInfo>
+#include <QLocale>
+
+#include "ui/main_window.h"
+#include "ui/session.h"
+
+namespace pellucid::ui {
+
+Workstation::Workstation(std::optional<EngineChoice> engine)
+    : m_preferences(Preferences::load()), m_bench(engine) {
+    speak(m_preferences.language);
+    makeWindow();
+}
+
+Workstation::~Workstation() {
+    keepSession(m_preferences.remembersStudies ? currentSession(m_bench.document) : std::nullopt);
+}
+
+// English stands in the program; what is missing of another language stays English.
+void Workstation::speak(const QString &language) {
+    QCoreApplication::removeTranslator(&m_texts);
+    QCoreApplication::removeTranslator(&m_ofQt);
+    const QLocale locale = language.isEmpty() ? QLocale() : QLocale(language);
+    if (locale.language() == QLocale::English)
+        return;
+    if (m_texts.load(locale, "pellucid", "_", ":/i18n"))
+        QCoreApplication::installTranslator(&m_texts);
+    if (m_ofQt.load(locale, "qtbase", "_", QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
+        QCoreApplication::installTranslator(&m_ofQt);
+}
+
+void Workstation::makeWindow() {
+    const Theme theme = Theme::named(m_preferences.theme);
+    theme.apply(*qApp);
+    const bool wasThere = m_window != nullptr;
+    QByteArray geometry;
+    if (wasThere) {
+        geometry = m_window->saveGeometry();
+        m_window->keepLayout();
+    }
+    m_window.reset();
+    m_window = std::make_unique<MainWindow>(m_bench, theme, m_preferences);
+    if (wasThere)
+        m_window->restoreGeometry(geometry);
+    connect(m_window.get(), &MainWindow::preferencesChanged, this, &Workstation::follow);
+    m_window->show();
+}
+
+void Workstation::follow(const Preferences &preferences) {
+    const Preferences before = m_preferences;
+    m_preferences = preferences;
+    if (!preferences.remembersStudies)
+        keepSession(std::nullopt);
+    if (preferences.language != before.language)
+        speak(preferences.language);
+    if (preferences.language != before.language || preferences.theme != before.theme ||
+        preferences.toolBar != before.toolBar)
+        // Not from within a dialog of the window that goes.
+        QMetaObject::invokeMethod(this, &Workstation::makeWindow, Qt::QueuedConnection);
+    else
+        m_window->setPreferences(preferences);
+}
+
+} // namespace pellucid::ui
