@@ -8,6 +8,7 @@
 #include "ui/document.h"
 #include "ui/graphics_card.h"
 #include "ui/job_runner.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -35,8 +36,7 @@ CardCopier::Copied CardCopier::copyTo(const std::shared_ptr<gpu::FramePasses> &p
     try {
         return {gpu::copyToCard(passes, engine, fetch, progress), {}};
     } catch (const task::Error &error) {
-        return {nullptr, QString::fromStdString(error.reason()),
-                error.code() == task::ErrorCode::noSuchDevice};
+        return {nullptr, spoken(error.reason()), error.code() == task::ErrorCode::noSuchDevice};
     } catch (const std::bad_alloc &) {
         return {nullptr, tr("not enough memory to copy to the graphics card")};
     }

@@ -12,9 +12,9 @@ namespace pellucid::ui {
 
 namespace {
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("EngineMenu", text);
-}
+struct EngineMenuTexts {
+    Q_DECLARE_TR_FUNCTIONS(EngineMenuTexts)
+};
 
 } // namespace
 
@@ -24,9 +24,10 @@ void addEngineMenu(QMenu &menu, GraphicsCard &card) {
         QString text;
         const char *name;
         EngineChoice choice;
-    } choices[] = {{tr("&Automatic"), "automaticEngineAction", EngineChoice::automatic},
-                   {tr("&Processor"), "processorEngineAction", EngineChoice::processor},
-                   {tr("&Graphics card"), "cardEngineAction", EngineChoice::card}};
+    } choices[] = {
+        {EngineMenuTexts::tr("&Automatic"), "automaticEngineAction", EngineChoice::automatic},
+        {EngineMenuTexts::tr("&Processor"), "processorEngineAction", EngineChoice::processor},
+        {EngineMenuTexts::tr("&Graphics card"), "cardEngineAction", EngineChoice::card}};
     for (const auto &c : choices) {
         QAction *action = addCommand(menu, c.text, c.name, {}, &card,
                                      [&card, choice = c.choice] { card.choose(choice); });

@@ -19,6 +19,7 @@
 #include "ui/document.h"
 #include "ui/job_runner.h"
 #include "ui/panels/job_strip.h"
+#include "ui/spoken.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
 
@@ -165,7 +166,7 @@ void ExportDialog::write() {
                      });
         m_write->setEnabled(false);
     } catch (const task::Error &error) {
-        say(QString::fromStdString(error.reason()), "warning");
+        say(spoken(error.reason()), "warning");
     }
 }
 

@@ -11,6 +11,7 @@
 #include "ui/export_dialog.h"
 #include "ui/import_dialog.h"
 #include "ui/scene_files.h"
+#include "ui/spoken.h"
 #include "ui/views/projection_view.h"
 #include "ui/workbench.h"
 
@@ -56,8 +57,7 @@ void FileMenu::attempt(const std::function<void()> &what) {
     try {
         what();
     } catch (const task::Error &error) {
-        emit failed(QString::fromStdString(error.reason()),
-                    QString::fromStdString(error.path().string()));
+        emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "core/task/error.h"
 #include "ui/gl_probe.h"
 #include "ui/shared_context.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -43,8 +44,13 @@ void GraphicsCard::giveUp(const QString &reason, const std::shared_ptr<gpu::Fram
     emit changed();
 }
 
+// The language may change while the program runs.
+QString GraphicsCard::reason() const {
+    return spoken(m_reason);
+}
+
 QString GraphicsCard::description() const {
-    return m_passes ? tr("Graphics card: %1").arg(m_reason) : tr("Processor: %1").arg(m_reason);
+    return m_passes ? tr("Graphics card: %1").arg(reason()) : tr("Processor: %1").arg(reason());
 }
 
 void GraphicsCard::open() {
@@ -52,22 +58,22 @@ void GraphicsCard::open() {
     m_reason.clear();
     const auto &window = windowCapabilities();
     if (m_choice == EngineChoice::processor)
-        m_reason = tr("the processor was chosen");
+        m_reason = "the processor was chosen";
     else if (!window)
-        m_reason = tr("no OpenGL here");
+        m_reason = "no OpenGL here";
     else if (!window->canShowImages())
-        m_reason = tr("OpenGL here is %1.%2; 3.3 is needed to show pictures with it")
+        m_reason = QString("OpenGL here is %1.%2; 3.3 is needed to show pictures with it")
                        .arg(window->version / 10)
                        .arg(window->version % 10);
     else if (m_choice == EngineChoice::automatic && window->software)
-        m_reason = tr("OpenGL here is a software renderer");
+        m_reason = "OpenGL here is a software renderer";
     if (!m_reason.isEmpty())
         return;
     try {
         m_passes = std::make_shared<gpu::FramePasses>(
             std::make_shared<gpu::Device>(std::make_unique<SharedContext>()));
-        m_reason = m_choice == EngineChoice::card ? tr("the graphics card was chosen")
-                                                  : tr("there is a graphics card");
+        m_reason = m_choice == EngineChoice::card ? "the graphics card was chosen"
+                                                  : "there is a graphics card";
     } catch (const task::Error &error) {
         m_reason = QString::fromStdString(error.reason());
     }

@@ -31,7 +31,7 @@ public:
     /// None: the processor makes the projections.
     const std::shared_ptr<gpu::FramePasses> &passes() const { return m_passes; }
     /// Why it is that one.
-    const QString &reason() const { return m_reason; }
+    QString reason() const;
     /// Both, in a line.
     QString description() const;
 
@@ -43,7 +43,7 @@ private:
 
     EngineChoice m_choice;
     std::shared_ptr<gpu::FramePasses> m_passes;
-    QString m_reason;
+    QString m_reason; ///< in English
 };
 
 } // namespace pellucid::ui

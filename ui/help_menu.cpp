@@ -22,15 +22,17 @@ namespace pellucid::ui {
 
 namespace {
 
-struct Said {
-    Q_DECLARE_TR_FUNCTIONS(HelpMenu)
+struct HelpMenuTexts {
+    Q_DECLARE_TR_FUNCTIONS(HelpMenuTexts)
 };
 
 // The manual in the language of the program, as far as there is one.
 QUrl manual() {
-    const QString translated = QCoreApplication::translate("HelpMenu", "manual.html",
+    const QString translated = QCoreApplication::translate("HelpMenuTexts", "manual.html",
                                                            "file name of the translated manual");
-    return QUrl("qrc:/pellucid/manual/" + translated);
+    const QString usual = "manual.html";
+    return QUrl("qrc:/pellucid/manual/" +
+                (QFile::exists(":/pellucid/manual/" + translated) ? translated : usual));
 }
 
 void showManual() {
@@ -38,7 +40,7 @@ void showManual() {
     auto *browser = new QTextBrowser;
     browser->setObjectName("manual");
     browser->setAttribute(Qt::WA_DeleteOnClose);
-    browser->setWindowTitle(Said::tr("Pellucid manual"));
+    browser->setWindowTitle(HelpMenuTexts::tr("Pellucid manual"));
     browser->setSource(manual());
     browser->resize(640, 760);
     browser->show();
@@ -47,8 +49,9 @@ void showManual() {
 QWidget *libraryTable() {
     auto *table = new QTreeWidget;
     table->setObjectName("aboutLibraries");
-    table->setAccessibleName(Said::tr("Libraries"));
-    table->setHeaderLabels({Said::tr("Library"), Said::tr("Version"), Said::tr("Licence")});
+    table->setAccessibleName(HelpMenuTexts::tr("Libraries"));
+    table->setHeaderLabels(
+        {HelpMenuTexts::tr("Library"), HelpMenuTexts::tr("Version"), HelpMenuTexts::tr("Licence")});
     table->setRootIsDecorated(false);
     for (const ThirdParty &library : thirdParties)
         new QTreeWidgetItem(table, {library.name,
@@ -61,7 +64,7 @@ QWidget *libraryTable() {
 QWidget *licence() {
     auto *text = new QPlainTextEdit;
     text->setReadOnly(true);
-    text->setAccessibleName(Said::tr("Licence"));
+    text->setAccessibleName(HelpMenuTexts::tr("Licence"));
     QFile file(":/pellucid/LICENSE");
     if (file.open(QIODevice::ReadOnly))
         text->setPlainText(QString::fromUtf8(file.readAll()));
@@ -72,20 +75,21 @@ void showAbout(QWidget &window) {
     auto *dialog = new QDialog(&window);
     dialog->setObjectName("aboutDialog");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(Said::tr("About Pellucid"));
+    dialog->setWindowTitle(HelpMenuTexts::tr("About Pellucid"));
     auto *name = new QLabel("Pellucid " + QCoreApplication::applicationVersion());
     name->setProperty("role", "title");
-    auto *what = new QLabel(Said::tr("Projections of DICOM studies in the frequency domain."));
-    auto *warning = new QLabel(Said::tr("Not for diagnostic use."));
+    auto *what =
+        new QLabel(HelpMenuTexts::tr("Projections of DICOM studies in the frequency domain."));
+    auto *warning = new QLabel(HelpMenuTexts::tr("Not for diagnostic use."));
     warning->setObjectName("aboutWarning");
     warning->setProperty("role", "warning");
-    auto *terms =
-        new QLabel(Said::tr("Free software under the GNU General Public License, version 3 "
-                            "or later; without any warranty."));
+    auto *terms = new QLabel(
+        HelpMenuTexts::tr("Free software under the GNU General Public License, version 3 "
+                          "or later; without any warranty."));
     terms->setWordWrap(true);
     auto *tabs = new QTabWidget;
-    tabs->addTab(libraryTable(), Said::tr("Libraries"));
-    tabs->addTab(licence(), Said::tr("Licence"));
+    tabs->addTab(libraryTable(), HelpMenuTexts::tr("Libraries"));
+    tabs->addTab(licence(), HelpMenuTexts::tr("Licence"));
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
     auto *layout = new QVBoxLayout(dialog);
@@ -100,9 +104,9 @@ void showAbout(QWidget &window) {
 } // namespace
 
 void addHelpMenu(QMenu &menu, QWidget &window) {
-    addCommand(menu, Said::tr("&Manual"), "manualAction", QKeySequence("F1"), &menu,
+    addCommand(menu, HelpMenuTexts::tr("&Manual"), "manualAction", QKeySequence("F1"), &menu,
                [] { showManual(); });
-    addCommand(menu, Said::tr("&About Pellucid"), "aboutAction", {}, &menu,
+    addCommand(menu, HelpMenuTexts::tr("&About Pellucid"), "aboutAction", {}, &menu,
                [&window] { showAbout(window); });
 }
 

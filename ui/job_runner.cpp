@@ -4,6 +4,8 @@
 #include <chrono>
 #include <new>
 
+#include "ui/spoken.h"
+
 namespace pellucid::ui {
 
 void Job::deliver(std::function<void()> onUiThread) const {
@@ -67,7 +69,7 @@ void JobRunner::start(const QString &title, Work work) {
                  work(job);
              } catch (const task::Cancelled &) {
              } catch (const task::Error &error) {
-                 what = QString::fromStdString(error.reason());
+                 what = spoken(error.reason());
                  path = QString::fromStdString(error.path().string());
              } catch (const std::bad_alloc &) {
                  what = tr("not enough memory");

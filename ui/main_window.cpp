@@ -95,13 +95,15 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
     showVolumeState();
+    bench.document.announce(); // what is open already
+    if (const auto &engine = bench.preparer.fullEngine())
+        bench.preparer.adopt(*bench.preparer.preparedFor(), *engine);
+    if (bench.document.volume()) // once the panes have their sizes
+        QTimer::singleShot(0, m_projection, [this, camera] { m_projection->adoptCamera(camera); });
 }
 
 MainWindow::~MainWindow() {
-    // Work that still runs looks at the members.
-    m_bench.jobs.join();
-    m_bench.exports.join();
-    m_bench.library.jobs().join();
+    m_bench.exports.join();              // they look at the panes
     delete m_beside;                     // it looks at the open study
     m_bench.measurements.writePending(); // while somebody can say that it failed
 }

@@ -9,6 +9,7 @@
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 #include "ui/document.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -71,9 +72,9 @@ void MeasurementStore::load() {
             m_untouched = *path;
             kept = path->string();
         }
-        emit failed(tr("The measurements of this study cannot be read: %1")
-                        .arg(QString::fromStdString(error.reason())),
-                    QString::fromStdString(kept));
+        emit failed(
+            tr("The measurements of this study cannot be read: %1").arg(spoken(error.reason())),
+            QString::fromStdString(kept));
     }
     m_isLoading = false;
 }
@@ -110,9 +111,8 @@ void MeasurementStore::writePending() {
         if (!pending.text.empty())
             write(pending.path, pending.text);
     } catch (const task::Error &error) {
-        emit failed(
-            tr("The measurements cannot be kept: %1").arg(QString::fromStdString(error.reason())),
-            QString::fromStdString(pending.path.string()));
+        emit failed(tr("The measurements cannot be kept: %1").arg(spoken(error.reason())),
+                    QString::fromStdString(pending.path.string()));
     }
 }
 

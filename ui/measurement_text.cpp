@@ -7,9 +7,9 @@ namespace pellucid::ui {
 
 namespace {
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("Measurements", text);
-}
+struct MeasurementTextTexts {
+    Q_DECLARE_TR_FUNCTIONS(MeasurementTextTexts)
+};
 
 QString valueText(double value, volume::ValueUnit unit) {
     // Values without a unit may be of any size.
@@ -19,9 +19,9 @@ QString valueText(double value, volume::ValueUnit unit) {
 
 QString areaText(double mm2, bool hasSpacing) {
     if (!hasSpacing)
-        return tr("%1 square pixels").arg(mm2, 0, 'f', 0);
-    return mm2 < 100.0 ? tr("%1 mm²").arg(mm2, 0, 'f', 1)
-                       : tr("%1 cm²").arg(mm2 / 100.0, 0, 'f', 2);
+        return MeasurementTextTexts::tr("%1 square pixels").arg(mm2, 0, 'f', 0);
+    return mm2 < 100.0 ? MeasurementTextTexts::tr("%1 mm²").arg(mm2, 0, 'f', 1)
+                       : MeasurementTextTexts::tr("%1 cm²").arg(mm2 / 100.0, 0, 'f', 2);
 }
 
 QString unitText(volume::ValueUnit unit) {
@@ -33,26 +33,28 @@ QString unitText(volume::ValueUnit unit) {
 QString kindText(measure::Kind kind) {
     switch (kind) {
     case measure::Kind::distance:
-        return tr("Distance");
+        return MeasurementTextTexts::tr("Distance");
     case measure::Kind::angle:
-        return tr("Angle");
+        return MeasurementTextTexts::tr("Angle");
     case measure::Kind::ellipse:
-        return tr("Ellipse");
+        return MeasurementTextTexts::tr("Ellipse");
     case measure::Kind::rectangle:
-        return tr("Rectangle");
+        return MeasurementTextTexts::tr("Rectangle");
     case measure::Kind::projectedDistance:
         break;
     }
-    return tr("Projected distance");
+    return MeasurementTextTexts::tr("Projected distance");
 }
 
 QString mainFigure(const measure::Result &result, const volume::Volume &volume) {
     const volume::ValueUnit unit = volume.unit();
     const bool hasSpacing = volume.notes().hasSpacing;
     if (result.lengthMm)
-        return (hasSpacing ? tr("%1 mm") : tr("%1 pixels")).arg(*result.lengthMm, 0, 'f', 1);
+        return (hasSpacing ? MeasurementTextTexts::tr("%1 mm")
+                           : MeasurementTextTexts::tr("%1 pixels"))
+            .arg(*result.lengthMm, 0, 'f', 1);
     if (result.angleDegrees)
-        return tr("%1°").arg(*result.angleDegrees, 0, 'f', 1);
+        return MeasurementTextTexts::tr("%1°").arg(*result.angleDegrees, 0, 'f', 1);
     if (result.values)
         return valueText(result.values->mean, unit) + unitText(unit);
     return result.areaMm2 ? areaText(*result.areaMm2, hasSpacing) : QString();
@@ -64,17 +66,18 @@ QStringList allFigures(const measure::Measurement &measurement, const measure::R
     if (!result.areaMm2) {
         QStringList lines{mainFigure(result, volume)};
         if (measurement.kind == measure::Kind::projectedDistance)
-            lines << tr("in the picture, depth not measured");
+            lines << MeasurementTextTexts::tr("in the picture, depth not measured");
         return lines;
     }
     QStringList lines;
     if (result.values) {
         const measure::RegionValues &v = *result.values;
-        lines << tr("mean %1%2").arg(valueText(v.mean, unit), unitText(unit))
-              << tr("SD %1").arg(valueText(v.standardDeviation, unit))
-              << tr("%1 to %2").arg(valueText(v.minimum, unit), valueText(v.maximum, unit));
+        lines << MeasurementTextTexts::tr("mean %1%2").arg(valueText(v.mean, unit), unitText(unit))
+              << MeasurementTextTexts::tr("SD %1").arg(valueText(v.standardDeviation, unit))
+              << MeasurementTextTexts::tr("%1 to %2")
+                     .arg(valueText(v.minimum, unit), valueText(v.maximum, unit));
     } else {
-        lines << tr("outside the volume");
+        lines << MeasurementTextTexts::tr("outside the volume");
     }
     return lines << areaText(*result.areaMm2, volume.notes().hasSpacing);
 }

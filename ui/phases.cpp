@@ -5,6 +5,7 @@
 
 #include "ui/document.h"
 #include "ui/job_runner.h"
+#include "ui/spoken.h"
 #include "ui/study_opener.h"
 
 namespace pellucid::ui {
@@ -52,7 +53,7 @@ int Phases::current() const {
 }
 
 QString Phases::label(int phase) const {
-    return m_document.sources()[std::size_t(m_sources.at(std::size_t(phase)))].volume.label;
+    return spoken(m_document.sources()[std::size_t(m_sources.at(std::size_t(phase)))].volume.label);
 }
 
 void Phases::show(int phase) {

@@ -30,9 +30,9 @@ namespace fs = std::filesystem;
 
 constexpr int framesPerSecond = 25;
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("PictureExport", text);
-}
+struct PictureExportTexts {
+    Q_DECLARE_TR_FUNCTIONS(PictureExportTexts)
+};
 
 // From the lower to the upper end of the window in a straight line: figures, not looks.
 QImage sixteenBits(const render::ProjectionImage &image, const render::Tone &tone) {
@@ -247,23 +247,26 @@ QString suffixOf(PictureFormat format) {
 
 QString obstacle(const PictureExport &what, const Panes &panes, const Document &document) {
     if (!document.volume() || document.currentSource() < 0)
-        return tr("No study is open");
+        return PictureExportTexts::tr("No study is open");
     const bool isPlane = what.pane != Pane::projection;
     if (!isPlane && !panes.projection->showsWhatIsAskedFor())
-        return tr("The projection is still being made");
+        return PictureExportTexts::tr("The projection is still being made");
     if (isPlane && !what.isPicture())
-        return tr("Values are written of the projection only");
+        return PictureExportTexts::tr("Values are written of the projection only");
     if (isPlane && what.isTurn())
-        return tr("Only the projection turns");
+        return PictureExportTexts::tr("Only the projection turns");
     if (what.format == PictureFormat::video && !VideoWriter::isAvailable())
-        return tr("Videos need the program ffmpeg, which is not installed; frames do not");
+        return PictureExportTexts::tr(
+            "Videos need the program ffmpeg, which is not installed; frames do not");
     const render::Scene &scene = document.scene();
     const bool isGrey = classify::isGrey(scene.look) && scene.shading.isGrey();
     if (!isGrey && (what.format == PictureFormat::png16 || what.format == PictureFormat::nrrd))
-        return tr("A picture in colour has no grey values: write it as it looks, or as NumPy");
+        return PictureExportTexts::tr(
+            "A picture in colour has no grey values: write it as it looks, or as NumPy");
     const render::Camera &camera = scene.camera;
     if (std::max(camera.width, camera.height) * what.scale > render::largestImageSize)
-        return tr("Pictures have at most %1 pixels a side").arg(render::largestImageSize);
+        return PictureExportTexts::tr("Pictures have at most %1 pixels a side")
+            .arg(render::largestImageSize);
     return {};
 }
 

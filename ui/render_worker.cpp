@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/task/error.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -132,7 +133,7 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
         frame->times = {times.sliceMs, times.transformMs};
         answer.frame = std::move(frame);
     } catch (const task::Error &error) {
-        answer.refusal = QString::fromStdString(error.reason());
+        answer.refusal = spoken(error.reason());
         // A picture too large for the card is none of its next.
         answer.isLost = error.code() != task::ErrorCode::outOfMemory;
     } catch (const std::exception &error) {

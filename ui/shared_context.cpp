@@ -17,10 +17,6 @@ namespace {
     throw task::Error(task::ErrorCode::noSuchDevice, why.toStdString());
 }
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("SharedContext", text);
-}
-
 // Whoever lets go of the device last may be any thread.
 template <class Object> void remove(std::unique_ptr<Object> object) {
     if (object->thread() == QThread::currentThread())
@@ -35,7 +31,7 @@ SharedContext::SharedContext()
     : m_surface(std::make_unique<QOffscreenSurface>()),
       m_context(std::make_unique<QOpenGLContext>()) {
     if (QOpenGLContext::globalShareContext() == nullptr)
-        refuse(tr("no OpenGL here"));
+        refuse("no OpenGL here");
     QSurfaceFormat format = QSurfaceFormat::defaultFormat();
     format.setVersion(4, 3);
     m_surface->setFormat(format);
@@ -43,9 +39,9 @@ SharedContext::SharedContext()
     m_context->setFormat(format);
     m_context->setShareContext(QOpenGLContext::globalShareContext());
     if (!m_surface->isValid() || !m_context->create())
-        refuse(tr("OpenGL here gives no second context"));
+        refuse("OpenGL here gives no second context");
     if (!QOpenGLContext::areSharing(m_context.get(), QOpenGLContext::globalShareContext()))
-        refuse(tr("OpenGL contexts here do not share what they hold"));
+        refuse("OpenGL contexts here do not share what they hold");
     if (!m_context->format().testOption(QSurfaceFormat::ResetNotification))
         task::log("OpenGL here does not tell when its driver is reset");
     // Without a thread, so that the one that needs it may take it.
@@ -61,7 +57,7 @@ void SharedContext::makeCurrent() {
     if (m_context->thread() == nullptr)
         m_context->moveToThread(QThread::currentThread());
     if (!m_context->makeCurrent(m_surface.get()))
-        refuse(tr("the OpenGL context cannot be used"));
+        refuse("the OpenGL context cannot be used");
 }
 
 void SharedContext::doneCurrent() {

@@ -17,9 +17,9 @@ namespace pellucid::ui {
 
 namespace {
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("StudyDetails", text);
-}
+struct StudyDetailsTexts {
+    Q_DECLARE_TR_FUNCTIONS(StudyDetailsTexts)
+};
 
 QLabel *value(const QString &text) {
     auto *label = new QLabel(text.isEmpty() ? QString::fromUtf8("–") : text);
@@ -40,7 +40,7 @@ void showStudyDetails(const StudyFacts &study, const VolumeFacts &volume, const 
     auto *dialog = new QDialog(parent);
     dialog->setObjectName("studyDetails");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(tr("Details of the series"));
+    dialog->setWindowTitle(StudyDetailsTexts::tr("Details of the series"));
     auto *form = new QFormLayout;
     form->setLabelAlignment(Qt::AlignLeft);
     form->setHorizontalSpacing(18);
@@ -49,31 +49,36 @@ void showStudyDetails(const StudyFacts &study, const VolumeFacts &volume, const 
         label->setProperty("role", "muted");
         form->addRow(label, value(text));
     };
-    row(tr("Patient"), patientText(study));
-    row(tr("Identifier"), study.patientId);
-    row(tr("Born"), dateText(study.birthDate));
-    row(tr("Sex"), study.sex);
-    row(tr("Study"), studyText(study));
-    row(tr("Study UID"), study.uid);
-    row(tr("Series"), seriesText(volume));
-    row(tr("Series UID"), volume.seriesUid);
-    row(tr("Modality"), volume.modality);
-    row(tr("Body part"), volume.bodyPart);
-    row(tr("Slices, rows, columns"),
+    row(StudyDetailsTexts::tr("Patient"), patientText(study));
+    row(StudyDetailsTexts::tr("Identifier"), study.patientId);
+    row(StudyDetailsTexts::tr("Born"), dateText(study.birthDate));
+    row(StudyDetailsTexts::tr("Sex"), study.sex);
+    row(StudyDetailsTexts::tr("Study"), studyText(study));
+    row(StudyDetailsTexts::tr("Study UID"), study.uid);
+    row(StudyDetailsTexts::tr("Series"), seriesText(volume));
+    row(StudyDetailsTexts::tr("Series UID"), volume.seriesUid);
+    row(StudyDetailsTexts::tr("Modality"), volume.modality);
+    row(StudyDetailsTexts::tr("Body part"), volume.bodyPart);
+    row(StudyDetailsTexts::tr("Slices, rows, columns"),
         QString::fromUtf8("%1 × %2 × %3").arg(volume.size.k).arg(volume.size.j).arg(volume.size.i));
     if (volume.spacingMm.x > 0.0)
-        row(tr("Spacing of columns, rows"), QString::fromUtf8("%1 × %2 mm")
-                                                .arg(volume.spacingMm.x, 0, 'f', 3)
-                                                .arg(volume.spacingMm.y, 0, 'f', 3));
+        row(StudyDetailsTexts::tr("Spacing of columns, rows"),
+            QString::fromUtf8("%1 × %2 mm")
+                .arg(volume.spacingMm.x, 0, 'f', 3)
+                .arg(volume.spacingMm.y, 0, 'f', 3));
     if (volume.placed) {
-        row(tr("Distance of slices"), tr("%1 mm").arg(volume.spacingMm.z, 0, 'f', 3));
-        row(tr("Tilt"), tr("%1 degrees").arg(volume.tiltDeg, 0, 'f', 1));
+        row(StudyDetailsTexts::tr("Distance of slices"),
+            StudyDetailsTexts::tr("%1 mm").arg(volume.spacingMm.z, 0, 'f', 3));
+        row(StudyDetailsTexts::tr("Tilt"),
+            StudyDetailsTexts::tr("%1 degrees").arg(volume.tiltDeg, 0, 'f', 1));
     }
-    row(tr("Files"), volume.libraryId == 0 ? QString::number(files.size())
-                     : volume.isCopied     ? tr("%1, copied into the library").arg(files.size())
-                                       : tr("%1, referred to where they are").arg(files.size()));
-    row(tr("Folder"), folderOf(files));
-    for (const QString &warning : volume.warnings) {
+    row(StudyDetailsTexts::tr("Files"),
+        volume.libraryId == 0 ? QString::number(files.size())
+        : volume.isCopied
+            ? StudyDetailsTexts::tr("%1, copied into the library").arg(files.size())
+            : StudyDetailsTexts::tr("%1, referred to where they are").arg(files.size()));
+    row(StudyDetailsTexts::tr("Folder"), folderOf(files));
+    for (const QString &warning : warningTexts(volume)) {
         QLabel *const text = value(warning);
         text->setProperty("role", "warning");
         form->addRow(new QLabel, text);

@@ -8,6 +8,7 @@
 #include "ui/document.h"
 #include "ui/job_runner.h"
 #include "ui/look_preparer.h"
+#include "ui/spoken.h"
 #include "ui/study_source.h"
 #include "ui/window_presets.h"
 
@@ -247,7 +248,7 @@ void StudyOpener::openSource(int index) {
                 job.deliver([this, volume] {
                     const auto &warnings = volume.notes().warnings;
                     emit notProjectable(warnings.empty() ? tr("images only")
-                                                         : QString::fromStdString(warnings.back()));
+                                                         : spoken(warnings.back()));
                 });
                 return;
             }

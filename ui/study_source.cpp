@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("StudySource", text);
-}
+struct StudySourceTexts {
+    Q_DECLARE_TR_FUNCTIONS(StudySourceTexts)
+};
 
 // A phantom's thumbnail is cut out of a small one.
 constexpr volume::GridSize thumbnailPhantom{96, 96, 96};
@@ -44,11 +44,12 @@ dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
             skipped.push_back({file.path, "is not there any more"});
     }
     if (there.empty())
-        throw task::Error(task::ErrorCode::unusable,
-                          tr("the files of this series are not there any more; the disc or the "
-                             "drive they are on may be away")
-                              .toStdString(),
-                          skipped.empty() ? fs::path() : skipped.front().path.parent_path());
+        throw task::Error(
+            task::ErrorCode::unusable,
+            StudySourceTexts::tr("the files of this series are not there any more; the disc or the "
+                                 "drive they are on may be away")
+                .toStdString(),
+            skipped.empty() ? fs::path() : skipped.front().path.parent_path());
     const dicom::Catalogue catalogue = dicom::scan(there, progress.part(0.0, 0.2));
     skipped.insert(skipped.end(), catalogue.skipped.begin(), catalogue.skipped.end());
     dicom::LoadedVolume loaded =
@@ -111,12 +112,12 @@ StudySource phantomSource(const QString &name) {
     StudySource source;
     source.phantom = name;
     source.study.patientId = "phantoms";
-    source.study.patientName = tr("Phantoms");
-    source.study.description = tr("Made by Pellucid");
+    source.study.patientName = StudySourceTexts::tr("Phantoms");
+    source.study.description = StudySourceTexts::tr("Made by Pellucid");
     source.volume.seriesUid = name;
     source.volume.seriesNumber = name == "head" ? 1 : 2;
-    source.volume.description = name == "head"    ? tr("Head phantom")
-                                : name == "chest" ? tr("Chest phantom")
+    source.volume.description = name == "head"    ? StudySourceTexts::tr("Head phantom")
+                                : name == "chest" ? StudySourceTexts::tr("Chest phantom")
                                                   : name;
     source.volume.size = lattice.size();
     source.volume.spacingMm = {lattice.spacingMm(0), lattice.spacingMm(1),

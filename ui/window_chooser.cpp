@@ -8,6 +8,7 @@
 
 #include "ui/commands.h"
 #include "ui/document.h"
+#include "ui/spoken.h"
 #include "ui/window_presets.h"
 
 namespace pellucid::ui {
@@ -16,7 +17,7 @@ namespace {
 
 QString windowLabel(const volume::ValueWindow &w) {
     return QString("%1  %2 / %3")
-        .arg(QString::fromStdString(w.name.empty() ? "Custom" : w.name))
+        .arg(spokenName(w.name.empty() ? "Custom" : w.name))
         .arg(w.width, 0, 'g', 5)
         .arg(w.center, 0, 'g', 5);
 }

@@ -25,8 +25,7 @@ void Workstation::speak(const QString &language) {
     QCoreApplication::removeTranslator(&m_texts);
     QCoreApplication::removeTranslator(&m_ofQt);
     const QLocale locale = language.isEmpty() ? QLocale() : QLocale(language);
-    if (locale.language() == QLocale::English)
-        return;
+    // English has a file too, of its plurals.
     if (m_texts.load(locale, "pellucid", "_", ":/i18n"))
         QCoreApplication::installTranslator(&m_texts);
     if (m_ofQt.load(locale, "qtbase", "_", QLibraryInfo::path(QLibraryInfo::TranslationsPath)))

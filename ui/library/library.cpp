@@ -56,9 +56,9 @@ constexpr const char *schema[] = {
     "CREATE TABLE instances (series INTEGER NOT NULL REFERENCES series ON DELETE CASCADE, "
     "instance TEXT NOT NULL, path TEXT NOT NULL, PRIMARY KEY (series, instance)) WITHOUT ROWID"};
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("Library", text);
-}
+struct LibraryTexts {
+    Q_DECLARE_TR_FUNCTIONS(LibraryTexts)
+};
 
 std::string pathText(const QString &text) {
     return text.toStdString();
@@ -569,7 +569,8 @@ OpenedLibrary openLibrary(const fs::path &folder) {
             opened.place.inMemory = true;
             opened.notices.push_back(
                 {list,
-                 error.reason() + tr("; studies are listed for this run only").toStdString()});
+                 error.reason() +
+                     LibraryTexts::tr("; studies are listed for this run only").toStdString()});
             return opened;
         }
         opened.wasDamaged = true;
@@ -579,11 +580,12 @@ OpenedLibrary openLibrary(const fs::path &folder) {
         fs::rename(list, kept);
         Library(opened.place).put(saved);
         opened.notices.push_back(
-            {kept, tr("the study library was damaged: %1 series were read, %2 lost; the "
-                      "old file is kept under this name")
-                       .arg(saved.size())
-                       .arg(lost)
-                       .toStdString()});
+            {kept,
+             LibraryTexts::tr("the study library was damaged: %1 series were read, %2 lost; the "
+                              "old file is kept under this name")
+                 .arg(saved.size())
+                 .arg(lost)
+                 .toStdString()});
     } catch (const std::exception &error) {
         opened.place.inMemory = true;
         opened.notices.push_back({list, error.what()});

@@ -3,13 +3,15 @@
 
 #include <QCoreApplication>
 
+#include "ui/spoken.h"
+
 namespace pellucid::ui {
 
 namespace {
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("StudyFacts", text);
-}
+struct StudyFactsTexts {
+    Q_DECLARE_TR_FUNCTIONS(StudyFactsTexts)
+};
 
 QString text(const std::string &utf8) {
     return QString::fromStdString(utf8);
@@ -73,13 +75,13 @@ QString patientText(const StudyFacts &study) {
     const QString name = QString(study.patientName).replace('^', ' ').simplified();
     if (!name.isEmpty())
         return name;
-    return study.patientId.isEmpty() ? tr("Without name") : study.patientId;
+    return study.patientId.isEmpty() ? StudyFactsTexts::tr("Without name") : study.patientId;
 }
 
 QString studyText(const StudyFacts &study) {
     const QString said =
         (dateText(study.date) + " " + study.modalities + " " + study.description).simplified();
-    return said.isEmpty() ? tr("Study") : said;
+    return said.isEmpty() ? StudyFactsTexts::tr("Study") : said;
 }
 
 QString seriesText(const VolumeFacts &volume) {
@@ -87,7 +89,7 @@ QString seriesText(const VolumeFacts &volume) {
                        .arg(volume.seriesNumber)
                        .arg(volume.description.isEmpty() ? volume.modality : volume.description);
     if (!volume.label.isEmpty())
-        said += ", " + volume.label;
+        said += ", " + spoken(volume.label);
     return said;
 }
 
@@ -100,6 +102,13 @@ QString sizeText(const VolumeFacts &v) {
     if (v.spacingMm.z > 0.0)
         said += QString::fromUtf8(" × %1").arg(v.spacingMm.z, 0, 'f', 2);
     return v.spacingMm.x > 0.0 ? said + " mm" : said;
+}
+
+QStringList warningTexts(const VolumeFacts &volume) {
+    QStringList texts;
+    for (const QString &warning : volume.warnings)
+        texts << spoken(warning);
+    return texts;
 }
 
 QString dateText(const QString &date) {

@@ -56,6 +56,8 @@ QString studyText(const StudyFacts &study);
 QString seriesText(const VolumeFacts &volume);
 /// Size and, as far as it is known, spacing: one line or two.
 QString sizeText(const VolumeFacts &volume);
+/// What is to be known of its geometry, in the user's language.
+QStringList warningTexts(const VolumeFacts &volume);
 /// "2007-04-04" of "20070404".
 QString dateText(const QString &date);
 

@@ -3,6 +3,7 @@
 
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -38,8 +39,7 @@ template <class F> auto StudyLibrary::attempt(F &&f) -> decltype(f(std::declval<
     try {
         return f(*m_library);
     } catch (const task::Error &error) {
-        emit failed(QString::fromStdString(error.reason()),
-                    QString::fromStdString(error.path().string()));
+        emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));
         return {};
     }
 }

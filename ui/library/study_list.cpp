@@ -206,11 +206,13 @@ QVariant StudyList::data(const QModelIndex &at, int role) const {
     case Qt::DisplayRole:
         return v != nullptr ? seriesText(*v) : patientText(s);
     case Qt::AccessibleTextRole:
-        return v != nullptr ? (QStringList{seriesText(*v), sizeText(*v)} + v->warnings).join(", ")
-                            : patientText(s) + ", " + studyText(s);
+        return v != nullptr
+                   ? (QStringList{seriesText(*v), sizeText(*v)} + warningTexts(*v)).join(", ")
+                   : patientText(s) + ", " + studyText(s);
     case Qt::ToolTipRole:
-        return v != nullptr ? (QStringList{seriesText(*v), sizeText(*v)} + v->warnings).join("\n")
-                            : (QStringList{patientText(s), s.patientId, studyText(s)}).join("\n");
+        return v != nullptr
+                   ? (QStringList{seriesText(*v), sizeText(*v)} + warningTexts(*v)).join("\n")
+                   : (QStringList{patientText(s), s.patientId, studyText(s)}).join("\n");
     case Qt::DecorationRole:
         return v != nullptr ? QVariant(thumbnail(at)) : QVariant();
     default:

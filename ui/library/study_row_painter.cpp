@@ -69,8 +69,9 @@ QSize StudyRowPainter::sizeHint(const QStyleOptionViewItem &option,
     if (volume == nullptr)
         return {0, 2 * lineHeight(option.font) + 2 * gap};
     int texts = 3 * lineHeight(option.font);
-    texts += int(warningLines(option.font, textWidth(cardWidth(option)), volume->warnings).size()) *
-             lineHeight(option.font);
+    texts +=
+        int(warningLines(option.font, textWidth(cardWidth(option)), warningTexts(*volume)).size()) *
+        lineHeight(option.font);
     return {0, std::max(texts, thumbnailSide) + 2 * gap + cardSpace};
 }
 
@@ -141,7 +142,7 @@ void StudyRowPainter::paintVolume(QPainter &painter, const QStyleOptionViewItem 
     draw(seriesText(volume), "text");
     for (const QString &text : sizeText(volume).split('\n'))
         draw(text, "muted");
-    for (const QString &text : warningLines(option.font, texts.width(), volume.warnings))
+    for (const QString &text : warningLines(option.font, texts.width(), warningTexts(volume)))
         draw(text, "warning");
 }
 

@@ -17,6 +17,7 @@
 
 #include "core/task/error.h"
 #include "ui/document.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -151,7 +152,7 @@ void ClassDialog::accept() {
         typed(m_tissue);
         QDialog::accept();
     } catch (const task::Error &error) {
-        m_said->setText(QString::fromStdString(error.reason()));
+        m_said->setText(spoken(error.reason()));
     }
 }
 
@@ -162,7 +163,7 @@ void ClassDialog::addStep() {
         m_step->clear();
         m_said->clear();
     } catch (const task::Error &error) {
-        m_said->setText(QString::fromStdString(error.reason()));
+        m_said->setText(spoken(error.reason()));
     }
 }
 

@@ -9,6 +9,7 @@
 #include <QToolButton>
 
 #include "ui/panels/value_slider.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -52,6 +53,7 @@ ClassRow::ClassRow(int index, QWidget *parent)
     m_dot->setToolTip(tr("Show or hide the class"));
     m_dot->setIconSize({16, 16});
     m_dot->setProperty("role", "bare");
+    m_range->setObjectName("classRange");
     m_range->setProperty("role", "small");
     m_name->setMinimumWidth(20);
     m_range->setMinimumWidth(20);
@@ -73,7 +75,7 @@ ClassRow::ClassRow(int index, QWidget *parent)
 }
 
 void ClassRow::show(const classify::TissueClass &tissue, bool isSelected) {
-    const QString name = QString::fromStdString(tissue.name);
+    const QString name = spokenName(tissue.name);
     m_dot->setIcon(dotIcon(colorOf(tissue.color), tissue.weight > 0.0));
     m_dot->setAccessibleName(tr("Show %1").arg(name));
     m_weight->setNames(tr("Weight of %1").arg(name), tr("Weight; double-click sets it to 1"));

@@ -14,6 +14,7 @@
 #include "ui/document.h"
 #include "ui/panels/class_dialog.h"
 #include "ui/panels/class_row.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -130,7 +131,8 @@ void ClassesPanel::toggle(int index) {
     if (tissue.weight > 0.0)
         m_hiddenWeight[name] = tissue.weight;
     const double weight = tissue.weight > 0.0 ? 0.0 : m_hiddenWeight.value(name, 1.0);
-    changeClass(index, tissue.weight > 0.0 ? tr("Hide %1").arg(name) : tr("Show %1").arg(name),
+    const QString said = spokenName(tissue.name);
+    changeClass(index, tissue.weight > 0.0 ? tr("Hide %1").arg(said) : tr("Show %1").arg(said),
                 [&](classify::TissueClass &shown) { shown.weight = weight; });
 }
 
@@ -148,8 +150,7 @@ void ClassesPanel::showAddMenu() {
     if (volume->unit() == volume::ValueUnit::hounsfield) {
         for (classify::TissueClass tissue : classify::standardClasses()) {
             tissue.name = capitalised(tissue.name).toStdString();
-            menu.addAction(QString::fromStdString(tissue.name), this,
-                           [this, tissue] { add(tissue); });
+            menu.addAction(spokenName(tissue.name), this, [this, tissue] { add(tissue); });
         }
         menu.addSeparator();
     }

@@ -20,11 +20,15 @@
 #include "ui/commands.h"
 #include "ui/document.h"
 #include "ui/look_previewer.h"
+#include "ui/spoken.h"
 #include "ui/theme.h"
 
 namespace pellucid::ui {
 
 namespace {
+
+// What a preset is kept under; its text is in the user's language.
+constexpr int nameRole = Qt::UserRole;
 
 constexpr QSize pictureSize{LookPreviewer::pictureWidth, LookPreviewer::pictureHeight};
 
@@ -111,10 +115,9 @@ template <class F> void PresetsPanel::attempt(const F &what) {
     try {
         what();
     } catch (const task::Error &error) {
-        m_said->setText(QString::fromStdString(error.reason()));
+        m_said->setText(spoken(error.reason()));
         m_said->show();
-        emit failed(QString::fromStdString(error.reason()),
-                    QString::fromStdString(error.path().string()));
+        emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));
     }
 }
 
@@ -131,7 +134,8 @@ void PresetsPanel::list() {
             continue;
         listed.push_back(entry.preset);
         const QString name = QString::fromStdString(entry.preset.name);
-        auto *item = new QListWidgetItem(emptyIcon(), name);
+        auto *item = new QListWidgetItem(emptyIcon(), spokenName(entry.preset.name));
+        item->setData(nameRole, name);
         item->setToolTip(entry.preset.notes.empty()
                              ? name
                              : name + ": " + QString::fromStdString(entry.preset.notes));
@@ -140,19 +144,26 @@ void PresetsPanel::list() {
     showCurrent();
     if (!m_library.skipped().empty()) {
         const auto &first = m_library.skipped().front();
-        m_said->setText(tr("%1 is no preset: %2")
-                            .arg(QString::fromStdString(first.path.filename().string()),
-                                 QString::fromStdString(first.reason)));
+        m_said->setText(
+            tr("%1 is no preset: %2")
+                .arg(QString::fromStdString(first.path.filename().string()), spoken(first.reason)));
         m_said->show();
     }
     if (m_document.volume()) // without presets there is still a histogram
         emit presetsListed(listed);
 }
 
+QListWidgetItem *PresetsPanel::itemOf(const QString &preset) const {
+    for (int n = 0; n < m_gallery->count(); ++n)
+        if (m_gallery->item(n)->data(nameRole) == preset)
+            return m_gallery->item(n);
+    return nullptr;
+}
+
 void PresetsPanel::setPicture(const QString &preset, const QImage &picture) {
     if (picture.isNull())
         return;
-    for (QListWidgetItem *item : m_gallery->findItems(preset, Qt::MatchExactly))
+    if (QListWidgetItem *const item = itemOf(preset))
         item->setIcon(QIcon(QPixmap::fromImage(picture)));
 }
 
@@ -170,17 +181,16 @@ void PresetsPanel::showCurrent() {
             !(presets::lookFor(entry.preset, window) == scene.look) ||
             !(entry.preset.shading == scene.shading))
             continue;
-        current = QString::fromStdString(entry.preset.name);
-        const auto items = m_gallery->findItems(current, Qt::MatchExactly);
-        if (!items.isEmpty())
-            m_gallery->setCurrentItem(items.front());
+        current = spokenName(entry.preset.name);
+        if (QListWidgetItem *const item = itemOf(QString::fromStdString(entry.preset.name)))
+            m_gallery->setCurrentItem(item);
         break;
     }
     emit lookNamed(current);
 }
 
 void PresetsPanel::apply(QListWidgetItem *item) {
-    const auto *entry = m_library.find(item->text().toStdString());
+    const auto *entry = m_library.find(item->data(nameRole).toString().toStdString());
     if (entry == nullptr || !m_document.volume())
         return;
     render::Scene scene = m_document.scene();
@@ -220,9 +230,8 @@ void PresetsPanel::saveLook() {
                                          *m_document.volume()));
         m_nameRow->hide();
         list();
-        const auto items = m_gallery->findItems(name, Qt::MatchExactly);
-        if (!items.isEmpty())
-            m_gallery->scrollToItem(items.front());
+        if (QListWidgetItem *const item = itemOf(name))
+            m_gallery->scrollToItem(item);
     });
 }
 
@@ -274,9 +283,10 @@ void PresetsPanel::exportPreset() {
     if (!m_document.volume())
         return;
     const QListWidgetItem *current = m_gallery->currentItem();
-    const auto *entry =
-        current != nullptr ? m_library.find(current->text().toStdString()) : nullptr;
-    const QString name = entry != nullptr ? current->text() : tr("Own look");
+    const auto *entry = current != nullptr
+                            ? m_library.find(current->data(nameRole).toString().toStdString())
+                            : nullptr;
+    const QString name = entry != nullptr ? current->data(nameRole).toString() : tr("Own look");
     const auto exported = entry != nullptr
                               ? entry->preset
                               : presets::presetOf(name.toStdString(), m_document.scene().look,
@@ -292,7 +302,7 @@ void PresetsPanel::exportPreset() {
 void PresetsPanel::showMenu(const QPoint &at) {
     const QListWidgetItem *item = m_gallery->itemAt(at);
     // The gallery may be listed anew while the menu is open.
-    const QString name = item != nullptr ? item->text() : QString();
+    const QString name = item != nullptr ? item->data(nameRole).toString() : QString();
     const auto *entry = m_library.find(name.toStdString());
     if (entry == nullptr)
         return;

@@ -43,6 +43,7 @@ protected:
 
 private:
     void list();
+    QListWidgetItem *itemOf(const QString &preset) const;
     void showCurrent();
     void apply(QListWidgetItem *item);
     void saveLook();

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 
 #include "ui/document.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -72,12 +73,13 @@ void ProblemList::showProblems() {
             QString tip = paths.mid(0, mostInTip).join("\n");
             if (same.size() > mostInTip)
                 tip += "\n" + tr("and %n more", "", int(same.size() - mostInTip));
-            add(tr("%n files: %1", "", int(same.size())).arg(reason), tip, reason);
+            add(tr("%n files: %1", "", int(same.size())).arg(spoken(reason)), tip, reason);
             continue;
         }
         for (std::size_t n = 0; n < same.size(); ++n) {
             const QString name = QString::fromStdString(same[n]->path.filename().string());
-            add(name.isEmpty() ? reason : name + ": " + reason, paths[int(n)], reason);
+            add(name.isEmpty() ? spoken(reason) : name + ": " + spoken(reason), paths[int(n)],
+                reason);
         }
     }
     int height = 2 * m_list->frameWidth() + 2;

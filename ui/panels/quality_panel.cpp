@@ -15,6 +15,7 @@
 #include "ui/commands.h"
 #include "ui/document.h"
 #include "ui/overlay.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -248,7 +249,7 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
                         .arg(QString::fromStdString(spectrum.kernels[0].name()))
                         .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
                         .arg(spectrum.bytes() >> 20));
-    const QString reason = QString::fromStdString(plan.reason);
+    const QString reason = spoken(plan.reason);
     say(coarse                       ? tr("A first, coarse picture; the full one follows")
         : stage == EngineStage::live ? tr("The parts of the look, summed while they change")
         : missed                     ? tr("More error than allowed: %1").arg(reason)

@@ -15,6 +15,7 @@
 #include "core/task/error.h"
 #include "ui/document.h"
 #include "ui/panels/curve_editor.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -154,7 +155,7 @@ void TransferFunctionPanel::paste() {
         classify::validate(pasted);
         change(pasted, tr("Paste a curve"));
     } catch (const task::Error &error) {
-        m_subject->setText(QString::fromStdString(error.reason()));
+        m_subject->setText(spoken(error.reason()));
     }
 }
 
@@ -188,9 +189,8 @@ void TransferFunctionPanel::showHistogram() {
 void TransferFunctionPanel::showScene() {
     const int selected = m_document.selectedClass();
     m_subject->setText(
-        selected < 0
-            ? tr("Whole volume")
-            : QString::fromStdString(m_document.scene().look.classes[std::size_t(selected)].name));
+        selected < 0 ? tr("Whole volume")
+                     : spokenName(m_document.scene().look.classes[std::size_t(selected)].name));
     m_editor->setFunction(function());
     const auto &volume = m_document.volume();
     m_editor->setWindow(m_document.fieldWindow(),

@@ -25,9 +25,9 @@ using measure::Measurement;
 
 constexpr double gripPixels = 6.0, leastDragPixels = 4.0;
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("Measurements", text);
-}
+struct MeasureToolTexts {
+    Q_DECLARE_TR_FUNCTIONS(MeasureToolTexts)
+};
 
 // The places a hand can take it by: its points, of a region the four corners of its box.
 std::vector<glm::dvec3> gripsOf(const Measurement &m) {
@@ -169,13 +169,13 @@ void MeasureTool::move(const Pane &pane, const QPointF &at) {
         moveGrip(m_current, m_point, mm);
         if (measure::isRegion(m_current.kind))
             m_point = 2; // the corner that was taken is the second point now
-        edit(tr("Change %1").arg(QString::fromStdString(m_current.name)));
+        edit(MeasureToolTexts::tr("Change %1").arg(QString::fromStdString(m_current.name)));
         break;
     case Grip::whole:
         for (glm::dvec3 &p : m_current.pointsMm)
             p += mm - m_lastMm;
         m_lastMm = mm;
-        edit(tr("Move %1").arg(QString::fromStdString(m_current.name)));
+        edit(MeasureToolTexts::tr("Move %1").arg(QString::fromStdString(m_current.name)));
         break;
     }
 }

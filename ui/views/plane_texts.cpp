@@ -12,21 +12,22 @@
 #include "core/render/camera.h"
 #include "ui/document.h"
 #include "ui/overlay.h"
+#include "ui/spoken.h"
 #include "ui/views/crosshair.h"
 
 namespace pellucid::ui {
 
 namespace {
 
-QString tr(const char *text) {
-    return QCoreApplication::translate("MprView", text);
-}
+struct PlaneTextsTexts {
+    Q_DECLARE_TR_FUNCTIONS(PlaneTextsTexts)
+};
 
 QString slabText(const mpr::Slab &slab) {
-    const QString mode = slab.mode == mpr::SlabMode::mean      ? tr("mean")
-                         : slab.mode == mpr::SlabMode::maximum ? tr("MIP")
-                                                               : tr("MinIP");
-    return tr("%1 of %2 mm").arg(mode).arg(slab.thicknessMm);
+    const QString mode = slab.mode == mpr::SlabMode::mean      ? PlaneTextsTexts::tr("mean")
+                         : slab.mode == mpr::SlabMode::maximum ? PlaneTextsTexts::tr("MIP")
+                                                               : PlaneTextsTexts::tr("MinIP");
+    return PlaneTextsTexts::tr("%1 of %2 mm").arg(mode).arg(slab.thicknessMm);
 }
 
 // "S 142.5": the side that the coordinate points to, and its size.
@@ -40,13 +41,13 @@ QString coordinateText(const glm::dvec3 &axis, double mm) {
 QString planeTitle(mpr::Orientation o) {
     switch (o) {
     case mpr::Orientation::axial:
-        return tr("Axial");
+        return PlaneTextsTexts::tr("Axial");
     case mpr::Orientation::coronal:
-        return tr("Coronal");
+        return PlaneTextsTexts::tr("Coronal");
     case mpr::Orientation::sagittal:
         break;
     }
-    return tr("Sagittal");
+    return PlaneTextsTexts::tr("Sagittal");
 }
 
 QString valueText(const volume::Volume &volume, volume::PatientPoint at,
@@ -77,7 +78,7 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
     drawText(painter, inner, Qt::AlignLeft | Qt::AlignTop,
              cut.axes.of(orientation) == mpr::standardAxes(orientation)
                  ? title
-                 : tr("%1, oblique").arg(title),
+                 : PlaneTextsTexts::tr("%1, oblique").arg(title),
              colors.plane);
     painter.restore();
     if (!document.volume())
@@ -88,7 +89,7 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
     const QString position =
         notes.placed
             ? coordinateText(axis, glm::dot(document.crosshair().mm, axis)) + " mm"
-            : tr("image %1")
+            : PlaneTextsTexts::tr("image %1")
                   .arg(1 + int(std::lround(
                                document.volume()->lattice().voxel(document.crosshair()).v.z)));
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop, position, colors.text);
@@ -103,11 +104,12 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
                      std::min(110, area.width() / 3), colors);
     if (!notes.warnings.empty())
         drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
-                 painter.fontMetrics().elidedText(QString::fromStdString(notes.warnings.front()),
-                                                  Qt::ElideRight, area.width() / 2 - 16),
+                 painter.fontMetrics().elidedText(spoken(notes.warnings.front()), Qt::ElideRight,
+                                                  area.width() / 2 - 16),
                  colors.warning);
     if (notes.lossy)
-        drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, tr("lossy"), colors.warning);
+        drawText(painter, inner, Qt::AlignRight | Qt::AlignBottom, PlaneTextsTexts::tr("lossy"),
+                 colors.warning);
 }
 
 } // namespace pellucid::ui

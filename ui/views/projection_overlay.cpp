@@ -6,6 +6,7 @@
 
 #include "ui/document.h"
 #include "ui/overlay.h"
+#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -81,8 +82,7 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping) con
     QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
     for (const std::string &w : m_document.volume()->notes().warnings) {
         drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
-                 painter.fontMetrics().elidedText(QString::fromStdString(w), Qt::ElideRight,
-                                                  warning.width()),
+                 painter.fontMetrics().elidedText(spoken(w), Qt::ElideRight, warning.width()),
                  colors.warning);
         warning.translate(0, line);
     }

@@ -12,6 +12,7 @@
 
 #include "ui/document.h"
 #include "ui/overlay.h"
+#include "ui/spoken.h"
 #include "ui/views/camera_moves.h"
 #include "ui/views/projection_overlay.h"
 
@@ -290,9 +291,8 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     emit frameShown(frame->times, frame->draft);
     const std::string engine =
         frame->onCard && m_onCard ? m_onCard->description() : m_engine->description();
-    emit engineDescribed(tr("%1: %2").arg(QString::fromStdString(engine), frame->refusal.isEmpty()
-                                                                              ? m_engineReason
-                                                                              : frame->refusal));
+    emit engineDescribed(tr("%1: %2").arg(
+        spoken(engine), frame->refusal.isEmpty() ? m_engineReason : frame->refusal));
     if (showsFinalImage()) {
         if (m_planState == PlanState::holds)
             m_comparison.settled(

@@ -1,0 +1,48 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="en" sourcelanguage="en">
+<context>
+    <name>pellucid::ui::ImportDialog</name>
+    <message numerus="yes">
+        <source>and %n more</source>
+        <translation>
+            <numerusform>and %n more</numerusform>
+            <numerusform>and %n more</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ProblemList</name>
+    <message numerus="yes">
+        <source>and %n more</source>
+        <translation>
+            <numerusform>and %n more</numerusform>
+            <numerusform>and %n more</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n files: %1</source>
+        <translation>
+            <numerusform>%n file: %1</numerusform>
+            <numerusform>%n files: %1</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::StudyPanel</name>
+    <message numerus="yes">
+        <source>%n files that were copied into the library are deleted.</source>
+        <translation>
+            <numerusform>%n file that was copied into the library is deleted.</numerusform>
+            <numerusform>%n files that were copied into the library are deleted.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n files elsewhere stay where they are.</source>
+        <translation>
+            <numerusform>%n file elsewhere stays where it is.</numerusform>
+            <numerusform>%n files elsewhere stay where they are.</numerusform>
+        </translation>
+    </message>
+</context>
+</TS>

@@ -1,0 +1,3146 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="zh_TW" sourcelanguage="en">
+<context>
+    <name>Commands</name>
+    <message>
+        <source>Window</source>
+        <translation>窗</translation>
+    </message>
+</context>
+<context>
+    <name>CropTool</name>
+    <message>
+        <source>Crop</source>
+        <translation>裁切</translation>
+    </message>
+</context>
+<context>
+    <name>Dock</name>
+    <message>
+        <source>Fold or unfold</source>
+        <translation>摺疊或展開</translation>
+    </message>
+</context>
+<context>
+    <name>EngineMenuTexts</name>
+    <message>
+        <source>&amp;Automatic</source>
+        <translation>自動(&amp;A)</translation>
+    </message>
+    <message>
+        <source>&amp;Processor</source>
+        <translation>處理器(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Graphics card</source>
+        <translation>顯示卡(&amp;G)</translation>
+    </message>
+</context>
+<context>
+    <name>HelpMenuTexts</name>
+    <message>
+        <source>manual.html</source>
+        <comment>file name of the translated manual</comment>
+        <translation>manual_zh_TW.html</translation>
+    </message>
+    <message>
+        <source>Pellucid manual</source>
+        <translation>Pellucid 使用手冊</translation>
+    </message>
+    <message>
+        <source>Libraries</source>
+        <translation>程式庫</translation>
+    </message>
+    <message>
+        <source>Library</source>
+        <translation>程式庫</translation>
+    </message>
+    <message>
+        <source>Version</source>
+        <translation>版本</translation>
+    </message>
+    <message>
+        <source>Licence</source>
+        <translation>授權</translation>
+    </message>
+    <message>
+        <source>About Pellucid</source>
+        <translation>關於 Pellucid</translation>
+    </message>
+    <message>
+        <source>Projections of DICOM studies in the frequency domain.</source>
+        <translation>在頻率域計算 DICOM 檢查的投影。</translation>
+    </message>
+    <message>
+        <source>Not for diagnostic use.</source>
+        <translation>不得用於診斷。</translation>
+    </message>
+    <message>
+        <source>Free software under the GNU General Public License, version 3 or later; without any warranty.</source>
+        <translation>自由軟體，依 GNU 通用公共授權條款第 3 版或更新版本散布；不提供任何擔保。</translation>
+    </message>
+    <message>
+        <source>&amp;Manual</source>
+        <translation>使用手冊(&amp;M)</translation>
+    </message>
+    <message>
+        <source>&amp;About Pellucid</source>
+        <translation>關於 Pellucid(&amp;A)</translation>
+    </message>
+</context>
+<context>
+    <name>Import</name>
+    <message>
+        <source>copies need %1 MB and there are %2 MB</source>
+        <translation>複製需要 %1 MB，只有 %2 MB 可用</translation>
+    </message>
+</context>
+<context>
+    <name>LibraryTexts</name>
+    <message>
+        <source>; studies are listed for this run only</source>
+        <translation>；檢查僅於本次執行列出</translation>
+    </message>
+    <message>
+        <source>the study library was damaged: %1 series were read, %2 lost; the old file is kept under this name</source>
+        <translation>檢查資料庫已損壞：讀回 %1 個序列，遺失 %2 個；舊檔案以此名稱保留</translation>
+    </message>
+</context>
+<context>
+    <name>MeasureToolTexts</name>
+    <message>
+        <source>Change %1</source>
+        <translation>變更%1</translation>
+    </message>
+    <message>
+        <source>Move %1</source>
+        <translation>移動%1</translation>
+    </message>
+</context>
+<context>
+    <name>MeasurementTextTexts</name>
+    <message>
+        <source>%1 square pixels</source>
+        <translation>%1 平方像素</translation>
+    </message>
+    <message>
+        <source>%1 mm²</source>
+        <translation>%1 mm²</translation>
+    </message>
+    <message>
+        <source>%1 cm²</source>
+        <translation>%1 cm²</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>距離</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>角度</translation>
+    </message>
+    <message>
+        <source>Ellipse</source>
+        <translation>橢圓</translation>
+    </message>
+    <message>
+        <source>Rectangle</source>
+        <translation>矩形</translation>
+    </message>
+    <message>
+        <source>Projected distance</source>
+        <translation>投影距離</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>%1 pixels</source>
+        <translation>%1 像素</translation>
+    </message>
+    <message>
+        <source>%1°</source>
+        <translation>%1°</translation>
+    </message>
+    <message>
+        <source>in the picture, depth not measured</source>
+        <translation>影像平面內，未測量深度</translation>
+    </message>
+    <message>
+        <source>mean %1%2</source>
+        <translation>平均 %1%2</translation>
+    </message>
+    <message>
+        <source>SD %1</source>
+        <translation>標準差 %1</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 至 %2</translation>
+    </message>
+    <message>
+        <source>outside the volume</source>
+        <translation>在體積之外</translation>
+    </message>
+</context>
+<context>
+    <name>Names</name>
+    <message>
+        <source>X-ray</source>
+        <translation>X 光</translation>
+    </message>
+    <message>
+        <source>X-ray without couch</source>
+        <translation>X 光，不含檢查床</translation>
+    </message>
+    <message>
+        <source>Bone</source>
+        <translation>骨骼</translation>
+    </message>
+    <message>
+        <source>Bone over soft tissue</source>
+        <translation>骨骼疊於軟組織</translation>
+    </message>
+    <message>
+        <source>Lung and airways</source>
+        <translation>肺與氣道</translation>
+    </message>
+    <message>
+        <source>Skin</source>
+        <translation>皮膚</translation>
+    </message>
+    <message>
+        <source>Contrast vessels</source>
+        <translation>顯影血管</translation>
+    </message>
+    <message>
+        <source>Teeth</source>
+        <translation>牙齒</translation>
+    </message>
+    <message>
+        <source>Metal</source>
+        <translation>金屬</translation>
+    </message>
+    <message>
+        <source>Edges over X-ray</source>
+        <translation>邊緣疊於 X 光</translation>
+    </message>
+    <message>
+        <source>Head: bone</source>
+        <translation>頭部：骨骼</translation>
+    </message>
+    <message>
+        <source>Head: muscle</source>
+        <translation>頭部：肌肉</translation>
+    </message>
+    <message>
+        <source>Head: fluid</source>
+        <translation>頭部：體液</translation>
+    </message>
+    <message>
+        <source>Head: bone, muscle, fluid</source>
+        <translation>頭部：骨骼、肌肉、體液</translation>
+    </message>
+    <message>
+        <source>Chest: bone</source>
+        <translation>胸部：骨骼</translation>
+    </message>
+    <message>
+        <source>Chest: muscle</source>
+        <translation>胸部：肌肉</translation>
+    </message>
+    <message>
+        <source>Chest: fat</source>
+        <translation>胸部：脂肪</translation>
+    </message>
+    <message>
+        <source>Chest: bone, muscle, fat</source>
+        <translation>胸部：骨骼、肌肉、脂肪</translation>
+    </message>
+    <message>
+        <source>Bone in relief</source>
+        <translation>骨骼浮雕</translation>
+    </message>
+    <message>
+        <source>MR: X-ray-like</source>
+        <translation>MR：類 X 光</translation>
+    </message>
+    <message>
+        <source>MR: brain</source>
+        <translation>MR：腦</translation>
+    </message>
+    <message>
+        <source>MR: edges</source>
+        <translation>MR：邊緣</translation>
+    </message>
+    <message>
+        <source>Body in three lights</source>
+        <translation>三色光下的身體</translation>
+    </message>
+    <message>
+        <source>Muscle</source>
+        <translation>肌肉</translation>
+    </message>
+    <message>
+        <source>Fluid</source>
+        <translation>體液</translation>
+    </message>
+    <message>
+        <source>Fat</source>
+        <translation>脂肪</translation>
+    </message>
+    <message>
+        <source>Edges</source>
+        <translation>邊緣</translation>
+    </message>
+    <message>
+        <source>Soft tissue</source>
+        <translation>軟組織</translation>
+    </message>
+    <message>
+        <source>Signal</source>
+        <translation>訊號</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>病患</translation>
+    </message>
+    <message>
+        <source>Lung</source>
+        <translation>肺</translation>
+    </message>
+    <message>
+        <source>Head</source>
+        <translation>頭部</translation>
+    </message>
+    <message>
+        <source>Density</source>
+        <translation>密度</translation>
+    </message>
+    <message>
+        <source>Contrast</source>
+        <translation>顯影劑</translation>
+    </message>
+    <message>
+        <source>Air</source>
+        <translation>空氣</translation>
+    </message>
+    <message>
+        <source>Organ</source>
+        <translation>器官</translation>
+    </message>
+    <message>
+        <source>Body</source>
+        <translation>身體</translation>
+    </message>
+    <message>
+        <source>Brain</source>
+        <translation>腦</translation>
+    </message>
+    <message>
+        <source>Abdomen</source>
+        <translation>腹部</translation>
+    </message>
+    <message>
+        <source>Mediastinum</source>
+        <translation>縱膈</translation>
+    </message>
+    <message>
+        <source>File</source>
+        <translation>檔案</translation>
+    </message>
+    <message>
+        <source>Auto</source>
+        <translation>自動</translation>
+    </message>
+    <message>
+        <source>Custom</source>
+        <translation>自訂</translation>
+    </message>
+    <message>
+        <source>Own range</source>
+        <translation>自訂範圍</translation>
+    </message>
+</context>
+<context>
+    <name>PictureExportTexts</name>
+    <message>
+        <source>No study is open</source>
+        <translation>沒有開啟的檢查</translation>
+    </message>
+    <message>
+        <source>The projection is still being made</source>
+        <translation>投影仍在製作中</translation>
+    </message>
+    <message>
+        <source>Values are written of the projection only</source>
+        <translation>只有投影能輸出數值</translation>
+    </message>
+    <message>
+        <source>Only the projection turns</source>
+        <translation>只有投影能旋轉</translation>
+    </message>
+    <message>
+        <source>Videos need the program ffmpeg, which is not installed; frames do not</source>
+        <translation>影片需要 ffmpeg 程式，但未安裝；逐格影像則不需要</translation>
+    </message>
+    <message>
+        <source>A picture in colour has no grey values: write it as it looks, or as NumPy</source>
+        <translation>彩色影像沒有灰階數值：請以所見或 NumPy 格式寫出</translation>
+    </message>
+    <message>
+        <source>Pictures have at most %1 pixels a side</source>
+        <translation>影像每邊最多 %1 像素</translation>
+    </message>
+</context>
+<context>
+    <name>PlaneTextsTexts</name>
+    <message>
+        <source>mean</source>
+        <translation>平均</translation>
+    </message>
+    <message>
+        <source>MIP</source>
+        <translation>MIP</translation>
+    </message>
+    <message>
+        <source>MinIP</source>
+        <translation>MinIP</translation>
+    </message>
+    <message>
+        <source>%1 of %2 mm</source>
+        <translation>%1，厚 %2 mm</translation>
+    </message>
+    <message>
+        <source>Axial</source>
+        <translation>軸狀面</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>冠狀面</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>矢狀面</translation>
+    </message>
+    <message>
+        <source>%1, oblique</source>
+        <translation>%1，斜切</translation>
+    </message>
+    <message>
+        <source>image %1</source>
+        <translation>影像 %1</translation>
+    </message>
+    <message>
+        <source>lossy</source>
+        <translation>有損壓縮</translation>
+    </message>
+</context>
+<context>
+    <name>ProjectionView</name>
+    <message>
+        <source>Before</source>
+        <translation>先前</translation>
+    </message>
+    <message>
+        <source>Before: %1</source>
+        <translation>先前：%1</translation>
+    </message>
+    <message>
+        <source>Now</source>
+        <translation>現在</translation>
+    </message>
+    <message>
+        <source>Projection</source>
+        <translation>投影</translation>
+    </message>
+    <message>
+        <source>Parallel projection</source>
+        <translation>平行投影</translation>
+    </message>
+    <message>
+        <source>Not for diagnostic use</source>
+        <translation>不得用於診斷</translation>
+    </message>
+</context>
+<context>
+    <name>QObject</name>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+</context>
+<context>
+    <name>Reasons</name>
+    <message>
+        <source>a spectrum of %1 x %2 x %3 cells is larger than the graphics card's textures, %4 a side</source>
+        <translation>%1 x %2 x %3 格的頻譜大於顯示卡的紋理，每邊 %4</translation>
+    </message>
+    <message>
+        <source>the image reaches further than the graphics card's slice can count</source>
+        <translation>影像超出顯示卡切片的計數範圍</translation>
+    </message>
+    <message>
+        <source>means, %1 x %2 x %3 in place of %4 x %5 x %6: more does not fit the memory</source>
+        <translation>平均值，以 %1 x %2 x %3 取代 %4 x %5 x %6：記憶體容納不下更多</translation>
+    </message>
+    <message>
+        <source>uneven slice distances, resampled onto %1 mm; they change at %2</source>
+        <translation>切片間距不均，重新取樣為 %1 mm；變化處：%2</translation>
+    </message>
+    <message>
+        <source>a gap of %1 mm between %2 and %3; slices are %4 mm apart elsewhere</source>
+        <translation>%2 與 %3 之間有 %1 mm 的空隙；其他切片相距 %4 mm</translation>
+    </message>
+    <message>
+        <source>has its samples in another file; referred to, not copied</source>
+        <translation>取樣資料在另一個檔案；已參照，未複製</translation>
+    </message>
+    <message>
+        <source>not enough memory to keep the projections of the layers</source>
+        <translation>記憶體不足以保留各層的投影</translation>
+    </message>
+    <message>
+        <source>the most accurate that fits the memory with the chosen %1</source>
+        <translation>在所選的%1下，記憶體所能容納的最準確做法</translation>
+    </message>
+    <message>
+        <source>the weight %1 of a transfer function is not within 0 and %2</source>
+        <translation>轉換函數的權重 %1 不在 0 與 %2 之間</translation>
+    </message>
+    <message>
+        <source>the cheapest that keeps the tolerance with the chosen %1</source>
+        <translation>在所選的%1下，符合容差的最省做法</translation>
+    </message>
+    <message>
+        <source>the spectra need %1 MB, the graphics card has %2 MB free</source>
+        <translation>頻譜需要 %1 MB，顯示卡有 %2 MB 可用</translation>
+    </message>
+    <message>
+        <source>a fragment of the compressed pixels is not readable</source>
+        <translation>無法讀取壓縮像素的片段</translation>
+    </message>
+    <message>
+        <source>an image of %1 x %2 pixels needs %3 MB, %4 MB are allowed</source>
+        <translation>%1 x %2 像素的影像需要 %3 MB，允許 %4 MB</translation>
+    </message>
+    <message>
+        <source>only three-dimensional NRRD volumes are supported</source>
+        <translation>僅支援三維 NRRD 體積</translation>
+    </message>
+    <message>
+        <source>is an archive; archives are opened by themselves</source>
+        <translation>為壓縮檔；壓縮檔須單獨開啟</translation>
+    </message>
+    <message>
+        <source>the compressed image is not what the header says</source>
+        <translation>壓縮影像與檔頭不符</translation>
+    </message>
+    <message>
+        <source>slice distances from %1 to %2 mm have no common step</source>
+        <translation>切片間距由 %1 至 %2 mm，沒有共同的步距</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost: its driver was reset</source>
+        <translation>失去顯示卡：其驅動程式已重設</translation>
+    </message>
+    <message>
+        <source>not enough memory for the steps of the class '%1'</source>
+        <translation>記憶體不足以執行類別「%1」的步驟</translation>
+    </message>
+    <message>
+        <source>not enough memory for the gradient of the field</source>
+        <translation>記憶體不足以容納場的梯度</translation>
+    </message>
+    <message>
+        <source>announces %1 frames, more than the file can hold</source>
+        <translation>宣告 %1 個影格，超過檔案所能容納</translation>
+    </message>
+    <message>
+        <source>tilted by %1 degrees; shown from its own lattice</source>
+        <translation>傾斜 %1 度；依其自身格點顯示</translation>
+    </message>
+    <message>
+        <source>%1 lies %2 mm beside the line of the other slices</source>
+        <translation>%1 偏離其他切片的連線 %2 mm</translation>
+    </message>
+    <message>
+        <source>'%1' is no parameter of the step '%2', which has %3</source>
+        <translation>「%1」不是步驟「%2」的參數，其參數為 %3</translation>
+    </message>
+    <message>
+        <source>has %1 bits per sample; 8 and 16 are supported</source>
+        <translation>每個取樣 %1 位元；支援 8 與 16 位元</translation>
+    </message>
+    <message>
+        <source>the graphics card has not enough memory for %1</source>
+        <translation>顯示卡的記憶體不足以容納%1</translation>
+    </message>
+    <message>
+        <source>the compressed data are damaged or truncated</source>
+        <translation>壓縮資料損壞或被截斷</translation>
+    </message>
+    <message>
+        <source>unpacks to more than the %1 there is room for</source>
+        <translation>解壓縮後大於可用的 %1</translation>
+    </message>
+    <message>
+        <source>not enough memory for an image of this size</source>
+        <translation>記憶體不足以容納此大小的影像</translation>
+    </message>
+    <message>
+        <source>the most accurate there is with the chosen %1</source>
+        <translation>在所選的%1下最準確的做法</translation>
+    </message>
+    <message>
+        <source>the graphics card does not answer any more</source>
+        <translation>顯示卡不再回應</translation>
+    </message>
+    <message>
+        <source>a transfer function has %1 to %2 weights, not %3</source>
+        <translation>轉換函數有 %1 至 %2 個權重，而非 %3 個</translation>
+    </message>
+    <message>
+        <source>says that %1 of %2 bits are stored up to bit %3</source>
+        <translation>宣告 %2 位元中的 %1 位元存至第 %3 位元</translation>
+    </message>
+    <message>
+        <source>the projection needs %1 MB, %2 MB are allowed</source>
+        <translation>投影需要 %1 MB，允許 %2 MB</translation>
+    </message>
+    <message>
+        <source>there is no folder for the user's presets</source>
+        <translation>沒有使用者預設集的資料夾</translation>
+    </message>
+    <message>
+        <source>holds %1 compressed frames, %2 are announced</source>
+        <translation>含有 %1 個壓縮影格，但宣告 %2 個</translation>
+    </message>
+    <message>
+        <source>not enough memory for a volume of %1 x %2 x %3</source>
+        <translation>記憶體不足以容納 %1 x %2 x %3 的體積</translation>
+    </message>
+    <message>
+        <source>floating-point pixels are not supported</source>
+        <translation>不支援浮點像素</translation>
+    </message>
+    <message>
+        <source>not enough memory for the cropped field</source>
+        <translation>記憶體不足以容納裁切後的場</translation>
+    </message>
+    <message>
+        <source>%1; studies are listed for this run only</source>
+        <translation>%1；檢查僅於本次執行列出</translation>
+    </message>
+    <message>
+        <source>the compressed pixels are not readable</source>
+        <translation>無法讀取壓縮的像素</translation>
+    </message>
+    <message>
+        <source>the pixels are truncated: %1 of %2 samples</source>
+        <translation>像素被截斷：%2 個取樣中的 %1 個</translation>
+    </message>
+    <message>
+        <source>not enough memory for the class fields</source>
+        <translation>記憶體不足以容納類別的場</translation>
+    </message>
+    <message>
+        <source>the most accurate that fits the memory</source>
+        <translation>記憶體所能容納的最準確做法</translation>
+    </message>
+    <message>
+        <source>there is no folder for temporary files</source>
+        <translation>沒有暫存檔案的資料夾</translation>
+    </message>
+    <message>
+        <source>is a study library of a newer version</source>
+        <translation>為較新版本的檢查資料庫</translation>
+    </message>
+    <message>
+        <source>not enough memory to decode the image</source>
+        <translation>記憶體不足，無法解碼影像</translation>
+    </message>
+    <message>
+        <source>the image is not what the header says</source>
+        <translation>影像與檔頭不符</translation>
+    </message>
+    <message>
+        <source>has an image larger than DICOM allows</source>
+        <translation>影像大於 DICOM 所允許</translation>
+    </message>
+    <message>
+        <source>is listed in the DICOMDIR but missing</source>
+        <translation>列於 DICOMDIR 但已遺失</translation>
+    </message>
+    <message>
+        <source>the cheapest that keeps the tolerance</source>
+        <translation>符合容差的最省做法</translation>
+    </message>
+    <message>
+        <source>is larger than a preset can be (1 MB)</source>
+        <translation>大於預設集的上限 (1 MB)</translation>
+    </message>
+    <message>
+        <source>the DICOM data dictionary is missing</source>
+        <translation>缺少 DICOM 資料字典</translation>
+    </message>
+    <message>
+        <source>the preset '%1' is made for %2, not for %3</source>
+        <translation>預設集「%1」適用於 %2，不適用於 %3</translation>
+    </message>
+    <message>
+        <source>is no volume property of 3D Slicer: %1</source>
+        <translation>不是 3D Slicer 的體積屬性：%1</translation>
+    </message>
+    <message>
+        <source>cannot be copied into the library: %1</source>
+        <translation>無法複製到資料庫：%1</translation>
+    </message>
+    <message>
+        <source>not enough memory for a basis field</source>
+        <translation>記憶體不足以容納基底場</translation>
+    </message>
+    <message>
+        <source>not enough memory for the lit field</source>
+        <translation>記憶體不足以容納受光的場</translation>
+    </message>
+    <message>
+        <source>is an index of files, not an image</source>
+        <translation>是檔案索引，不是影像</translation>
+    </message>
+    <message>
+        <source>unpacks to more than it announces</source>
+        <translation>解壓縮後大於其宣告的大小</translation>
+    </message>
+    <message>
+        <source>not enough memory for the step '%1'</source>
+        <translation>記憶體不足以執行步驟「%1」</translation>
+    </message>
+    <message>
+        <source>the images have no pixel spacing</source>
+        <translation>影像沒有像素間距</translation>
+    </message>
+    <message>
+        <source>not enough memory for the volume</source>
+        <translation>記憶體不足以容納此體積</translation>
+    </message>
+    <message>
+        <source>there is another preset named '%1'</source>
+        <translation>已有名為「%1」的預設集</translation>
+    </message>
+    <message>
+        <source>lists a file outside its folder</source>
+        <translation>列出了資料夾之外的檔案</translation>
+    </message>
+    <message>
+        <source>needs more memory than there is</source>
+        <translation>需要的記憶體超過可用量</translation>
+    </message>
+    <message>
+        <source>not enough memory to find edges</source>
+        <translation>記憶體不足以尋找邊緣</translation>
+    </message>
+    <message>
+        <source>the images have no orientation</source>
+        <translation>影像沒有方向</translation>
+    </message>
+    <message>
+        <source>is neither a file nor a folder</source>
+        <translation>既非檔案也非資料夾</translation>
+    </message>
+    <message>
+        <source>the softness must be 0 or more</source>
+        <translation>柔和度必須大於或等於 0</translation>
+    </message>
+    <message>
+        <source>not enough memory for %1 of %2 MB</source>
+        <translation>記憶體不足以容納 %2 MB 的%1</translation>
+    </message>
+    <message>
+        <source>the step '%1' has no parameters</source>
+        <translation>步驟「%1」沒有參數</translation>
+    </message>
+    <message>
+        <source>the decoder cannot be set up</source>
+        <translation>無法設定解碼器</translation>
+    </message>
+    <message>
+        <source>the preset cannot be kept: %1</source>
+        <translation>無法保存預設集：%1</translation>
+    </message>
+    <message>
+        <source>the images have no position</source>
+        <translation>影像沒有位置</translation>
+    </message>
+    <message>
+        <source>segmentations are not shown</source>
+        <translation>不顯示分割結果</translation>
+    </message>
+    <message>
+        <source>its opacity is 0 everywhere</source>
+        <translation>其不透明度處處為 0</translation>
+    </message>
+    <message>
+        <source>the most accurate there is</source>
+        <translation>最準確的做法</translation>
+    </message>
+    <message>
+        <source>the graphics card was lost</source>
+        <translation>失去顯示卡</translation>
+    </message>
+    <message>
+        <source>the scene's schema is not %1</source>
+        <translation>場景的格式不是 %1</translation>
+    </message>
+    <message>
+        <source>the NRRD header has no end</source>
+        <translation>NRRD 檔頭沒有結尾</translation>
+    </message>
+    <message>
+        <source>changed while it was read</source>
+        <translation>讀取期間有變動</translation>
+    </message>
+    <message>
+        <source>cannot be read to its end</source>
+        <translation>無法讀到結尾</translation>
+    </message>
+    <message>
+        <source>has an image without size</source>
+        <translation>影像沒有大小</translation>
+    </message>
+    <message>
+        <source>the NRRD header has no '%1'</source>
+        <translation>NRRD 檔頭缺少「%1」</translation>
+    </message>
+    <message>
+        <source>No such file or directory</source>
+        <translation>沒有此檔案或資料夾</translation>
+    </message>
+    <message>
+        <source>the pixels are truncated</source>
+        <translation>像素被截斷</translation>
+    </message>
+    <message>
+        <source>has the instance UID of %1</source>
+        <translation>與 %1 的實例 UID 相同</translation>
+    </message>
+    <message>
+        <source>the scene is not valid: %1</source>
+        <translation>場景無效：%1</translation>
+    </message>
+    <message>
+        <source>the range %1 to %2 is empty</source>
+        <translation>範圍 %1 至 %2 是空的</translation>
+    </message>
+    <message>
+        <source>the step '%1' is none of %2</source>
+        <translation>步驟「%1」不在 %2 之中</translation>
+    </message>
+    <message>
+        <source>No space left on device</source>
+        <translation>磁碟空間不足</translation>
+    </message>
+    <message>
+        <source>is a damaged archive: %1</source>
+        <translation>為損壞的壓縮檔：%1</translation>
+    </message>
+    <message>
+        <source>holds more than %1 files</source>
+        <translation>含有超過 %1 個檔案</translation>
+    </message>
+    <message>
+        <source>holds no usable images</source>
+        <translation>沒有可用的影像</translation>
+    </message>
+    <message>
+        <source>CPU engine, %1, %2 threads</source>
+        <translation>CPU 引擎，%1，%2 執行緒</translation>
+    </message>
+    <message>
+        <source>is a link to a folder</source>
+        <translation>是資料夾的連結</translation>
+    </message>
+    <message>
+        <source>is not a regular file</source>
+        <translation>不是一般檔案</translation>
+    </message>
+    <message>
+        <source>is not there any more</source>
+        <translation>已不存在</translation>
+    </message>
+    <message>
+        <source>CPU engine, %1, %2 thread</source>
+        <translation>CPU 引擎，%1，%2 執行緒</translation>
+    </message>
+    <message>
+        <source>the GPU engine needs %1</source>
+        <translation>GPU 引擎需要%1</translation>
+    </message>
+    <message>
+        <source>ffmpeg does not start</source>
+        <translation>無法啟動 ffmpeg</translation>
+    </message>
+    <message>
+        <source>Read-only file system</source>
+        <translation>檔案系統唯讀</translation>
+    </message>
+    <message>
+        <source>is a damaged archive</source>
+        <translation>為損壞的壓縮檔</translation>
+    </message>
+    <message>
+        <source>damaged or truncated</source>
+        <translation>損壞或被截斷</translation>
+    </message>
+    <message>
+        <source>is a colour image (%1)</source>
+        <translation>是彩色影像 (%1)</translation>
+    </message>
+    <message>
+        <source>the step '%1' failed: %2</source>
+        <translation>步驟「%1」失敗：%2</translation>
+    </message>
+    <message>
+        <source>cannot be encoded: %1</source>
+        <translation>無法編碼：%1</translation>
+    </message>
+    <message>
+        <source>cannot be removed: %1</source>
+        <translation>無法移除：%1</translation>
+    </message>
+    <message>
+        <source>cannot be written: %1</source>
+        <translation>無法寫入：%1</translation>
+    </message>
+    <message>
+        <source>the study library: %1</source>
+        <translation>檢查資料庫：%1</translation>
+    </message>
+    <message>
+        <source>is not a DICOM file</source>
+        <translation>不是 DICOM 檔案</translation>
+    </message>
+    <message>
+        <source>a class has no name</source>
+        <translation>類別沒有名稱</translation>
+    </message>
+    <message>
+        <source>is no regular file</source>
+        <translation>不是一般檔案</translation>
+    </message>
+    <message>
+        <source>temporal position %1</source>
+        <translation>時間點 %1</translation>
+    </message>
+    <message>
+        <source>is not a NRRD file</source>
+        <translation>不是 NRRD 檔案</translation>
+    </message>
+    <message>
+        <source>ffmpeg ended early</source>
+        <translation>ffmpeg 提前結束</translation>
+    </message>
+    <message>
+        <source>is not readable: %1</source>
+        <translation>無法讀取：%1</translation>
+    </message>
+    <message>
+        <source>acquisition time %1</source>
+        <translation>擷取時間 %1</translation>
+    </message>
+    <message>
+        <source>Permission denied</source>
+        <translation>沒有權限</translation>
+    </message>
+    <message>
+        <source>not enough memory</source>
+        <translation>記憶體不足</translation>
+    </message>
+    <message>
+        <source>cannot be made: %1</source>
+        <translation>無法建立：%1</translation>
+    </message>
+    <message>
+        <source>has no pixels (%1)</source>
+        <translation>沒有像素 (%1)</translation>
+    </message>
+    <message>
+        <source>is a broken link</source>
+        <translation>是失效的連結</translation>
+    </message>
+    <message>
+        <source>holds no images</source>
+        <translation>沒有影像</translation>
+    </message>
+    <message>
+        <source>damaged header</source>
+        <translation>檔頭損壞</translation>
+    </message>
+    <message>
+        <source>cannot be read</source>
+        <translation>無法讀取</translation>
+    </message>
+    <message>
+        <source>does not exist</source>
+        <translation>不存在</translation>
+    </message>
+    <message>
+        <source>Is a directory</source>
+        <translation>是資料夾</translation>
+    </message>
+    <message>
+        <source>images only: %1</source>
+        <translation>僅有影像：%1</translation>
+    </message>
+    <message>
+        <source>holds no data</source>
+        <translation>沒有資料</translation>
+    </message>
+    <message>
+        <source>has no pixels</source>
+        <translation>沒有像素</translation>
+    </message>
+    <message>
+        <source>trigger time %1</source>
+        <translation>觸發時間 %1</translation>
+    </message>
+    <message>
+        <source>content time %1</source>
+        <translation>內容時間 %1</translation>
+    </message>
+    <message>
+        <source>is damaged: %1</source>
+        <translation>已損壞：%1</translation>
+    </message>
+    <message>
+        <source>is encrypted</source>
+        <translation>已加密</translation>
+    </message>
+    <message>
+        <source>acquisition %1</source>
+        <translation>擷取 %1</translation>
+    </message>
+    <message>
+        <source>GPU engine, %1</source>
+        <translation>GPU 引擎，%1</translation>
+    </message>
+    <message>
+        <source>is truncated</source>
+        <translation>被截斷</translation>
+    </message>
+    <message>
+        <source>JPEG 2000: %1</source>
+        <translation>JPEG 2000：%1</translation>
+    </message>
+    <message>
+        <source>without %1: %2</source>
+        <translation>缺少 %1：%2</translation>
+    </message>
+    <message>
+        <source>is no file</source>
+        <translation>不是檔案</translation>
+    </message>
+    <message>
+        <source>class '%1': %2</source>
+        <translation>類別「%1」：%2</translation>
+    </message>
+    <message>
+        <source>is empty</source>
+        <translation>是空的</translation>
+    </message>
+    <message>
+        <source>b-value %1</source>
+        <translation>b 值 %1</translation>
+    </message>
+    <message>
+        <source>line %1: %2</source>
+        <translation>第 %1 行：%2</translation>
+    </message>
+    <message>
+        <source>stack %1</source>
+        <translation>堆疊 %1</translation>
+    </message>
+    <message>
+        <source>echo %1</source>
+        <translation>回波 %1</translation>
+    </message>
+    <message>
+        <source>type %1</source>
+        <translation>類型 %1</translation>
+    </message>
+    <message>
+        <source>set %1</source>
+        <translation>組 %1</translation>
+    </message>
+    <message>
+        <source>OpenGL here is %1.%2; 3.3 is needed to show pictures with it</source>
+        <translation>此處的 OpenGL 為 %1.%2；顯示影像需要 3.3</translation>
+    </message>
+    <message>
+        <source>OpenGL contexts here do not share what they hold</source>
+        <translation>此處的 OpenGL 環境無法共用內容</translation>
+    </message>
+    <message>
+        <source>OpenGL here gives no second context</source>
+        <translation>此處的 OpenGL 無法提供第二個環境</translation>
+    </message>
+    <message>
+        <source>OpenGL here is a software renderer</source>
+        <translation>此處的 OpenGL 為軟體繪圖</translation>
+    </message>
+    <message>
+        <source>there is no libEGL on this machine</source>
+        <translation>此電腦沒有 libEGL</translation>
+    </message>
+    <message>
+        <source>the OpenGL context cannot be used</source>
+        <translation>無法使用 OpenGL 環境</translation>
+    </message>
+    <message>
+        <source>the graphics card was chosen</source>
+        <translation>已選擇顯示卡</translation>
+    </message>
+    <message>
+        <source>the processor was chosen</source>
+        <translation>已選擇處理器</translation>
+    </message>
+    <message>
+        <source>there is a graphics card</source>
+        <translation>有顯示卡可用</translation>
+    </message>
+    <message>
+        <source>no OpenGL here</source>
+        <translation>此處沒有 OpenGL</translation>
+    </message>
+</context>
+<context>
+    <name>SceneFiles</name>
+    <message>
+        <source>cannot be written: %1</source>
+        <translation>無法寫入：%1</translation>
+    </message>
+</context>
+<context>
+    <name>StudyDetailsTexts</name>
+    <message>
+        <source>Details of the series</source>
+        <translation>序列詳細資料</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>病患</translation>
+    </message>
+    <message>
+        <source>Identifier</source>
+        <translation>識別碼</translation>
+    </message>
+    <message>
+        <source>Born</source>
+        <translation>出生日期</translation>
+    </message>
+    <message>
+        <source>Sex</source>
+        <translation>性別</translation>
+    </message>
+    <message>
+        <source>Study</source>
+        <translation>檢查</translation>
+    </message>
+    <message>
+        <source>Study UID</source>
+        <translation>檢查 UID</translation>
+    </message>
+    <message>
+        <source>Series</source>
+        <translation>序列</translation>
+    </message>
+    <message>
+        <source>Series UID</source>
+        <translation>序列 UID</translation>
+    </message>
+    <message>
+        <source>Modality</source>
+        <translation>儀器類別</translation>
+    </message>
+    <message>
+        <source>Body part</source>
+        <translation>部位</translation>
+    </message>
+    <message>
+        <source>Slices, rows, columns</source>
+        <translation>切片、列、行</translation>
+    </message>
+    <message>
+        <source>Spacing of columns, rows</source>
+        <translation>行距、列距</translation>
+    </message>
+    <message>
+        <source>Distance of slices</source>
+        <translation>切片間距</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>傾斜</translation>
+    </message>
+    <message>
+        <source>%1 degrees</source>
+        <translation>%1 度</translation>
+    </message>
+    <message>
+        <source>Files</source>
+        <translation>檔案</translation>
+    </message>
+    <message>
+        <source>%1, copied into the library</source>
+        <translation>%1 個，已複製到資料庫</translation>
+    </message>
+    <message>
+        <source>%1, referred to where they are</source>
+        <translation>%1 個，參照原處</translation>
+    </message>
+    <message>
+        <source>Folder</source>
+        <translation>資料夾</translation>
+    </message>
+</context>
+<context>
+    <name>StudyFactsTexts</name>
+    <message>
+        <source>Without name</source>
+        <translation>未具名</translation>
+    </message>
+    <message>
+        <source>Study</source>
+        <translation>檢查</translation>
+    </message>
+</context>
+<context>
+    <name>StudySourceTexts</name>
+    <message>
+        <source>the files of this series are not there any more; the disc or the drive they are on may be away</source>
+        <translation>此序列的檔案已不在；其光碟或磁碟可能已移除</translation>
+    </message>
+    <message>
+        <source>Phantoms</source>
+        <translation>假體</translation>
+    </message>
+    <message>
+        <source>Made by Pellucid</source>
+        <translation>由 Pellucid 產生</translation>
+    </message>
+    <message>
+        <source>Head phantom</source>
+        <translation>頭部假體</translation>
+    </message>
+    <message>
+        <source>Chest phantom</source>
+        <translation>胸部假體</translation>
+    </message>
+</context>
+<context>
+    <name>overlay</name>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 毫秒</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::CardCopier</name>
+    <message>
+        <source>not enough memory to copy to the graphics card</source>
+        <translation>記憶體不足，無法複製到顯示卡</translation>
+    </message>
+    <message>
+        <source>the copy to the graphics card was cancelled</source>
+        <translation>已取消複製到顯示卡</translation>
+    </message>
+    <message>
+        <source>a first, coarse picture</source>
+        <translation>第一張粗略影像</translation>
+    </message>
+    <message>
+        <source>not on the graphics card yet</source>
+        <translation>尚未送達顯示卡</translation>
+    </message>
+    <message>
+        <source>Copying to the graphics card</source>
+        <translation>正在複製到顯示卡</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ClassDialog</name>
+    <message>
+        <source>Class</source>
+        <translation>類別</translation>
+    </message>
+    <message>
+        <source>Width over which the class fades in and out about its ends</source>
+        <translation>類別在兩端漸入與漸出的寬度</translation>
+    </message>
+    <message>
+        <source>a step, such as median(radius_mm=1.5)</source>
+        <translation>一個步驟，例如 median(radius_mm=1.5)</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>新增</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source> HU</source>
+        <translation> HU</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>名稱</translation>
+    </message>
+    <message>
+        <source>From</source>
+        <translation>起</translation>
+    </message>
+    <message>
+        <source>To</source>
+        <translation>迄</translation>
+    </message>
+    <message>
+        <source>Softness</source>
+        <translation>柔和度</translation>
+    </message>
+    <message>
+        <source>Colour</source>
+        <translation>顏色</translation>
+    </message>
+    <message>
+        <source>Steps</source>
+        <translation>步驟</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ClassRow</name>
+    <message>
+        <source>Show or hide the class</source>
+        <translation>顯示或隱藏此類別</translation>
+    </message>
+    <message>
+        <source>Show %1</source>
+        <translation>顯示%1</translation>
+    </message>
+    <message>
+        <source>Weight of %1</source>
+        <translation>%1的權重</translation>
+    </message>
+    <message>
+        <source>Weight; double-click sets it to 1</source>
+        <translation>權重；按兩下設為 1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ClassesPanel</name>
+    <message>
+        <source>Add class</source>
+        <translation>新增類別</translation>
+    </message>
+    <message>
+        <source>The whole volume through the transfer function. Add a class to show tissues apart.</source>
+        <translation>整個體積經由轉換函數顯示。新增類別可將組織分開顯示。</translation>
+    </message>
+    <message>
+        <source>Add a tissue class</source>
+        <translation>新增組織類別</translation>
+    </message>
+    <message>
+        <source>Weight</source>
+        <translation>權重</translation>
+    </message>
+    <message>
+        <source>Hide %1</source>
+        <translation>隱藏%1</translation>
+    </message>
+    <message>
+        <source>Show %1</source>
+        <translation>顯示%1</translation>
+    </message>
+    <message>
+        <source>Own range</source>
+        <translation>自訂範圍</translation>
+    </message>
+    <message>
+        <source>Edit...</source>
+        <translation>編輯…</translation>
+    </message>
+    <message>
+        <source>Colour...</source>
+        <translation>顏色…</translation>
+    </message>
+    <message>
+        <source>Show it alone</source>
+        <translation>單獨顯示</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Remove class</source>
+        <translation>移除類別</translation>
+    </message>
+    <message>
+        <source>Edit class</source>
+        <translation>編輯類別</translation>
+    </message>
+    <message>
+        <source>Colour</source>
+        <translation>顏色</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::CurveEditor</name>
+    <message>
+        <source>Transfer function</source>
+        <translation>轉換函數</translation>
+    </message>
+    <message>
+        <source>Drag a segment up or down; double-click resets it to 1</source>
+        <translation>上下拖曳線段；按兩下重設為 1</translation>
+    </message>
+    <message>
+        <source>weight %1 at %2%3</source>
+        <translation>%2%3 處的權重 %1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::DepthCurve</name>
+    <message>
+        <source>Weight by depth, far to near</source>
+        <translation>由遠至近的深度權重</translation>
+    </message>
+    <message>
+        <source>Weight by depth, far at the left, near at the right; drag its values</source>
+        <translation>深度權重：左為遠，右為近；拖曳其數值</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ExportDialog</name>
+    <message>
+        <source>Axial</source>
+        <translation>軸狀面</translation>
+    </message>
+    <message>
+        <source>Coronal</source>
+        <translation>冠狀面</translation>
+    </message>
+    <message>
+        <source>Sagittal</source>
+        <translation>矢狀面</translation>
+    </message>
+    <message>
+        <source>Projection</source>
+        <translation>投影</translation>
+    </message>
+    <message>
+        <source>As it looks (PNG)</source>
+        <translation>如畫面所見 (PNG)</translation>
+    </message>
+    <message>
+        <source>Grey in 16 bits (PNG)</source>
+        <translation>16 位元灰階 (PNG)</translation>
+    </message>
+    <message>
+        <source>Values (NumPy, float)</source>
+        <translation>數值 (NumPy，浮點)</translation>
+    </message>
+    <message>
+        <source>Values (NRRD, float)</source>
+        <translation>數值 (NRRD，浮點)</translation>
+    </message>
+    <message>
+        <source>DICOM Secondary Capture</source>
+        <translation>DICOM 二次擷取影像</translation>
+    </message>
+    <message>
+        <source>Turntable, frames (PNG)</source>
+        <translation>環繞一周，逐格 (PNG)</translation>
+    </message>
+    <message>
+        <source>Turntable, video (MP4)</source>
+        <translation>環繞一周，影片 (MP4)</translation>
+    </message>
+    <message>
+        <source>With annotations</source>
+        <translation>包含註記</translation>
+    </message>
+    <message>
+        <source>Export picture</source>
+        <translation>匯出影像</translation>
+    </message>
+    <message>
+        <source>Names, letters, scale and measurements; without them a picture has no patient's side on it</source>
+        <translation>名稱、方位字母、比例尺與測量；若不包含，影像上便沒有病患的左右標示</translation>
+    </message>
+    <message>
+        <source>Pictures of one turn around the patient</source>
+        <translation>環繞病患一周的影像張數</translation>
+    </message>
+    <message>
+        <source>Browse...</source>
+        <translation>瀏覽…</translation>
+    </message>
+    <message>
+        <source>Picture of</source>
+        <translation>影像來源</translation>
+    </message>
+    <message>
+        <source>Format</source>
+        <translation>格式</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>大小</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>張數</translation>
+    </message>
+    <message>
+        <source>File</source>
+        <translation>檔案</translation>
+    </message>
+    <message>
+        <source>Write</source>
+        <translation>寫入</translation>
+    </message>
+    <message>
+        <source>%1 x %2 pixels</source>
+        <translation>%1 x %2 像素</translation>
+    </message>
+    <message>
+        <source>holds the patient's name and identifier</source>
+        <translation>含有病患姓名與識別碼</translation>
+    </message>
+    <message>
+        <source>one file for each frame, numbered</source>
+        <translation>每格一個編號檔案</translation>
+    </message>
+    <message>
+        <source>Writing</source>
+        <translation>正在寫入</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::FileMenu</name>
+    <message>
+        <source>&amp;Open files...</source>
+        <translation>開啟檔案(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>開啟</translation>
+    </message>
+    <message>
+        <source>Open &amp;folder...</source>
+        <translation>開啟資料夾(&amp;F)…</translation>
+    </message>
+    <message>
+        <source>&amp;Import into the library...</source>
+        <translation>匯入資料庫(&amp;I)…</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>匯入</translation>
+    </message>
+    <message>
+        <source>Open &amp;phantom</source>
+        <translation>開啟假體(&amp;P)</translation>
+    </message>
+    <message>
+        <source>&amp;Head</source>
+        <translation>頭部(&amp;H)</translation>
+    </message>
+    <message>
+        <source>&amp;Chest</source>
+        <translation>胸部(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Open &amp;scene...</source>
+        <translation>開啟場景(&amp;S)…</translation>
+    </message>
+    <message>
+        <source>Save s&amp;cene as...</source>
+        <translation>另存場景(&amp;C)…</translation>
+    </message>
+    <message>
+        <source>Save p&amp;icture as...</source>
+        <translation>另存影像(&amp;I)…</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>影像</translation>
+    </message>
+    <message>
+        <source>&amp;Export picture...</source>
+        <translation>匯出影像(&amp;E)…</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>匯出</translation>
+    </message>
+    <message>
+        <source>Export &amp;measurements...</source>
+        <translation>匯出測量(&amp;M)…</translation>
+    </message>
+    <message>
+        <source>P&amp;references...</source>
+        <translation>偏好設定(&amp;R)…</translation>
+    </message>
+    <message>
+        <source>For&amp;get recent studies</source>
+        <translation>清除最近的檢查(&amp;G)</translation>
+    </message>
+    <message>
+        <source>&amp;Quit</source>
+        <translation>結束(&amp;Q)</translation>
+    </message>
+    <message>
+        <source>Open files</source>
+        <translation>開啟檔案</translation>
+    </message>
+    <message>
+        <source>Open folder</source>
+        <translation>開啟資料夾</translation>
+    </message>
+    <message>
+        <source>There is no projection to save yet</source>
+        <translation>尚無投影可儲存</translation>
+    </message>
+    <message>
+        <source>Save picture</source>
+        <translation>儲存影像</translation>
+    </message>
+    <message>
+        <source>PNG image (*.png)</source>
+        <translation>PNG 影像 (*.png)</translation>
+    </message>
+    <message>
+        <source>There are no measurements to export yet</source>
+        <translation>尚無測量可匯出</translation>
+    </message>
+    <message>
+        <source>Export measurements</source>
+        <translation>匯出測量</translation>
+    </message>
+    <message>
+        <source>Table (*.csv)</source>
+        <translation>表格 (*.csv)</translation>
+    </message>
+    <message>
+        <source>There is no projection of this scene yet</source>
+        <translation>此場景尚無投影</translation>
+    </message>
+    <message>
+        <source>Save scene</source>
+        <translation>儲存場景</translation>
+    </message>
+    <message>
+        <source>Scene (*.json)</source>
+        <translation>場景 (*.json)</translation>
+    </message>
+    <message>
+        <source>Open scene</source>
+        <translation>開啟場景</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::GraphicsCard</name>
+    <message>
+        <source>Graphics card: %1</source>
+        <translation>顯示卡：%1</translation>
+    </message>
+    <message>
+        <source>Processor: %1</source>
+        <translation>處理器：%1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ImportDialog</name>
+    <message>
+        <source>&amp;Refer to the files where they are</source>
+        <translation>參照檔案原處(&amp;R)</translation>
+    </message>
+    <message>
+        <source>&amp;Copy the files into the library</source>
+        <translation>將檔案複製到資料庫(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Import into the library</source>
+        <translation>匯入資料庫</translation>
+    </message>
+    <message>
+        <source>Takes no room; the files must stay there</source>
+        <translation>不佔空間；檔案必須留在原處</translation>
+    </message>
+    <message>
+        <source>For discs and drives that go away; archives are always copied</source>
+        <translation>適用於會移除的光碟與磁碟；壓縮檔一律複製</translation>
+    </message>
+    <message>
+        <source>Add &amp;files...</source>
+        <translation>加入檔案(&amp;F)…</translation>
+    </message>
+    <message>
+        <source>Add f&amp;older...</source>
+        <translation>加入資料夾(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>Files to import</source>
+        <translation>要匯入的檔案</translation>
+    </message>
+    <message>
+        <source>Folder to import</source>
+        <translation>要匯入的資料夾</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>匯入</translation>
+    </message>
+    <message>
+        <source>Choose files, folders, a DICOMDIR or ZIP archives. Folders are looked at all the way down.</source>
+        <translation>請選擇檔案、資料夾、DICOMDIR 或 ZIP 壓縮檔。資料夾會逐層檢視到底。</translation>
+    </message>
+    <message numerus="yes">
+        <source>and %n more</source>
+        <translation><numerusform>及其他 %n 項</numerusform></translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::JobRunner</name>
+    <message>
+        <source>not enough memory</source>
+        <translation>記憶體不足</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::JobStrip</name>
+    <message>
+        <source>Cancel</source>
+        <translation>取消</translation>
+    </message>
+    <message>
+        <source>Stop what runs (Esc)</source>
+        <translation>停止進行中的工作 (Esc)</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::LightSphere</name>
+    <message>
+        <source>Directions of the lights</source>
+        <translation>光源方向</translation>
+    </message>
+    <message>
+        <source>Drag a light over the sphere; beyond its rim it shines from behind</source>
+        <translation>在球面上拖曳光源；超出邊緣則由後方照射</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::LookDocks</name>
+    <message>
+        <source>PRESETS</source>
+        <translation>預設集</translation>
+    </message>
+    <message>
+        <source>CLASSES</source>
+        <translation>類別</translation>
+    </message>
+    <message>
+        <source>TRANSFER FUNCTION</source>
+        <translation>轉換函數</translation>
+    </message>
+    <message>
+        <source>SHADING</source>
+        <translation>明暗</translation>
+    </message>
+    <message>
+        <source>QUALITY</source>
+        <translation>品質</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::LookMenu</name>
+    <message>
+        <source>&amp;Save look...</source>
+        <translation>儲存外觀(&amp;S)…</translation>
+    </message>
+    <message>
+        <source>&amp;Import preset...</source>
+        <translation>匯入預設集(&amp;I)…</translation>
+    </message>
+    <message>
+        <source>&amp;Export preset...</source>
+        <translation>匯出預設集(&amp;E)…</translation>
+    </message>
+    <message>
+        <source>&amp;Film (inverted)</source>
+        <translation>底片（反相）(&amp;F)</translation>
+    </message>
+    <message>
+        <source>Film</source>
+        <translation>底片</translation>
+    </message>
+    <message>
+        <source>&amp;Automatic tone</source>
+        <translation>自動亮度(&amp;A)</translation>
+    </message>
+    <message>
+        <source>Automatic tone</source>
+        <translation>自動亮度</translation>
+    </message>
+    <message>
+        <source>&amp;Window of the planes</source>
+        <translation>切面的窗(&amp;W)</translation>
+    </message>
+    <message>
+        <source>&amp;Depth cue</source>
+        <translation>深度提示(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Add l&amp;ight</source>
+        <translation>新增光源(&amp;I)</translation>
+    </message>
+    <message>
+        <source>Reset s&amp;hading</source>
+        <translation>重設明暗(&amp;H)</translation>
+    </message>
+    <message>
+        <source>&amp;Reconstruction</source>
+        <translation>重建(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Reconstruction</source>
+        <translation>重建</translation>
+    </message>
+    <message>
+        <source>&amp;Cubic</source>
+        <translation>三次(&amp;C)</translation>
+    </message>
+    <message>
+        <source>&amp;Linear</source>
+        <translation>線性(&amp;L)</translation>
+    </message>
+    <message>
+        <source>&amp;Sharp (band-limited)</source>
+        <translation>銳利（頻帶限制）(&amp;S)</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::LookPreparer</name>
+    <message>
+        <source>Preparing the parts of the look</source>
+        <translation>正在準備外觀的各部分</translation>
+    </message>
+    <message>
+        <source>Preparing the projection</source>
+        <translation>正在準備投影</translation>
+    </message>
+    <message>
+        <source>the fields of the look need %1 MB</source>
+        <translation>此外觀的場需要 %1 MB</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::MainWindow</name>
+    <message>
+        <source>&amp;Look</source>
+        <translation>外觀(&amp;L)</translation>
+    </message>
+    <message>
+        <source>&amp;Tools</source>
+        <translation>工具(&amp;T)</translation>
+    </message>
+    <message>
+        <source>Imported: %1 series, %2 files; %3 not used</source>
+        <translation>已匯入：%1 個序列、%2 個檔案；%3 個未使用</translation>
+    </message>
+    <message>
+        <source>STUDIES</source>
+        <translation>檢查</translation>
+    </message>
+    <message>
+        <source>MEASUREMENTS</source>
+        <translation>測量</translation>
+    </message>
+    <message>
+        <source>History of edits</source>
+        <translation>編輯歷程</translation>
+    </message>
+    <message>
+        <source>A click goes back to how it was after that edit</source>
+        <translation>點按即回到該次編輯後的狀態</translation>
+    </message>
+    <message>
+        <source>As it was opened</source>
+        <translation>剛開啟時</translation>
+    </message>
+    <message>
+        <source>HISTORY</source>
+        <translation>歷程</translation>
+    </message>
+    <message>
+        <source>&amp;File</source>
+        <translation>檔案(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>編輯(&amp;E)</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>復原</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>重做</translation>
+    </message>
+    <message>
+        <source>&amp;Find a study</source>
+        <translation>尋找檢查(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;Delete measurement</source>
+        <translation>刪除測量(&amp;D)</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>檢視(&amp;V)</translation>
+    </message>
+    <message>
+        <source>&amp;Anterior</source>
+        <translation>前方(&amp;A)</translation>
+    </message>
+    <message>
+        <source>Keypad 1</source>
+        <translation>數字鍵 1</translation>
+    </message>
+    <message>
+        <source>&amp;Posterior</source>
+        <translation>後方(&amp;P)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 1</source>
+        <translation>Shift+數字鍵 1</translation>
+    </message>
+    <message>
+        <source>&amp;Left</source>
+        <translation>左側(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Keypad 3</source>
+        <translation>數字鍵 3</translation>
+    </message>
+    <message>
+        <source>&amp;Right</source>
+        <translation>右側(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 3</source>
+        <translation>Shift+數字鍵 3</translation>
+    </message>
+    <message>
+        <source>&amp;Superior</source>
+        <translation>上方(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Keypad 7</source>
+        <translation>數字鍵 7</translation>
+    </message>
+    <message>
+        <source>&amp;Inferior</source>
+        <translation>下方(&amp;I)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 7</source>
+        <translation>Shift+數字鍵 7</translation>
+    </message>
+    <message>
+        <source>R&amp;eset views</source>
+        <translation>重設檢視(&amp;E)</translation>
+    </message>
+    <message>
+        <source>Keypad 0</source>
+        <translation>數字鍵 0</translation>
+    </message>
+    <message>
+        <source>&amp;Orbit about the crosshair</source>
+        <translation>繞十字線旋轉(&amp;O)</translation>
+    </message>
+    <message>
+        <source>&amp;Compare with the look before</source>
+        <translation>與先前外觀比較(&amp;C)</translation>
+    </message>
+    <message>
+        <source>hold Q</source>
+        <translation>按住 Q</translation>
+    </message>
+    <message>
+        <source>Lin&amp;k the studies</source>
+        <translation>連結兩個檢查(&amp;K)</translation>
+    </message>
+    <message>
+        <source>Close the study besi&amp;de</source>
+        <translation>關閉並排的檢查(&amp;D)</translation>
+    </message>
+    <message>
+        <source>Prepare the projection a&amp;gain</source>
+        <translation>重新準備投影(&amp;G)</translation>
+    </message>
+    <message>
+        <source>1 + 3</source>
+        <translation>1 + 3</translation>
+    </message>
+    <message>
+        <source>2 x 2</source>
+        <translation>2 x 2</translation>
+    </message>
+    <message>
+        <source>Projection &amp;engine</source>
+        <translation>投影引擎(&amp;E)</translation>
+    </message>
+    <message>
+        <source>&amp;Full screen</source>
+        <translation>全螢幕(&amp;F)</translation>
+    </message>
+    <message>
+        <source>W&amp;indow</source>
+        <translation>視窗(&amp;I)</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>說明(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Tools</source>
+        <translation>工具</translation>
+    </message>
+    <message>
+        <source>Window of the planes</source>
+        <translation>切面的窗</translation>
+    </message>
+    <message>
+        <source>Window of the planes: width / center (keys 0 to 5)</source>
+        <translation>切面的窗：窗寬 / 窗位（按鍵 0 至 5）</translation>
+    </message>
+    <message>
+        <source>There is no look before this one</source>
+        <translation>在此之前沒有其他外觀</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::MeasurementStore</name>
+    <message>
+        <source>The measurements of this study cannot be read: %1</source>
+        <translation>無法讀取此檢查的測量：%1</translation>
+    </message>
+    <message>
+        <source>The measurements cannot be kept: there is no folder for them</source>
+        <translation>無法保存測量：沒有可用的資料夾</translation>
+    </message>
+    <message>
+        <source>The measurements cannot be kept: %1</source>
+        <translation>無法保存測量：%1</translation>
+    </message>
+    <message>
+        <source>No study is open</source>
+        <translation>沒有開啟的檢查</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::MeasurementsPanel</name>
+    <message>
+        <source>Export</source>
+        <translation>匯出</translation>
+    </message>
+    <message>
+        <source>Measurements</source>
+        <translation>測量</translation>
+    </message>
+    <message>
+        <source>Distance, angle and regions: drag them on a plane. They stay with the study.</source>
+        <translation>距離、角度與區域：在切面上拖曳即可。測量會隨檢查保存。</translation>
+    </message>
+    <message>
+        <source>Write the measurements as a table (CSV)</source>
+        <translation>將測量寫成表格 (CSV)</translation>
+    </message>
+    <message>
+        <source>Rename measurement</source>
+        <translation>重新命名測量</translation>
+    </message>
+    <message>
+        <source>Delete measurement</source>
+        <translation>刪除測量</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::MprView</name>
+    <message>
+        <source>Images only: no volume to cut</source>
+        <translation>僅有影像：沒有可切的體積</translation>
+    </message>
+    <message>
+        <source>Not for diagnostic use</source>
+        <translation>不得用於診斷</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::PhaseBar</name>
+    <message>
+        <source>Play</source>
+        <translation>播放</translation>
+    </message>
+    <message>
+        <source>Play the phases (Shift+Space)</source>
+        <translation>播放各時相 (Shift+空白鍵)</translation>
+    </message>
+    <message>
+        <source>Phase</source>
+        <translation>時相</translation>
+    </message>
+    <message>
+        <source>Phase that is shown (keys , and .)</source>
+        <translation>顯示的時相（按鍵 , 與 .）</translation>
+    </message>
+    <message>
+        <source>Phase %1 of %2</source>
+        <translation>時相 %1 / %2</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::PreferencesDialog</name>
+    <message>
+        <source>Preferences</source>
+        <translation>偏好設定</translation>
+    </message>
+    <message>
+        <source>General</source>
+        <translation>一般</translation>
+    </message>
+    <message>
+        <source>Keys</source>
+        <translation>按鍵</translation>
+    </message>
+    <message>
+        <source>As the system</source>
+        <translation>依系統</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>深色</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>淺色</translation>
+    </message>
+    <message>
+        <source>Icons</source>
+        <translation>圖示</translation>
+    </message>
+    <message>
+        <source>Words</source>
+        <translation>文字</translation>
+    </message>
+    <message>
+        <source>Icons and words</source>
+        <translation>圖示與文字</translation>
+    </message>
+    <message>
+        <source>Remember studies that were opened</source>
+        <translation>記住開啟過的檢查</translation>
+    </message>
+    <message>
+        <source>Their paths, and what was open last, on this computer</source>
+        <translation>在這部電腦上記住其路徑，以及最後開啟的檢查</translation>
+    </message>
+    <message>
+        <source>Begin with what was open last</source>
+        <translation>從最後開啟的檢查開始</translation>
+    </message>
+    <message>
+        <source>Otherwise the first page offers it</source>
+        <translation>否則由起始頁提供</translation>
+    </message>
+    <message>
+        <source>Patient's name in the window title</source>
+        <translation>在視窗標題顯示病患姓名</translation>
+    </message>
+    <message>
+        <source>Titles are seen in task bars and by other programs</source>
+        <translation>標題會出現在工作列並可被其他程式看見</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>語言</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>色彩</translation>
+    </message>
+    <message>
+        <source>Tool bar</source>
+        <translation>工具列</translation>
+    </message>
+    <message>
+        <source>Search commands and keys</source>
+        <translation>搜尋指令與按鍵</translation>
+    </message>
+    <message>
+        <source>Commands and their keys</source>
+        <translation>指令及其按鍵</translation>
+    </message>
+    <message>
+        <source>Command</source>
+        <translation>指令</translation>
+    </message>
+    <message>
+        <source>Key</source>
+        <translation>按鍵</translation>
+    </message>
+    <message>
+        <source>Key of the chosen command</source>
+        <translation>所選指令的按鍵</translation>
+    </message>
+    <message>
+        <source>Usual key</source>
+        <translation>原來的按鍵</translation>
+    </message>
+    <message>
+        <source>No key</source>
+        <translation>不設按鍵</translation>
+    </message>
+    <message>
+        <source>All as usual</source>
+        <translation>全部還原</translation>
+    </message>
+    <message>
+        <source>%1 was the key of "%2", which has none now</source>
+        <translation>%1 原為「%2」的按鍵，該指令現在沒有按鍵</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::PresetsPanel</name>
+    <message>
+        <source>Presets</source>
+        <translation>預設集</translation>
+    </message>
+    <message>
+        <source>Save look</source>
+        <translation>儲存外觀</translation>
+    </message>
+    <message>
+        <source>Keep what is shown as a preset of your own (Ctrl+S)</source>
+        <translation>將目前所見存為自己的預設集 (Ctrl+S)</translation>
+    </message>
+    <message>
+        <source>Name of the look</source>
+        <translation>外觀名稱</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>儲存</translation>
+    </message>
+    <message>
+        <source>%1 is no preset: %2</source>
+        <translation>%1 不是預設集：%2</translation>
+    </message>
+    <message>
+        <source>Own look</source>
+        <translation>自訂外觀</translation>
+    </message>
+    <message>
+        <source>Plain density</source>
+        <translation>原始密度</translation>
+    </message>
+    <message>
+        <source>Preset %1</source>
+        <translation>預設集%1</translation>
+    </message>
+    <message>
+        <source>Own look %1</source>
+        <translation>自訂外觀 %1</translation>
+    </message>
+    <message>
+        <source>a look needs a name</source>
+        <translation>外觀需要名稱</translation>
+    </message>
+    <message>
+        <source>Import preset</source>
+        <translation>匯入預設集</translation>
+    </message>
+    <message>
+        <source>Presets, 3D Slicer properties (*.json *.vp)</source>
+        <translation>預設集、3D Slicer 屬性 (*.json *.vp)</translation>
+    </message>
+    <message>
+        <source>'%1' was fitted; its opacity is met within %2</source>
+        <translation>已擬合「%1」；不透明度誤差在 %2 以內</translation>
+    </message>
+    <message>
+        <source>Export preset</source>
+        <translation>匯出預設集</translation>
+    </message>
+    <message>
+        <source>Preset (*.json)</source>
+        <translation>預設集 (*.json)</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>刪除</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ProblemList</name>
+    <message>
+        <source>Problems</source>
+        <translation>問題</translation>
+    </message>
+    <message>
+        <source>Files that are not used, and why</source>
+        <translation>未使用的檔案及原因</translation>
+    </message>
+    <message numerus="yes">
+        <source>and %n more</source>
+        <translation><numerusform>及其他 %n 項</numerusform></translation>
+    </message>
+    <message numerus="yes">
+        <source>%n files: %1</source>
+        <translation><numerusform>%n 個檔案：%1</numerusform></translation>
+    </message>
+    <message>
+        <source>PROBLEMS (%1)</source>
+        <translation>問題 (%1)</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ProjectionView</name>
+    <message>
+        <source>Projection</source>
+        <translation>投影</translation>
+    </message>
+    <message>
+        <source>Preparing the projection</source>
+        <translation>正在準備投影</translation>
+    </message>
+    <message>
+        <source>Cancelled: there is no projection</source>
+        <translation>已取消：沒有投影</translation>
+    </message>
+    <message>
+        <source>Reset window</source>
+        <translation>重設窗</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>Projection window</source>
+        <translation>投影的窗</translation>
+    </message>
+    <message>
+        <source>cancelled: F5 prepares it</source>
+        <translation>已取消：按 F5 準備</translation>
+    </message>
+    <message>
+        <source>coarse</source>
+        <translation>粗略</translation>
+    </message>
+    <message>
+        <source>live</source>
+        <translation>即時</translation>
+    </message>
+    <message>
+        <source>error not known yet</source>
+        <translation>誤差未定</translation>
+    </message>
+    <message>
+        <source>error %1 %</source>
+        <translation>誤差 %1 %</translation>
+    </message>
+    <message>
+        <source>draft</source>
+        <translation>草圖</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::QualityPanel</name>
+    <message>
+        <source>More</source>
+        <translation>更多</translation>
+    </message>
+    <message>
+        <source>Quality</source>
+        <translation>品質</translation>
+    </message>
+    <message>
+        <source>The largest error that is allowed</source>
+        <translation>容許的最大誤差</translation>
+    </message>
+    <message>
+        <source>Draft</source>
+        <translation>草圖</translation>
+    </message>
+    <message>
+        <source>Interactive</source>
+        <translation>互動</translation>
+    </message>
+    <message>
+        <source>Standard</source>
+        <translation>標準</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>精細</translation>
+    </message>
+    <message>
+        <source>Own</source>
+        <translation>自訂</translation>
+    </message>
+    <message>
+        <source>Tolerance</source>
+        <translation>容差</translation>
+    </message>
+    <message>
+        <source>Largest error of the picture, relative to it: 0.0001 to 30 percent</source>
+        <translation>影像的最大相對誤差：百分之 0.0001 至 30</translation>
+    </message>
+    <message>
+        <source>Between</source>
+        <translation>取樣之間</translation>
+    </message>
+    <message>
+        <source>What lies between the samples of the volume</source>
+        <translation>體積取樣點之間的內容</translation>
+    </message>
+    <message>
+        <source>Cubic</source>
+        <translation>三次</translation>
+    </message>
+    <message>
+        <source>Linear</source>
+        <translation>線性</translation>
+    </message>
+    <message>
+        <source>Sharp (band-limited)</source>
+        <translation>銳利（頻帶限制）</translation>
+    </message>
+    <message>
+        <source>Kernel</source>
+        <translation>核函數</translation>
+    </message>
+    <message>
+        <source>How the spectrum is interpolated</source>
+        <translation>頻譜的內插方式</translation>
+    </message>
+    <message>
+        <source>As needed</source>
+        <translation>視需要</translation>
+    </message>
+    <message>
+        <source>Padding</source>
+        <translation>補零</translation>
+    </message>
+    <message>
+        <source>Padded size over the field's, at least, along each axis</source>
+        <translation>各軸補零後大小與原大小的最小比值</translation>
+    </message>
+    <message>
+        <source>Storage</source>
+        <translation>儲存</translation>
+    </message>
+    <message>
+        <source>How a number of the spectrum is kept</source>
+        <translation>頻譜數值的儲存方式</translation>
+    </message>
+    <message>
+        <source>16 bit</source>
+        <translation>16 位元</translation>
+    </message>
+    <message>
+        <source>32 bit</source>
+        <translation>32 位元</translation>
+    </message>
+    <message>
+        <source>Frame</source>
+        <translation>影格</translation>
+    </message>
+    <message>
+        <source>Time that the last frame took</source>
+        <translation>上一影格所需時間</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>誤差</translation>
+    </message>
+    <message>
+        <source>Relative error of the picture, predicted</source>
+        <translation>預測的影像相對誤差</translation>
+    </message>
+    <message>
+        <source>Largest</source>
+        <translation>最大</translation>
+    </message>
+    <message>
+        <source>Largest error of a pixel over the brightest pixel, predicted</source>
+        <translation>預測的最大像素誤差，相對於最亮像素</translation>
+    </message>
+    <message>
+        <source>Plan</source>
+        <translation>計畫</translation>
+    </message>
+    <message>
+        <source>Kernel, storage and memory in use</source>
+        <translation>使用中的核函數、儲存與記憶體</translation>
+    </message>
+    <message>
+        <source>Padded</source>
+        <translation>補零</translation>
+    </message>
+    <message>
+        <source>Padded size over size, along columns, rows and slices</source>
+        <translation>沿行、列與切片的補零比值</translation>
+    </message>
+    <message>
+        <source>What the plan chooses, to be chosen by hand</source>
+        <translation>手動選擇原由計畫決定的項目</translation>
+    </message>
+    <message>
+        <source>Reconstruction</source>
+        <translation>重建</translation>
+    </message>
+    <message>
+        <source>'%1' is no tolerance: 0.0001 to 30 percent</source>
+        <translation>「%1」不是容差：百分之 0.0001 至 30</translation>
+    </message>
+    <message>
+        <source>%1 x %2 x %3</source>
+        <translation>%1 x %2 x %3</translation>
+    </message>
+    <message>
+        <source>%1, %2 bit, %3 MB</source>
+        <translation>%1，%2 位元，%3 MB</translation>
+    </message>
+    <message>
+        <source>A first, coarse picture; the full one follows</source>
+        <translation>第一張粗略影像；完整影像隨後</translation>
+    </message>
+    <message>
+        <source>The parts of the look, summed while they change</source>
+        <translation>變動期間加總外觀的各部分</translation>
+    </message>
+    <message>
+        <source>More error than allowed: %1</source>
+        <translation>誤差超過容許：%1</translation>
+    </message>
+    <message>
+        <source>It is %1</source>
+        <translation>原因：%1</translation>
+    </message>
+    <message>
+        <source>%1, draft</source>
+        <translation>%1，草圖</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::RenderWorker</name>
+    <message>
+        <source>the graphics card is being prepared</source>
+        <translation>正在準備顯示卡</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ShadingPanel</name>
+    <message>
+        <source>Reset</source>
+        <translation>重設</translation>
+    </message>
+    <message>
+        <source>No depth cue and no lights</source>
+        <translation>沒有深度提示與光源</translation>
+    </message>
+    <message>
+        <source>Add light</source>
+        <translation>新增光源</translation>
+    </message>
+    <message>
+        <source>One more light</source>
+        <translation>再加一個光源</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+    <message>
+        <source>Take the chosen light away</source>
+        <translation>移除所選光源</translation>
+    </message>
+    <message>
+        <source>Color of the chosen light</source>
+        <translation>所選光源的顏色</translation>
+    </message>
+    <message>
+        <source>Follows viewer</source>
+        <translation>跟隨觀看者</translation>
+    </message>
+    <message>
+        <source>Depth cue</source>
+        <translation>深度提示</translation>
+    </message>
+    <message>
+        <source>How what is near stands out from what is far</source>
+        <translation>近處如何由遠處突顯</translation>
+    </message>
+    <message>
+        <source>No depth cue</source>
+        <translation>無深度提示</translation>
+    </message>
+    <message>
+        <source>Linear cue</source>
+        <translation>線性提示</translation>
+    </message>
+    <message>
+        <source>Sine cue</source>
+        <translation>正弦提示</translation>
+    </message>
+    <message>
+        <source>By a curve</source>
+        <translation>依曲線</translation>
+    </message>
+    <message>
+        <source>Strength of the depth cue</source>
+        <translation>深度提示的強度</translation>
+    </message>
+    <message>
+        <source>Strength of the depth cue; double-click sets it to 0.6</source>
+        <translation>深度提示的強度；按兩下設為 0.6</translation>
+    </message>
+    <message>
+        <source>Strength of the light</source>
+        <translation>光源的強度</translation>
+    </message>
+    <message>
+        <source>Strength of the chosen light; double-click sets it to 0.8</source>
+        <translation>所選光源的強度；按兩下設為 0.8</translation>
+    </message>
+    <message>
+        <source>Ambient light</source>
+        <translation>環境光</translation>
+    </message>
+    <message>
+        <source>How much of the density itself is seen; double-click sets it to 1</source>
+        <translation>可見的原始密度多寡；按兩下設為 1</translation>
+    </message>
+    <message>
+        <source>Number of the curve's values</source>
+        <translation>曲線數值的個數</translation>
+    </message>
+    <message>
+        <source>Number of the curve's values: each costs up to two slices</source>
+        <translation>曲線數值的個數：每個最多耗費兩個切片</translation>
+    </message>
+    <message>
+        <source>The chosen light stays where it is for the viewer, or on the patient</source>
+        <translation>所選光源固定於觀看者，或固定於病患</translation>
+    </message>
+    <message>
+        <source>Color of the light</source>
+        <translation>光源的顏色</translation>
+    </message>
+    <message>
+        <source>Cue</source>
+        <translation>提示</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>光源</translation>
+    </message>
+    <message>
+        <source>Ambient</source>
+        <translation>環境</translation>
+    </message>
+    <message>
+        <source>Add a light</source>
+        <translation>新增光源</translation>
+    </message>
+    <message>
+        <source>Remove a light</source>
+        <translation>移除光源</translation>
+    </message>
+    <message>
+        <source>Reset the shading</source>
+        <translation>重設明暗</translation>
+    </message>
+    <message>
+        <source>Color of a light</source>
+        <translation>光源的顏色</translation>
+    </message>
+    <message>
+        <source>What a light follows</source>
+        <translation>光源跟隨的對象</translation>
+    </message>
+    <message>
+        <source>Direction of a light</source>
+        <translation>光源的方向</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::StartPage</name>
+    <message>
+        <source>Go on where you ended</source>
+        <translation>從上次結束處繼續</translation>
+    </message>
+    <message>
+        <source>The study that was open last, as it was looked at</source>
+        <translation>最後開啟的檢查，依當時的檢視方式</translation>
+    </message>
+    <message>
+        <source>Open a study</source>
+        <translation>開啟檢查</translation>
+    </message>
+    <message>
+        <source>Drop DICOM files, folders, a DICOMDIR, a ZIP archive or an NRRD volume anywhere in this window.</source>
+        <translation>請將 DICOM 檔案、資料夾、DICOMDIR、ZIP 壓縮檔或 NRRD 體積拖放到此視窗任意處。</translation>
+    </message>
+    <message>
+        <source>Open files...</source>
+        <translation>開啟檔案…</translation>
+    </message>
+    <message>
+        <source>Choose DICOM or NRRD files (Ctrl+O)</source>
+        <translation>選擇 DICOM 或 NRRD 檔案 (Ctrl+O)</translation>
+    </message>
+    <message>
+        <source>Open folder...</source>
+        <translation>開啟資料夾…</translation>
+    </message>
+    <message>
+        <source>Choose a folder; everything below it is looked at (Ctrl+Shift+O)</source>
+        <translation>選擇資料夾；其下所有內容都會檢視 (Ctrl+Shift+O)</translation>
+    </message>
+    <message>
+        <source>TRY A PHANTOM</source>
+        <translation>試用假體</translation>
+    </message>
+    <message>
+        <source>Head phantom</source>
+        <translation>頭部假體</translation>
+    </message>
+    <message>
+        <source>A built-in head: skull, brain, sinuses, teeth</source>
+        <translation>內建頭部：顱骨、腦、鼻竇、牙齒</translation>
+    </message>
+    <message>
+        <source>Chest phantom</source>
+        <translation>胸部假體</translation>
+    </message>
+    <message>
+        <source>A built-in chest: ribs, lungs, heart, spine</source>
+        <translation>內建胸部：肋骨、肺、心臟、脊椎</translation>
+    </message>
+    <message>
+        <source>RECENT</source>
+        <translation>最近</translation>
+    </message>
+    <message>
+        <source>Open %1</source>
+        <translation>開啟%1</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::StudyBeside</name>
+    <message>
+        <source>Linked</source>
+        <translation>已連結</translation>
+    </message>
+    <message>
+        <source>View, planes and window of both studies move together; unlink, match the planes by hand, and link again (Shift+Y)</source>
+        <translation>兩個檢查的檢視、切面與窗會一起移動；可取消連結、手動對齊切面後再連結 (Shift+Y)</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>關閉</translation>
+    </message>
+    <message>
+        <source>Close the study beside</source>
+        <translation>關閉並排的檢查</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::StudyLibrary</name>
+    <message>
+        <source>Importing</source>
+        <translation>正在匯入</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::StudyOpener</name>
+    <message>
+        <source>Reading headers</source>
+        <translation>正在讀取檔頭</translation>
+    </message>
+    <message>
+        <source>Loading %1</source>
+        <translation>正在載入%1</translation>
+    </message>
+    <message>
+        <source>Preparing the projection</source>
+        <translation>正在準備投影</translation>
+    </message>
+    <message>
+        <source>images only</source>
+        <translation>僅有影像</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::StudyPanel</name>
+    <message>
+        <source>Import</source>
+        <translation>匯入</translation>
+    </message>
+    <message>
+        <source>Search studies</source>
+        <translation>搜尋檢查</translation>
+    </message>
+    <message>
+        <source>Words that a study must have: name, identifier, date, modality, description (Ctrl+F)</source>
+        <translation>檢查必須包含的字詞：姓名、識別碼、日期、儀器類別、說明 (Ctrl+F)</translation>
+    </message>
+    <message>
+        <source>Sort</source>
+        <translation>排序</translation>
+    </message>
+    <message>
+        <source>Order of the studies</source>
+        <translation>檢查的排序</translation>
+    </message>
+    <message>
+        <source>Add studies to the library (Ctrl+I)</source>
+        <translation>將檢查加入資料庫 (Ctrl+I)</translation>
+    </message>
+    <message>
+        <source>Studies</source>
+        <translation>檢查</translation>
+    </message>
+    <message>
+        <source>Newest first</source>
+        <translation>最新優先</translation>
+    </message>
+    <message>
+        <source>By name</source>
+        <translation>依姓名</translation>
+    </message>
+    <message>
+        <source>Last added first</source>
+        <translation>最近加入優先</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>開啟</translation>
+    </message>
+    <message>
+        <source>Open beside</source>
+        <translation>並排開啟</translation>
+    </message>
+    <message>
+        <source>Details...</source>
+        <translation>詳細資料…</translation>
+    </message>
+    <message>
+        <source>Remove from the library...</source>
+        <translation>從資料庫移除…</translation>
+    </message>
+    <message>
+        <source>Add to the library...</source>
+        <translation>加入資料庫…</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>關閉</translation>
+    </message>
+    <message>
+        <source>Remove the study %1 of %2 from the library?</source>
+        <translation>要將 %2 的檢查「%1」從資料庫移除嗎？</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n files that were copied into the library are deleted.</source>
+        <translation><numerusform>將刪除 %n 個複製到資料庫的檔案。</numerusform></translation>
+    </message>
+    <message numerus="yes">
+        <source>%n files elsewhere stay where they are.</source>
+        <translation><numerusform>其他位置的 %n 個檔案保留不動。</numerusform></translation>
+    </message>
+    <message>
+        <source>Remove from the library</source>
+        <translation>從資料庫移除</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>移除</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ToolsMenu</name>
+    <message>
+        <source>S&amp;how the whole volume</source>
+        <translation>顯示整個體積(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Whole volume</source>
+        <translation>整個體積</translation>
+    </message>
+    <message>
+        <source>S&amp;traighten the planes</source>
+        <translation>回正切面(&amp;T)</translation>
+    </message>
+    <message>
+        <source>Window</source>
+        <translation>窗</translation>
+    </message>
+    <message>
+        <source>drag for width and center</source>
+        <translation>拖曳調整窗寬與窗位</translation>
+    </message>
+    <message>
+        <source>Pan</source>
+        <translation>平移</translation>
+    </message>
+    <message>
+        <source>drag the picture</source>
+        <translation>拖曳影像</translation>
+    </message>
+    <message>
+        <source>Zoom</source>
+        <translation>縮放</translation>
+    </message>
+    <message>
+        <source>drag up and down</source>
+        <translation>上下拖曳</translation>
+    </message>
+    <message>
+        <source>Crosshair</source>
+        <translation>十字線</translation>
+    </message>
+    <message>
+        <source>drag the crosshair; its dots turn the planes</source>
+        <translation>拖曳十字線；其圓點可旋轉切面</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>距離</translation>
+    </message>
+    <message>
+        <source>drag a line; in the projection too</source>
+        <translation>拖曳一條線；投影中亦可</translation>
+    </message>
+    <message>
+        <source>Angle</source>
+        <translation>角度</translation>
+    </message>
+    <message>
+        <source>drag one leg, click the end of the other</source>
+        <translation>拖曳一邊，再點按另一邊的端點</translation>
+    </message>
+    <message>
+        <source>Ellipse</source>
+        <translation>橢圓</translation>
+    </message>
+    <message>
+        <source>drag the box around it</source>
+        <translation>拖曳外框</translation>
+    </message>
+    <message>
+        <source>Rectangle</source>
+        <translation>矩形</translation>
+    </message>
+    <message>
+        <source>drag from corner to corner</source>
+        <translation>由一角拖曳至另一角</translation>
+    </message>
+    <message>
+        <source>Crop</source>
+        <translation>裁切</translation>
+    </message>
+    <message>
+        <source>drag the sides of the box in the planes</source>
+        <translation>在切面中拖曳方框的各邊</translation>
+    </message>
+    <message>
+        <source>%1: %2 (%3)</source>
+        <translation>%1：%2 (%3)</translation>
+    </message>
+    <message>
+        <source>&amp;Slab</source>
+        <translation>厚切(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Slab: planes with a thickness (S; [ and ] change it)</source>
+        <translation>厚切：有厚度的切面（S；以 [ 與 ] 調整）</translation>
+    </message>
+    <message>
+        <source>&amp;Mean</source>
+        <translation>平均(&amp;M)</translation>
+    </message>
+    <message>
+        <source>M&amp;aximum (MIP)</source>
+        <translation>最大值 (MIP)(&amp;A)</translation>
+    </message>
+    <message>
+        <source>M&amp;inimum (MinIP)</source>
+        <translation>最小值 (MinIP)(&amp;I)</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>&amp;Other thickness...</source>
+        <translation>其他厚度(&amp;O)…</translation>
+    </message>
+    <message>
+        <source>T&amp;hicker</source>
+        <translation>加厚(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Thi&amp;nner</source>
+        <translation>減薄(&amp;N)</translation>
+    </message>
+    <message>
+        <source>Slab</source>
+        <translation>厚切</translation>
+    </message>
+    <message>
+        <source>Thickness of the slab, mm</source>
+        <translation>厚切的厚度，mm</translation>
+    </message>
+    <message>
+        <source>&amp;Between samples</source>
+        <translation>取樣之間(&amp;B)</translation>
+    </message>
+    <message>
+        <source>&amp;Linear</source>
+        <translation>線性(&amp;L)</translation>
+    </message>
+    <message>
+        <source>&amp;Nearest sample</source>
+        <translation>最近取樣(&amp;N)</translation>
+    </message>
+    <message>
+        <source>Pla&amp;y</source>
+        <translation>播放(&amp;Y)</translation>
+    </message>
+    <message>
+        <source>Play: the slices of the plane, or the projection around the patient (Space)</source>
+        <translation>播放：切面的各切片，或繞病患旋轉投影（空白鍵）</translation>
+    </message>
+    <message>
+        <source>S&amp;peed</source>
+        <translation>速度(&amp;P)</translation>
+    </message>
+    <message>
+        <source>%1 pictures per second</source>
+        <translation>每秒 %1 張</translation>
+    </message>
+    <message>
+        <source>&amp;Next phase</source>
+        <translation>下一時相(&amp;N)</translation>
+    </message>
+    <message>
+        <source>P&amp;revious phase</source>
+        <translation>上一時相(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Play p&amp;hases</source>
+        <translation>播放時相(&amp;H)</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::TransferFunctionPanel</name>
+    <message>
+        <source>Number of control points</source>
+        <translation>控制點個數</translation>
+    </message>
+    <message>
+        <source>Number of control points: more make finer curves</source>
+        <translation>控制點個數：越多曲線越精細</translation>
+    </message>
+    <message>
+        <source> points</source>
+        <translation> 點</translation>
+    </message>
+    <message>
+        <source>Weight of the selected point</source>
+        <translation>所選點的權重</translation>
+    </message>
+    <message>
+        <source>Weight of the selected point, 0 to 2</source>
+        <translation>所選點的權重，0 至 2</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>重設</translation>
+    </message>
+    <message>
+        <source>All weights 1</source>
+        <translation>權重全設為 1</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>複製</translation>
+    </message>
+    <message>
+        <source>Copy the weights as text</source>
+        <translation>將權重複製為文字</translation>
+    </message>
+    <message>
+        <source>Paste</source>
+        <translation>貼上</translation>
+    </message>
+    <message>
+        <source>Paste 2 to 16 weights of 0 to 2</source>
+        <translation>貼上 2 至 16 個介於 0 與 2 的權重</translation>
+    </message>
+    <message>
+        <source>Control points</source>
+        <translation>控制點</translation>
+    </message>
+    <message>
+        <source>Reset the curve</source>
+        <translation>重設曲線</translation>
+    </message>
+    <message>
+        <source>Transfer function</source>
+        <translation>轉換函數</translation>
+    </message>
+    <message>
+        <source>The clipboard holds no weights</source>
+        <translation>剪貼簿中沒有權重</translation>
+    </message>
+    <message>
+        <source>Paste a curve</source>
+        <translation>貼上曲線</translation>
+    </message>
+    <message>
+        <source>Whole volume</source>
+        <translation>整個體積</translation>
+    </message>
+    <message>
+        <source>HU</source>
+        <translation>HU</translation>
+    </message>
+</context>
+</TS>

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a person chooses for the whole program: language, theme, keys; and what is there again after
+// the program has ended.
+#include "tests/ui/workstation.h"
+
+#include <QAccessible>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QDockWidget>
+#include <QKeySequenceEdit>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QUndoView>
+
+#include "ui/shortcuts.h"
+#include "ui/workstation.h"
+
+namespace pellucid {
+
+using namespace test;
+
+class PreferencesTest : public Workstation {
+    Q_OBJECT
+private slots:
+    void init() {
+        QSettings().clear();
+        std::filesystem::remove_all(m_folder / "data");
+        begin();
+    }
+    void cleanup() { m_program.reset(); }
+
+    void theLanguageChangesAtRunTimeAndNothingIsLost() {
+        openIn(headPath());
+        choosePreset("Bone");
+        dragMouse(find<QWidget>("axialView"), Qt::LeftButton, {150, 150}, {60, -30});
+        const auto window = document().displayWindow();
+        const render::Scene scene = document().scene();
+        const int edits = document().undoStack()->count();
+        QVERIFY(edits >= 2);
+        const QImage picture = projectionOf()->picture();
+        choose("languageBox", "zh_TW");
+        QTRY_COMPARE(window_().menuBar()->actions().front()->text(), QString::fromUtf8("檔案(&F)"));
+        settleIn();
+        QVERIFY(document().displayWindow() == window);
+        QVERIFY(document().scene().look == scene.look);
+        // Menus of another script may be a little higher: the pane is smaller then.
+        const QImage now = projectionOf()->picture().scaled(picture.size());
+        QVERIFY(changed(picture, now) < 0.05);
+        QVERIFY(document().undoStack()->count() == edits);
+        // Nothing that is seen is English: words of three letters and more are names and units.
+        const QStringList english = englishTexts();
+        QVERIFY2(english.isEmpty(), qPrintable(english.join(" | ")));
+        grabAs("zh_TW");
+        // Keys and undo go on as before.
+        QTest::keyClick(&window_(), Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(!(document().displayWindow() == window));
+        choose("languageBox", "en");
+        QTRY_COMPARE(window_().menuBar()->actions().front()->text(), QString("&File"));
+        settleIn();
+    }
+
+    void theThemeChangesAtRunTime() {
+        openIn(headPath());
+        const double dark = meanGrey(find<QWidget>("studyPanel")->grab().toImage());
+        choose("themeBox", "light");
+        QTRY_VERIFY(meanGrey(find<QWidget>("studyPanel")->grab().toImage()) > dark + 100.0);
+        settleIn();
+        // Pictures stay on black.
+        const QImage pane = find<QWidget>("axialView")->grab().toImage();
+        QVERIFY(meanGrey(pane, QRect(4, pane.height() / 4, 10, 10)) < 3.0);
+        grabAs("light");
+        // It is there after the program has ended.
+        begin();
+        QVERIFY(meanGrey(find<QWidget>("studyPanel")->grab().toImage()) > dark + 100.0);
+        choose("themeBox", "dark");
+    }
+
+    void keysAreGivenTakenAndKept() {
+        openDialog();
+        find<QLineEdit>("shortcutFilter")->setText("crop");
+        auto *list = find<QTreeWidget>("shortcutList");
+        QCOMPARE(list->topLevelItemCount(), 1);
+        list->setCurrentItem(list->topLevelItem(0));
+        auto *edit = find<QKeySequenceEdit>("shortcutEdit");
+        QCOMPARE(edit->keySequence(), QKeySequence("K"));
+        // The key of another command: that one is named and has none then.
+        edit->setKeySequence(QKeySequence("W"));
+        emit edit->editingFinished();
+        QVERIFY(find<QLabel>("shortcutConflict")->text().contains("Window"));
+        QVERIFY(find<QAction>("windowToolAction")->shortcut().isEmpty());
+        find<QDialog>("preferencesDialog")->close();
+        window_().activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(&window_()));
+        QTest::keyClick(&window_(), Qt::Key_W);
+        QVERIFY(find<QAction>("cropToolAction")->isChecked());
+        begin();
+        QCOMPARE(find<QAction>("cropToolAction")->shortcut(), QKeySequence("W"));
+        QVERIFY(find<QAction>("windowToolAction")->shortcut().isEmpty());
+        openDialog();
+        find<QPushButton>("usualKeysButton")->click();
+        QCOMPARE(find<QAction>("windowToolAction")->shortcut(), QKeySequence("W"));
+        QCOMPARE(find<QAction>("cropToolAction")->shortcut(), QKeySequence("K"));
+        begin();
+        QCOMPARE(find<QAction>("cropToolAction")->shortcut(), QKeySequence("K"));
+    }
+
+    void everyCommandIsInTheListOnce() {
+        QSet<QString> names;
+        for (const ui::ShortcutEntry &entry : ui::shortcutEntries(window_())) {
+            QVERIFY2(!names.contains(entry.name), qPrintable(entry.name));
+            names << entry.name;
+        }
+        for (const char *name : {"openFilesAction", "undoAction", "saveLookAction", "slabAction",
+                                 "nextPhaseAction", "manualAction", "fullScreenAction"})
+            QVERIFY2(names.contains(name), name);
+        // No key is given twice.
+        QHash<QString, QString> keys;
+        for (const ui::ShortcutEntry &entry : ui::shortcutEntries(window_())) {
+            const QString key = entry.action->shortcut().toString();
+            if (key.isEmpty())
+                continue;
+            QVERIFY2(!keys.contains(key), qPrintable(key + ": " + entry.name + ", " + keys[key]));
+            keys[key] = entry.name;
+        }
+    }
+
+    void whatWasOpenIsTakenUpAgainAsItWasLookedAt() {
+        QVERIFY(!find<QWidget>("resumeButton")->isVisible());
+        openIn(headPath());
+        choosePreset("Bone");
+        QTest::keyClick(projectionOf(), Qt::Key_3, Qt::KeypadModifier);
+        turnWheel(find<QWidget>("axialView"), 3);
+        QTest::keyClick(&window_(), Qt::Key_S);
+        settleIn();
+        const render::Scene scene = document().scene();
+        const auto crosshair = document().crosshair();
+        const QImage picture = projectionOf()->picture();
+        begin();
+        QVERIFY(!document().volume());
+        QVERIFY(find<QWidget>("resumeButton")->isVisible());
+        find<QPushButton>("resumeButton")->click();
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(), patienceMs);
+        settleIn();
+        QVERIFY(document().scene().look == scene.look);
+        QVERIFY(glm::distance(document().crosshair().mm, crosshair.mm) < 1e-6);
+        QCOMPARE(document().cut().options.slab.thicknessMm, 10.0);
+        QVERIFY(std::abs(glm::dot(document().scene().camera.orientation,
+                                  scene.camera.orientation)) > 1.0 - 1e-9);
+        QVERIFY(changed(picture, projectionOf()->picture()) < 0.01);
+        // No name in the file.
+        QFile file(
+            QString::fromStdString((m_folder / "data" / "pellucid" / "session.json").string()));
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        QVERIFY(!file.readAll().contains("Secret"));
+    }
+
+    void whoDoesNotWantToBeRememberedIsNot() {
+        openDialog();
+        find<QCheckBox>("remembersBox")->click();
+        find<QDialog>("preferencesDialog")->close();
+        openIn(headPath());
+        begin();
+        QVERIFY(!find<QWidget>("resumeButton")->isVisible());
+        QVERIFY(QSettings().value("recentPaths").toStringList().isEmpty());
+        QVERIFY(!std::filesystem::exists(m_folder / "data" / "pellucid" / "session.json"));
+    }
+
+    void theTitleNamesThePatientOnlyWhereThatIsChosen() {
+        openIn(headPath());
+        QCOMPARE(window_().windowTitle(), QString("Pellucid"));
+        openDialog();
+        find<QCheckBox>("patientTitleBox")->click();
+        QCOMPARE(window_().windowTitle(), QString("Secret Name - Pellucid"));
+    }
+
+    void theHistoryGoesBackToAnyEdit() {
+        openIn(headPath());
+        const render::Scene before = document().scene();
+        choosePreset("Bone");
+        find<QAction>("filmAction")->trigger();
+        find<QDockWidget>("historyDock")->show();
+        auto *history = find<QUndoView>("historyView");
+        QCOMPARE(history->model()->rowCount(), 3); // with how it was opened
+        QVERIFY(history->model()->index(1, 0).data().toString().contains("Bone"));
+        const QRect row = history->visualRect(history->model()->index(0, 0));
+        QTest::mouseClick(history->viewport(), Qt::LeftButton, {}, row.center());
+        QVERIFY(document().scene().look == before.look);
+        QVERIFY(!document().scene().tone.inverted);
+        settleIn();
+    }
+
+    void aboutNamesWhatTheProgramIsMadeOf() {
+        find<QAction>("aboutAction")->trigger();
+        QVERIFY(find<QLabel>("aboutWarning")->text().contains("Not for diagnostic use"));
+        auto *libraries = find<QTreeWidget>("aboutLibraries");
+        QStringList names;
+        for (int n = 0; n < libraries->topLevelItemCount(); ++n) {
+            const QTreeWidgetItem *item = libraries->topLevelItem(n);
+            names << item->text(0);
+            QVERIFY2(item->text(1).contains('.'), qPrintable(item->text(0)));
+            QVERIFY2(!item->text(2).isEmpty(), qPrintable(item->text(0)));
+        }
+        for (const char *name : {"Qt", "DCMTK", "ITK", "FFTW", "libarchive"})
+            QVERIFY2(names.contains(name), name);
+        find<QDialog>("aboutDialog")->close();
+    }
+
+    // Who cannot see the screen hears what a control is for.
+    void everyControlThatTakesTheKeyboardHasAName() {
+        openIn(headPath());
+        choosePreset("Bone");
+        QStringList nameless;
+        for (QWidget *widget : window_().findChildren<QWidget *>()) {
+            // The edit line of a spin box speaks by the box.
+            if (!widget->isVisible() || widget->objectName() == "qt_spinbox_lineedit" ||
+                widget->focusPolicy() == Qt::NoFocus ||
+                widget->inherits("QAbstractScrollArea") ==
+                    (qobject_cast<QAbstractItemView *>(widget) == nullptr))
+                continue;
+            QAccessibleInterface *spoken = QAccessible::queryAccessibleInterface(widget);
+            if (spoken == nullptr || spoken->text(QAccessible::Name).isEmpty())
+                nameless << QString(widget->metaObject()->className()) + " " + widget->objectName();
+        }
+        QVERIFY2(nameless.isEmpty(), qPrintable(nameless.join(", ")));
+    }
+
+private:
+    // As if the program had ended and been started again.
+    void begin() {
+        m_program.reset();
+        m_program = std::make_unique<ui::Workstation>();
+        window_().resize(1600, 1000);
+        QVERIFY(QTest::qWaitForWindowExposed(&window_()));
+        window_().activateWindow();
+    }
+    ui::MainWindow &window_() { return m_program->window(); }
+    ui::Document &document() { return m_program->bench().document; }
+    ui::ProjectionView *projectionOf() { return find<ui::ProjectionView>("projectionView"); }
+    template <class T> T *find(const char *name) {
+        T *found = window_().findChild<T *>(name);
+        if (found == nullptr)
+            qFatal("no %s", name);
+        return found;
+    }
+    void settleIn() {
+        QTRY_VERIFY_WITH_TIMEOUT(
+            projectionOf()->showsFinalImage() && !m_program->bench().jobs.isRunning(), patienceMs);
+    }
+    void openIn(const QString &path) {
+        drop(window_(), {QUrl::fromLocalFile(path)});
+        settleIn();
+    }
+    void choosePreset(const QString &name) {
+        auto *gallery = find<QListWidget>("presetGallery");
+        const auto item = gallery->findItems(name, Qt::MatchExactly).front();
+        gallery->scrollToItem(item);
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(item).center());
+        settleIn();
+    }
+    void openDialog() {
+        find<QAction>("preferencesAction")->trigger();
+        QVERIFY(find<QDialog>("preferencesDialog")->isVisible());
+    }
+    void choose(const char *box, const QString &value) {
+        openDialog();
+        auto *choice = find<QComboBox>(box);
+        choice->setCurrentIndex(choice->findData(value));
+        emit choice->activated(choice->currentIndex());
+        QTRY_VERIFY(window_().findChild<QDialog *>("preferencesDialog") == nullptr);
+        QVERIFY(QTest::qWaitForWindowExposed(&window_()));
+        window_().resize(1600, 1000);
+        window_().activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(&window_()));
+    }
+    void grabAs(const QString &name) {
+        if (const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS"); !folder.isEmpty())
+            QVERIFY(window_().grab().save(folder + "/workstation_" + name + ".png"));
+    }
+
+    QStringList englishTexts() {
+        static const QRegularExpression word("[A-Za-z]{3,}");
+        // Names, units and what has no other word.
+        static const QRegularExpression proper(
+            "Secret|Name|DICOMDIR|DICOM|NRRD|Pellucid|MIP|MinIP|CPU|GPU|AVX\\d?|SSE\\d?|EMU\\d+|"
+            "NEON|"
+            "OpenGL|Esc|Ctrl|Shift|Keypad|Slicer|png|json|csv|PNG|CSV|NumPy|ZIP|FFTW|UID|Del|Home|"
+            "End|"
+            "test|tmp|pellucid");
+        QStringList found;
+        const auto look = [&](QString text, const QString &where) {
+            if (text.contains('/')) // a path
+                return;
+            text.remove(proper);
+            if (word.match(text).hasMatch())
+                found << where + ": " + text;
+        };
+        for (const QAction *action : window_().findChildren<QAction *>())
+            // Edits keep the language in which they were made.
+            if (!action->objectName().isEmpty() && action != find<QAction>("undoAction")) {
+                look(action->text(), action->objectName());
+                look(action->toolTip(), action->objectName());
+            }
+        for (const QWidget *widget : window_().findChildren<QWidget *>()) {
+            const QString where = widget->objectName();
+            // Kernels and steps are called by what one types.
+            if (where == "kernelBox" || where == "classRange")
+                continue;
+            look(widget->toolTip(), where);
+            look(widget->accessibleName(), where);
+            if (const auto *label = qobject_cast<const QLabel *>(widget))
+                look(label->text(), where);
+            else if (const auto *button = qobject_cast<const QAbstractButton *>(widget))
+                look(button->text(), where);
+            else if (const auto *combo = qobject_cast<const QComboBox *>(widget))
+                for (int n = 0; n < combo->count(); ++n)
+                    look(combo->itemText(n), where);
+            else if (const auto *list = qobject_cast<const QListWidget *>(widget))
+                for (int n = 0; n < list->count(); ++n)
+                    look(list->item(n)->text(), where);
+        }
+        return found;
+    }
+
+    std::unique_ptr<ui::Workstation> m_program;
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::PreferencesTest>(argc, argv);
+}
+
+#include "preferences_test.moc"
