@@ -67,6 +67,12 @@ void Theme::apply(QApplication &application) const {
     application.setPalette(palette);
     QFont font = application.font();
     font.setPointSizeF(9.0);
+    // Else Chinese is drawn with whatever comes first, in Japanese forms and too bold.
+    QStringList families = font.families();
+    for (const char *family : {"Noto Sans CJK TC", "Microsoft JhengHei", "PingFang TC"})
+        if (!families.contains(family))
+            families << family;
+    font.setFamilies(families);
     application.setFont(font);
 
     QString sheet = QString::fromUtf8(resource(":/pellucid/styles/workstation.qss"));

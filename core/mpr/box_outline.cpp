@@ -5,6 +5,9 @@ namespace pellucid::mpr {
 
 namespace {
 
+// A face on the very border of the picture is a face, whatever the rounding. *Units*: pixels.
+constexpr double margin = 2.0;
+
 // A corner of the outline and the face that the edge after it belongs to.
 struct Corner {
     glm::dvec2 at{0.0};
@@ -41,9 +44,10 @@ std::vector<BoxEdge> boxOutline(const volume::Lattice &lattice, const LatticeBox
     const glm::dvec3 origin = lattice.voxel(plane.at(0.0, 0.0)).v;
     const glm::dvec3 perColumn = lattice.voxel(plane.at(1.0, 0.0)).v - origin;
     const glm::dvec3 perRow = lattice.voxel(plane.at(0.0, 1.0)).v - origin;
-    const double right = plane.width - 0.5, bottom = plane.height - 0.5;
+    const double left = -0.5 - margin, right = plane.width - 0.5 + margin,
+                 bottom = plane.height - 0.5 + margin;
     std::vector<Corner> outline{
-        {{-0.5, -0.5}}, {{right, -0.5}}, {{right, bottom}}, {{-0.5, bottom}}};
+        {{left, left}}, {{right, left}}, {{right, bottom}}, {{left, bottom}}};
     for (int axis = 0; axis < 3; ++axis) {
         const auto at = [&](const glm::dvec2 &p) {
             return origin[axis] + p.x * perColumn[axis] + p.y * perRow[axis];

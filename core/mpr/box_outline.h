@@ -20,7 +20,8 @@ struct BoxEdge {
     bool isHigh = false;
 };
 
-/// The outline of what a plane cuts out of a box, within the picture, around it once; empty where
+/// The outline of what a plane cuts out of a box, within the picture and two pixels
+/// around it, all the way round once; empty where
 /// the plane misses the box.
 std::vector<BoxEdge> boxOutline(const volume::Lattice &lattice, const LatticeBox &box,
                                 const Plane &plane);

@@ -22,6 +22,12 @@ QPointF position(const PaneMapping &pane, const glm::dvec2 &pixel) {
     return QPointF(pixel.x + 0.5, pixel.y + 0.5) / pane.pixelRatio;
 }
 
+QPointF inside(const QRect &area, const QPointF &p) {
+    const QRectF seen = QRectF(area).adjusted(1.5, 4.5, -1.5, -1.5); // below the pane's bar
+    return {std::clamp(p.x(), seen.left(), seen.right()),
+            std::clamp(p.y(), seen.top(), seen.bottom())};
+}
+
 double distance(const QPointF &p, const QPointF &a, const QPointF &b) {
     const QPointF along = b - a;
     const double length2 = QPointF::dotProduct(along, along);
@@ -132,7 +138,9 @@ void CropTool::paint(QPainter &painter, const PaneMapping &pane, const QRect &ar
         const bool isTaken =
             m_dragged && m_dragged->axis == edge.axis && m_dragged->isHigh == edge.isHigh;
         painter.setPen(QPen(colors.accent, isTaken ? 2.5 : withLines ? 1.5 : 1.0));
-        const QPointF from = position(pane, edge.from), to = position(pane, edge.to);
+        // Of a volume that fills the pane the sides lie on its border.
+        const QPointF from = inside(area, position(pane, edge.from)),
+                      to = inside(area, position(pane, edge.to));
         painter.drawLine(from, to);
         if (withLines) {
             painter.setBrush(colors.accent);

@@ -178,5 +178,52 @@ TEST(Scan, TwoSeriesAreNeverMerged) {
     EXPECT_THROW(dicom::selectSeries(catalogue, "3"), task::Error);
 }
 
+// Values of a slice follow its own rescale: one for all of them shows stripes.
+TEST(Load, TheRescaleOfEverySliceIsItsOwn) {
+    const test::TemporaryFolder folder;
+    const volume::Volume head = tiltedHead();
+    dicom::writeCtSeries(folder.path(), head, {}, dicom::TransferSyntax::explicitLittle);
+    const std::string third = (folder / "IM0003.dcm").string();
+    ASSERT_EQ(std::system(("dcmodify -nb -m RescaleIntercept=-1000 -m RescaleSlope=2 '" + third +
+                           "' > /dev/null")
+                              .c_str()),
+              0);
+    const auto loaded = loadDefault(folder.path()).volume;
+    const auto size = head.lattice().size();
+    ASSERT_EQ(loaded.lattice().size(), size);
+    for (int k = 0; k < size.k; ++k)
+        for (int i = 0; i < size.i; ++i) {
+            const double stored = head.value({i, size.j / 2, k});
+            EXPECT_EQ(loaded.value({i, size.j / 2, k}), k == 2 ? 2.0 * stored - 1000.0 : stored);
+        }
+}
+
+// What the kernel says this process has read so far.
+std::size_t bytesRead() {
+    std::ifstream io("/proc/self/io");
+    std::string name;
+    std::size_t bytes = 0;
+    io >> name >> bytes;
+    return name == "rchar:" ? bytes : 0;
+}
+
+// Shares and CDs are slow: the pixels stay where they are until a series is opened.
+TEST(Scan, ReadsHeadersAndNotPixels) {
+    if (bytesRead() == 0)
+        GTEST_SKIP() << "the system does not count what is read";
+    const test::TemporaryFolder folder;
+    const auto lattice = volume::Lattice::centred({512, 512, 8}, {1, 1, 2});
+    dicom::writeCtSeries(folder.path(),
+                         volume::Volume(lattice,
+                                        std::vector<std::int16_t>(lattice.size().count(), 40),
+                                        volume::ValueUnit::hounsfield),
+                         {}, dicom::TransferSyntax::explicitLittle);
+    dicom::scan({folder.path()}); // what is read once: the dictionary
+    const std::size_t before = bytesRead();
+    dicom::scan({folder.path()});
+    // Eight files of half a megabyte; a header with its buffers is a few pages.
+    EXPECT_LT(bytesRead() - before, 8U * 64U * 1024U);
+}
+
 } // namespace
 } // namespace pellucid
