@@ -92,6 +92,11 @@ void FileMenu::savePicture() {
 }
 
 void FileMenu::exportPicture() {
+    if (auto *shown = m_window.findChild<ExportDialog *>()) {
+        shown->raise();
+        shown->activateWindow();
+        return;
+    }
     // Beside the window, which goes on: it may be turned to what is to be written.
     (new ExportDialog(m_bench.document, m_panes, m_bench.exports, &m_window))->show();
 }

@@ -41,6 +41,7 @@ void JobRunner::joinFinished() {
 }
 
 void JobRunner::start(const QString &title, Work work) {
+    m_title = title;
     cancel();
     joinFinished();
     const quint64 generation = ++m_generation;

@@ -46,6 +46,8 @@ public:
     /// Cancels and waits until no work runs any more.
     void join();
     bool isRunning() const { return m_running; }
+    /// Of the current job, or of the last one.
+    const QString &title() const { return m_title; }
 
 signals:
     void started(const QString &title);
@@ -65,6 +67,7 @@ private:
 
     quint64 m_generation = 0;
     bool m_running = false;
+    QString m_title;
     std::vector<Thread> m_threads;
 };
 

@@ -14,11 +14,6 @@ void KeptStudies::keep(KeptStudy study) {
     m_studies.push_front(std::move(study));
 }
 
-bool KeptStudies::holds(int source) const {
-    return std::any_of(m_studies.begin(), m_studies.end(),
-                       [&](const KeptStudy &s) { return s.source == source; });
-}
-
 std::optional<KeptStudy> KeptStudies::take(int source) {
     const auto found = std::find_if(m_studies.begin(), m_studies.end(),
                                     [&](const KeptStudy &s) { return s.source == source; });

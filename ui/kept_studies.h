@@ -36,7 +36,6 @@ class KeptStudies {
 public:
     /// In place of what was kept of the same source.
     void keep(KeptStudy study);
-    bool holds(int source) const;
     /// Takes a study out, if it is there.
     std::optional<KeptStudy> take(int source);
     /// Drops until the rest fits.

@@ -413,7 +413,7 @@ void MainWindow::createStatusBar() {
         if (!m_bench.document.volume())
             m_bench.document.setCurrentSource(-1);
     });
-    connect(&m_bench.jobs, &JobRunner::failed, this, &MainWindow::report);
+    connect(&m_bench.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
     connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
         if (text != m_engine->text())
             task::log(text.toStdString());
@@ -478,12 +478,16 @@ void MainWindow::remember(const QStringList &paths) {
 
 void MainWindow::report(const QString &what, const QString &path) {
     m_bench.document.addProblems({{path.toStdString(), what.toStdString()}});
+    statusBar()->showMessage(what, 8000);
+}
+
+void MainWindow::reportLoad(const QString &what, const QString &path) {
+    report(what, path);
     // The window stays usable: what was open stays, or the start page is there again.
     if (!m_bench.document.volume())
         m_bench.document.setCurrentSource(-1);
     else
         m_projection->setMessage(what);
-    statusBar()->showMessage(what, 8000);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent *event) {

@@ -84,6 +84,8 @@ private:
     void showTitle();
     void remember(const QStringList &paths);
     void report(const QString &what, const QString &path);
+    /// Of what should have been shown.
+    void reportLoad(const QString &what, const QString &path);
     QAction *command(QMenu &menu, const QString &text, const char *name, const QKeySequence &key,
                      const std::function<void()> &run);
 

@@ -6,9 +6,11 @@
 #include <filesystem>
 
 #include <QCoreApplication>
+#include <QFileInfo>
 #include <QImage>
 #include <QPainter>
 #include <QPicture>
+#include <QTemporaryDir>
 
 #include "core/dicom/write_capture.h"
 #include "core/files/image_files.h"
@@ -92,9 +94,16 @@ void write(const QImage &picture, PictureFormat format, const QString &path,
                         rgba.height(), rgba.width(), labels);
 }
 
-dicom::CaptureLabels labelsOf(const Document &document, const render::Camera *camera) {
-    const StudyFacts &study = document.sources().at(std::size_t(document.currentSource())).study;
+// `seen`: the axes of the picture, of pixels of that size.
+dicom::CaptureLabels labelsOf(const Document &document, const mpr::Axes &seen, double pixelMm) {
+    const StudySource &source = document.sources().at(std::size_t(document.currentSource()));
     dicom::CaptureLabels labels;
+    labels.pixelMm = document.volume()->notes().hasSpacing ? pixelMm : 0.0;
+    if (document.volume()->notes().placed)
+        labels.patientOrientation = render::dicomOrientation(seen.right, seen.up);
+    if (!source.volume.file.isEmpty() || !source.phantom.isEmpty())
+        return labels; // a file or a phantom is nobody's
+    const StudyFacts &study = source.study;
     labels.patientId = study.patientId.toStdString();
     labels.patientName = study.patientName.toStdString();
     labels.birthDate = study.birthDate.toStdString();
@@ -102,12 +111,6 @@ dicom::CaptureLabels labelsOf(const Document &document, const render::Camera *ca
     labels.studyUid = study.uid.toStdString();
     labels.studyDate = study.date.toStdString();
     labels.studyDescription = study.description.toStdString();
-    if (camera != nullptr) {
-        labels.pixelMm = camera->pixelMm;
-        labels.patientOrientation = render::dicomOrientation(*camera);
-    } else {
-        labels.seriesDescription = "Plane";
-    }
     return labels;
 }
 
@@ -115,8 +118,11 @@ PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const D
                           const QString &path) {
     const MprView &view = *panes.planes[std::size_t(what.pane)];
     const double ratio = view.devicePixelRatioF() * what.scale;
-    return [make = view.pictureMaker(what.scale), what, path, ratio,
-            labels = labelsOf(document, nullptr),
+    const mpr::Plane plane = view.plane();
+    dicom::CaptureLabels labels = labelsOf(document, plane.axes, plane.pixelMm / what.scale);
+    labels.seriesDescription = "Plane";
+    labels.derivation = "Reformatted plane";
+    return [make = view.pictureMaker(what.scale), what, path, ratio, labels,
             over = recorded(what.isAnnotated, [&](QPainter &painter) { view.paintOver(painter); })](
                const task::Progress &progress) {
         QImage picture = make();
@@ -138,26 +144,35 @@ QString framePath(const QString &path, int frame) {
     return QString("%1_%2.png").arg(stem).arg(frame, 4, 10, QChar('0'));
 }
 
+// Frames take their names when all are there: what was written before under those names stays till
+// then.
 class FrameFiles {
 public:
-    explicit FrameFiles(QString path) : m_path(std::move(path)) {}
-    ~FrameFiles() {
-        std::error_code ignored;
-        for (const QString &path : m_written)
-            fs::remove(path.toStdString(), ignored);
+    explicit FrameFiles(const QString &path)
+        : m_path(path), m_folder(QFileInfo(path).absolutePath() + "/.frames-XXXXXX") {
+        if (!m_folder.isValid())
+            throw task::Error(task::ErrorCode::output, m_folder.errorString().toStdString(),
+                              path.toStdString());
     }
-    FrameFiles(const FrameFiles &) = delete;
-    FrameFiles &operator=(const FrameFiles &) = delete;
     void add(const QImage &picture, int frame) {
-        const QString path = framePath(m_path, frame);
-        write(picture, PictureFormat::png, path, {});
-        m_written << path;
+        write(picture, PictureFormat::png, m_folder.filePath(QString::number(frame)), {});
+        m_count = frame + 1;
     }
-    void keep() { m_written.clear(); }
+    void finish() {
+        for (int n = 0; n < m_count; ++n) {
+            const QString to = framePath(m_path, n);
+            std::error_code failed;
+            fs::rename(m_folder.filePath(QString::number(n)).toStdString(), to.toStdString(),
+                       failed);
+            if (failed)
+                throw task::Error(task::ErrorCode::output, failed.message(), to.toStdString());
+        }
+    }
 
 private:
     QString m_path;
-    QStringList m_written;
+    QTemporaryDir m_folder;
+    int m_count = 0;
 };
 
 PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
@@ -177,7 +192,8 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
         }));
     }
     return [what, path, scene, render, ratio, turn, lattice = document.volume()->lattice(),
-            labels = labelsOf(document, &scene.camera)](const task::Progress &progress) {
+            labels = labelsOf(document, {scene.camera.axes()[0], scene.camera.axes()[1]},
+                              scene.camera.pixelMm)](const task::Progress &progress) {
         const auto picture = [&](std::size_t n) {
             QImage made = asItLooks(render(turn.cameras[n]), scene.tone);
             putOver(made, turn.over[n], ratio);
@@ -210,7 +226,7 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
         case PictureFormat::frames: {
             FrameFiles files(path);
             everyFrame([&](const QImage &frame, int n) { files.add(frame, n); });
-            files.keep();
+            files.finish();
             break;
         }
         case PictureFormat::video: {

@@ -11,6 +11,7 @@
 
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
+#include "core/phantom/phantom.h"
 #include "core/task/error.h"
 
 namespace pellucid::ui {
@@ -50,6 +51,8 @@ Session fromJson(const QJsonObject &in) {
         s.files << file.toString();
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
+    if (!s.phantom.isEmpty()) // of a newer program it may be unknown
+        phantom::kindFromName(s.phantom.toStdString());
     s.shown.scene = render::sceneFromJson(
         QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());
     const QJsonObject window = in["window"].toObject();

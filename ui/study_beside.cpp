@@ -114,6 +114,8 @@ void StudyBeside::open(const StudySource &source) {
     m_name->setToolTip(headingText(source));
     m_link->hold();
     m_opener.openSource(m_document.addSources({source}).front());
+    if (m_document.volume() && !m_document.isPreview()) // it was there already
+        m_link->begin();
 }
 
 void StudyBeside::setTool(Tool tool) {

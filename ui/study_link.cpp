@@ -23,9 +23,12 @@ StudyLink::StudyLink(const Viewer &leader, const Viewer &follower, QObject *pare
             [this] { passCrosshair(m_follower, m_leader, -1.0); });
     for (const auto changed : {&Document::sceneChanged, &Document::displayWindowChanged})
         connect(&leader.document, changed, this, &StudyLink::follow);
+    // Look and crosshair of the leader's next volume are set after it.
     connect(&leader.document, &Document::volumeChanged, this, [this] {
-        matchCrosshairs();
-        follow();
+        const bool isWaited = m_isHeld;
+        m_isHeld = true;
+        if (!isWaited)
+            QMetaObject::invokeMethod(this, &StudyLink::begin, Qt::QueuedConnection);
     });
     // Told after every edit, one that was merged too.
     connect(follower.document.undoStack(), &QUndoStack::indexChanged, this,

@@ -47,19 +47,16 @@ void StudyOpener::goOn(const Continuity &continuity) {
     emit cameraKept(scene.camera);
 }
 
-bool StudyOpener::showKept(int index, const std::optional<Continuity> &continuity) {
-    const auto kept = m_kept.take(index);
-    if (!kept)
-        return false;
-    m_document.setVolume(kept->volume, kept->initialWindow, kept->fieldWindow, false);
+void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &continuity) {
+    m_document.setVolume(study.volume, study.initialWindow, study.fieldWindow, false);
     if (continuity) {
         goOn(*continuity);
-        if (kept->engine)
-            m_preparer.adopt(*kept->preparedFor, *kept->engine);
+        if (study.engine)
+            m_preparer.adopt(*study.preparedFor, *study.engine);
         m_preparer.prepareAgain();
-        return true;
+        return;
     }
-    render::Scene scene = kept->scene;
+    render::Scene scene = study.scene;
     // The pane may have another size by now; the picture's quality is the person's, not the
     // study's.
     scene.camera = m_document.scene().camera;
@@ -69,16 +66,15 @@ bool StudyOpener::showKept(int index, const std::optional<Continuity> &continuit
     m_preparer.setHeld(true);
     m_document.setScene(scene);
     m_preparer.setHeld(false);
-    if (kept->engine)
-        m_preparer.adopt(*kept->preparedFor, *kept->engine);
-    m_document.setDisplayWindow(kept->displayWindow);
-    m_document.setCrosshair(kept->crosshair);
+    if (study.engine)
+        m_preparer.adopt(*study.preparedFor, *study.engine);
+    m_document.setDisplayWindow(study.displayWindow);
+    m_document.setCrosshair(study.crosshair);
     Cut cut = m_document.cut();
-    cut.axes = kept->axes;
+    cut.axes = study.axes;
     m_document.setCut(cut);
-    emit cameraKept(kept->scene.camera);
+    emit cameraKept(study.scene.camera);
     m_preparer.prepareAgain(); // what changed, or was dropped
-    return true;
 }
 
 void StudyOpener::openPaths(const QStringList &paths) {
@@ -104,7 +100,8 @@ void StudyOpener::openPaths(const QStringList &paths) {
             // Files may have changed since.
             for (const int index : indices)
                 m_kept.take(index);
-            emit pathsOpened(paths);
+            if (!m_resumption) // what the user named was remembered then
+                emit pathsOpened(paths);
             endScan();
             openSource(wantedOf(indices, indices[defaultSource(*catalogue)]));
         });
@@ -125,6 +122,8 @@ void StudyOpener::takeUp() {
         return;
     const Resumption resumption = *m_resumption;
     m_resumption.reset();
+    if (m_document.currentSource() < 0)
+        return;
     const StudySource &open = m_document.sources()[std::size_t(m_document.currentSource())];
     if (open.digest() == resumption.digest)
         goOn(resumption.shown);
@@ -177,9 +176,10 @@ void StudyOpener::openPhase(int index) {
         return;
     }
     m_jobs.cancel();
-    if (m_kept.holds(index)) {
+    // Taken first: keeping the phase that is left may drop another one.
+    if (const auto kept = m_kept.take(index)) {
         const Continuity stays = leavePhase(index);
-        showKept(index, stays);
+        show(*kept, stays);
         return;
     }
     // The former phase stays until this one is there.
@@ -222,8 +222,10 @@ void StudyOpener::openSource(int index) {
     const PreparedFor wanted = m_preparer.forgetVolume();
     m_document.setCurrentSource(index);
     m_document.closeVolume();
-    if (showKept(index, std::nullopt))
+    if (const auto kept = m_kept.take(index)) {
+        show(*kept, std::nullopt);
         return;
+    }
     m_jobs.start(
         tr("Loading %1").arg(seriesText(source.volume)),
         [this, source, prepare = m_preparer.preparation(wanted, 0.6, true)](const Job &job) {

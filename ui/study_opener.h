@@ -65,7 +65,7 @@ private:
     void keepCurrent();
     Continuity leavePhase(int next);
     void goOn(const Continuity &continuity);
-    bool showKept(int index, const std::optional<Continuity> &continuity);
+    void show(const KeptStudy &study, const std::optional<Continuity> &continuity);
 
     Document &m_document;
     JobRunner &m_jobs;

@@ -22,12 +22,23 @@ struct StudySourceTexts {
 // A phantom's thumbnail is cut out of a small one.
 constexpr volume::GridSize thumbnailPhantom{96, 96, 96};
 
-// The volume that a library means; what it was grouped by may have changed with its files.
-dicom::Selection meant(const dicom::Catalogue &catalogue, const VolumeFacts &volume) {
-    for (const dicom::Selection &s : dicom::selections(catalogue))
-        if (volumeFacts(s).key() == volume.key())
-            return s;
-    return dicom::defaultSelection(catalogue);
+// The volume that a library means. Files that are gone change its size; its label stays.
+const dicom::VolumeEntry &meant(const dicom::Catalogue &catalogue, const VolumeFacts &volume) {
+    const auto all = dicom::selections(catalogue);
+    std::vector<const dicom::VolumeEntry *> alike;
+    for (const dicom::Selection &s : all) {
+        const VolumeFacts facts = volumeFacts(s);
+        if (facts.key() == volume.key())
+            return *s.volume;
+        if (facts.label == volume.label)
+            alike.push_back(s.volume);
+    }
+    if (alike.size() == 1)
+        return *alike.front();
+    throw task::Error(
+        task::ErrorCode::unusable,
+        StudySourceTexts::tr("the files of this volume have changed; import them again")
+            .toStdString());
 }
 
 dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
@@ -53,7 +64,7 @@ dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
     const dicom::Catalogue catalogue = dicom::scan(there, progress.part(0.0, 0.2));
     skipped.insert(skipped.end(), catalogue.skipped.begin(), catalogue.skipped.end());
     dicom::LoadedVolume loaded =
-        dicom::loadVolume(*meant(catalogue, volume).volume, progress.part(0.2, 1.0), observer);
+        dicom::loadVolume(meant(catalogue, volume), progress.part(0.2, 1.0), observer);
     loaded.skipped.insert(loaded.skipped.begin(), skipped.begin(), skipped.end());
     return loaded;
 }
@@ -112,7 +123,7 @@ StudySource phantomSource(const QString &name) {
     StudySource source;
     source.phantom = name;
     source.study.patientId = "phantoms";
-    source.study.patientName = StudySourceTexts::tr("Phantoms");
+    source.study.patientName = "Phantoms"; // said in the user's language by patientText
     source.study.description = StudySourceTexts::tr("Made by Pellucid");
     source.volume.seriesUid = name;
     source.volume.seriesNumber = name == "head" ? 1 : 2;

@@ -6,6 +6,7 @@
 #include <QLocale>
 
 #include "ui/main_window.h"
+#include "ui/recent_paths.h"
 #include "ui/session.h"
 
 namespace pellucid::ui {
@@ -17,7 +18,11 @@ Workstation::Workstation(std::optional<EngineChoice> engine)
 }
 
 Workstation::~Workstation() {
-    keepSession(m_preferences.remembersStudies ? currentSession(m_bench.document) : std::nullopt);
+    // Who opened nothing still has what was open before.
+    if (!m_preferences.remembersStudies)
+        keepSession(std::nullopt);
+    else if (const auto session = currentSession(m_bench.document))
+        keepSession(session);
 }
 
 // English stands in the program; what is missing of another language stays English.
@@ -49,17 +54,28 @@ void Workstation::makeWindow() {
     m_window->show();
 }
 
+// What is being written looks at the panes: it is finished first.
+void Workstation::makeWindowWhenIdle() {
+    if (m_bench.exports.isRunning())
+        connect(&m_bench.exports, &JobRunner::finished, this, &Workstation::makeWindowWhenIdle,
+                Qt::ConnectionType(Qt::QueuedConnection | Qt::SingleShotConnection));
+    else
+        makeWindow();
+}
+
 void Workstation::follow(const Preferences &preferences) {
     const Preferences before = m_preferences;
     m_preferences = preferences;
-    if (!preferences.remembersStudies)
+    if (!preferences.remembersStudies) {
         keepSession(std::nullopt);
+        forgetRecentPaths();
+    }
     if (preferences.language != before.language)
         speak(preferences.language);
     if (preferences.language != before.language || preferences.theme != before.theme ||
         preferences.toolBar != before.toolBar)
         // Not from within a dialog of the window that goes.
-        QMetaObject::invokeMethod(this, &Workstation::makeWindow, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(this, &Workstation::makeWindowWhenIdle, Qt::QueuedConnection);
     else
         m_window->setPreferences(preferences);
 }

@@ -27,6 +27,7 @@ public:
 private:
     void follow(const Preferences &preferences);
     void makeWindow();
+    void makeWindowWhenIdle();
     void speak(const QString &language);
 
     Preferences m_preferences;

@@ -53,7 +53,8 @@ void writeImage(const fs::path &path, const render::ProjectionImage &image,
     case OutputKind::capture: {
         dicom::CaptureLabels of = labels;
         of.pixelMm = scene.camera.pixelMm;
-        of.patientOrientation = render::dicomOrientation(scene.camera);
+        of.patientOrientation =
+            render::dicomOrientation(scene.camera.axes()[0], scene.camera.axes()[1]);
         dicom::writeCapture(path, render::compose(image, scene.tone), image.height, image.width,
                             of);
         break;

@@ -17,6 +17,7 @@ struct CaptureLabels {
     /// One for all pictures that belong together; empty: a new one.
     std::string seriesUid;
     std::string seriesDescription = "Projection";
+    std::string derivation = "Fourier volume rendering, parallel projection";
     int seriesNumber = 9001, instanceNumber = 1;
     std::string patientOrientation; ///< of rows and columns, "L\F"; may be empty
     double pixelMm = 0.0;           ///< of a pixel in the plane of the picture; 0: not told

@@ -89,7 +89,7 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     put(d, DCM_StudyDescription, labels.studyDescription);
     put(d, DCM_SeriesDescription, labels.seriesDescription);
     put(d, DCM_SecondaryCaptureDeviceManufacturer, "Pellucid");
-    put(d, DCM_DerivationDescription, "Fourier volume rendering, parallel projection");
+    put(d, DCM_DerivationDescription, labels.derivation);
     put(d, DCM_PatientName, labels.patientName);
     put(d, DCM_PatientID, labels.patientId);
     put(d, DCM_PatientBirthDate, labels.birthDate);

@@ -155,8 +155,13 @@ void unpackArchive(const fs::path &path, const fs::path &folder, const task::Pro
             name = archive_entry_pathname(entry);
         fs::path to = inside(folder, name, ++number);
         // Two names may differ in what was taken from them.
-        if (std::error_code ignored; fs::exists(to, ignored))
-            to = folder / std::to_string(number) / to.filename();
+        std::error_code failed;
+        fs::create_directories(to.parent_path(), failed); // a file may have the folder's name
+        for (std::size_t n = number; failed || fs::exists(to); ++n) {
+            to = folder / ("_" + std::to_string(n)) / to.filename();
+            failed.clear();
+            fs::create_directories(to.parent_path(), failed);
+        }
         written += writeFile(contents.get(), path, to, most - written, progress);
         progress.report(announced > 0 ? double(written) / double(announced) : 1.0);
     });

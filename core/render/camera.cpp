@@ -56,9 +56,8 @@ std::string patientLetters(const glm::dvec3 &direction) {
     return letters;
 }
 
-std::string dicomOrientation(const Camera &camera) {
-    const glm::dmat3 axes = camera.axes();
-    std::string letters = patientLetters(axes[0]) + "\\" + patientLetters(-axes[1]);
+std::string dicomOrientation(const glm::dvec3 &right, const glm::dvec3 &up) {
+    std::string letters = patientLetters(right) + "\\" + patientLetters(-up);
     std::replace(letters.begin(), letters.end(), 'S', 'H');
     std::replace(letters.begin(), letters.end(), 'I', 'F');
     return letters;

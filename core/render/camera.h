@@ -44,7 +44,7 @@ std::string patientLetters(const glm::dvec3 &direction);
 
 /// Where rows and columns of a picture lead, as DICOM says it (PS3.3 C.7.6.1.1.1): "L\F", with H
 /// and F for superior and inferior.
-std::string dicomOrientation(const Camera &camera);
+std::string dicomOrientation(const glm::dvec3 &right, const glm::dvec3 &up);
 
 /// Pixel = shortest step; the smallest even square size that holds every view of the lattice.
 /// *Throws* Error{usage} if that is more than `largestImageSize`.

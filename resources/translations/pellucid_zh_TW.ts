@@ -1114,6 +1114,14 @@
         <source>no OpenGL here</source>
         <translation>此處沒有 OpenGL</translation>
     </message>
+    <message>
+        <source>copies need a study library that can be written</source>
+        <translation>複製需要可寫入的檢查資料庫</translation>
+    </message>
+    <message>
+        <source>has its samples in another file; not imported</source>
+        <translation>取樣資料在另一個檔案；未匯入</translation>
+    </message>
 </context>
 <context>
     <name>SceneFiles</name>
@@ -1219,16 +1227,16 @@
         <source>Study</source>
         <translation>檢查</translation>
     </message>
+    <message>
+        <source>Phantoms</source>
+        <translation>假體</translation>
+    </message>
 </context>
 <context>
     <name>StudySourceTexts</name>
     <message>
         <source>the files of this series are not there any more; the disc or the drive they are on may be away</source>
         <translation>此序列的檔案已不在；其光碟或磁碟可能已移除</translation>
-    </message>
-    <message>
-        <source>Phantoms</source>
-        <translation>假體</translation>
     </message>
     <message>
         <source>Made by Pellucid</source>
@@ -1241,6 +1249,10 @@
     <message>
         <source>Chest phantom</source>
         <translation>胸部假體</translation>
+    </message>
+    <message>
+        <source>the files of this volume have changed; import them again</source>
+        <translation>此體積的檔案已變動；請重新匯入</translation>
     </message>
 </context>
 <context>

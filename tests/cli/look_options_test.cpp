@@ -274,7 +274,7 @@ TEST_F(Cli, BadCuesAndLightsAreOneLine) {
     // A picture of colours needs a kind of file that holds them.
     const auto grey = cli("render " + quoted(series) + " -o " + quoted(folder / "x.nrrd") +
                           " --light 1,0,0:#ff0000");
-    expectOneLine(grey, 2, "coloured pictures are written as .png or .npy");
+    expectOneLine(grey, 2, "coloured pictures are written as .png, .npy or .dcm");
 }
 
 } // namespace

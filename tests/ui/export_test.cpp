@@ -112,15 +112,21 @@ private slots:
         QVERIFY(changed(frame(0), frame(1)) > 0.05);
         // Half a turn is the mirrored view: rays run both ways through the same.
         QVERIFY(changed(frame(2), frame(0).mirrored(true, false)) < 0.02);
-        for (int n = 0; n < 4; ++n)
-            QFile::remove(framePath(n));
+        // A longer turn under the same name, cancelled: what was there stays as it was.
+        const QImage before = frame(0);
         dialogFor("Projection", 5, 4, true);
         find<QSpinBox>("exportFramesBox")->setValue(200);
         find<QPushButton>("exportWriteButton")->click();
-        QTRY_VERIFY(QFile::exists(framePath(0)));
+        const QDir folder(QString::fromStdString(m_folder.path().string()));
+        const auto unfinished = [&] {
+            return folder.entryList({".frames-*"}, QDir::Hidden | QDir::Dirs);
+        };
+        QTRY_VERIFY(!unfinished().isEmpty());
         QTest::mouseClick(find<QPushButton>("exportCancel"), Qt::LeftButton);
         QVERIFY(find<QDialog>("exportDialog")->isVisible());
-        QTRY_VERIFY_WITH_TIMEOUT(!QFile::exists(framePath(0)), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(unfinished().isEmpty(), patienceMs);
+        QVERIFY(frame(0) == before);
+        QVERIFY(frame(4).isNull());
         QVERIFY(find<QPushButton>("exportWriteButton")->isEnabled());
         find<QDialog>("exportDialog")->close();
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);

@@ -161,9 +161,12 @@ private slots:
     }
 
     void whoDoesNotWantToBeRememberedIsNot() {
+        openIn(headPath());
+        QVERIFY(!QSettings().value("recentPaths").toStringList().isEmpty());
         openDialog();
         find<QCheckBox>("remembersBox")->click();
         find<QDialog>("preferencesDialog")->close();
+        QVERIFY(QSettings().value("recentPaths").toStringList().isEmpty());
         openIn(headPath());
         begin();
         QVERIFY(!find<QWidget>("resumeButton")->isVisible());

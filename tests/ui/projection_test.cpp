@@ -135,6 +135,8 @@ private slots:
         ui::Document &document = m_window->document();
         const render::Scene before = document.scene();
         const auto window = document.displayWindow();
+        auto *axial = find<ui::MprView>("axialView");
+        axial->moveView({1.7, {5.0, -3.0}});
         const QImage first = projection()->picture();
         QTest::keyClick(m_window.get(), Qt::Key_Period);
         QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("phaseLabel")->text().startsWith("Phase 2 of 3"),
@@ -144,6 +146,7 @@ private slots:
         QVERIFY(document.scene().look == before.look);
         QVERIFY(document.scene().camera == before.camera);
         QVERIFY(document.displayWindow() == window);
+        QCOMPARE(axial->view().zoom, 1.7);
         // Denser bone under the brightness of the first phase is brighter.
         QVERIFY2(meanGrey(second) > meanGrey(first) + 1.0,
                  qPrintable(QString("%1 %2").arg(meanGrey(first)).arg(meanGrey(second))));

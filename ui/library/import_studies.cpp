@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <map>
 #include <set>
 #include <system_error>
 #include <unistd.h>
@@ -53,8 +56,14 @@ public:
     fs::path add(const fs::path &from, const std::string &series, const std::string &instance) {
         std::error_code failed;
         if (m_incoming.empty()) {
-            m_incoming = m_place.copiesFolder() / (incomingPrefix + std::to_string(getpid()));
-            fs::create_directories(m_incoming, failed);
+            fs::create_directories(m_place.copiesFolder(), failed);
+            std::string name =
+                (m_place.copiesFolder() / (incomingPrefix + std::to_string(getpid()) + "-XXXXXX"))
+                    .string();
+            // An import that was cancelled may still be leaving its own.
+            if (mkdtemp(name.data()) == nullptr)
+                throw Error(ErrorCode::output, std::strerror(errno), m_place.copiesFolder());
+            m_incoming = name;
         }
         const fs::path incoming = m_incoming / std::to_string(m_copies.size());
         if (!failed)
@@ -151,6 +160,19 @@ std::vector<fs::path> missingParts(const Library &library, const dicom::Catalogu
     return {missing.begin(), missing.end()};
 }
 
+bool isOwn(const LibraryPlace &place, const fs::path &path) {
+    return path.string().starts_with(place.copiesFolder().string() + "/");
+}
+
+// The copies that the library has of a series, by their instances.
+std::map<std::string, fs::path> ownCopies(const Library &library, const LibrarySeries &series) {
+    std::map<std::string, fs::path> own;
+    for (const dicom::InstanceFile &file : library.files(series.study, series.volumes.front()))
+        if (!file.sopInstanceUid.empty() && isOwn(library.place(), file.path) && isFileThere(file))
+            own[file.sopInstanceUid] = file.path;
+    return own;
+}
+
 std::string seriesDigest(const LibrarySeries &s) {
     return digest(s.study.key() + "\n" + s.volumes.front().seriesUid + "\n" +
                   s.volumes.front().file);
@@ -176,39 +198,56 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
     ImportResult result;
     result.skipped = catalogue.skipped;
     std::vector<LibrarySeries> all = seriesOf(catalogue, progress.part(0.5, 0.7));
-    const bool isCopied = import.mode == ImportMode::copy ||
-                          std::any_of(all.begin(), all.end(), [](const LibrarySeries &s) {
-                              return files::isInSessionFolder(s.files.front().path);
-                          });
+    // What archives were unpacked to goes with the program.
+    const auto isCopied = [&](const dicom::InstanceFile &file) {
+        return import.mode == ImportMode::copy || files::isInSessionFolder(file.path);
+    };
+    bool copiesAny = false;
+    std::size_t done = 0, count = 0;
+    for (const LibrarySeries &series : all) {
+        count += series.files.size();
+        copiesAny = copiesAny || std::any_of(series.files.begin(), series.files.end(), isCopied);
+    }
+    if (copiesAny && place.inMemory)
+        throw Error(ErrorCode::output, "copies need a study library that can be written",
+                    place.folder);
     Copies copies(place);
-    if (isCopied)
+    if (copiesAny)
         checkRoom(place, all);
     const task::Progress copying = progress.part(0.7, 0.99);
-    std::size_t done = 0, count = 0;
-    for (const LibrarySeries &series : all)
-        count += series.files.size();
     for (LibrarySeries &series : all) {
         ++result.series;
         result.files += int(series.files.size());
         const std::string folder = seriesDigest(series);
-        for (dicom::InstanceFile &file : series.files) {
+        const auto own = ownCopies(library, series);
+        std::erase_if(series.files, [&](dicom::InstanceFile &file) {
             copying.report(double(++done) / double(count));
-            const std::string inLibrary = place.copiesFolder().string() + "/";
-            if (!isCopied || file.path.string().starts_with(inLibrary))
-                continue;
+            if (isOwn(place, file.path))
+                return false;
+            if (const auto held = own.find(file.sopInstanceUid); held != own.end()) {
+                file.path = held->second; // safer than where it is now
+                return false;
+            }
+            if (!isCopied(file))
+                return false;
             if (volume::isNrrdPath(file.path) &&
                 volume::readNrrdHeader(file.path).samplesFile != file.path) {
+                const bool isGoing = files::isInSessionFolder(file.path);
                 result.skipped.push_back(
-                    {file.path, "has its samples in another file; referred to, not copied"});
-                continue;
+                    {file.path, isGoing ? "has its samples in another file; not imported"
+                                        : "has its samples in another file; referred to, not "
+                                          "copied"});
+                return isGoing;
             }
             const std::string instance =
                 file.sopInstanceUid.empty() ? file.path.string() : file.sopInstanceUid;
             file.path = copies.add(file.path, folder, digest(QString::fromStdString(instance)));
             if (!series.volumes.front().file.isEmpty())
                 series.volumes.front().file = QString::fromStdString(file.path.string());
-        }
+            return false;
+        });
     }
+    std::erase_if(all, [](const LibrarySeries &s) { return s.files.empty(); });
     progress.check(); // from here on it is done to the end
     copies.rename();
     library.put(all);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/library/library.h"
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <map>
@@ -129,6 +130,13 @@ private:
     bool m_isDone = false;
 };
 
+// A connection may be taken away only when nobody holds it.
+void close(QSqlDatabase &&list, const QString &connection) {
+    list.close();
+    list = QSqlDatabase();
+    QSqlDatabase::removeDatabase(connection);
+}
+
 constexpr const char *studyColumns = "id, patient_id, patient_name, birth_date, sex, uid, date, "
                                      "description, modalities";
 
@@ -225,6 +233,12 @@ qint64 findStudy(const QSqlDatabase &list, const StudyFacts &study) {
                       "uid = ?");
     found.bind(said(study.patientId)).bind(said(study.patientName)).bind(said(study.uid)).run();
     return found.next() ? found.integer(0) : 0;
+}
+
+qint64 findSeries(const QSqlDatabase &list, const StudyFacts &study, const VolumeFacts &volume) {
+    Query row(list, "SELECT id FROM series WHERE study = ? AND uid = ?");
+    row.bind(findStudy(list, study)).bind(said(seriesKey(volume))).run();
+    return row.next() ? row.integer(0) : 0;
 }
 
 qint64 putStudy(const QSqlDatabase &list, const StudyFacts &s) {
@@ -332,26 +346,39 @@ Library::Library(const LibraryPlace &place) : m_place(place) {
         list.setDatabaseName(QString::fromStdString(place.listFile().string()));
     }
     list.setConnectOptions(options);
-    if (!list.open())
-        fail(list.lastError(), place.listFile());
-    Query(list, "PRAGMA foreign_keys = ON").run();
-    Query version(list, "PRAGMA user_version");
-    version.run();
-    const qint64 found = version.next() ? version.integer(0) : 0;
-    if (found > schemaVersion)
-        throw Error(ErrorCode::output, "is a study library of a newer version", place.listFile());
-    if (found == 0) {
-        Transaction making(list);
-        for (const char *statement : schema)
-            Query(list, statement).run();
-        Query(list, QString("PRAGMA user_version = %1").arg(schemaVersion)).run();
-        making.commit();
+    if (!list.open()) {
+        const QSqlError error = list.lastError();
+        close(std::move(list), m_connection);
+        fail(error, place.listFile());
+    }
+    try {
+        Query(list, "PRAGMA foreign_keys = ON").run();
+        const auto version = [&] {
+            Query row(list, "PRAGMA user_version");
+            row.run();
+            return row.next() ? row.integer(0) : 0;
+        };
+        if (version() == 0) {
+            Transaction making(list);
+            // Another window may have made it while this one waited.
+            if (version() == 0) {
+                for (const char *statement : schema)
+                    Query(list, statement).run();
+                Query(list, QString("PRAGMA user_version = %1").arg(schemaVersion)).run();
+            }
+            making.commit();
+        }
+        if (version() > schemaVersion)
+            throw Error(ErrorCode::output, "is a study library of a newer version",
+                        place.listFile());
+    } catch (const Error &) {
+        close(std::move(list), m_connection);
+        throw;
     }
 }
 
 Library::~Library() {
-    QSqlDatabase::database(m_connection, false).close();
-    QSqlDatabase::removeDatabase(m_connection);
+    close(QSqlDatabase::database(m_connection, false), m_connection);
 }
 
 StudyPage Library::find(const QString &search, StudyOrder order, int offset, int limit) const {
@@ -378,8 +405,9 @@ StudyPage Library::find(const QString &search, StudyOrder order, int offset, int
     return page;
 }
 
-bool Library::holds(const StudyFacts &study) const {
-    return findStudy(QSqlDatabase::database(m_connection), study) != 0;
+bool Library::holds(const StudyFacts &study, const VolumeFacts &volume) const {
+    const QSqlDatabase list = QSqlDatabase::database(m_connection);
+    return findSeries(list, study, volume) != 0;
 }
 
 std::vector<VolumeFacts> Library::volumes(qint64 study) const {
@@ -417,9 +445,8 @@ std::vector<dicom::InstanceFile> Library::files(qint64 volume) const {
 std::vector<dicom::InstanceFile> Library::files(const StudyFacts &study,
                                                 const VolumeFacts &volume) const {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
-    Query row(list, "SELECT id FROM series WHERE study = ? AND uid = ?");
-    row.bind(findStudy(list, study)).bind(said(seriesKey(volume))).run();
-    return row.next() ? filesOfSeries(list, row.integer(0)) : std::vector<dicom::InstanceFile>();
+    const qint64 series = findSeries(list, study, volume);
+    return series != 0 ? filesOfSeries(list, series) : std::vector<dicom::InstanceFile>();
 }
 
 void Library::put(const std::vector<LibrarySeries> &series) {
@@ -472,6 +499,11 @@ void forEachReadableRow(const QSqlDatabase &list, const QString &table, const QS
     } catch (const Error &) {
         return; // the root of the tree is gone
     }
+    // Numbers beyond what the file could hold are noise.
+    std::error_code unknown;
+    const auto bytes = fs::file_size(pathText(list.databaseName()), unknown);
+    if (!unknown)
+        last = std::min(last, qint64(bytes));
     Query row(list, QString("SELECT %1 FROM %2 WHERE id = ?").arg(columns, table));
     for (qint64 id = 1; id <= last; ++id) {
         try {

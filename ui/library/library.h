@@ -64,7 +64,8 @@ public:
     /// Studies whose patient, date, descriptions, modalities and body parts hold every word of
     /// `search`, whatever its case and accents. *Shape*: at most `limit`, from `offset`.
     StudyPage find(const QString &search, StudyOrder order, int offset, int limit) const;
-    bool holds(const StudyFacts &study) const;
+    /// Whether it has the series of a volume.
+    bool holds(const StudyFacts &study, const VolumeFacts &volume) const;
     /// In the order of the series' numbers.
     std::vector<VolumeFacts> volumes(qint64 study) const;
     /// Of the series that a volume belongs to.

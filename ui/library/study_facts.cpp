@@ -72,6 +72,8 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
 }
 
 QString patientText(const StudyFacts &study) {
+    if (study.patientId == "phantoms")
+        return StudyFactsTexts::tr("Phantoms");
     const QString name = QString(study.patientName).replace('^', ' ').simplified();
     if (!name.isEmpty())
         return name;

@@ -9,6 +9,17 @@ namespace pellucid::ui {
 
 StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
     connect(&m_jobs, &JobRunner::failed, this, &StudyLibrary::failed);
+    connect(
+        &m_jobs, &JobRunner::finished, this,
+        [this] {
+            emit changed(); // one that was cancelled too late is there all the same
+            if (m_waiting.empty() || m_jobs.isRunning())
+                return;
+            const Import next = m_waiting.front();
+            m_waiting.pop_front();
+            import(next);
+        },
+        Qt::QueuedConnection);
     const auto data = files::userDataFolder();
     OpenedLibrary opened;
     if (data)
@@ -48,8 +59,8 @@ StudyPage StudyLibrary::find(const QString &search, StudyOrder order, int offset
     return attempt([&](Library &l) { return l.find(search, order, offset, limit); });
 }
 
-bool StudyLibrary::holds(const StudyFacts &study) {
-    return attempt([&](Library &l) { return l.holds(study); });
+bool StudyLibrary::holds(const StudyFacts &study, const VolumeFacts &volume) {
+    return attempt([&](Library &l) { return l.holds(study, volume); });
 }
 
 std::vector<VolumeFacts> StudyLibrary::volumes(const StudyFacts &study) {
@@ -63,6 +74,10 @@ std::vector<dicom::InstanceFile> StudyLibrary::files(const VolumeFacts &volume) 
 void StudyLibrary::import(const Import &import) {
     if (!m_library)
         return;
+    if (m_jobs.isRunning()) {
+        m_waiting.push_back(import);
+        return;
+    }
     m_jobs.start(tr("Importing"), [this, import, place = m_library->place()](const Job &job) {
         const ImportResult result = importStudies(place, import, job.progress());
         job.deliver([this, result] {

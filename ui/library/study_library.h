@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <deque>
 #include <memory>
 
 #include <QObject>
@@ -23,7 +24,7 @@ public:
     const std::vector<dicom::Skipped> &notices() const { return m_notices; }
 
     StudyPage find(const QString &search, StudyOrder order, int offset, int limit);
-    bool holds(const StudyFacts &study);
+    bool holds(const StudyFacts &study, const VolumeFacts &volume);
     std::vector<VolumeFacts> volumes(const StudyFacts &study);
     std::vector<dicom::InstanceFile> files(const VolumeFacts &volume);
 
@@ -42,6 +43,7 @@ private:
     std::vector<dicom::Skipped> m_notices;
     std::unique_ptr<Library> m_library;
     JobRunner m_jobs;
+    std::deque<Import> m_waiting; ///< one import after the other
 };
 
 } // namespace pellucid::ui

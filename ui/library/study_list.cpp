@@ -56,7 +56,7 @@ void StudyList::rebuild() {
     beginResetModel();
     m_entries.clear();
     for (const StudySource &source : m_document.sources()) {
-        if (source.isClosed || m_library.holds(source.study))
+        if (source.isClosed || m_library.holds(source.study, source.volume))
             continue;
         auto it = std::find_if(m_entries.begin(), m_entries.end(), [&](const auto &entry) {
             return entry->study.key() == source.study.key();

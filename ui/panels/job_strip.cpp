@@ -29,6 +29,8 @@ JobStrip::JobStrip(JobRunner &jobs, const QString &name, QWidget *parent)
                             static_cast<QWidget *>(m_cancel)})
         row->addWidget(widget);
     hide();
+    if (jobs.isRunning()) // of a window before this one
+        showStarted(jobs.title());
     connect(m_cancel, &QPushButton::clicked, &jobs, &JobRunner::cancel);
     connect(&jobs, &JobRunner::started, this, &JobStrip::showStarted);
     connect(&jobs, &JobRunner::progressed, this,

@@ -4,9 +4,7 @@
 #include <set>
 
 #include <QActionGroup>
-#include <QDesktopServices>
 #include <QDragEnterEvent>
-#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLineEdit>

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/look_comparison.h"
 
+#include <utility>
+
 #include <QPainter>
 
 #include "ui/document.h"
 
 namespace pellucid::ui {
 
-LookComparison::LookComparison(Document &document, QObject *parent) : QObject(parent) {
+LookComparison::LookComparison(Document &document, QObject *parent)
+    : QObject(parent), m_document(document), m_scene(document.scene()) {
     // Merged edits of a drag have one index.
     connect(document.undoStack(), &QUndoStack::indexChanged, this, &LookComparison::edited);
 }
@@ -15,12 +18,18 @@ LookComparison::LookComparison(Document &document, QObject *parent) : QObject(pa
 void LookComparison::forget() {
     m_now.reset();
     m_before.reset();
+    m_scene = m_document.scene();
+    m_index = m_document.undoStack()->index();
 }
 
 void LookComparison::edited(int index) {
-    if (index == m_index)
+    const render::Scene &scene = m_document.scene();
+    const bool isLook = scene.look != m_scene.look || scene.shading != m_scene.shading ||
+                        scene.crop != m_scene.crop || scene.tone != m_scene.tone ||
+                        scene.image != m_scene.image || scene.fieldWindow != m_scene.fieldWindow;
+    m_scene = scene;
+    if (std::exchange(m_index, index) == index || !isLook) // measurements have no look
         return;
-    m_index = index;
     if (m_now)
         m_before = m_now;
     m_now.reset(); // not again before the new one has settled

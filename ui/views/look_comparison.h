@@ -40,6 +40,8 @@ public:
 private:
     void edited(int index);
 
+    Document &m_document;
+    render::Scene m_scene; ///< after the last edit
     std::optional<ShownLook> m_now, m_before;
     int m_index = 0; ///< of the undo stack
 };

@@ -57,14 +57,21 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
         refresh();
     });
     connect(&document, &Document::volumeChanged, this, [this] {
-        if (!m_document.volume()) { // previews leave what the hand is doing alone
+        const auto &volume = m_document.volume();
+        const bool isSamePlace = volume && m_lattice == volume->lattice();
+        // The rest of a volume that arrives leaves what the hand is doing alone.
+        if (!isSamePlace || !m_wasPreview) {
             m_measure.cancel();
             m_crop.cancel();
             m_dragging = Drag::none;
         }
+        m_wasPreview = m_document.isPreview();
         m_cutMs = 0.0;
-        if (!m_document.isPreview())
-            resetView();
+        if (volume) {
+            m_lattice = volume->lattice();
+            if (!isSamePlace) // another phase is looked at alike
+                resetView();
+        }
         refresh();
     });
     for (const auto changed : {&Document::displayWindowChanged, &Document::tintChanged,

@@ -100,6 +100,9 @@ private:
     double m_turnAngle = 0.0;
     QPoint m_last;
     View m_view;
+    /// Of the last volume, which may have been a part of one.
+    volume::Lattice m_lattice;
+    bool m_wasPreview = false;
     QImage m_image;
     bool m_imageValid = false;
     /// Cuts slower than the hand are made of half the pixels while it moves.

@@ -227,6 +227,18 @@ private slots:
         QCOMPARE(filesBelow(at.copiesFolder()), 20);
     }
 
+    // By reference after by copy: the copies are kept in use, and none is left over.
+    void whatWasCopiedStaysWhenItIsReferredToLater() {
+        const LibraryPlace at = place("both");
+        importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
+        importStudies(at, {{m_folder / "head"}, ImportMode::refer}, {});
+        Library library(at);
+        const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
+        QVERIFY(library.volumes(study.libraryId).at(0).isCopied);
+        library.remove(study.libraryId);
+        QCOMPARE(filesBelow(at.copiesFolder()), 0);
+    }
+
     void aCancelledImportLeavesNothing() {
         const LibraryPlace at = place("cancelled");
         std::stop_source stop;
