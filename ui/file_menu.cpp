@@ -73,7 +73,10 @@ void FileMenu::chooseFolder() {
 
 void FileMenu::importPaths(const QStringList &paths) {
     auto *dialog = new ImportDialog(paths, &m_window);
-    connect(dialog, &ImportDialog::chosen, &m_bench.library, &StudyLibrary::import);
+    connect(dialog, &ImportDialog::chosen, this, [this](const Import &import) {
+        m_bench.document.clearProblems(); // those of the import are to come
+        m_bench.library.import(import);
+    });
     dialog->open();
 }
 

@@ -40,6 +40,7 @@ void showManual() {
     auto *browser = new QTextBrowser;
     browser->setObjectName("manual");
     browser->setAttribute(Qt::WA_DeleteOnClose);
+    browser->setAttribute(Qt::WA_QuitOnClose, false); // the program ends with its window
     browser->setWindowTitle(HelpMenuTexts::tr("Pellucid manual"));
     browser->setSource(manual());
     browser->resize(640, 760);

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/main_window.h"
 
+#include <QAbstractSpinBox>
 #include <QAction>
 #include <QActionGroup>
+#include <QApplication>
 #include <QCloseEvent>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QFileInfo>
+#include <QKeySequenceEdit>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QPlainTextEdit>
 #include <QScreen>
 #include <QSettings>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTextEdit>
 #include <QTimer>
 #include <QToolBar>
 #include <QToolButton>
@@ -94,6 +100,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
+    qApp->installEventFilter(this);
     showVolumeState();
     bench.document.announce(); // what is open already
     if (const auto &engine = bench.preparer.fullEngine())
@@ -174,7 +181,6 @@ void MainWindow::createStudyDock() {
             });
     connect(&m_bench.library, &StudyLibrary::failed, this, &MainWindow::report);
     connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
-        m_bench.document.clearProblems();
         m_bench.document.addProblems(result.skipped);
         statusBar()->showMessage(tr("Imported: %1 series, %2 files; %3 not used")
                                      .arg(result.series)
@@ -551,18 +557,52 @@ void MainWindow::showHeading() {
 void MainWindow::keyPressEvent(QKeyEvent *event) {
     if (event->key() == Qt::Key_Escape && m_bench.jobs.isRunning())
         m_bench.jobs.cancel();
-    else if (event->key() == Qt::Key_Q && event->modifiers() == Qt::NoModifier) {
-        if (!event->isAutoRepeat()) // held: side by side till it is let go
-            compareLooks(true);
-    } else
+    else
         QMainWindow::keyPressEvent(event);
 }
 
-void MainWindow::keyReleaseEvent(QKeyEvent *event) {
-    if (event->key() == Qt::Key_Q && !event->isAutoRepeat())
-        compareLooks(false);
-    else
-        QMainWindow::keyReleaseEvent(event);
+namespace {
+
+// Who types wants letters and digits.
+bool takesText(const QWidget *widget) {
+    return qobject_cast<const QLineEdit *>(widget) != nullptr ||
+           qobject_cast<const QAbstractSpinBox *>(widget) != nullptr ||
+           qobject_cast<const QKeySequenceEdit *>(widget) != nullptr ||
+           qobject_cast<const QTextEdit *>(widget) != nullptr ||
+           qobject_cast<const QPlainTextEdit *>(widget) != nullptr;
+}
+
+} // namespace
+
+// Keys of the projection wherever the keyboard is: lists would search for a held letter, and the
+// digits of the keypad would be those of the windows.
+bool MainWindow::eventFilter(QObject *watched, QEvent *event) {
+    const auto type = event->type();
+    const bool isKey =
+        type == QEvent::KeyPress || type == QEvent::KeyRelease || type == QEvent::ShortcutOverride;
+    auto *const widget = isKey ? qobject_cast<QWidget *>(watched) : nullptr;
+    if (widget == nullptr || widget->window() != this || takesText(widget) ||
+        widget == m_projection || m_isForwarding)
+        return QMainWindow::eventFilter(watched, event);
+    auto *const key = static_cast<QKeyEvent *>(event);
+    if (key->key() == Qt::Key_Q && key->modifiers() == Qt::NoModifier) {
+        if (type != QEvent::ShortcutOverride && !key->isAutoRepeat())
+            compareLooks(type == QEvent::KeyPress); // side by side till it is let go
+        return type != QEvent::ShortcutOverride;
+    }
+    // Arrows have the keypad's mark on some systems, and belong to the planes.
+    const bool isView = (key->modifiers() & Qt::KeypadModifier) != 0 &&
+                        (key->key() < Qt::Key_Left || key->key() > Qt::Key_Down);
+    if (!isView)
+        return QMainWindow::eventFilter(watched, event);
+    if (type == QEvent::ShortcutOverride) {
+        event->accept();
+        return true;
+    }
+    m_isForwarding = true; // what it leaves comes by here again
+    QCoreApplication::sendEvent(m_projection, event);
+    m_isForwarding = false;
+    return true;
 }
 
 void MainWindow::changeEvent(QEvent *event) {

@@ -60,7 +60,7 @@ protected:
     void dropEvent(QDropEvent *event) override;
     void closeEvent(QCloseEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
-    void keyReleaseEvent(QKeyEvent *event) override;
+    bool eventFilter(QObject *watched, QEvent *event) override;
     void changeEvent(QEvent *event) override;
 
 private:
@@ -93,6 +93,7 @@ private:
     Theme m_theme;
     Preferences m_preferences;
     FileMenu *m_file = nullptr;
+    bool m_isForwarding = false; ///< a key to the projection
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;
     LookDocks *m_look = nullptr;

@@ -5,6 +5,7 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QSettings>
 
 namespace pellucid::ui {
@@ -19,7 +20,9 @@ QString keyOf(const QString &name) {
 
 QString plain(QString text) {
     text = text.section('\t', 0, 0); // a hint of a fixed key stands behind
-    return text.remove('&').remove("...");
+    // Chinese names its access key behind the text.
+    static const QRegularExpression accessKey("\\(&.\\)");
+    return text.remove(accessKey).remove('&').remove("...").remove(QString::fromUtf8("…"));
 }
 
 // The usual key is remembered before another one is given for the first time.

@@ -37,8 +37,8 @@ using Reader = std::unique_ptr<struct archive, CloseArchive>;
 [[noreturn]] void failReading(struct archive *reader, const fs::path &path) {
     const char *const text = archive_error_string(reader);
     throw Error(ErrorCode::unusable,
-                text != nullptr ? std::string("is a damaged archive: ") + text
-                                : std::string("is a damaged archive"),
+                text != nullptr && *text != '\0' ? std::string("is a damaged archive: ") + text
+                                                 : std::string("is a damaged archive"),
                 path);
 }
 

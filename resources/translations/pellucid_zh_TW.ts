@@ -464,6 +464,10 @@
         <source>Not for diagnostic use</source>
         <translation>不得用於診斷</translation>
     </message>
+    <message>
+        <source>Cropped</source>
+        <translation>已裁切</translation>
+    </message>
 </context>
 <context>
     <name>QObject</name>

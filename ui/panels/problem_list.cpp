@@ -21,7 +21,8 @@ constexpr int mostHeight = 170;
 
 // Files that are no images at all are no errors.
 bool isNoImage(const QString &reason) {
-    return reason.startsWith("is not a DICOM") || reason.startsWith("has no pixels");
+    return reason.startsWith("is not a DICOM") || reason.startsWith("has no pixels") ||
+           reason.startsWith("is an index") || reason.startsWith("is an archive");
 }
 
 } // namespace

@@ -86,6 +86,9 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping) con
                  colors.warning);
         warning.translate(0, line);
     }
+    if (!m_document.scene().crop.isWhole()) // a part is not to be taken for the whole
+        drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
+                 QCoreApplication::translate("ProjectionView", "Cropped"), colors.warning);
     if (!m_texts.message.isEmpty()) {
         painter.setPen(colors.muted);
         painter.drawText(inner.adjusted(40, 40, -40, -40), Qt::AlignCenter | Qt::TextWordWrap,
