@@ -19,13 +19,15 @@ Document::Document(QObject *parent) : QObject(parent) {}
 std::vector<int> Document::addSources(std::vector<StudySource> sources) {
     std::vector<int> indices;
     for (StudySource &source : sources) {
-        const auto it = std::find_if(m_sources.begin(), m_sources.end(),
-                                     [&](const StudySource &s) { return s.key() == source.key(); });
-        indices.push_back(int(it - m_sources.begin()));
-        if (it == m_sources.end())
+        const QString key = source.key();
+        const int index = m_sourceIndices.value(key, int(m_sources.size()));
+        indices.push_back(index);
+        if (index == int(m_sources.size())) {
+            m_sourceIndices.insert(key, index);
             m_sources.push_back(std::move(source));
-        else
-            *it = std::move(source);
+        } else {
+            m_sources[std::size_t(index)] = std::move(source);
+        }
     }
     emit sourcesChanged();
     return indices;

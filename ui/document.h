@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include <QHash>
 #include <QObject>
 #include <QUndoStack>
 
@@ -41,6 +42,8 @@ public:
     const std::vector<StudySource> &sources() const { return m_sources; }
     /// Adds sources, or replaces those that are there already. *Shape*: their indices, in order.
     std::vector<int> addSources(std::vector<StudySource> sources);
+    /// The index of the source with a key; -1: none.
+    int sourceWith(const QString &key) const { return m_sourceIndices.value(key, -1); }
     /// It is listed no more; indices stay.
     void closeSource(int index);
     int currentSource() const { return m_currentSource; }
@@ -121,6 +124,7 @@ signals:
 
 private:
     std::vector<StudySource> m_sources;
+    QHash<QString, int> m_sourceIndices; ///< by key: a disc may hold a thousand series
     int m_currentSource = -1;
     std::vector<dicom::Skipped> m_problems;
     std::optional<volume::Volume> m_volume;

@@ -582,7 +582,7 @@ bool MainWindow::eventFilter(QObject *watched, QEvent *event) {
         type == QEvent::KeyPress || type == QEvent::KeyRelease || type == QEvent::ShortcutOverride;
     auto *const widget = isKey ? qobject_cast<QWidget *>(watched) : nullptr;
     if (widget == nullptr || widget->window() != this || takesText(widget) ||
-        widget == m_projection || m_isForwarding)
+        qobject_cast<ProjectionView *>(widget) != nullptr || m_isForwarding)
         return QMainWindow::eventFilter(watched, event);
     auto *const key = static_cast<QKeyEvent *>(event);
     if (key->key() == Qt::Key_Q && key->modifiers() == Qt::NoModifier) {

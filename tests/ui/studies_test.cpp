@@ -263,6 +263,12 @@ private slots:
         // Matched by hand: unlinked, moved, linked again.
         QTest::mouseClick(find<QToolButton>("linkButton"), Qt::LeftButton);
         QVERIFY(!find<QAction>("linkStudiesAction")->isChecked());
+        // The keypad turns the projection that has the keyboard.
+        const auto orientation = open.scene().camera.orientation;
+        QTest::keyClick(other, Qt::Key_7, Qt::KeypadModifier);
+        QVERIFY(prior.scene().camera.orientation ==
+                render::viewOrientation(render::StandardView::top));
+        QVERIFY(open.scene().camera.orientation == orientation);
         turnWheel(find<QWidget>("beside_axialView"), 1);
         const glm::dvec3 matched = prior.crosshair().mm - open.crosshair().mm;
         QVERIFY(glm::distance(matched, apart) > 0.5);

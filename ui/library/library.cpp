@@ -296,10 +296,12 @@ void putSeries(const QSqlDatabase &list, qint64 study, const LibrarySeries &s) {
             .bind(said(v.file))
             .bind(png(v.thumbnail))
             .run();
+    // Prepared once: a series has hundreds.
+    Query instance(list,
+                   "INSERT OR REPLACE INTO instances (series, instance, path) VALUES (?, ?, ?)");
     for (const dicom::InstanceFile &file : s.files) {
         const QString path = QString::fromStdString(file.path.string());
-        Query(list, "INSERT OR REPLACE INTO instances (series, instance, path) VALUES (?, ?, ?)")
-            .bind(id)
+        instance.bind(id)
             .bind(file.sopInstanceUid.empty() ? path : QString::fromStdString(file.sopInstanceUid))
             .bind(path)
             .run();
@@ -420,9 +422,12 @@ std::vector<VolumeFacts> Library::volumes(qint64 study) const {
     series.bind(study).run();
     while (series.next()) {
         VolumeFacts ofSeries = seriesOf(series);
-        const auto files = filesOfSeries(list, series.integer(0));
-        ofSeries.files = int(files.size());
-        ofSeries.isCopied = !files.empty() && files.front().path.string().starts_with(copies);
+        Query files(list, "SELECT count(*), min(path) FROM instances WHERE series = ?");
+        files.bind(series.integer(0)).run();
+        if (files.next()) {
+            ofSeries.files = int(files.integer(0));
+            ofSeries.isCopied = files.text(1).toStdString().starts_with(copies);
+        }
         Query rows(
             list,
             QString("SELECT %1 FROM volumes WHERE series = ? ORDER BY id").arg(volumeColumns));

@@ -55,17 +55,16 @@ void StudyList::append(StudyFacts study, bool isRead) {
 void StudyList::rebuild() {
     beginResetModel();
     m_entries.clear();
+    QHash<QString, std::size_t> rows; // of studies
     for (const StudySource &source : m_document.sources()) {
         if (source.isClosed || m_library.holds(source.study, source.volume))
             continue;
-        auto it = std::find_if(m_entries.begin(), m_entries.end(), [&](const auto &entry) {
-            return entry->study.key() == source.study.key();
-        });
-        if (it == m_entries.end()) {
+        const QString key = source.study.key();
+        if (!rows.contains(key)) {
+            rows.insert(key, m_entries.size());
             append(source.study, true);
-            it = m_entries.end() - 1;
         }
-        (*it)->volumes.push_back(source.volume);
+        m_entries[rows.value(key)]->volumes.push_back(source.volume);
     }
     std::erase_if(m_entries,
                   [&](const auto &entry) { return !matches(entry->study, entry->volumes); });
@@ -94,11 +93,7 @@ int StudyList::source(const QModelIndex &at) const {
     const VolumeFacts *const facts = volume(at);
     if (facts == nullptr)
         return -1;
-    const QString key = study(at).key() + "\n" + facts->key();
-    const auto &sources = m_document.sources();
-    const auto it = std::find_if(sources.begin(), sources.end(),
-                                 [&](const StudySource &s) { return s.key() == key; });
-    return it == sources.end() ? -1 : int(it - sources.begin());
+    return m_document.sourceWith(study(at).key() + "\n" + facts->key());
 }
 
 bool StudyList::isOpen(const QModelIndex &at) const {
