@@ -81,9 +81,6 @@ public:
 
 private:
     friend OpenedLibrary openLibrary(const std::filesystem::path &folder);
-    /// Reads whatever a damaged list still gives.
-    std::vector<LibrarySeries> readWhatIsThere(int &lost) const;
-
     LibraryPlace m_place;
     QString m_connection;
 };
