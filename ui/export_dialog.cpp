@@ -10,6 +10,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
@@ -130,8 +131,9 @@ void ExportDialog::showChosen() {
     m_write->setEnabled(why.isEmpty());
     // The name goes with the format, as long as it is one of ours.
     QString path = m_path->text();
-    for (const QString &known : {".png", ".npy", ".nrrd", ".dcm", ".mp4"})
-        if (path.endsWith(known, Qt::CaseInsensitive)) {
+    for (int format = 0; format < m_format->count(); ++format)
+        if (const QString known = suffixOf(PictureFormat(format));
+            path.endsWith(known, Qt::CaseInsensitive)) {
             path.chop(known.size());
             m_path->setText(path + suffixOf(what.format));
             break;
@@ -142,8 +144,22 @@ void ExportDialog::browse() {
     const QString suffix = suffixOf(chosen().format);
     const QString path =
         QFileDialog::getSaveFileName(this, tr("Export picture"), m_path->text(), "*" + suffix);
-    if (!path.isEmpty())
-        m_path->setText(path);
+    if (path.isEmpty())
+        return;
+    m_path->setText(path);
+    m_confirmed = path; // it was asked there
+}
+
+bool ExportDialog::mayReplace(const QString &path) {
+    const QString first = firstFileOf(chosen(), path);
+    if (path == m_confirmed && first == path)
+        return true;
+    if (!QFileInfo::exists(first))
+        return true;
+    return QMessageBox::question(
+               this, tr("Export picture"),
+               tr("%1 is there already. Replace it?").arg(QFileInfo(first).fileName())) ==
+           QMessageBox::Yes;
 }
 
 void ExportDialog::say(const QString &text, const char *role) {
@@ -155,12 +171,15 @@ void ExportDialog::say(const QString &text, const char *role) {
 void ExportDialog::write() {
     try {
         const QString path = m_path->text();
+        if (!mayReplace(path))
+            return;
         m_jobs.start(tr("Writing"),
                      [this, path,
                       writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {
                          writer(job.progress());
                          job.deliver([this, path] {
                              QSettings().setValue(folderKey, QFileInfo(path).absolutePath());
+                             emit written(path);
                              close();
                          });
                      });

@@ -26,8 +26,13 @@ public:
                  QWidget *parent = nullptr);
     ~ExportDialog() override;
 
+signals:
+    void written(const QString &path);
+
 private:
     PictureExport chosen() const;
+    /// Asks before what is there is lost.
+    bool mayReplace(const QString &path);
     void showChosen();
     void browse();
     void write();
@@ -41,7 +46,8 @@ private:
     QLineEdit *m_path;
     QSpinBox *m_frames;
     QLabel *m_said;
-    QString m_failure; ///< of the job that ends
+    QString m_confirmed; ///< a path that was asked about when it was chosen
+    QString m_failure;   ///< of the job that ends
     QPushButton *m_write = nullptr;
 };
 

@@ -3,6 +3,7 @@
 
 #include <QAction>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QMenu>
 
 #include "core/task/error.h"
@@ -80,6 +81,10 @@ void FileMenu::importPaths(const QStringList &paths) {
     dialog->open();
 }
 
+void FileMenu::sayWritten(const QString &path) {
+    emit said(tr("Written: %1").arg(QFileInfo(path).fileName()));
+}
+
 void FileMenu::savePicture() {
     attempt([&] {
         const QImage picture = m_panes.projection->picture();
@@ -89,8 +94,10 @@ void FileMenu::savePicture() {
         }
         const QString path = QFileDialog::getSaveFileName(
             &m_window, tr("Save picture"), "projection.png", tr("PNG image (*.png)"));
-        if (!path.isEmpty())
-            writePictureFile(path, picture);
+        if (path.isEmpty())
+            return;
+        writePictureFile(path, picture);
+        sayWritten(path);
     });
 }
 
@@ -101,7 +108,9 @@ void FileMenu::exportPicture() {
         return;
     }
     // Beside the window, which goes on: it may be turned to what is to be written.
-    (new ExportDialog(m_bench.document, m_panes, m_bench.exports, &m_window))->show();
+    auto *dialog = new ExportDialog(m_bench.document, m_panes, m_bench.exports, &m_window);
+    connect(dialog, &ExportDialog::written, this, &FileMenu::sayWritten);
+    dialog->show();
 }
 
 void FileMenu::exportMeasurements() {
@@ -111,8 +120,12 @@ void FileMenu::exportMeasurements() {
     }
     const QString path = QFileDialog::getSaveFileName(&m_window, tr("Export measurements"),
                                                       "measurements.csv", tr("Table (*.csv)"));
-    if (!path.isEmpty())
-        attempt([&] { m_bench.measurements.exportTable(path); });
+    if (path.isEmpty())
+        return;
+    attempt([&] {
+        m_bench.measurements.exportTable(path);
+        sayWritten(path);
+    });
 }
 
 void FileMenu::saveScene() {
@@ -124,7 +137,10 @@ void FileMenu::saveScene() {
                                                       tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
-    attempt([&] { writeSceneFile(path, m_panes.projection->sceneOfPicture()); });
+    attempt([&] {
+        writeSceneFile(path, m_panes.projection->sceneOfPicture());
+        sayWritten(path);
+    });
 }
 
 void FileMenu::openScene() {

@@ -38,6 +38,7 @@ signals:
 
 private:
     void savePicture();
+    void sayWritten(const QString &path);
     void exportPicture();
     void saveScene();
     void openScene();

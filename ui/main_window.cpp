@@ -91,7 +91,8 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     });
     connect(&m_bench.preparer, &LookPreparer::planChanged, m_projection,
             &ProjectionView::setPlanState);
-    connect(&m_bench.opener, &StudyOpener::cameraKept, m_projection, &ProjectionView::adoptCamera);
+    connect(&m_bench.opener, &StudyOpener::cameraKept, this,
+            [this](const render::Camera &kept) { m_projection->adoptCamera(kept); });
     connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
     connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
             &ProjectionView::setMessage);

@@ -261,6 +261,10 @@ QString suffixOf(PictureFormat format) {
     }
 }
 
+QString firstFileOf(const PictureExport &what, const QString &path) {
+    return what.format == PictureFormat::frames ? framePath(path, 0) : path;
+}
+
 QString obstacle(const PictureExport &what, const Panes &panes, const Document &document) {
     if (!document.volume() || document.currentSource() < 0)
         return PictureExportTexts::tr("No study is open");

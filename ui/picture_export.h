@@ -52,6 +52,9 @@ struct PictureExport {
 /// ".png", of the file that is written.
 QString suffixOf(PictureFormat format);
 
+/// The file that is written first: a turn has one for each frame.
+QString firstFileOf(const PictureExport &what, const QString &path);
+
 /// What an export cannot hold or make here; empty if it can be made.
 QString obstacle(const PictureExport &what, const Panes &panes, const Document &document);
 

@@ -42,12 +42,12 @@ void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
 std::uint64_t RenderWorker::request(const render::Camera &camera,
                                     const render::ImageDefinition &image,
                                     const shading::Shading &shading, const Reduction &reduction,
-                                    bool wantsTone) {
+                                    bool wantsTone, const std::optional<Compared> &compared) {
     const std::lock_guard lock(m_mutex);
     if (!m_engine)
         return m_number;
-    m_next = Request{m_engine, m_onCard,  m_generation, camera,    image,
-                     shading,  reduction, wantsTone,    ++m_number};
+    m_next = Request{m_engine, m_onCard,  m_generation, camera,   image,
+                     shading,  reduction, wantsTone,    compared, ++m_number};
     m_wake.notify_one();
     return m_number;
 }
@@ -113,6 +113,8 @@ void RenderWorker::makeFrame(const Request &request) {
         auto frame = frameFor(request);
         if (!request.onCard || !renderOnCard(frame, request))
             renderInto(*frame, request);
+        if (const auto &other = request.compared)
+            frame->compared = other->engine->render(request.camera, other->image, other->shading);
         emit frameReady(std::move(frame));
     } catch (const std::exception &error) {
         emit failed(QString::fromUtf8(error.what()));

@@ -28,6 +28,8 @@ struct RenderedFrame {
     QString refusal;
     /// What an automatic tone makes of it, if that was asked for.
     std::optional<render::ToneRange> automaticTone;
+    /// The same view of what it is compared with, if that was asked for.
+    std::optional<render::ProjectionImage> compared;
     render::FrameTimes times;
     std::uint64_t number = 0; ///< of the request it answers
     bool draft = false;
@@ -51,10 +53,16 @@ public:
         /// Pixels are made at least this large; finer ones would only magnify.
         double finestPixelMm = 0.0;
     };
+    /// Another look that each frame is made of too.
+    struct Compared {
+        std::shared_ptr<render::ProjectionEngine> engine;
+        render::ImageDefinition image;
+        shading::Shading shading;
+    };
     /// The number of the request, which its frame will carry.
     std::uint64_t request(const render::Camera &camera, const render::ImageDefinition &image,
                           const shading::Shading &shading, const Reduction &reduction,
-                          bool wantsTone);
+                          bool wantsTone, const std::optional<Compared> &compared = {});
     /// A picture of one's own, before the next frame: engines render on this thread alone. *Throws*
     /// what rendering throws, and std::future_error if the worker ends before.
     std::future<render::ProjectionImage> picture(std::shared_ptr<render::ProjectionEngine> engine,
@@ -79,6 +87,7 @@ private:
         shading::Shading shading;
         Reduction reduction;
         bool wantsTone;
+        std::optional<Compared> compared;
         std::uint64_t number;
     };
     /// What became of a frame on the card.

@@ -27,6 +27,33 @@ std::optional<QString> sessionFile() {
     return QString::fromStdString((*folder / "session.json").string());
 }
 
+QJsonArray toJson(const glm::dvec3 &v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dvec3 vectorFrom(const QJsonValue &value) {
+    const QJsonArray in = value.toArray();
+    return {in[0].toDouble(), in[1].toDouble(), in[2].toDouble()};
+}
+
+QJsonArray toJson(const mpr::PlaneAxes &axes) {
+    QJsonArray out;
+    for (const auto o : mpr::allOrientations)
+        out << QJsonObject{{"right", toJson(axes.of(o).right)}, {"up", toJson(axes.of(o).up)}};
+    return out;
+}
+
+mpr::PlaneAxes planesFrom(const QJsonArray &in) {
+    if (in.size() != 3) // an earlier program kept none
+        return {};
+    std::array<mpr::Axes, 3> axes;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const QJsonObject a = in[qsizetype(n)].toObject();
+        axes[n] = {vectorFrom(a["right"]), vectorFrom(a["up"])};
+    }
+    return mpr::PlaneAxes(axes);
+}
+
 QJsonObject toJson(const Session &s) {
     const mpr::ResliceOptions &cut = s.shown.cut.options;
     return {
@@ -39,8 +66,8 @@ QJsonObject toJson(const Session &s) {
         {"window", QJsonObject{{"center", s.shown.displayWindow.center},
                                {"width", s.shown.displayWindow.width},
                                {"name", QString::fromStdString(s.shown.displayWindow.name)}}},
-        {"crosshair",
-         QJsonArray{s.shown.crosshair.mm.x, s.shown.crosshair.mm.y, s.shown.crosshair.mm.z}},
+        {"crosshair", toJson(s.shown.crosshair.mm)},
+        {"planes", toJson(s.shown.cut.axes)},
         {"slab", QJsonObject{{"mm", cut.slab.thicknessMm}, {"mode", int(cut.slab.mode)}}},
         {"nearest", cut.interpolation == mpr::Interpolation::nearest}};
 }
@@ -59,8 +86,8 @@ Session fromJson(const QJsonObject &in) {
     s.shown.displayWindow = {window["center"].toDouble(),
                              std::max(1e-6, window["width"].toDouble(1.0)),
                              window["name"].toString().toStdString()};
-    const QJsonArray at = in["crosshair"].toArray();
-    s.shown.crosshair = {{at[0].toDouble(), at[1].toDouble(), at[2].toDouble()}};
+    s.shown.crosshair = {vectorFrom(in["crosshair"])};
+    s.shown.cut.axes = planesFrom(in["planes"].toArray());
     const QJsonObject slab = in["slab"].toObject();
     s.shown.cut.options.slab = {std::clamp(slab["mm"].toDouble(), 0.0, 500.0),
                                 mpr::SlabMode(std::clamp(slab["mode"].toInt(), 0, 2))};

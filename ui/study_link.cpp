@@ -86,20 +86,24 @@ void StudyLink::follow() {
                 m_follower.document.setScene(scene);
         }
         m_follower.document.setCut(m_leader.document.cut());
-        m_follower.projection->adoptCamera(m_leader.document.scene().camera);
+        passCamera(m_leader, m_follower);
     });
 }
 
 void StudyLink::linkViews(const Viewer &from, const Viewer &to) {
-    connect(&from.document, &Document::cameraChanged, this, [this, from, to] {
-        pass([&] { to.projection->adoptCamera(from.document.scene().camera); });
-    });
+    connect(&from.document, &Document::cameraChanged, this,
+            [this, from, to] { pass([&] { passCamera(from, to); }); });
     connect(&from.document, &Document::cutChanged, this,
             [this, from, to] { pass([&] { to.document.setCut(from.document.cut()); }); });
     for (std::size_t n = 0; n < from.planes.size(); ++n)
         connect(from.planes[n], &MprView::viewMoved, this, [this, from, to, n] {
             pass([&] { to.planes[n]->moveView(from.planes[n]->view()); });
         });
+}
+
+void StudyLink::passCamera(const Viewer &from, const Viewer &to) {
+    to.projection->setOrbitsCrosshair(from.projection->orbitsCrosshair());
+    to.projection->adoptCamera(from.document.scene().camera, from.projection->pivotMm());
 }
 
 void StudyLink::linkPanes(const Viewer &from, const Viewer &to) {

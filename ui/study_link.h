@@ -32,6 +32,7 @@ private:
     /// Runs it unless it is the answer to a change that the link itself made.
     template <class F> void pass(F &&f);
     void linkViews(const Viewer &from, const Viewer &to);
+    void passCamera(const Viewer &from, const Viewer &to);
     void linkPanes(const Viewer &from, const Viewer &to);
     void matchCrosshairs();
     void passCrosshair(const Viewer &from, const Viewer &to, double sign);

@@ -8,6 +8,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>
 
+#include "core/task/error.h"
+
 namespace pellucid::mpr {
 
 glm::dvec3 Axes::toViewer() const {
@@ -33,6 +35,20 @@ glm::dvec3 scrollAxis(const Axes &axes, Orientation orientation) {
 PlaneAxes::PlaneAxes() {
     for (const Orientation o : allOrientations)
         m_axes[std::size_t(o)] = standardAxes(o);
+}
+
+PlaneAxes::PlaneAxes(const std::array<Axes, 3> &axes) : m_axes(axes) {
+    // Of many small turns, written with all digits.
+    constexpr double rounding = 1e-6;
+    double worst = 0.0;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const Axes &a = axes[n], &next = axes[(n + 1) % 3];
+        for (const double off : {glm::dot(a.right, a.right) - 1.0, glm::dot(a.up, a.up) - 1.0,
+                                 glm::dot(a.right, a.up), glm::dot(a.toViewer(), next.toViewer())})
+            worst = std::isfinite(off) ? std::max(worst, std::abs(off)) : 1.0;
+    }
+    if (worst > rounding)
+        throw task::Error(task::ErrorCode::usage, "planes are not at right angles");
 }
 
 glm::dvec3 PlaneAxes::scrollAxis(Orientation orientation) const {

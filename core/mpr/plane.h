@@ -34,6 +34,9 @@ glm::dvec3 scrollAxis(const Axes &axes, Orientation orientation);
 class PlaneAxes {
 public:
     PlaneAxes();
+    /// *Throws* Error{usage} unless right and up of each are at right angles and of length 1, and
+    /// the three planes at right angles to each other.
+    explicit PlaneAxes(const std::array<Axes, 3> &axes);
 
     const Axes &of(Orientation orientation) const { return m_axes[std::size_t(orientation)]; }
     glm::dvec3 scrollAxis(Orientation orientation) const;

@@ -479,11 +479,11 @@
 <context>
     <name>Reasons</name>
     <message>
-        <source>a spectrum of %1 x %2 x %3 cells is larger than the graphics card's textures, %4 a side</source>
+        <source>a spectrum of %1 x %2 x %3 cells is larger than the graphics card&apos;s textures, %4 a side</source>
         <translation>%1 x %2 x %3 格的頻譜大於顯示卡的紋理，每邊 %4</translation>
     </message>
     <message>
-        <source>the image reaches further than the graphics card's slice can count</source>
+        <source>the image reaches further than the graphics card&apos;s slice can count</source>
         <translation>影像超出顯示卡切片的計數範圍</translation>
     </message>
     <message>
@@ -551,7 +551,7 @@
         <translation>失去顯示卡：其驅動程式已重設</translation>
     </message>
     <message>
-        <source>not enough memory for the steps of the class '%1'</source>
+        <source>not enough memory for the steps of the class &apos;%1&apos;</source>
         <translation>記憶體不足以執行類別「%1」的步驟</translation>
     </message>
     <message>
@@ -571,7 +571,7 @@
         <translation>%1 偏離其他切片的連線 %2 mm</translation>
     </message>
     <message>
-        <source>'%1' is no parameter of the step '%2', which has %3</source>
+        <source>&apos;%1&apos; is no parameter of the step &apos;%2&apos;, which has %3</source>
         <translation>「%1」不是步驟「%2」的參數，其參數為 %3</translation>
     </message>
     <message>
@@ -615,7 +615,7 @@
         <translation>投影需要 %1 MB，允許 %2 MB</translation>
     </message>
     <message>
-        <source>there is no folder for the user's presets</source>
+        <source>there is no folder for the user&apos;s presets</source>
         <translation>沒有使用者預設集的資料夾</translation>
     </message>
     <message>
@@ -691,7 +691,7 @@
         <translation>缺少 DICOM 資料字典</translation>
     </message>
     <message>
-        <source>the preset '%1' is made for %2, not for %3</source>
+        <source>the preset &apos;%1&apos; is made for %2, not for %3</source>
         <translation>預設集「%1」適用於 %2，不適用於 %3</translation>
     </message>
     <message>
@@ -719,7 +719,7 @@
         <translation>解壓縮後大於其宣告的大小</translation>
     </message>
     <message>
-        <source>not enough memory for the step '%1'</source>
+        <source>not enough memory for the step &apos;%1&apos;</source>
         <translation>記憶體不足以執行步驟「%1」</translation>
     </message>
     <message>
@@ -731,7 +731,7 @@
         <translation>記憶體不足以容納此體積</translation>
     </message>
     <message>
-        <source>there is another preset named '%1'</source>
+        <source>there is another preset named &apos;%1&apos;</source>
         <translation>已有名為「%1」的預設集</translation>
     </message>
     <message>
@@ -763,7 +763,7 @@
         <translation>記憶體不足以容納 %2 MB 的%1</translation>
     </message>
     <message>
-        <source>the step '%1' has no parameters</source>
+        <source>the step &apos;%1&apos; has no parameters</source>
         <translation>步驟「%1」沒有參數</translation>
     </message>
     <message>
@@ -795,7 +795,7 @@
         <translation>失去顯示卡</translation>
     </message>
     <message>
-        <source>the scene's schema is not %1</source>
+        <source>the scene&apos;s schema is not %1</source>
         <translation>場景的格式不是 %1</translation>
     </message>
     <message>
@@ -815,7 +815,7 @@
         <translation>影像沒有大小</translation>
     </message>
     <message>
-        <source>the NRRD header has no '%1'</source>
+        <source>the NRRD header has no &apos;%1&apos;</source>
         <translation>NRRD 檔頭缺少「%1」</translation>
     </message>
     <message>
@@ -839,7 +839,7 @@
         <translation>範圍 %1 至 %2 是空的</translation>
     </message>
     <message>
-        <source>the step '%1' is none of %2</source>
+        <source>the step &apos;%1&apos; is none of %2</source>
         <translation>步驟「%1」不在 %2 之中</translation>
     </message>
     <message>
@@ -903,7 +903,7 @@
         <translation>是彩色影像 (%1)</translation>
     </message>
     <message>
-        <source>the step '%1' failed: %2</source>
+        <source>the step &apos;%1&apos; failed: %2</source>
         <translation>步驟「%1」失敗：%2</translation>
     </message>
     <message>
@@ -1047,7 +1047,7 @@
         <translation>不是檔案</translation>
     </message>
     <message>
-        <source>class '%1': %2</source>
+        <source>class &apos;%1&apos;: %2</source>
         <translation>類別「%1」：%2</translation>
     </message>
     <message>
@@ -1499,7 +1499,7 @@
         <translation>匯出影像</translation>
     </message>
     <message>
-        <source>Names, letters, scale and measurements; without them a picture has no patient's side on it</source>
+        <source>Names, letters, scale and measurements; without them a picture has no patient&apos;s side on it</source>
         <translation>名稱、方位字母、比例尺與測量；若不包含，影像上便沒有病患的左右標示</translation>
     </message>
     <message>
@@ -1539,7 +1539,7 @@
         <translation>%1 x %2 像素</translation>
     </message>
     <message>
-        <source>holds the patient's name and identifier</source>
+        <source>holds the patient&apos;s name and identifier</source>
         <translation>含有病患姓名與識別碼</translation>
     </message>
     <message>
@@ -1549,6 +1549,10 @@
     <message>
         <source>Writing</source>
         <translation>正在寫入</translation>
+    </message>
+    <message>
+        <source>%1 is there already. Replace it?</source>
+        <translation>%1 已經存在。要取代它嗎？</translation>
     </message>
 </context>
 <context>
@@ -1673,6 +1677,10 @@
         <source>Open scene</source>
         <translation>開啟場景</translation>
     </message>
+    <message>
+        <source>Written: %1</source>
+        <translation>已寫入：%1</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::GraphicsCard</name>
@@ -1733,7 +1741,9 @@
     </message>
     <message numerus="yes">
         <source>and %n more</source>
-        <translation><numerusform>及其他 %n 項</numerusform></translation>
+        <translation>
+            <numerusform>及其他 %n 項</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -2192,7 +2202,7 @@
         <translation>否則由起始頁提供</translation>
     </message>
     <message>
-        <source>Patient's name in the window title</source>
+        <source>Patient&apos;s name in the window title</source>
         <translation>在視窗標題顯示病患姓名</translation>
     </message>
     <message>
@@ -2244,7 +2254,7 @@
         <translation>全部還原</translation>
     </message>
     <message>
-        <source>%1 was the key of "%2", which has none now</source>
+        <source>%1 was the key of &quot;%2&quot;, which has none now</source>
         <translation>%1 原為「%2」的按鍵，該指令現在沒有按鍵</translation>
     </message>
 </context>
@@ -2303,7 +2313,7 @@
         <translation>預設集、3D Slicer 屬性 (*.json *.vp)</translation>
     </message>
     <message>
-        <source>'%1' was fitted; its opacity is met within %2</source>
+        <source>&apos;%1&apos; was fitted; its opacity is met within %2</source>
         <translation>已擬合「%1」；不透明度誤差在 %2 以內</translation>
     </message>
     <message>
@@ -2331,11 +2341,15 @@
     </message>
     <message numerus="yes">
         <source>and %n more</source>
-        <translation><numerusform>及其他 %n 項</numerusform></translation>
+        <translation>
+            <numerusform>及其他 %n 項</numerusform>
+        </translation>
     </message>
     <message numerus="yes">
         <source>%n files: %1</source>
-        <translation><numerusform>%n 個檔案：%1</numerusform></translation>
+        <translation>
+            <numerusform>%n 個檔案：%1</numerusform>
+        </translation>
     </message>
     <message>
         <source>PROBLEMS (%1)</source>
@@ -2472,7 +2486,7 @@
         <translation>補零</translation>
     </message>
     <message>
-        <source>Padded size over the field's, at least, along each axis</source>
+        <source>Padded size over the field&apos;s, at least, along each axis</source>
         <translation>各軸補零後大小與原大小的最小比值</translation>
     </message>
     <message>
@@ -2540,7 +2554,7 @@
         <translation>重建</translation>
     </message>
     <message>
-        <source>'%1' is no tolerance: 0.0001 to 30 percent</source>
+        <source>&apos;%1&apos; is no tolerance: 0.0001 to 30 percent</source>
         <translation>「%1」不是容差：百分之 0.0001 至 30</translation>
     </message>
     <message>
@@ -2662,11 +2676,11 @@
         <translation>可見的原始密度多寡；按兩下設為 1</translation>
     </message>
     <message>
-        <source>Number of the curve's values</source>
+        <source>Number of the curve&apos;s values</source>
         <translation>曲線數值的個數</translation>
     </message>
     <message>
-        <source>Number of the curve's values: each costs up to two slices</source>
+        <source>Number of the curve&apos;s values: each costs up to two slices</source>
         <translation>曲線數值的個數：每個最多耗費兩個切片</translation>
     </message>
     <message>
@@ -2802,6 +2816,10 @@
         <source>Importing</source>
         <translation>正在匯入</translation>
     </message>
+    <message>
+        <source>Removing copies</source>
+        <translation>正在移除副本</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::StudyOpener</name>
@@ -2894,11 +2912,15 @@
     </message>
     <message numerus="yes">
         <source>%n files that were copied into the library are deleted.</source>
-        <translation><numerusform>將刪除 %n 個複製到資料庫的檔案。</numerusform></translation>
+        <translation>
+            <numerusform>將刪除 %n 個複製到資料庫的檔案。</numerusform>
+        </translation>
     </message>
     <message numerus="yes">
         <source>%n files elsewhere stay where they are.</source>
-        <translation><numerusform>其他位置的 %n 個檔案保留不動。</numerusform></translation>
+        <translation>
+            <numerusform>其他位置的 %n 個檔案保留不動。</numerusform>
+        </translation>
     </message>
     <message>
         <source>Remove from the library</source>

@@ -7,9 +7,12 @@
 #include <QDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QStatusBar>
+#include <QTimer>
 
 #include "core/volume/nrrd.h"
 #include "ui/video_writer.h"
@@ -101,6 +104,20 @@ private slots:
         QVERIFY(dump.readAll().contains("MONOCHROME2"));
     }
 
+    void whatIsThereIsReplacedOnlyWhenThatIsWanted() {
+        const QImage first = exported("Projection", 0, 1, false);
+        dialogFor("Projection", 0, 2, false);
+        answerWith(QMessageBox::No);
+        find<QPushButton>("exportWriteButton")->click();
+        QVERIFY(find<QDialog>("exportDialog")->isVisible());
+        const QString path = find<QLineEdit>("exportPathEdit")->text();
+        QCOMPARE(QImage(path).size(), first.size());
+        answerWith(QMessageBox::Yes);
+        finish();
+        QCOMPARE(QImage(path).size(), 2 * first.size());
+        QVERIFY(m_window->statusBar()->currentMessage().contains("out.png"));
+    }
+
     void aTurnIsWrittenAsFramesAndCancelledWithoutATrace() {
         dialogFor("Projection", 5, 1, false);
         find<QSpinBox>("exportFramesBox")->setValue(4);
@@ -116,6 +133,7 @@ private slots:
         const QImage before = frame(0);
         dialogFor("Projection", 5, 4, true);
         find<QSpinBox>("exportFramesBox")->setValue(200);
+        answerWith(QMessageBox::Yes);
         find<QPushButton>("exportWriteButton")->click();
         const QDir folder(QString::fromStdString(m_folder.path().string()));
         const auto unfinished = [&] {
@@ -170,6 +188,14 @@ private:
         path->setText(QString::fromStdString((m_folder / "out.png").string()));
         find<QComboBox>("exportFormatBox")->setCurrentIndex(format);
     }
+    // To the question that the next click asks.
+    void answerWith(QMessageBox::StandardButton button) {
+        QTimer::singleShot(0, this, [button] {
+            auto *const box = qobject_cast<QMessageBox *>(QApplication::activeModalWidget());
+            QVERIFY(box != nullptr);
+            QTest::mouseClick(box->button(button), Qt::LeftButton);
+        });
+    }
     // Written, and the dialog is gone.
     void finish() {
         find<QPushButton>("exportWriteButton")->click();
@@ -179,6 +205,7 @@ private:
     QImage exported(const QString &pane, int format, int times, bool isAnnotated) {
         dialogFor(pane, format, times, isAnnotated);
         const QString written = find<QLineEdit>("exportPathEdit")->text();
+        QFile::remove(written);
         finish();
         return QImage(written);
     }

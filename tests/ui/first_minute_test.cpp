@@ -56,10 +56,7 @@ private slots:
 
         // A preset of the gallery, a look of one's own in two clicks.
         auto *gallery = of<QListWidget>("presetGallery");
-        const auto bone = gallery->findItems("Bone over soft tissue", Qt::MatchExactly).front();
-        gallery->scrollToItem(bone);
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, {},
-                          gallery->visualItemRect(bone).center());
+        clickPreset(window(), "Bone over soft tissue");
         rest();
         QTest::keyClick(&window(), Qt::Key_S, Qt::ControlModifier);
         auto *name = of<QLineEdit>("lookNameEdit");

@@ -137,6 +137,9 @@ private slots:
         QTest::keyClick(projectionOf(), Qt::Key_3, Qt::KeypadModifier);
         turnWheel(find<QWidget>("axialView"), 3);
         QTest::keyClick(&window_(), Qt::Key_S);
+        ui::Cut cut = document().cut();
+        cut.axes = cut.axes.turned(mpr::Orientation::axial, 0.3);
+        document().setCut(cut);
         settleIn();
         const render::Scene scene = document().scene();
         const auto crosshair = document().crosshair();
@@ -150,6 +153,7 @@ private slots:
         QVERIFY(document().scene().look == scene.look);
         QVERIFY(glm::distance(document().crosshair().mm, crosshair.mm) < 1e-6);
         QCOMPARE(document().cut().options.slab.thicknessMm, 10.0);
+        QVERIFY(document().cut().axes == cut.axes);
         QVERIFY(std::abs(glm::dot(document().scene().camera.orientation,
                                   scene.camera.orientation)) > 1.0 - 1e-9);
         QVERIFY(changed(picture, projectionOf()->picture()) < 0.01);
@@ -260,11 +264,7 @@ private:
         settleIn();
     }
     void choosePreset(const QString &name) {
-        auto *gallery = find<QListWidget>("presetGallery");
-        const auto item = gallery->findItems(name, Qt::MatchExactly).front();
-        gallery->scrollToItem(item);
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                          gallery->visualItemRect(item).center());
+        clickPreset(window_(), name);
         settleIn();
     }
     void openDialog() {

@@ -109,6 +109,7 @@ private slots:
         gallery->setFocus();
         QTest::keyPress(gallery, Qt::Key_Q);
         QVERIFY(projection()->isComparing());
+        settle(); // the former look is made, too
         const QImage both = grab("projectionView");
         // The middle of the former at the left, of this one at the right.
         const int w = both.width(), h = both.height();
@@ -212,11 +213,7 @@ private:
         dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), by);
     }
     void choosePreset(const QString &name) {
-        auto *gallery = find<QListWidget>("presetGallery");
-        const auto item = gallery->findItems(name, Qt::MatchExactly).front();
-        gallery->scrollToItem(item);
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                          gallery->visualItemRect(item).center());
+        clickPreset(*m_window, name);
         settle();
     }
 };

@@ -229,6 +229,27 @@ private slots:
         dragMouse(other, Qt::LeftButton, other->rect().center(), {-90, 0});
         QVERIFY(prior.scene().camera.orientation == open.scene().camera.orientation);
         QVERIFY(std::abs(prior.scene().camera.pixelMm - open.scene().camera.pixelMm) < 1e-9);
+        // About the crosshairs, each about its own, which are at the same place of the pictures.
+        find<QAction>("orbitCrosshairAction")->trigger();
+        auto *axial = find<QWidget>("axialView");
+        const QPoint to = axial->rect().center() + QPoint(40, 50);
+        QMouseEvent move(QEvent::MouseMove, to, axial->mapToGlobal(to), Qt::NoButton, {},
+                         Qt::ShiftModifier);
+        QCoreApplication::sendEvent(axial, &move);
+        for (QWidget *turned :
+             {static_cast<QWidget *>(projection()), static_cast<QWidget *>(other)}) {
+            dragMouse(turned, Qt::LeftButton, turned->rect().center(), {50, -30});
+            const auto onPicture = [](ui::Document &document) {
+                const render::Camera &view = document.scene().camera;
+                const glm::dvec3 at =
+                    document.crosshair().mm - document.volume()->lattice().center().mm;
+                return glm::dvec2(glm::dot(view.axes()[0], at), glm::dot(view.axes()[1], at)) -
+                       view.panMm;
+            };
+            QVERIFY(glm::length(onPicture(open)) > 10.0);
+            QVERIFY(glm::distance(onPicture(open), onPicture(prior)) < 1e-6);
+        }
+        find<QAction>("orbitCrosshairAction")->trigger();
         // So do planes and windows, and the window of either is one step to undo.
         const glm::dvec3 apart = prior.crosshair().mm - open.crosshair().mm;
         turnWheel(find<QWidget>("axialView"), 2);
@@ -245,11 +266,7 @@ private slots:
         QVERIFY(open.displayWindow() == before);
         QVERIFY(prior.displayWindow() == before);
         // And looks, and layouts.
-        auto *gallery = find<QListWidget>("presetGallery");
-        const auto bone = gallery->findItems("Bone", Qt::MatchExactly).front();
-        gallery->scrollToItem(bone);
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                          gallery->visualItemRect(bone).center());
+        clickPreset(*m_window, "Bone");
         settle();
         QVERIFY(prior.scene().look == open.scene().look);
         QTRY_VERIFY_WITH_TIMEOUT(other->showsFinalImage() && !beside->jobs().isRunning(),

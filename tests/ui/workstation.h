@@ -8,6 +8,7 @@
 #include <memory>
 
 #include <QDropEvent>
+#include <QListWidget>
 #include <QMimeData>
 #include <QSlider>
 #include <QStandardPaths>
@@ -110,6 +111,15 @@ inline void dragSlider(QSlider *slider, QPoint by) {
     const QRect knob = slider->style()->subControlRect(QStyle::CC_Slider, &option,
                                                        QStyle::SC_SliderHandle, slider);
     dragMouse(slider, Qt::LeftButton, knob.center(), by);
+}
+
+/// Clicks a preset in the gallery of a window.
+inline void clickPreset(QWidget &window, const QString &name) {
+    auto *gallery = window.findChild<QListWidget *>("presetGallery");
+    const auto item = gallery->findItems(name, Qt::MatchExactly).front();
+    gallery->scrollToItem(item);
+    QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                      gallery->visualItemRect(item).center());
 }
 
 /// The real window, anew for each test, and a head to open in it.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <set>
 #include <system_error>
 
 #include <QBuffer>
@@ -336,7 +337,7 @@ void Library::put(const std::vector<LibrarySeries> &series) {
     putting.commit();
 }
 
-void Library::remove(qint64 study) {
+std::vector<fs::path> Library::remove(qint64 study) {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
     ListQuery rows(list, "SELECT path FROM instances WHERE series IN (SELECT id FROM series WHERE "
                          "study = ?)");
@@ -347,8 +348,22 @@ void Library::remove(qint64 study) {
         if (const std::string path = rows.text(0).toStdString(); path.starts_with(copies))
             own.emplace_back(path);
     ListQuery(list, "DELETE FROM studies WHERE id = ?").bind(study).run();
-    // After the list: files without a row are litter, a row without files is a broken promise.
-    for (const fs::path &path : own) {
+    return own;
+}
+
+void Library::removeCopies(const std::vector<fs::path> &copies) {
+    if (copies.empty())
+        return;
+    const QSqlDatabase list = QSqlDatabase::database(m_connection);
+    std::set<std::string> used;
+    ListQuery rows(list, "SELECT path FROM instances WHERE substr(path, 1, ?) = ?");
+    const QString own = QString::fromStdString(m_place.copiesFolder().string() + "/");
+    rows.bind(own.size()).bind(own).run();
+    while (rows.next())
+        used.insert(rows.text(0).toStdString());
+    for (const fs::path &path : copies) {
+        if (used.contains(path.string()))
+            continue;
         std::error_code ignored;
         fs::remove(path, ignored);
         fs::remove(path.parent_path(), ignored); // when it was the last

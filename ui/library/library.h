@@ -76,8 +76,11 @@ public:
 
     /// Adds series, in place of those that are there already, all of them or none.
     void put(const std::vector<LibrarySeries> &series);
-    /// Files that belong to the library alone go with their study.
-    void remove(qint64 study);
+    /// The copies that the study had of its own, for `removeCopies`: files without a row are
+    /// litter, a row without files is a broken promise.
+    std::vector<std::filesystem::path> remove(qint64 study);
+    /// Removes copies unless a study has come to use them meanwhile.
+    void removeCopies(const std::vector<std::filesystem::path> &copies);
 
 private:
     friend OpenedLibrary openLibrary(const std::filesystem::path &folder);

@@ -15,9 +15,9 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
             emit changed(); // one that was cancelled too late is there all the same
             if (m_waiting.empty() || m_jobs.isRunning())
                 return;
-            const Import next = m_waiting.front();
+            const Work next = m_waiting.front();
             m_waiting.pop_front();
-            import(next);
+            start(next);
         },
         Qt::QueuedConnection);
     const auto data = files::userDataFolder();
@@ -42,6 +42,16 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
 
 StudyLibrary::~StudyLibrary() {
     m_jobs.join();
+    for (const Work &work : m_waiting)
+        if (!work.isOptional)
+            work.run(Job());
+}
+
+void StudyLibrary::start(Work work) {
+    if (m_jobs.isRunning())
+        m_waiting.push_back(std::move(work));
+    else
+        m_jobs.start(work.title, std::move(work.run));
 }
 
 template <class F> auto StudyLibrary::attempt(F &&f) -> decltype(f(std::declval<Library &>())) {
@@ -74,25 +84,26 @@ std::vector<dicom::InstanceFile> StudyLibrary::files(const VolumeFacts &volume) 
 void StudyLibrary::import(const Import &import) {
     if (!m_library)
         return;
-    if (m_jobs.isRunning()) {
-        m_waiting.push_back(import);
-        return;
-    }
-    m_jobs.start(tr("Importing"), [this, import, place = m_library->place()](const Job &job) {
-        const ImportResult result = importStudies(place, import, job.progress());
-        job.deliver([this, result] {
-            emit changed();
-            emit imported(result);
-        });
-    });
+    start({tr("Importing"),
+           [this, import, place = m_library->place()](const Job &job) {
+               const ImportResult result = importStudies(place, import, job.progress());
+               job.deliver([this, result] {
+                   emit changed();
+                   emit imported(result);
+               });
+           },
+           true});
 }
 
 void StudyLibrary::remove(const StudyFacts &study) {
-    attempt([&](Library &l) {
-        l.remove(study.libraryId);
-        return true;
-    });
+    const auto copies = attempt([&](Library &l) { return l.remove(study.libraryId); });
     emit changed();
+    if (!copies.empty()) // to the end: nobody would find them again
+        start({tr("Removing copies"),
+               [copies, place = m_library->place()](const Job &) {
+                   Library(place).removeCopies(copies);
+               },
+               false});
 }
 
 } // namespace pellucid::ui

@@ -41,9 +41,17 @@ private:
     template <class F> auto attempt(F &&f) -> decltype(f(std::declval<Library &>()));
 
     std::vector<dicom::Skipped> m_notices;
+    /// Work on the files of the library, one piece after the other.
+    struct Work {
+        QString title;
+        std::function<void(const Job &)> run;
+        bool isOptional; ///< what is left when the program ends is not done
+    };
+    void start(Work work);
+
     std::unique_ptr<Library> m_library;
     JobRunner m_jobs;
-    std::deque<Import> m_waiting; ///< one import after the other
+    std::deque<Work> m_waiting;
 };
 
 } // namespace pellucid::ui

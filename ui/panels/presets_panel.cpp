@@ -171,12 +171,18 @@ void PresetsPanel::showCurrent() {
     const render::Scene &scene = m_document.scene();
     const classify::FieldWindow shown = m_document.fieldWindow();
     m_gallery->setCurrentItem(nullptr);
+    if (!m_document.volume()) {
+        emit lookNamed({});
+        return;
+    }
+    // Values without a unit have the window of their first phase.
+    const bool isFree = m_document.volume()->unit() == volume::ValueUnit::none;
+    const classify::FieldWindow usual = isFree ? shown : m_document.defaultFieldWindow();
     QString current = tr("Own look");
-    if (scene.look == classify::Look() && scene.shading == shading::Shading() &&
-        shown == m_document.defaultFieldWindow())
+    if (scene.look == classify::Look() && scene.shading == shading::Shading() && shown == usual)
         current = tr("Plain density");
     for (const auto &entry : m_library.entries()) {
-        const auto window = entry.preset.window.value_or(m_document.defaultFieldWindow());
+        const auto window = entry.preset.window.value_or(usual);
         if (!suits(entry.preset) || !(window == shown) ||
             !(presets::lookFor(entry.preset, window) == scene.look) ||
             !(entry.preset.shading == scene.shading))

@@ -25,6 +25,11 @@ render::Camera turnedTo(const render::Camera &camera, const glm::dquat &orientat
     return turned;
 }
 
+glm::dvec2 pannedTo(const render::Camera &camera, const glm::dvec3 &shownMm,
+                    const glm::dvec3 &pointMm) {
+    return camera.panMm + onPicture(camera.axes(), pointMm - shownMm);
+}
+
 render::Camera orbited(const render::Camera &camera, const QPoint &delta,
                        const glm::dvec3 &pivotMm) {
     // The camera turns the other way.

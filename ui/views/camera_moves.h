@@ -18,6 +18,10 @@ render::Camera orbited(const render::Camera &camera, const QPoint &delta,
                        const glm::dvec3 &pivotMm);
 render::Camera turnedAroundPatient(const render::Camera &camera, double degrees,
                                    const glm::dvec3 &pivotMm);
+/// The pan that shows a point where a camera shows another one, *units*: mm, both from the middle
+/// of their volumes.
+glm::dvec2 pannedTo(const render::Camera &camera, const glm::dvec3 &shownMm,
+                    const glm::dvec3 &pointMm);
 /// *Units*: `delta`: logical pixels, `pixelRatio`: device pixels in one of them.
 render::Camera panned(const render::Camera &camera, const QPoint &delta, double pixelRatio);
 

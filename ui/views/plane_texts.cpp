@@ -101,7 +101,7 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
                                colors);
     if (notes.hasSpacing)
         drawScaleBar(painter, QPoint(10, area.bottom() - 9), mapping.pixelsPerMm(),
-                     std::min(110, area.width() / 3), colors);
+                     std::min(110, area.width() / 2 - 74), colors);
     if (!notes.warnings.empty())
         drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
                  painter.fontMetrics().elidedText(spoken(notes.warnings.front()), Qt::ElideRight,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/projection_overlay.h"
 
+#include <algorithm>
+
 #include <QCoreApplication>
 #include <QPainter>
 
@@ -116,7 +118,10 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
     const glm::dmat3 axes(seen.right, seen.up, seen.toViewer());
     drawOrientationLetters(painter, rect().adjusted(0, line, 0, -line), axes[0], axes[1], colors);
     drawOrientationCube(painter, QPointF(58, height() - 58), 40, axes, colors);
-    drawScaleBar(painter, QPoint(width() - 180, height() - 34), mapping.pixelsPerMm(), 120, colors);
+    // Beside the lower letter, with its text, in the smallest pane too.
+    const int barLeft = std::max(width() - 180, width() / 2 + 14);
+    drawScaleBar(painter, QPoint(barLeft, height() - 34), mapping.pixelsPerMm(),
+                 width() - barLeft - 60, colors);
     if (!m_comparison.isNull())
         return; // two pictures have no common places
     if (m_showsCrosshair)

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/task/error.h"
 #include "ui/document.h"
 #include "ui/overlay.h"
 #include "ui/spoken.h"
@@ -135,10 +136,11 @@ void ProjectionView::jobStarted() {
         setMessage(tr("Preparing the projection"));
 }
 
-void ProjectionView::adoptCamera(const render::Camera &wanted) {
+void ProjectionView::adoptCamera(const render::Camera &wanted,
+                                 const std::optional<glm::dvec3> &pivotMm) {
     render::Camera camera = m_document.scene().camera;
     camera.orientation = wanted.orientation;
-    camera.panMm = wanted.panMm;
+    camera.panMm = pannedTo(wanted, pivotMm.value_or(this->pivotMm()), this->pivotMm());
     m_document.setCamera(camera);
     m_zoom = std::clamp(fittingPixelMm() / wanted.pixelMm, 0.2, 20.0);
     fitCamera();
@@ -227,25 +229,25 @@ void ProjectionView::showStandardView(render::StandardView view) {
 
 void ProjectionView::setComparing(bool isComparing) {
     m_isComparing = isComparing && m_frame && m_comparison.before();
-    if (!m_isComparing)
-        m_overlay->setComparison({}, {});
+    if (m_isComparing)
+        requestFrame(false);
     else
-        showComparison();
+        m_overlay->setComparison({}, {});
 }
 
 void ProjectionView::showComparison() {
+    if (!m_isComparing || !m_frame->compared || !m_comparison.before())
+        return;
     const ShownLook &before = *m_comparison.before();
     try {
-        const auto image =
-            m_worker.picture(before.engine, m_document.scene().camera, before.image, before.shading)
-                .get();
-        const auto rgba = render::compose(image, before.tone);
-        const QImage then(rgba.data(), image.width, image.height, QImage::Format_RGBA8888);
-        const QImage now = picture().scaled(then.size());
-        m_overlay->setComparison(besideEachOther(then, now), before.name);
-    } catch (const std::exception &error) {
-        m_isComparing = false;
-        setMessage(QString::fromUtf8(error.what()));
+        const QImage now = picture();
+        const auto rgba = render::compose(*m_frame->compared, before.tone);
+        const QImage then(rgba.data(), m_frame->compared->width, m_frame->compared->height,
+                          QImage::Format_RGBA8888);
+        m_overlay->setComparison(besideEachOther(then.scaled(now.size()), now), before.name);
+    } catch (const task::Error &error) { // the card went with the picture
+        setComparing(false);
+        setMessage(spoken(error.reason()));
     }
 }
 
@@ -259,8 +261,12 @@ void ProjectionView::requestFrame(bool moving) {
     if (shading.isLit() && !m_takesLight) // it is being prepared: all stays as it is till then
         shading = m_drawnShading;
     m_drawnShading = shading;
-    m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
-                                   {.draft = draft, .finestPixelMm = finest}, m_retakesTone);
+    std::optional<RenderWorker::Compared> compared;
+    if (const auto &before = m_comparison.before(); m_isComparing && before)
+        compared = {before->engine, before->image, before->shading};
+    m_requested =
+        m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
+                         {.draft = draft, .finestPixelMm = finest}, m_retakesTone, compared);
     if (moving)
         m_rest.start();
 }
@@ -299,8 +305,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
                 {m_engine, m_document.scene().image, m_drawnShading, shownTone(), m_lookName});
         emit finalImageShown();
     }
-    if (m_isComparing)
-        showComparison();
+    showComparison();
 }
 
 // With both ends: what the user fixed, and for the rest the brightness that was taken.

@@ -41,8 +41,11 @@ public:
     /// The next volume is another phase: brightness and picture stay till its own is there.
     void holdTone();
     void setMessage(const QString &message);
-    /// Looks the way another camera does, as far as the pane allows.
-    void adoptCamera(const render::Camera &wanted);
+    /// Looks the way another camera does, as far as the pane allows. One of another volume turns
+    /// about a place of that, *units*: as `pivotMm()`; this view's own pivot is there then.
+    void adoptCamera(const render::Camera &wanted, const std::optional<glm::dvec3> &pivotMm = {});
+    /// What turning leaves where it is in the picture, from the middle of the volume.
+    glm::dvec3 pivotMm() const;
     /// A job is over; whatever it should have delivered is there or will not come.
     void jobEnded();
     void jobStarted();
@@ -106,7 +109,6 @@ private:
     render::Tone shownTone() const;
     void updateTone();
     void moveCamera(const render::Camera &camera, bool moving);
-    glm::dvec3 pivotMm() const;
     void orbit(const QPoint &delta);
     void showComparison();
     void windowBy(const QPoint &delta);

@@ -134,7 +134,7 @@ private slots:
         QCOMPARE(count(library), 1);
         QCOMPARE(library.volumes(study.libraryId).size(), std::size_t(1));
         QCOMPARE(library.volumes(study.libraryId)[0].files, 2);
-        library.remove(study.libraryId);
+        library.removeCopies(library.remove(study.libraryId));
         QCOMPARE(count(library), 0);
     }
 
@@ -198,7 +198,7 @@ private slots:
             const auto loaded = librarySource(study, v, library.files(v.libraryId)).load({}, {});
             QCOMPARE(loaded.volume.lattice().size().k, 20);
             QVERIFY(loaded.skipped.empty());
-            library.remove(study.libraryId);
+            library.removeCopies(library.remove(study.libraryId));
             QCOMPARE(filesBelow(at.copiesFolder()), 0);
             QCOMPARE(filesBelow(m_folder / "head"), 20);
         }
@@ -235,7 +235,7 @@ private slots:
         Library library(at);
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
         QVERIFY(library.volumes(study.libraryId).at(0).isCopied);
-        library.remove(study.libraryId);
+        library.removeCopies(library.remove(study.libraryId));
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
     }
 
