@@ -17,8 +17,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/decoder/decoder.h"
 #include "core/dicom/group_series.h"
-#include "core/dicom/read_instance.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -98,7 +98,7 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
 
 // False if a value does not fit T.
 template <class T>
-bool place(const DecodedImage &image, int frame, volume::ValueUnit unit, T *out) {
+bool place(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit, T *out) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
     const std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
@@ -194,15 +194,11 @@ public:
     }
 
 private:
-    DecodedImage decode(const std::filesystem::path &path) const {
-        try {
-            DecodedImage image = decodeImage(readFile(path));
-            if (image.header.columns != m_columns() || image.header.rows != m_rows())
-                throw Error(ErrorCode::unusable, "changed while it was read");
-            return image;
-        } catch (const Error &error) {
-            throw Error(error.code(), error.reason(), path);
-        }
+    decoder::DecodedFile decode(const std::filesystem::path &path) const {
+        decoder::DecodedFile image = decoder::Decoder::ofProgram().image(path, m_progress);
+        if (image.header.columns != m_columns() || image.header.rows != m_rows())
+            throw Error(ErrorCode::unusable, "changed while it was read", path);
+        return image;
     }
     int m_columns() const { return m_entry.geometry.lattice.size().i; }
     int m_rows() const { return m_entry.geometry.lattice.size().j; }
@@ -222,7 +218,7 @@ private:
             m_progress.check();
             const auto &frames = m_files.at(m_paths[n]);
             try {
-                const DecodedImage image = decode(m_paths[n]);
+                const decoder::DecodedFile image = decode(m_paths[n]);
                 if (std::is_same_v<T, std::int16_t> && !fitsShort(image.header, m_entry.unit)) {
                     const std::lock_guard lock(guard);
                     fits = false;
@@ -303,7 +299,7 @@ private:
                 skipped.push_back(it->second);
                 continue;
             }
-            SeriesFile file{path, readHeader(path)};
+            SeriesFile file{path, decoder::Decoder::ofProgram().header(path, m_progress)};
             std::vector<FrameHeader> kept;
             for (const std::size_t slice : frames) {
                 const int frame = m_entry.frames[slice].frame;
@@ -351,20 +347,6 @@ private:
 };
 
 } // namespace
-
-std::vector<std::byte> readFile(const std::filesystem::path &path) {
-    errno = 0;
-    std::ifstream in(path, std::ios::binary | std::ios::ate);
-    const auto size = in ? std::streamoff(in.tellg()) : std::streamoff(-1);
-    if (size < 0)
-        throw Error(ErrorCode::unusable, errno != 0 ? std::strerror(errno) : "cannot be read",
-                    path);
-    std::vector<std::byte> bytes(std::size_t(size), std::byte(0));
-    in.seekg(0);
-    if (!in.read(reinterpret_cast<char *>(bytes.data()), size))
-        throw Error(ErrorCode::unusable, "cannot be read to its end", path);
-    return bytes;
-}
 
 LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress,
                         const LoadObserver &observer) {

@@ -29,7 +29,4 @@ struct LoadedVolume {
 LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress = {},
                         const LoadObserver &observer = {});
 
-/// The whole file. *Throws* Error{unusable}.
-std::vector<std::byte> readFile(const std::filesystem::path &path);
-
 } // namespace pellucid::dicom

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/decoder/decoder.h"
+#include "core/decoder/unpack_archive.h"
 #include "core/dicom/group_series.h"
-#include "core/dicom/read_instance.h"
-#include "core/files/archive.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -26,6 +26,22 @@ namespace {
 namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
+
+// CDs are written in capitals and mounted in lower case: an entry matches whatever its case.
+fs::path childOf(const fs::path &folder, const std::string &name) {
+    std::error_code ignored;
+    if (fs::exists(folder / name, ignored))
+        return folder / name;
+    const auto lower = [](std::string text) {
+        std::transform(text.begin(), text.end(), text.begin(),
+                       [](unsigned char c) { return char(std::tolower(c)); });
+        return text;
+    };
+    for (const auto &entry : fs::directory_iterator(folder, ignored))
+        if (lower(entry.path().filename().string()) == lower(name))
+            return entry.path();
+    return folder / name;
+}
 
 class FileList {
 public:
@@ -43,10 +59,10 @@ public:
             addFolder(path);
         else if (!fs::is_regular_file(status))
             throw Error(ErrorCode::unusable, "is neither a file nor a folder", path);
-        else if (files::isArchive(path))
+        else if (decoder::isArchive(path))
             addArchive(path);
-        else if (isDicomdir(path))
-            addDicomdir(path);
+        else if (const auto directory = directoryAt(path); directory.isDirectory)
+            addDirectory(path, directory);
         else
             addFile(path);
     }
@@ -65,13 +81,26 @@ private:
 
     void addArchive(const fs::path &path) {
         auto folder = std::make_shared<files::SessionFolder>();
-        files::unpackArchive(path, folder->path(), m_progress);
+        decoder::unpackArchive(decoder::Decoder::ofProgram(), path, folder->path(), m_progress);
         addFolder(folder->path());
         unpacked.push_back(std::move(folder));
     }
 
-    void addDicomdir(const fs::path &path) {
-        for (const fs::path &listed : readDicomdir(path)) {
+    // What is no DICOM file at all is said when it is read.
+    decoder::DirectoryFile directoryAt(const fs::path &path) const {
+        return volume::isNrrdPath(path) ? decoder::DirectoryFile()
+                                        : decoder::Decoder::ofProgram().directory(path, m_progress);
+    }
+
+    void addDirectory(const fs::path &path, const decoder::DirectoryFile &directory) {
+        for (const auto &parts : directory.files) {
+            fs::path listed = path.parent_path();
+            for (const std::string &part : parts) {
+                // A part must be a plain name: an index may not lead out of its own folder.
+                if (part == ".." || part.find_first_of(std::string_view("/\0", 2)) != part.npos)
+                    throw Error(ErrorCode::unusable, "lists a file outside its folder", path);
+                listed = childOf(listed, part);
+            }
             std::error_code ignored;
             if (fs::is_regular_file(listed, ignored))
                 addFile(listed);
@@ -209,11 +238,13 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
         progress.check();
         if (!volume::isNrrdPath(list.found[n])) {
             try {
-                headers[n] = readHeader(list.found[n]);
-                if (const auto reason = whyUnusable(headers[n]))
+                headers[n] = decoder::Decoder::ofProgram().header(list.found[n], progress);
+                if (const auto reason = decoder::whyUnusable(headers[n]))
                     reasons[n] = *reason;
             } catch (const Error &error) {
-                reasons[n] = files::isArchive(list.found[n])
+                if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
+                    throw;
+                reasons[n] = decoder::isArchive(list.found[n])
                                  ? "is an archive; archives are opened by themselves"
                                  : error.reason();
             } catch (const std::bad_alloc &) {

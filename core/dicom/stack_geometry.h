@@ -4,10 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "core/decoder/instance.h"
 #include "core/dicom/catalogue.h"
-#include "core/dicom/instance.h"
 
 namespace pellucid::dicom {
+
+using decoder::FrameHeader;
+using decoder::InstanceHeader;
+using decoder::Rescale;
 
 /// A frame together with where it comes from.
 struct PlacedFrame {

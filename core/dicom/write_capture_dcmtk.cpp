@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "core/dicom/dictionary.h"
 #include "core/dicom/write_dataset.h"
+#include "core/parse/dictionary.h"
 
 namespace pellucid::dicom {
 
@@ -69,7 +69,7 @@ std::string newSeriesUid() {
 
 void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
                   int width, const CaptureLabels &labels) {
-    prepareDcmtk();
+    parse::prepareDcmtk();
     const bool grey = isGrey(rgba);
     DcmFileFormat file;
     DcmDataset &d = *file.getDataset();

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
+#include "core/decoder/decoder.h"
 #include "core/dicom/load_volume.h"
-#include "core/dicom/read_instance.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
@@ -76,7 +76,7 @@ TEST(RealSeries, TheTiltedHeadIsResampledAlongItsStackAndKeepsItsTilt) {
     EXPECT_GT(s.maximum, 1500.0);
     // The first thirteen slices lie where the frames do: their samples are untouched.
     const auto first =
-        dicom::decodeImage(dicom::readFile(test::testData() / "ct_head_tilt_ge_28/01.dcm"));
+        decoder::Decoder::ofProgram().image(test::testData() / "ct_head_tilt_ge_28/01.dcm");
     EXPECT_EQ(head.volume.value({256, 256, 0}),
               double(std::int16_t(first.samples[256 * 512 + 256])));
 }
@@ -102,8 +102,9 @@ fs::path syntaxFile(const char *uid) {
     return {};
 }
 
-dicom::DecodedImage decoded(const fs::path &path) {
-    return dicom::decodeImage(dicom::readFile(path));
+decoder::DecodedImage decoded(const fs::path &path) {
+    const auto file = decoder::Decoder::ofProgram().image(path);
+    return {file.header, {file.samples.begin(), file.samples.end()}};
 }
 
 TEST(TransferSyntaxes, LosslessOnesDecodeToTheSamePixels) {
@@ -118,7 +119,7 @@ TEST(TransferSyntaxes, LosslessOnesDecodeToTheSamePixels) {
         EXPECT_EQ(decoded(syntaxFile(uid)).samples, plain.samples) << uid;
 }
 
-double rescaledValue(const dicom::DecodedImage &image, std::size_t n) {
+double rescaledValue(const decoder::DecodedImage &image, std::size_t n) {
     const double stored =
         image.header.isSigned ? double(std::int16_t(image.samples[n])) : double(image.samples[n]);
     return image.header.frames[0].rescale.slope * stored + image.header.frames[0].rescale.intercept;
@@ -246,7 +247,7 @@ TEST(Nasty, HighBitsAreMaskedAndSignsExtended) {
     const auto striped = decoded(folder / "12bitUnsigned_0x0F0F.dcm");
     const auto signedOne = decoded(folder / "12bitSigned_0x0F0F.dcm");
     // The stripes set bits 0x0F0F and 0xFFFF: their 12 bits are 0xF0F and 0xFFF, or -241 and -1.
-    const auto count = [](const dicom::DecodedImage &image, int value) {
+    const auto count = [](const decoder::DecodedImage &image, int value) {
         return std::count(image.samples.begin(), image.samples.end(), std::uint16_t(value));
     };
     EXPECT_GT(count(striped, 0xF0F), 0);
@@ -278,7 +279,8 @@ TEST(Nasty, MonochromeOneAndModalityTable) {
     EXPECT_FALSE(dicom::defaultSelection(cr).volume->placed);
     const auto lut = dicom::scan({test::testData() / "nasty_pydicom_data/mlut_18.dcm"});
     const auto loaded = dicom::loadVolume(*dicom::defaultSelection(lut).volume);
-    const auto header = dicom::readHeader(test::testData() / "nasty_pydicom_data/mlut_18.dcm");
+    const auto header =
+        decoder::Decoder::ofProgram().header(test::testData() / "nasty_pydicom_data/mlut_18.dcm");
     ASSERT_FALSE(header.modalityTable.empty());
     EXPECT_GE(volume::statistics(loaded.volume).minimum, 0.0); // table entries are unsigned
 }
@@ -321,15 +323,17 @@ TEST(Nasty, DicomdirsOfEveryKindListTheirFiles) {
     std::size_t known = 0;
     for (const char *name : {"DICOMDIR", "DICOMDIR-bigEnd", "DICOMDIR-implicit",
                              "DICOMDIR-nooffset", "DICOMDIR-nopatient", "DICOMDIR-reordered"}) {
-        const auto files = dicom::readDicomdir(folder / name);
-        EXPECT_TRUE(dicom::isDicomdir(folder / name)) << name;
-        EXPECT_GT(files.size(), 0U) << name;
-        for (const auto &file : files)
-            known += fs::exists(file) ? 1 : 0;
+        const auto directory = decoder::Decoder::ofProgram().directory(folder / name);
+        EXPECT_TRUE(directory.isDirectory) << name;
+        EXPECT_GT(directory.files.size(), 0U) << name;
+        for (const auto &parts : directory.files)
+            known += fs::exists(folder / parts[0]) ? 1 : 0;
     }
     EXPECT_GT(known, 0U);
-    EXPECT_TRUE(dicom::readDicomdir(folder / "DICOMDIR-empty.dcm").empty());
-    EXPECT_EQ(dicom::readDicomdir(folder / "TINY_ALPHA/DICOMDIR").size(), 50U);
+    EXPECT_TRUE(
+        decoder::Decoder::ofProgram().directory(folder / "DICOMDIR-empty.dcm").files.empty());
+    EXPECT_EQ(decoder::Decoder::ofProgram().directory(folder / "TINY_ALPHA/DICOMDIR").files.size(),
+              50U);
     // Through the index the same files are seen as by looking at its folders, used or not.
     const auto seen = [](const dicom::Catalogue &catalogue) {
         std::set<fs::path> paths;

@@ -5,11 +5,12 @@
 #include <string_view>
 
 #include "core/dicom/load_volume.h"
-#include "core/dicom/read_instance.h"
 #include "core/dicom/scan.h"
 #include "core/dicom/write_series.h"
+#include "core/parse/parse.h"
 #include "core/phantom/phantom.h"
 #include "core/task/error.h"
+#include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pellucid {
@@ -94,7 +95,7 @@ TEST(Decode, SizesThatTheFileCannotHoldAreRefusedBeforeMemoryIsAskedFor) {
     for (const auto syntax : {dicom::TransferSyntax::explicitLittle, dicom::TransferSyntax::rle,
                               dicom::TransferSyntax::jpeg2000, dicom::TransferSyntax::jpegLs}) {
         dicom::writeCtSeries(folder.path(), tiltedHead(), {}, syntax);
-        auto bytes = dicom::readFile(folder / "IM0001.dcm");
+        auto bytes = test::readBytes(folder / "IM0001.dcm");
         // Rows (0028,0010) and Columns (0028,0011), US, two bytes each, become 65535.
         for (const char element : {'\x10', '\x11'}) {
             const std::string wanted{'\x28', '\0', element, '\0', 'U', 'S', '\x02', '\0'};
@@ -103,7 +104,7 @@ TEST(Decode, SizesThatTheFileCannotHoldAreRefusedBeforeMemoryIsAskedFor) {
             ASSERT_NE(at, std::string_view::npos);
             bytes[at + 8] = bytes[at + 9] = std::byte(0xFF);
         }
-        EXPECT_THROW(dicom::decodeImage(bytes), task::Error);
+        EXPECT_THROW(parse::decodeImage(bytes), task::Error);
     }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace pellucid::dicom {
+namespace pellucid::parse {
 
 /// Loads the data dictionary and registers the codecs, once; safe from any thread.
 /// *Throws* Error{internal} if the dictionary is missing.
 void prepareDcmtk();
 
-} // namespace pellucid::dicom
+} // namespace pellucid::parse

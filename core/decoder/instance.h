@@ -13,7 +13,7 @@
 
 #include "core/volume/volume.h"
 
-namespace pellucid::dicom {
+namespace pellucid::decoder {
 
 /// How stored values become values: value = slope * stored + intercept, or a modality table.
 struct Rescale {
@@ -61,4 +61,21 @@ struct DecodedImage {
     std::vector<std::uint16_t> samples;
 };
 
-} // namespace pellucid::dicom
+/// Why a file's pixels cannot be part of a volume or an image set, or nothing if they can.
+std::optional<std::string> whyUnusable(const InstanceHeader &header);
+
+/// A DICOMDIR, or a DICOM file that is none.
+struct DirectoryFile {
+    bool isDirectory = false;
+    /// Of each file that it lists, in its order, the parts of its name; as they stand there.
+    std::vector<std::vector<std::string>> files;
+};
+
+/// A file in an archive, as the archive says.
+struct ArchiveFile {
+    std::string name;
+    std::uint64_t bytes = 0;
+    bool isEncrypted = false;
+};
+
+} // namespace pellucid::decoder

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/dicom/dictionary.h"
+#include "core/parse/dictionary.h"
 
 #include <dcmtk/config/osconfig.h>
 
@@ -13,7 +13,7 @@
 
 #include "core/task/error.h"
 
-namespace pellucid::dicom {
+namespace pellucid::parse {
 
 void prepareDcmtk() {
     static const bool loaded = [] {
@@ -33,4 +33,4 @@ void prepareDcmtk() {
         throw task::Error(task::ErrorCode::internal, "the DICOM data dictionary is missing");
 }
 
-} // namespace pellucid::dicom
+} // namespace pellucid::parse

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid::dicom {
+namespace pellucid::parse {
 
 /// One component of a JPEG 2000 image. *Shape*: rows x columns.
 struct Jpeg2000Image {
@@ -24,4 +24,4 @@ Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows,
 /// Encodes one component without loss as a codestream. *Throws* Error{internal}.
 std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &image);
 
-} // namespace pellucid::dicom
+} // namespace pellucid::parse

@@ -5,7 +5,6 @@
 
 #include <dcmtk/config/osconfig.h>
 
-#include <dcmtk/dcmdata/dcistrmb.h>
 #include <dcmtk/dcmdata/dcpixel.h>
 #include <dcmtk/dcmdata/dcpixseq.h>
 #include <dcmtk/dcmdata/dcpxitem.h>
@@ -13,13 +12,14 @@
 
 #include <fmt/format.h>
 
-#include "core/dicom/dataset.h"
-#include "core/dicom/dictionary.h"
-#include "core/dicom/jpeg2000.h"
-#include "core/dicom/read_instance.h"
+#include "core/parse/dataset.h"
+#include "core/parse/dictionary.h"
+#include "core/parse/jpeg2000.h"
+#include "core/parse/memory_input.h"
+#include "core/parse/parse.h"
 #include "core/task/error.h"
 
-namespace pellucid::dicom {
+namespace pellucid::parse {
 
 namespace {
 
@@ -144,12 +144,10 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
 DecodedImage decodeImage(std::span<const std::byte> bytes) {
     prepareDcmtk();
     try {
-        DcmInputBufferStream stream;
-        stream.setBuffer(bytes.data(), offile_off_t(bytes.size()));
-        stream.setEos();
+        const auto input = memoryInput(bytes);
         DcmFileFormat file;
         file.transferInit();
-        const OFCondition parsed = file.read(stream, EXS_Unknown, EGL_noChange);
+        const OFCondition parsed = file.read(*input, EXS_Unknown, EGL_noChange);
         file.transferEnd();
         DcmDataset *dataset = file.getDataset();
         if (dataset == nullptr || dataset->card() == 0)
@@ -199,4 +197,4 @@ DecodedImage decodeImage(std::span<const std::byte> bytes) {
     }
 }
 
-} // namespace pellucid::dicom
+} // namespace pellucid::parse

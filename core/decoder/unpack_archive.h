@@ -5,7 +5,9 @@
 
 #include "core/task/progress.h"
 
-namespace pellucid::files {
+namespace pellucid::decoder {
+
+class Decoder;
 
 /// What an archive may become, so that a small file cannot fill a disk.
 struct UnpackLimits {
@@ -21,7 +23,8 @@ bool isArchive(const std::filesystem::path &path);
 /// *Throws* Error{unusable} if the archive is damaged, encrypted, or announces or gives more than
 /// the limits allow (it is refused by its directory, before anything is written); Error{output};
 /// Cancelled.
-void unpackArchive(const std::filesystem::path &archive, const std::filesystem::path &folder,
-                   const task::Progress &progress = {}, const UnpackLimits &limits = {});
+void unpackArchive(Decoder &decoder, const std::filesystem::path &archive,
+                   const std::filesystem::path &folder, const task::Progress &progress = {},
+                   const UnpackLimits &limits = {});
 
-} // namespace pellucid::files
+} // namespace pellucid::decoder

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dctk.h>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "core/dicom/dataset.h"
-#include "core/dicom/dictionary.h"
-#include "core/dicom/read_instance.h"
+#include "core/decoder/decoder.h"
+#include "core/parse/dataset.h"
+#include "core/parse/dictionary.h"
+#include "core/parse/memory_input.h"
+#include "core/parse/parse.h"
 #include "core/task/error.h"
 
-namespace pellucid::dicom {
+namespace pellucid::parse {
 
 namespace {
 
 using task::Error;
 using task::ErrorCode;
+
+constexpr std::size_t longestText = 1024; // bytes; DICOM's longest texts have 10240 letters
 
 std::string text(DcmItem *item, const DcmTagKey &tag) {
     OFString value;
@@ -33,6 +33,16 @@ std::string text(DcmItem *item, const DcmTagKey &tag) {
     if (first == OFString_npos)
         return {};
     std::string result(value.c_str() + first);
+    // Long values are shown nowhere, and a line is a line.
+    if (result.size() > longestText) {
+        std::size_t end = longestText;
+        while (end > 0 && (result[end] & 0xC0) == 0x80) // not within a letter
+            --end;
+        result.resize(end);
+    }
+    std::replace_if(
+        result.begin(), result.end(), [](char c) { return (unsigned char)(c) < 0x20 || c == 0x7F; },
+        ' ');
     while (!result.empty() && result.back() == ' ')
         result.pop_back();
     return result;
@@ -100,7 +110,8 @@ void readPosition(DcmItem *item, FrameHeader &frame) {
 void readMeasures(DcmItem *item, FrameHeader &frame) {
     const auto spacing = numbers(item, DCM_PixelSpacing, 2);
     // The attribute gives the distance of rows first.
-    if (spacing.size() == 2 && spacing[0] > 0.0 && spacing[1] > 0.0)
+    if (spacing.size() == 2 && spacing[0] > 0.0 && spacing[1] > 0.0 &&
+        std::isfinite(spacing[0] + spacing[1]))
         frame.spacingMm = glm::dvec2(spacing[1], spacing[0]);
     for (const DcmTagKey &tag : {DCM_SliceThickness, DCM_SpacingBetweenSlices})
         if (const auto mm = number(item, tag); mm && *mm > 0.0)
@@ -187,18 +198,6 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
         header.modalityTableFirst -= 65536;
 }
 
-// Files without a preamble start with an element of group 2 or 8 in either byte order.
-bool looksLikeDicom(std::span<const char> start) {
-    if (start.size() >= 132 && std::memcmp(start.data() + 128, "DICM", 4) == 0)
-        return true;
-    if (start.size() < 8)
-        return false;
-    const auto byte = [&](int n) { return (unsigned char)(start[n]); };
-    const bool little = (byte(0) == 8 || byte(0) == 2) && byte(1) == 0;
-    const bool big = byte(0) == 0 && (byte(1) == 8 || byte(1) == 2);
-    return (little && byte(3) == 0) || (big && byte(2) == 0);
-}
-
 } // namespace
 
 InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
@@ -281,33 +280,24 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     return h;
 }
 
-InstanceHeader readHeader(const std::filesystem::path &path) {
+InstanceHeader parseHeader(std::span<const std::byte> bytes) {
     prepareDcmtk();
-    std::array<char, 132> start{};
-    errno = 0;
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        throw Error(ErrorCode::unusable, errno != 0 ? std::strerror(errno) : "cannot be read",
-                    path);
-    in.read(start.data(), start.size());
-    const auto got = std::size_t(in.gcount());
-    if (got == 0)
-        throw Error(ErrorCode::unusable, "is empty", path);
-    if (!looksLikeDicom(std::span(start).first(got)))
-        throw Error(ErrorCode::unusable, "is not a DICOM file", path);
-    in.close();
+    if (bytes.empty())
+        throw Error(ErrorCode::unusable, "is empty");
+    if (!decoder::looksLikeDicom(bytes))
+        throw Error(ErrorCode::unusable, "is not a DICOM file");
+    const auto input = memoryInput(bytes);
     DcmFileFormat file;
-    // Values above 4 KiB, pixels above all, stay on the disk.
-    const OFCondition loaded =
-        file.loadFile(path.c_str(), EXS_Unknown, EGL_noChange, 4096, ERM_autoDetect);
+    file.transferInit();
+    // Values above 4 KiB, pixels above all, stay where they are.
+    const OFCondition loaded = file.read(*input, EXS_Unknown, EGL_noChange, 4096);
+    file.transferEnd();
     DcmDataset *dataset = file.getDataset();
     if (dataset == nullptr || dataset->card() == 0)
-        throw Error(ErrorCode::unusable,
-                    loaded.bad() ? std::string("is not readable: ") + loaded.text()
-                                 : "holds no data",
-                    path);
-    std::error_code ignored;
-    InstanceHeader header = headerOf(*dataset, std::filesystem::file_size(path, ignored));
+        throw Error(ErrorCode::unusable, loaded.bad()
+                                             ? std::string("is not readable: ") + loaded.text()
+                                             : "holds no data");
+    InstanceHeader header = headerOf(*dataset, bytes.size());
     if (header.sopClassUid.empty())
         header.sopClassUid = text(file.getMetaInfo(), DCM_MediaStorageSOPClassUID);
     // Plain pixels have a known size; a file that is shorter cannot hold them.
@@ -316,40 +306,12 @@ InstanceHeader readHeader(const std::filesystem::path &path) {
                           header.bitsAllocated / 8.0 * double(header.frames.size());
     if (header.hasPixels && !DcmXfer(syntax).isEncapsulated() &&
         syntax != EXS_DeflatedLittleEndianExplicit && !whyUnusable(header) &&
-        needed > double(std::filesystem::file_size(path, ignored)))
-        throw Error(ErrorCode::unusable, "the pixels are truncated", path);
+        needed > double(bytes.size()))
+        throw Error(ErrorCode::unusable, "the pixels are truncated");
     // What follows damaged elements is lost, but a complete image in front of them is not.
     if (loaded.bad() && !(header.hasPixels && header.rows > 0))
-        throw Error(ErrorCode::unusable, std::string("is damaged: ") + loaded.text(), path);
+        throw Error(ErrorCode::unusable, std::string("is damaged: ") + loaded.text());
     return header;
 }
 
-std::optional<std::string> whyUnusable(const InstanceHeader &h) {
-    if (h.sopClassUid == UID_MediaStorageDirectoryStorage)
-        return "is an index of files, not an image";
-    if (h.sopClassUid == UID_SegmentationStorage)
-        return "segmentations are not shown";
-    if (h.floatPixels)
-        return "floating-point pixels are not supported";
-    if (!h.hasPixels)
-        return h.sopClassName.empty() ? std::string("has no pixels")
-                                      : "has no pixels (" + h.sopClassName + ")";
-    if (h.rows < 1 || h.columns < 1)
-        return "has an image without size";
-    if (h.rows > 65535 || h.columns > 65535)
-        return "has an image larger than DICOM allows";
-    if (h.announcedFrames != int(h.frames.size()))
-        return fmt::format("announces {} frames, more than the file can hold", h.announcedFrames);
-    if (h.samplesPerPixel != 1 || (h.photometric != "MONOCHROME1" &&
-                                   h.photometric != "MONOCHROME2" && !h.photometric.empty()))
-        return "is a colour image (" + h.photometric + ")";
-    if (h.bitsAllocated != 8 && h.bitsAllocated != 16)
-        return fmt::format("has {} bits per sample; 8 and 16 are supported", h.bitsAllocated);
-    if (h.bitsStored < 1 || h.bitsStored > h.bitsAllocated || h.highBit >= h.bitsAllocated ||
-        h.highBit + 1 < h.bitsStored)
-        return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored,
-                           h.bitsAllocated, h.highBit);
-    return std::nullopt;
-}
-
-} // namespace pellucid::dicom
+} // namespace pellucid::parse

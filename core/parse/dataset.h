@@ -3,14 +3,14 @@
 
 #include <cstddef>
 
-#include "core/dicom/instance.h"
+#include "core/decoder/instance.h"
 
 class DcmDataset;
 
-namespace pellucid::dicom {
+namespace pellucid::parse {
 
 /// The header of a loaded dataset. `fileBytes` bounds how many frames are believed: each takes a
 /// byte at least.
-InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes);
+decoder::InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes);
 
-} // namespace pellucid::dicom
+} // namespace pellucid::parse

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/dicom/jpeg2000.h"
+#include "core/parse/jpeg2000.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,7 +9,7 @@
 
 #include "core/task/error.h"
 
-namespace pellucid::dicom {
+namespace pellucid::parse {
 
 namespace {
 
@@ -159,4 +159,4 @@ std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {
     return std::move(sink.data);
 }
 
-} // namespace pellucid::dicom
+} // namespace pellucid::parse

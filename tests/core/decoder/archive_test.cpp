@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/files/archive.h"
+#include "core/decoder/unpack_archive.h"
 
 #include <fstream>
 #include <functional>
@@ -10,10 +10,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/decoder/decoder.h"
 #include "core/task/error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace pellucid::files {
+namespace pellucid::decoder {
 
 namespace fs = std::filesystem;
 
@@ -56,7 +57,7 @@ protected:
 
     std::string refusal(const fs::path &archive, const UnpackLimits &limits = {}) {
         try {
-            unpackArchive(archive, m_out.path(), {}, limits);
+            unpackArchive(Decoder::ofProgram(), archive, m_out.path(), {}, limits);
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::unusable);
             EXPECT_EQ(error.path(), archive);
@@ -82,7 +83,7 @@ TEST_F(Archive, unpacksFilesUnderTheirNames) {
         add(w, "study/series/two", "second");
     });
     EXPECT_TRUE(isArchive(path));
-    unpackArchive(path, m_out.path());
+    unpackArchive(Decoder::ofProgram(), path, m_out.path());
     EXPECT_EQ(read("study/one.dcm"), "first");
     EXPECT_EQ(read("study/series/two"), "second");
 }
@@ -96,7 +97,7 @@ TEST_F(Archive, noNameLeadsOutAndNoLinkIsMade) {
         add(w, "same", "1");
         add(w, "./same", "2");
     });
-    unpackArchive(path, m_out.path());
+    unpackArchive(Decoder::ofProgram(), path, m_out.path());
     EXPECT_EQ(read("evil"), "up");
     EXPECT_EQ(read("etc/evil"), "root");
     EXPECT_EQ(read("a/b"), "winding");
@@ -156,8 +157,9 @@ TEST_F(Archive, cancelStopsIt) {
     const fs::path path = make([](auto *w) { add(w, "file", "text"); });
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW(unpackArchive(path, m_out.path(), task::Progress(stop.get_token())),
-                 task::Cancelled);
+    EXPECT_THROW(
+        unpackArchive(Decoder::ofProgram(), path, m_out.path(), task::Progress(stop.get_token())),
+        task::Cancelled);
 }
 
-} // namespace pellucid::files
+} // namespace pellucid::decoder

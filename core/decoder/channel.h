@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "core/decoder/message.h"
+
+namespace pellucid::decoder {
+
+/// A file descriptor that is closed with its owner.
+class Descriptor {
+public:
+    Descriptor() = default;
+    explicit Descriptor(int fd) : m_fd(fd) {}
+    ~Descriptor();
+    Descriptor(Descriptor &&other) noexcept : m_fd(std::exchange(other.m_fd, -1)) {}
+    Descriptor &operator=(Descriptor &&other) noexcept {
+        std::swap(m_fd, other.m_fd);
+        return *this;
+    }
+    int get() const { return m_fd; }
+    explicit operator bool() const { return m_fd >= 0; }
+
+private:
+    int m_fd = -1;
+};
+
+/// The descriptors that a decoder begins with.
+inline constexpr int socketDescriptor = 3, arenaDescriptor = 4;
+
+/// Sends a message, and a descriptor if it is not -1. False if nobody is there any more.
+bool send(int socket, const Message &message, int descriptor = -1);
+
+/// Waits for a message. Nothing if nobody is there any more, or what came is none.
+struct Received {
+    Message message;
+    Descriptor descriptor;
+};
+std::optional<Received> receive(int socket);
+
+/// Part of a file or of an arena in memory. *Throws* Error{outOfMemory}.
+class Mapping {
+public:
+    enum class Access { read, write };
+    Mapping() = default;
+    Mapping(int fd, std::size_t bytes, Access access);
+    ~Mapping();
+    Mapping(Mapping &&other) noexcept
+        : m_data(std::exchange(other.m_data, nullptr)), m_size(std::exchange(other.m_size, 0)) {}
+    Mapping &operator=(Mapping &&other) noexcept {
+        std::swap(m_data, other.m_data);
+        std::swap(m_size, other.m_size);
+        return *this;
+    }
+    std::byte *data() const { return m_data; }
+    std::size_t size() const { return m_size; }
+    std::span<const std::byte> bytes() const { return {m_data, m_size}; }
+
+private:
+    std::byte *m_data = nullptr;
+    std::size_t m_size = 0;
+};
+
+} // namespace pellucid::decoder

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decoder/child.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "core/task/error.h"
+#include "core/task/log.h"
+#include "core/task/memory.h"
+
+namespace pellucid::decoder {
+
+namespace {
+
+using task::Error;
+using task::ErrorCode;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t firstArenaBytes = 1 << 20;
+constexpr std::uint64_t keptArenaBytes = 16 << 20; // of a decoder that waits
+constexpr std::uint64_t largestBodyBytes = 256 << 20;
+constexpr int cancelMs = 20;        // how long a cancelled call may still wait
+constexpr double startSeconds = 30; // of a loaded machine
+constexpr std::chrono::milliseconds endPatience(500);
+
+[[noreturn]] void failStarting(const std::filesystem::path &program, const std::string &why) {
+    throw Error(ErrorCode::internal, "the decoder cannot be started: " + why, program);
+}
+
+// Beyond the numbers that the decoder begins with, so that none of them is overwritten.
+Descriptor movedUp(int fd, const std::filesystem::path &program) {
+    Descriptor low(fd);
+    Descriptor high(fd < 0 ? -1 : ::fcntl(fd, F_DUPFD_CLOEXEC, 10));
+    if (!high)
+        failStarting(program, std::strerror(errno));
+    return high;
+}
+
+// Nothing of the user's surroundings but where libraries lie.
+std::vector<std::string> environment() {
+    std::vector<std::string> kept;
+    for (const char *const name : {"LD_LIBRARY_PATH", "DCMDICTPATH", "ASAN_OPTIONS", "TSAN_OPTIONS",
+                                   "UBSAN_OPTIONS", "LLVM_PROFILE_FILE"})
+        if (const char *const value = std::getenv(name))
+            kept.push_back(std::string(name) + "=" + value);
+    return kept;
+}
+
+} // namespace
+
+double decodingSeconds(std::uint64_t fileBytes) {
+    // The slowest coder makes some MB a second; a share of a hospital less.
+    constexpr double bytesPerSecond = 1e6, anyFile = 20.0;
+    return anyFile + double(fileBytes) / bytesPerSecond;
+}
+
+Child::Child(const std::filesystem::path &program) {
+    start(program);
+}
+
+Child::~Child() {
+    if (m_pid <= 0)
+        return;
+    ::kill(m_pid, SIGKILL);
+    while (::waitpid(m_pid, nullptr, 0) < 0 && errno == EINTR) {
+    }
+}
+
+void Child::start(const std::filesystem::path &program) {
+    std::array<int, 2> ends{-1, -1};
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        failStarting(program, std::strerror(errno));
+    m_socket = movedUp(ends[0], program);
+    const Descriptor theirs = movedUp(ends[1], program);
+    m_arena = movedUp(::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING), program);
+    // It may never get smaller below us: reading beyond its end would end the program.
+    if (::ftruncate(m_arena.get(), off_t(firstArenaBytes)) != 0 ||
+        ::fcntl(m_arena.get(), F_ADD_SEALS, F_SEAL_SHRINK) != 0)
+        failStarting(program, std::strerror(errno));
+    m_arenaBytes = firstArenaBytes;
+
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, theirs.get(), socketDescriptor);
+    ::posix_spawn_file_actions_adddup2(&actions, m_arena.get(), arenaDescriptor);
+    ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+#ifndef PELLUCID_SANITIZED // whose reports go there
+    ::posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+#endif
+    std::string name = program.string();
+    const std::array<char *, 2> arguments{name.data(), nullptr};
+    std::vector<std::string> variables = environment();
+    std::vector<char *> pointers;
+    for (std::string &variable : variables)
+        pointers.push_back(variable.data());
+    pointers.push_back(nullptr);
+    const int failed = ::posix_spawn(&m_pid, program.c_str(), &actions, nullptr, arguments.data(),
+                                     pointers.data());
+    ::posix_spawn_file_actions_destroy(&actions);
+    if (failed != 0) {
+        m_pid = -1;
+        failStarting(program, std::strerror(failed));
+    }
+    std::optional<Received> ready;
+    if (waitForMessage({}, startSeconds))
+        ready = receive(m_socket.get());
+    if (!ready || ready->message.kind != Message::Kind::ready)
+        failStarting(program, "it does not answer");
+    m_confinement = ready->message.code;
+    m_isSound = true;
+}
+
+void Child::ask(Message::Kind kind, int file, std::uint64_t fileBytes) {
+    m_secondsLeft = decodingSeconds(fileBytes) + patienceSeconds;
+    const bool isSent = send(m_socket.get(), {kind, 0, fileBytes, 0}, file);
+    m_isSound = false; // until it has answered
+    if (!isSent)
+        throw Error(ErrorCode::unusable, "the decoder is gone");
+}
+
+void Child::askForNext() {
+    m_secondsLeft = decodingSeconds(0) + patienceSeconds;
+    if (!send(m_socket.get(), {Message::Kind::next, 0, 0, 0}))
+        failAsItEnded();
+}
+
+// False: the time is over.
+bool Child::waitForMessage(const task::Progress &progress, double seconds) const {
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    for (;;) {
+        progress.check();
+        pollfd waiting{m_socket.get(), POLLIN, 0};
+        if (::poll(&waiting, 1, cancelMs) > 0)
+            return true;
+        if (Clock::now() > end)
+            return false;
+    }
+}
+
+Child::Answer Child::answer(const task::Progress &progress) {
+    for (;;) {
+        if (!waitForMessage(progress, m_secondsLeft))
+            throw Error(ErrorCode::unusable, "takes too long to read");
+        const auto received = receive(m_socket.get());
+        if (!received)
+            failAsItEnded();
+        const Message &message = received->message;
+        switch (message.kind) {
+        case Message::Kind::need: {
+            const bool isGranted = grow(message.size);
+            if (!send(m_socket.get(), {isGranted ? Message::Kind::granted : Message::Kind::refused,
+                                       0, m_arenaBytes, 0}))
+                failAsItEnded();
+            break;
+        }
+        case Message::Kind::part:
+        case Message::Kind::done:
+            return take(message);
+        default:
+            throw Error(ErrorCode::unusable, "was decoded to nonsense");
+        }
+    }
+}
+
+// Memory is asked for here, by one who does not believe.
+bool Child::grow(std::uint64_t bytes) {
+    if (bytes <= m_arenaBytes)
+        return true;
+    if (bytes > task::availableMemoryBytes() || ::ftruncate(m_arena.get(), off_t(bytes)) != 0)
+        return false;
+    m_arenaBytes = bytes;
+    return true;
+}
+
+Child::Answer Child::take(const Message &message) {
+    if (message.size > std::min(m_arenaBytes, largestBodyBytes) ||
+        dataOffset(message.size) > m_arenaBytes ||
+        message.dataBytes > m_arenaBytes - dataOffset(message.size))
+        throw Error(ErrorCode::unusable, "was decoded to nonsense");
+    if (m_mapped.size() < m_arenaBytes)
+        m_mapped = Mapping(m_arena.get(), m_arenaBytes, Mapping::Access::read);
+    m_body.assign(reinterpret_cast<const char *>(m_mapped.data()), message.size);
+    const auto body = std::as_bytes(std::span(m_body));
+    if (message.kind == Message::Kind::done) {
+        m_isSound = true;
+        if (message.code != 0)
+            throw Error(message.code == int(ErrorCode::outOfMemory) ? ErrorCode::outOfMemory
+                                                                    : ErrorCode::unusable,
+                        unpackReason(body));
+    }
+    return {message, body, m_mapped.bytes().subspan(dataOffset(message.size), message.dataBytes)};
+}
+
+void Child::failAsItEnded() {
+    // Its end is seen a moment after the socket's; one that goes on has sent what is no message.
+    int status = 0;
+    const auto end = Clock::now() + endPatience;
+    for (pid_t ended = 0; ended != m_pid;) {
+        ended = ::waitpid(m_pid, &status, WNOHANG);
+        if (ended < 0 && errno != EINTR)
+            break;
+        if (ended == 0 && Clock::now() > end)
+            throw Error(ErrorCode::unusable, "was decoded to nonsense");
+        if (ended == 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    m_pid = -1;
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    task::log("a decoder ended: signal " + std::to_string(signal));
+    switch (signal) {
+    case SIGALRM:
+        throw Error(ErrorCode::unusable, "takes too long to read");
+    case SIGBUS:
+        throw Error(ErrorCode::unusable, "changed while it was read");
+    case SIGKILL:
+        throw Error(ErrorCode::outOfMemory, "needs more memory than there is");
+    case SIGSYS:
+        throw Error(ErrorCode::unusable, "made the decoder try what no image needs");
+    default:
+        throw Error(ErrorCode::unusable, "is so damaged that the decoder crashed");
+    }
+}
+
+void Child::tidy() {
+    if (m_arenaBytes > keptArenaBytes)
+        ::fallocate(m_arena.get(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, 0,
+                    off_t(m_arenaBytes));
+}
+
+} // namespace pellucid::decoder

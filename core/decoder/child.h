@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <sys/types.h>
+
+#include "core/decoder/channel.h"
+#include "core/task/progress.h"
+
+namespace pellucid::decoder {
+
+/// One decoding process and the arena that it answers in. One request at a time. What goes wrong in
+/// the middle of one leaves it unusable: `isSound` says whether it may be asked again.
+class Child {
+public:
+    /// *Throws* Error{internal} if the program cannot be started or is not a decoder.
+    explicit Child(const std::filesystem::path &program);
+    ~Child();
+    Child(const Child &) = delete;
+    Child &operator=(const Child &) = delete;
+
+    struct Answer {
+        Message message;
+        std::span<const std::byte> body; ///< a copy: it stays as it is
+        std::span<const std::byte> data; ///< in the arena
+    };
+    /// Begins a request. *Throws* Error{unusable} if the process has ended meanwhile.
+    void ask(Message::Kind kind, int file, std::uint64_t fileBytes);
+    /// The next part of an archive.
+    void askForNext();
+    /// Waits for the answer, which is a `part` or `done`. *Throws* Error{unusable, outOfMemory}
+    /// with the reason that the decoder gives, or that it crashed, hung, or asked for too much;
+    /// Cancelled.
+    Answer answer(const task::Progress &progress);
+
+    bool isSound() const { return m_isSound; }
+    int confinement() const { return m_confinement; }
+    /// Gives memory of large images back.
+    void tidy();
+
+private:
+    void start(const std::filesystem::path &program);
+    bool waitForMessage(const task::Progress &progress, double seconds) const;
+    [[noreturn]] void failAsItEnded();
+    bool grow(std::uint64_t bytes);
+    Answer take(const Message &message);
+
+    pid_t m_pid = -1;
+    Descriptor m_socket, m_arena;
+    Mapping m_mapped;
+    std::uint64_t m_arenaBytes = 0;
+    std::string m_body;
+    double m_secondsLeft = 0.0;
+    bool m_isSound = false;
+    int m_confinement = 0;
+};
+
+/// What a request may take. A decoder gives itself up after the first, the program it after the
+/// second. *Units*: seconds.
+double decodingSeconds(std::uint64_t fileBytes);
+inline constexpr double patienceSeconds = 3.0;
+
+} // namespace pellucid::decoder

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decoder/decoder.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+
+#include "core/decoder/child.h"
+#include "core/task/error.h"
+
+namespace pellucid::decoder {
+
+namespace {
+
+namespace fs = std::filesystem;
+using task::Error;
+using task::ErrorCode;
+
+constexpr const char *programName = "pellucid-decode";
+
+struct OpenFile {
+    Descriptor descriptor;
+    std::uint64_t bytes = 0;
+};
+
+OpenFile open(const fs::path &path) {
+    // What became a pipe meanwhile must not be waited for.
+    OpenFile file{Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY))};
+    struct stat about {};
+    if (!file.descriptor || ::fstat(file.descriptor.get(), &about) != 0)
+        throw Error(ErrorCode::unusable, std::strerror(errno), path);
+    if (!S_ISREG(about.st_mode))
+        throw Error(ErrorCode::unusable, "is not a regular file", path);
+    if (about.st_size == 0)
+        throw Error(ErrorCode::unusable, "is empty", path);
+    file.bytes = std::uint64_t(about.st_size);
+    return file;
+}
+
+// Most files of a folder may be no images at all: that takes no decoder.
+void checkStart(const OpenFile &file, const fs::path &path) {
+    std::array<std::byte, 132> start{};
+    const ssize_t got = ::pread(file.descriptor.get(), start.data(), start.size(), 0);
+    if (got < 0)
+        throw Error(ErrorCode::unusable, std::strerror(errno), path);
+    if (!looksLikeDicom(std::span(start).first(std::size_t(got))))
+        throw Error(ErrorCode::unusable, "is not a DICOM file", path);
+}
+
+// Runs f with the path in its errors.
+template <class F> auto naming(const fs::path &path, F &&f) {
+    try {
+        return f();
+    } catch (const Error &error) {
+        if (!error.path().empty())
+            throw;
+        throw Error(error.code(), error.reason(), path);
+    }
+}
+
+std::uint64_t sampleCount(const InstanceHeader &h) {
+    std::uint64_t samples = 0;
+    if (h.rows < 0 || h.columns < 0 ||
+        __builtin_mul_overflow(std::uint64_t(h.rows) * std::uint64_t(h.columns),
+                               std::uint64_t(h.frames.size()), &samples) ||
+        samples > (std::uint64_t(1) << 62))
+        throw Error(ErrorCode::unusable, "was decoded to nonsense");
+    return samples;
+}
+
+fs::path ownFolder() {
+    std::error_code unknown;
+    return fs::read_symlink("/proc/self/exe", unknown).parent_path();
+}
+
+fs::path findProgram() {
+    if (const char *const named = std::getenv("PELLUCID_DECODER"))
+        return named;
+    const fs::path own = ownFolder();
+    std::error_code ignored;
+    for (const char *const place : {".", "../libexec/pellucid", "../lib/pellucid", "../bin"})
+        if (const fs::path program = own / place / programName; fs::exists(program, ignored))
+            return program;
+    return own / programName; // whose lack is said when it is wanted
+}
+
+} // namespace
+
+bool looksLikeDicom(std::span<const std::byte> start) {
+    if (start.size() >= 132 && std::memcmp(start.data() + 128, "DICM", 4) == 0)
+        return true;
+    // Files without a preamble start with an element of group 2 or 8 in either byte order.
+    if (start.size() < 8)
+        return false;
+    const auto byte = [&](std::size_t n) { return std::to_integer<int>(start[n]); };
+    const bool little = (byte(0) == 8 || byte(0) == 2) && byte(1) == 0;
+    const bool big = byte(0) == 0 && (byte(1) == 8 || byte(1) == 2);
+    return (little && byte(3) == 0) || (big && byte(2) == 0);
+}
+
+DecodedFile::DecodedFile(InstanceHeader h, std::span<const std::uint16_t> s,
+                         std::unique_ptr<Child> child, Decoder &decoder)
+    : header(std::move(h)), samples(s), m_child(std::move(child)), m_decoder(&decoder) {}
+
+DecodedFile::DecodedFile(DecodedFile &&other) noexcept = default;
+
+DecodedFile::~DecodedFile() {
+    if (m_child)
+        m_decoder->takeBack(std::move(m_child));
+}
+
+Decoder::Decoder(fs::path program) : m_program(std::move(program)) {}
+
+Decoder::~Decoder() = default;
+
+Decoder &Decoder::ofProgram() {
+    static Decoder decoder(findProgram());
+    return decoder;
+}
+
+std::unique_ptr<Child> Decoder::lend() {
+    {
+        const std::lock_guard lock(m_mutex);
+        if (!m_idle.empty()) {
+            auto child = std::move(m_idle.back());
+            m_idle.pop_back();
+            return child;
+        }
+    }
+    return std::make_unique<Child>(m_program);
+}
+
+void Decoder::takeBack(std::unique_ptr<Child> child) {
+    if (!child->isSound())
+        return; // another one will be started
+    child->tidy();
+    const std::lock_guard lock(m_mutex);
+    if (m_idle.size() < std::max(1U, std::thread::hardware_concurrency()))
+        m_idle.push_back(std::move(child));
+}
+
+// Asks a decoder; one that ended while it waited (the system may have wanted its memory) is
+// replaced.
+std::unique_ptr<Child> Decoder::ask(int kind, int file, std::uint64_t bytes) {
+    auto child = lend();
+    try {
+        child->ask(Message::Kind(kind), file, bytes);
+    } catch (const Error &) {
+        child = std::make_unique<Child>(m_program);
+        child->ask(Message::Kind(kind), file, bytes);
+    }
+    return child;
+}
+
+template <class F>
+auto Decoder::answered(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack) {
+    try {
+        const Child::Answer answer = child->answer(progress);
+        return unpack(answer);
+    } catch (...) {
+        takeBack(std::move(child));
+        throw;
+    }
+}
+
+InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progress) {
+    const OpenFile file = open(path);
+    checkStart(file, path);
+    return naming(path, [&] {
+        auto child = ask(int(Message::Kind::header), file.descriptor.get(), file.bytes);
+        InstanceHeader header = answered(
+            child, progress, [](const Child::Answer &answer) { return unpackHeader(answer.body); });
+        takeBack(std::move(child));
+        return header;
+    });
+}
+
+DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress) {
+    const OpenFile file = open(path);
+    return naming(path, [&] {
+        auto child = ask(int(Message::Kind::image), file.descriptor.get(), file.bytes);
+        std::span<const std::uint16_t> samples;
+        InstanceHeader header = answered(child, progress, [&](const Child::Answer &answer) {
+            InstanceHeader h = unpackHeader(answer.body);
+            const std::uint64_t count = sampleCount(h);
+            if (whyUnusable(h) || answer.data.size() != 2 * count)
+                throw Error(ErrorCode::unusable, "was decoded to nonsense");
+            samples = {reinterpret_cast<const std::uint16_t *>(answer.data.data()), count};
+            return h;
+        });
+        return DecodedFile(std::move(header), samples, std::move(child), *this);
+    });
+}
+
+DirectoryFile Decoder::directory(const fs::path &path, const task::Progress &progress) {
+    const OpenFile file = open(path);
+    return naming(path, [&] {
+        auto child = ask(int(Message::Kind::directory), file.descriptor.get(), file.bytes);
+        DirectoryFile directory = answered(child, progress, [](const Child::Answer &answer) {
+            return unpackDirectory(answer.body);
+        });
+        takeBack(std::move(child));
+        return directory;
+    });
+}
+
+void Decoder::archive(const fs::path &path,
+                      const std::function<void(const ArchiveFile &)> &announce,
+                      const std::function<void(const ArchivePart &)> &take,
+                      const task::Progress &progress) {
+    const OpenFile file = open(path);
+    naming(path, [&] {
+        auto child = ask(int(Message::Kind::archive), file.descriptor.get(), file.bytes);
+        for (bool isDone = false; !isDone;) {
+            answered(child, progress, [&](const Child::Answer &answer) {
+                isDone = answer.message.kind == Message::Kind::done;
+                if (isDone)
+                    return;
+                const auto files = unpackArchiveFiles(answer.body);
+                const int flags = answer.message.code;
+                if ((flags & announcement) != 0)
+                    for (const ArchiveFile &f : files)
+                        announce(f);
+                else if (files.size() == 1)
+                    take(
+                        {files[0], answer.data, (flags & firstPart) != 0, (flags & lastPart) != 0});
+                else
+                    throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                child->askForNext();
+            });
+        }
+        takeBack(std::move(child));
+    });
+}
+
+int Decoder::confinement() {
+    auto child = lend();
+    const int confinement = child->confinement();
+    takeBack(std::move(child));
+    return confinement;
+}
+
+} // namespace pellucid::decoder

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decoder/instance.h"
+
+#include <fmt/format.h>
+
+namespace pellucid::decoder {
+
+namespace {
+
+// Media Storage Directory Storage; Segmentation Storage (PS3.4, B.5).
+constexpr const char *directoryClass = "1.2.840.10008.1.3.10";
+constexpr const char *segmentationClass = "1.2.840.10008.5.1.4.1.1.66.4";
+
+} // namespace
+
+std::optional<std::string> whyUnusable(const InstanceHeader &h) {
+    if (h.sopClassUid == directoryClass)
+        return "is an index of files, not an image";
+    if (h.sopClassUid == segmentationClass)
+        return "segmentations are not shown";
+    if (h.floatPixels)
+        return "floating-point pixels are not supported";
+    if (!h.hasPixels)
+        return h.sopClassName.empty() ? std::string("has no pixels")
+                                      : "has no pixels (" + h.sopClassName + ")";
+    if (h.rows < 1 || h.columns < 1)
+        return "has an image without size";
+    if (h.rows > 65535 || h.columns > 65535)
+        return "has an image larger than DICOM allows";
+    if (h.announcedFrames != int(h.frames.size()))
+        return fmt::format("announces {} frames, more than the file can hold", h.announcedFrames);
+    if (h.samplesPerPixel != 1 || (h.photometric != "MONOCHROME1" &&
+                                   h.photometric != "MONOCHROME2" && !h.photometric.empty()))
+        return "is a colour image (" + h.photometric + ")";
+    if (h.bitsAllocated != 8 && h.bitsAllocated != 16)
+        return fmt::format("has {} bits per sample; 8 and 16 are supported", h.bitsAllocated);
+    if (h.bitsStored < 1 || h.bitsStored > h.bitsAllocated || h.highBit >= h.bitsAllocated ||
+        h.highBit + 1 < h.bitsStored)
+        return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored,
+                           h.bitsAllocated, h.highBit);
+    return std::nullopt;
+}
+
+} // namespace pellucid::decoder

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decoder/message.h"
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstring>
+#include <type_traits>
+
+#include "core/task/error.h"
+
+namespace pellucid::decoder {
+
+namespace {
+
+// Longer ones are cut where they are read from a file.
+constexpr std::uint64_t longestString = 1 << 16;
+constexpr std::size_t longestReason = 400;
+
+[[noreturn]] void fail() {
+    throw task::Error(task::ErrorCode::unusable, "was decoded to nonsense");
+}
+
+// Writer and reader go through the same fields in the same order.
+class Writer {
+public:
+    static constexpr bool isReading = false;
+
+    template <class T>
+    requires std::is_arithmetic_v<T>
+    void number(T &value) {
+        const std::size_t at = bytes.size();
+        bytes.resize(at + sizeof(T));
+        std::memcpy(bytes.data() + at, &value, sizeof(T));
+    }
+    void text(std::string &value) {
+        std::uint64_t size = std::min<std::uint64_t>(value.size(), longestString);
+        number(size);
+        bytes.append(value, 0, size);
+    }
+    std::uint64_t count(std::uint64_t size) {
+        number(size);
+        return size;
+    }
+
+    std::string bytes;
+};
+
+class Reader {
+public:
+    static constexpr bool isReading = true;
+
+    explicit Reader(std::span<const std::byte> bytes) : m_rest(bytes) {}
+
+    template <class T>
+    requires std::is_arithmetic_v<T>
+    void number(T &value) {
+        if constexpr (std::same_as<T, bool>) { // of another byte a bool may be neither
+            unsigned char byte = 0;
+            number(byte);
+            value = byte != 0;
+        } else {
+            if (m_rest.size() < sizeof(T))
+                fail();
+            std::memcpy(&value, m_rest.data(), sizeof(T));
+            m_rest = m_rest.subspan(sizeof(T));
+            if constexpr (std::is_floating_point_v<T>)
+                if (!std::isfinite(value))
+                    fail();
+        }
+    }
+    void text(std::string &value) {
+        const std::uint64_t size = count(0);
+        if (size > std::min<std::uint64_t>(longestString, m_rest.size()))
+            fail();
+        value.assign(reinterpret_cast<const char *>(m_rest.data()), size);
+        m_rest = m_rest.subspan(size);
+    }
+    // Nothing is reserved for it: elements are made as their bytes are there.
+    std::uint64_t count(std::uint64_t) {
+        std::uint64_t size = 0;
+        number(size);
+        return size;
+    }
+    void end() const {
+        if (!m_rest.empty())
+            fail();
+    }
+
+private:
+    std::span<const std::byte> m_rest;
+};
+
+template <class A, class T>
+requires std::is_arithmetic_v<T>
+void pass(A &archive, T &value) {
+    archive.number(value);
+}
+
+template <class A> void pass(A &archive, std::string &value) {
+    archive.text(value);
+}
+
+template <class A, glm::length_t N> void pass(A &archive, glm::vec<N, double> &value) {
+    for (glm::length_t n = 0; n < N; ++n)
+        archive.number(value[n]);
+}
+
+template <class A, class T> void pass(A &archive, std::optional<T> &value);
+template <class A, class T> void pass(A &archive, std::vector<T> &values);
+template <class A, class K, class V> void pass(A &archive, std::map<K, V> &values);
+
+template <class A> void pass(A &archive, volume::ValueWindow &window) {
+    pass(archive, window.center);
+    pass(archive, window.width);
+    pass(archive, window.name);
+}
+
+template <class A> void pass(A &archive, FrameHeader &frame) {
+    pass(archive, frame.positionMm);
+    pass(archive, frame.rowAxis);
+    pass(archive, frame.columnAxis);
+    pass(archive, frame.spacingMm);
+    pass(archive, frame.sliceThicknessMm);
+    pass(archive, frame.rescale.slope);
+    pass(archive, frame.rescale.intercept);
+    pass(archive, frame.imageType);
+    pass(archive, frame.dimensions);
+}
+
+template <class A> void pass(A &archive, InstanceHeader &h) {
+    for (std::string *const text :
+         {&h.sopClassUid, &h.sopClassName, &h.sopInstanceUid, &h.transferSyntax, &h.patientId,
+          &h.patientName, &h.birthDate, &h.sex, &h.studyUid, &h.studyDate, &h.studyDescription,
+          &h.seriesUid, &h.seriesDescription, &h.modality, &h.bodyPart, &h.photometric,
+          &h.rescaleType})
+        pass(archive, *text);
+    for (int *const number :
+         {&h.seriesNumber, &h.instanceNumber, &h.rows, &h.columns, &h.samplesPerPixel,
+          &h.announcedFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.modalityTableFirst})
+        pass(archive, *number);
+    for (bool *const flag : {&h.hasPixels, &h.floatPixels, &h.isSigned, &h.lossy})
+        pass(archive, *flag);
+    pass(archive, h.paddingValue);
+    pass(archive, h.paddingLimit);
+    pass(archive, h.windows);
+    pass(archive, h.modalityTable);
+    pass(archive, h.frames);
+}
+
+template <class A> void pass(A &archive, DirectoryFile &directory) {
+    pass(archive, directory.isDirectory);
+    pass(archive, directory.files);
+}
+
+template <class A> void pass(A &archive, ArchiveFile &file) {
+    pass(archive, file.name);
+    pass(archive, file.bytes);
+    pass(archive, file.isEncrypted);
+}
+
+template <class A, class T> void pass(A &archive, std::optional<T> &value) {
+    bool isThere = value.has_value();
+    pass(archive, isThere);
+    if constexpr (A::isReading)
+        value = isThere ? std::optional(T()) : std::nullopt;
+    if (isThere)
+        pass(archive, *value);
+}
+
+template <class A, class T> void pass(A &archive, std::vector<T> &values) {
+    const std::uint64_t size = archive.count(values.size());
+    for (std::uint64_t n = 0; n < size; ++n) {
+        if constexpr (A::isReading)
+            values.emplace_back();
+        pass(archive, values[n]);
+    }
+}
+
+template <class A, class K, class V> void pass(A &archive, std::map<K, V> &values) {
+    const std::uint64_t size = archive.count(values.size());
+    if constexpr (A::isReading) {
+        for (std::uint64_t n = 0; n < size; ++n) {
+            K key;
+            pass(archive, key);
+            pass(archive, values[key]);
+        }
+    } else {
+        for (auto &[key, value] : values) {
+            K copy = key;
+            pass(archive, copy);
+            pass(archive, value);
+        }
+    }
+}
+
+template <class T> std::string packed(const T &value) {
+    Writer writer;
+    T copy = value; // the reader's fields are written to
+    pass(writer, copy);
+    return std::move(writer.bytes);
+}
+
+template <class T> T unpacked(std::span<const std::byte> body) {
+    Reader reader(body);
+    T value;
+    pass(reader, value);
+    reader.end();
+    return value;
+}
+
+} // namespace
+
+std::string pack(const InstanceHeader &header) {
+    return packed(header);
+}
+
+InstanceHeader unpackHeader(std::span<const std::byte> body) {
+    auto header = unpacked<InstanceHeader>(body);
+    // What everybody relies on.
+    if (header.frames.empty())
+        fail();
+    return header;
+}
+
+std::string pack(const DirectoryFile &directory) {
+    return packed(directory);
+}
+
+DirectoryFile unpackDirectory(std::span<const std::byte> body) {
+    return unpacked<DirectoryFile>(body);
+}
+
+std::string pack(const std::vector<ArchiveFile> &files) {
+    return packed(files);
+}
+
+std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body) {
+    return unpacked<std::vector<ArchiveFile>>(body);
+}
+
+std::string unpackReason(std::span<const std::byte> body) {
+    std::string reason(reinterpret_cast<const char *>(body.data()),
+                       std::min(body.size(), longestReason));
+    std::replace_if(
+        reason.begin(), reason.end(), [](char c) { return (unsigned char)(c) < 0x20; }, ' ');
+    return reason;
+}
+
+} // namespace pellucid::decoder

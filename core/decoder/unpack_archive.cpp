@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decoder/unpack_archive.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/decoder/decoder.h"
+#include "core/task/error.h"
+
+namespace pellucid::decoder {
+
+namespace {
+
+namespace fs = std::filesystem;
+using task::Error;
+using task::ErrorCode;
+
+constexpr std::size_t longestName = 255; // of what usual file systems take
+
+std::string sizeText(std::uintmax_t bytes) {
+    return fmt::format("{:.1f} GB", double(bytes) / 1e9);
+}
+
+// Below the folder whatever the archive says: no root, no way up, no name too long to write.
+fs::path inside(const fs::path &folder, const std::string &name, std::size_t number) {
+    fs::path below;
+    for (const fs::path &part : fs::path(name).relative_path()) {
+        const std::string text = part.string();
+        if (text.empty() || text == "." || text == ".." || text.find('\0') != std::string::npos)
+            continue;
+        below /= text.size() <= longestName ? text : text.substr(text.size() - longestName);
+    }
+    return folder / (below.empty() ? fs::path(std::to_string(number)) : below);
+}
+
+// Two names may differ in what was taken from them.
+fs::path freePlace(const fs::path &folder, const std::string &name, std::size_t number) {
+    fs::path to = inside(folder, name, number);
+    std::error_code failed;
+    fs::create_directories(to.parent_path(), failed); // a file may have the folder's name
+    for (std::size_t n = number; failed || fs::exists(to); ++n) {
+        to = folder / ("_" + std::to_string(n)) / to.filename();
+        failed.clear();
+        fs::create_directories(to.parent_path(), failed);
+    }
+    return to;
+}
+
+[[noreturn]] void failWriting(const fs::path &to) {
+    throw Error(ErrorCode::output, errno != 0 ? std::strerror(errno) : "cannot be written", to);
+}
+
+} // namespace
+
+bool isArchive(const fs::path &path) {
+    std::array<char, 4> start{};
+    std::ifstream in(path, std::ios::binary);
+    in.read(start.data(), start.size());
+    return in.gcount() == 4 && std::memcmp(start.data(), "PK\3\4", 4) == 0;
+}
+
+void unpackArchive(Decoder &decoder, const fs::path &path, const fs::path &folder,
+                   const task::Progress &progress, const UnpackLimits &limits) {
+    std::error_code unknown;
+    const fs::space_info space = fs::space(folder, unknown);
+    const std::uintmax_t most =
+        unknown ? limits.bytes : std::min(limits.bytes, space.available / 2);
+    std::uintmax_t announced = 0, written = 0;
+    std::size_t files = 0, number = 0;
+    fs::path to;
+    std::ofstream out;
+    decoder.archive(
+        path,
+        [&](const ArchiveFile &file) {
+            if (file.isEncrypted)
+                throw Error(ErrorCode::unusable, "is encrypted", path);
+            // Sizes are up to 2^63: no sum may wrap before it is looked at.
+            if (file.bytes > most || announced + file.bytes > most)
+                throw Error(
+                    ErrorCode::unusable,
+                    fmt::format("unpacks to more than the {} there is room for", sizeText(most)),
+                    path);
+            announced += file.bytes;
+            if (++files > limits.files)
+                throw Error(ErrorCode::unusable,
+                            fmt::format("holds more than {} files", limits.files), path);
+        },
+        [&](const ArchivePart &part) {
+            errno = 0;
+            if (part.isFirst) {
+                if (++number > files)
+                    throw Error(ErrorCode::unusable, "holds more files than it announces", path);
+                to = freePlace(folder, part.file.name, number);
+                out.close();
+                out.clear();
+                out.open(to, std::ios::binary);
+                if (!out)
+                    failWriting(to);
+            }
+            written += part.data.size();
+            if (written > most)
+                throw Error(ErrorCode::unusable, "unpacks to more than it announces", path);
+            out.write(reinterpret_cast<const char *>(part.data.data()),
+                      std::streamsize(part.data.size()));
+            if (part.isLast)
+                out.close();
+            if (!out)
+                failWriting(to);
+            progress.report(announced > 0 ? std::min(1.0, double(written) / double(announced))
+                                          : 1.0);
+        },
+        progress);
+}
+
+} // namespace pellucid::decoder

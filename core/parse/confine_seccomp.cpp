@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parse/serve.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <seccomp.h>
+
+#include "core/decoder/message.h"
+#include "core/task/memory.h"
+
+namespace pellucid::parse {
+
+namespace {
+
+bool limit(int what, std::uint64_t most) {
+    const rlimit both{most, most};
+    return ::setrlimit(__rlimit_resource_t(what), &both) == 0;
+}
+
+bool limitResources() {
+    bool holds = limit(RLIMIT_CORE, 0) && limit(RLIMIT_FSIZE, 0) && limit(RLIMIT_NPROC, 0) &&
+                 limit(RLIMIT_MEMLOCK, 0);
+#ifndef PELLUCID_SANITIZED // which reserve terabytes
+    // What is its own: neither files nor the arena, which its parent fills, count.
+    holds = limit(RLIMIT_DATA, task::availableMemoryBytes()) && holds;
+    ::prctl(PR_SET_DUMPABLE, 0); // no debugger but root's
+#endif
+    return holds;
+}
+
+// What is not named fails with EPERM: a library that tries to read a table goes on without it.
+bool filterCalls() {
+    const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
+    if (filter == nullptr)
+        return false;
+    int failed = 0;
+    for (const int call :
+         {SCMP_SYS(read),          SCMP_SYS(write),        SCMP_SYS(sendmsg),
+          SCMP_SYS(recvmsg),       SCMP_SYS(close),        SCMP_SYS(munmap),
+          SCMP_SYS(mremap),        SCMP_SYS(madvise),      SCMP_SYS(brk),
+          SCMP_SYS(futex),         SCMP_SYS(rt_sigreturn), SCMP_SYS(rt_sigprocmask),
+          SCMP_SYS(rt_sigaction),  SCMP_SYS(sigaltstack),  SCMP_SYS(getpid),
+          SCMP_SYS(gettid),        SCMP_SYS(exit),         SCMP_SYS(exit_group),
+          SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday), SCMP_SYS(time),
+          SCMP_SYS(getrandom),     SCMP_SYS(alarm),        SCMP_SYS(setitimer),
+          SCMP_SYS(sched_yield),   SCMP_SYS(getrlimit),    SCMP_SYS(restart_syscall)})
+        failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
+    // Memory, but none that could be run.
+    for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mprotect)})
+        failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 1,
+                                     SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
+    // abort()
+    failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
+                                 SCMP_A0(SCMP_CMP_EQ, scmp_datum_t(::getpid())));
+    // No decoder ever tries these: somebody else does.
+    for (const int call : {SCMP_SYS(execve),
+                           SCMP_SYS(execveat),
+                           SCMP_SYS(fork),
+                           SCMP_SYS(vfork),
+                           SCMP_SYS(clone),
+                           SCMP_SYS(clone3),
+                           SCMP_SYS(ptrace),
+                           SCMP_SYS(process_vm_readv),
+                           SCMP_SYS(process_vm_writev),
+                           SCMP_SYS(socket),
+                           SCMP_SYS(socketpair),
+                           SCMP_SYS(connect),
+                           SCMP_SYS(bind),
+                           SCMP_SYS(listen),
+                           SCMP_SYS(accept),
+                           SCMP_SYS(accept4),
+                           SCMP_SYS(bpf),
+                           SCMP_SYS(keyctl),
+                           SCMP_SYS(io_uring_setup),
+                           SCMP_SYS(open_by_handle_at),
+                           SCMP_SYS(userfaultfd),
+                           SCMP_SYS(perf_event_open),
+                           SCMP_SYS(unshare),
+                           SCMP_SYS(setns),
+                           SCMP_SYS(mount)})
+        failed |= ::seccomp_rule_add(filter, SCMP_ACT_KILL_PROCESS, call, 0);
+    failed |= ::seccomp_load(filter); // forbids new privileges, too
+    ::seccomp_release(filter);
+    return failed == 0;
+}
+
+} // namespace
+
+int confine() {
+    const bool holds = limitResources();
+    const bool isFiltered = filterCalls();
+    return (holds ? decoder::limitsHold : 0) | (isFiltered ? decoder::callsAreFiltered : 0);
+}
+
+} // namespace pellucid::parse

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parse/memory_input.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <sys/resource.h>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dcistrma.h>
+#include <dcmtk/dcmdata/dctk.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::parse {
+
+namespace {
+
+// Half of the stack of this thread, if it is the first one; others have as much by default.
+std::size_t stackToUse() {
+    constexpr std::size_t usual = std::size_t(8) << 20;
+    rlimit limit{};
+    const bool isKnown = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+    return std::min<std::size_t>(usual, isKnown ? limit.rlim_cur : usual) / 2;
+}
+
+std::uintptr_t stackPlace() {
+    return reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+}
+
+class MemoryProducer : public DcmProducer {
+public:
+    MemoryProducer(std::span<const std::byte> file, std::size_t at)
+        : m_file(file), m_at(std::min(at, file.size())) {}
+
+    OFBool good() const override { return OFTrue; }
+    OFCondition status() const override { return EC_Normal; }
+    OFBool eos() override { return m_at == m_file.size(); }
+    offile_off_t avail() override { return offile_off_t(m_file.size() - m_at); }
+    offile_off_t read(void *to, offile_off_t bytes) override {
+        checkStack();
+        const std::size_t count = here(bytes);
+        if (count > 0)
+            std::memcpy(to, m_file.data() + m_at, count);
+        m_at += count;
+        return offile_off_t(count);
+    }
+    offile_off_t skip(offile_off_t bytes) override {
+        const std::size_t count = here(bytes);
+        m_at += count;
+        return offile_off_t(count);
+    }
+    void putback(offile_off_t bytes) override {
+        m_at -= std::min(m_at, std::size_t(std::max<offile_off_t>(0, bytes)));
+    }
+
+private:
+    std::size_t here(offile_off_t bytes) const {
+        return std::min(m_file.size() - m_at, std::size_t(std::max<offile_off_t>(0, bytes)));
+    }
+    void checkStack() const {
+        const std::uintptr_t here = stackPlace();
+        const std::uintptr_t used = here < m_base ? m_base - here : here - m_base;
+        if (used > m_most && used < 4 * m_most) // beyond it is another thread's
+            throw task::Error(task::ErrorCode::unusable, "has sequences nested too deeply");
+    }
+
+    std::span<const std::byte> m_file;
+    std::size_t m_at;
+    std::size_t m_most = stackToUse();
+    std::uintptr_t m_base = stackPlace(); ///< where the reading began
+};
+
+class MemoryInput : public DcmInputStream {
+public:
+    explicit MemoryInput(std::span<const std::byte> file, std::size_t at = 0)
+        : DcmInputStream(&m_producer), m_file(file), m_producer(file, at) {}
+    DcmInputStreamFactory *newFactory() const override;
+
+private:
+    std::span<const std::byte> m_file;
+    MemoryProducer m_producer;
+};
+
+class MemoryFactory : public DcmInputStreamFactory {
+public:
+    MemoryFactory(std::span<const std::byte> file, std::size_t at) : m_file(file), m_at(at) {}
+    DcmInputStream *create() const override { return new MemoryInput(m_file, m_at); }
+    DcmInputStreamFactory *clone() const override { return new MemoryFactory(*this); }
+    // DCMTK asks only whether it is a temporary file, which it would delete.
+    DcmInputStreamFactoryType ident() const override { return DFT_DcmInputFileStreamFactory; }
+
+private:
+    std::span<const std::byte> m_file;
+    std::size_t m_at;
+};
+
+DcmInputStreamFactory *MemoryInput::newFactory() const {
+    // A place in a deflated stream is none in the file.
+    return currentProducer() == &m_producer ? new MemoryFactory(m_file, std::size_t(tell()))
+                                            : nullptr;
+}
+
+} // namespace
+
+std::unique_ptr<DcmInputStream> memoryInput(std::span<const std::byte> file) {
+    return std::make_unique<MemoryInput>(file);
+}
+
+} // namespace pellucid::parse

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parse/serve.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <iconv.h>
+#include <new>
+#include <unistd.h>
+
+#include "core/decoder/channel.h"
+#include "core/decoder/child.h"
+#include "core/parse/dictionary.h"
+#include "core/parse/parse.h"
+#include "core/task/error.h"
+
+namespace pellucid::parse {
+
+namespace {
+
+using decoder::Descriptor;
+using decoder::Mapping;
+using decoder::Message;
+using task::Error;
+using task::ErrorCode;
+
+constexpr std::size_t announcedAtOnce = 500;
+
+// The other side went away, or says so: there is nobody to work for.
+struct Gone {};
+
+class Server {
+public:
+    Server(int socket, int arena) : m_socket(socket), m_arena(arena) {}
+
+    // False when the other side has gone.
+    bool serveNext() {
+        const auto request = decoder::receive(m_socket);
+        if (!request)
+            return false;
+        // A file that takes longer than anybody waits ends this process.
+        m_seconds = unsigned(std::ceil(decoder::decodingSeconds(request->message.size)));
+        ::alarm(m_seconds);
+        try {
+            answer(*request);
+        } catch (const Error &error) {
+            finish(int(error.code()), error.reason(), {});
+        } catch (const std::bad_alloc &) {
+            finish(int(ErrorCode::outOfMemory), "needs more memory than there is", {});
+        } catch (const std::exception &error) {
+            finish(int(ErrorCode::unusable), error.what(), {});
+        }
+        ::alarm(0);
+        return true;
+    }
+
+private:
+    void answer(const decoder::Received &request) {
+        const Mapping file(request.descriptor.get(), request.message.size, Mapping::Access::read);
+        switch (request.message.kind) {
+        case Message::Kind::header:
+            finish(0, decoder::pack(parseHeader(file.bytes())), {});
+            break;
+        case Message::Kind::image: {
+            const DecodedImage image = decodeImage(file.bytes());
+            finish(0, decoder::pack(image.header), std::as_bytes(std::span(image.samples)));
+            break;
+        }
+        case Message::Kind::directory:
+            finish(0, decoder::pack(parseDirectory(file.bytes())), {});
+            break;
+        case Message::Kind::archive:
+            answerArchive(file.bytes());
+            break;
+        default:
+            throw Error(ErrorCode::usage, "is asked for in a way that the decoder does not know");
+        }
+    }
+
+    void answerArchive(std::span<const std::byte> archive) {
+        std::vector<ArchiveFile> announced;
+        const auto announce = [&] {
+            part(decoder::announcement, decoder::pack(announced), {});
+            announced.clear();
+        };
+        listArchive(archive, [&](const ArchiveFile &file) {
+            announced.push_back(file);
+            if (announced.size() == announcedAtOnce)
+                announce();
+        });
+        announce();
+        readArchive(archive, [&](const ArchiveFile &file, std::span<const std::byte> data,
+                                 bool isFirst, bool isLast) {
+            part((isFirst ? decoder::firstPart : 0) | (isLast ? decoder::lastPart : 0),
+                 decoder::pack(std::vector<ArchiveFile>{file}), data);
+        });
+        finish(0, {}, {});
+    }
+
+    // Whoever is asked may take as long as it likes.
+    Message ask(const Message &message) {
+        ::alarm(0);
+        if (!decoder::send(m_socket, message))
+            throw Gone();
+        const auto reply = decoder::receive(m_socket);
+        if (!reply)
+            throw Gone();
+        ::alarm(m_seconds);
+        return reply->message;
+    }
+
+    void put(const std::string &body, std::span<const std::byte> data) {
+        const std::uint64_t at = decoder::dataOffset(body.size()), needed = at + data.size();
+        if (needed > m_arenaBytes) {
+            const Message reply = ask({Message::Kind::need, 0, needed, 0});
+            if (reply.kind != Message::Kind::granted || reply.size < needed)
+                throw Error(ErrorCode::outOfMemory, "needs more memory than there is");
+            m_arenaBytes = reply.size;
+        }
+        if (m_mapped.size() < m_arenaBytes)
+            m_mapped = Mapping(m_arena, m_arenaBytes, Mapping::Access::write);
+        std::memcpy(m_mapped.data(), body.data(), body.size());
+        if (!data.empty())
+            std::memcpy(m_mapped.data() + at, data.data(), data.size());
+    }
+
+    void part(int flags, const std::string &body, std::span<const std::byte> data) {
+        put(body, data);
+        if (ask({Message::Kind::part, flags, body.size(), data.size()}).kind != Message::Kind::next)
+            throw Gone();
+    }
+
+    void finish(int code, const std::string &body, std::span<const std::byte> data) {
+        put(body, data);
+        if (!decoder::send(m_socket, {Message::Kind::done, code, body.size(), data.size()}))
+            throw Gone();
+    }
+
+    int m_socket, m_arena;
+    Mapping m_mapped;
+    std::uint64_t m_arenaBytes = 1; // not known before the first answer; it asks
+    unsigned m_seconds = 0;
+};
+
+// The character sets of DICOM (PS3.3, C.12.1.1.2) as glibc names them: their tables are libraries,
+// which stay loaded as long as a converter is open.
+constexpr std::array characterSets{
+    "ISO-IR-6",      "ISO-8859-1",  "ISO-8859-2",  "ISO-8859-3", "ISO-8859-4",    "ISO-8859-5",
+    "ISO-8859-6",    "ISO-8859-7",  "ISO-8859-8",  "ISO-8859-9", "ISO-8859-15",   "TIS-620",
+    "JIS_X0201",     "ISO-IR-87",   "ISO-IR-159",  "ISO-IR-149", "ISO-2022-JP",   "ISO-2022-JP-1",
+    "ISO-2022-JP-2", "ISO-2022-KR", "ISO-2022-CN", "EUC-KR",     "EUC-JP",        "GB18030",
+    "GBK",           "GB2312",      "UTF-8",       "ASCII",      "ANSI_X3.4-1968"};
+
+} // namespace
+
+void prepareToServe() {
+    prepareDcmtk();
+    for (const char *const set : characterSets)
+        (void)::iconv_open("UTF-8", set); // kept open on purpose; unknown ones are not used
+}
+
+int serve(int socket, int arena, int confinement) {
+    if (!decoder::send(socket, {Message::Kind::ready, confinement, 0, 0}))
+        return 1;
+    try {
+        for (Server server(socket, arena); server.serveNext();) {
+        }
+    } catch (const Gone &) {
+    }
+    return 0;
+}
+
+} // namespace pellucid::parse

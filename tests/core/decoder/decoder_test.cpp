@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The process that decodes: what it may not do, and what is left of a file that has taken it over.
+#include "core/decoder/decoder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include "core/decoder/channel.h"
+#include "core/dicom/load_volume.h"
+#include "core/dicom/scan.h"
+#include "core/dicom/write_series.h"
+#include "core/parse/parse.h"
+#include "core/phantom/phantom.h"
+#include "core/task/error.h"
+#include "tests/support/files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid::decoder {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using testing::HasSubstr;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class TakenOver : public testing::Test {
+protected:
+    fs::path file(const std::string &word) const {
+        test::writeText(m_folder / word, std::string(128, '\0') + "DICM" + word);
+        return m_folder / word;
+    }
+    std::string said(const std::string &word) {
+        try {
+            m_decoder.header(file(word));
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.path(), m_folder / word);
+            return error.reason();
+        }
+        return "a header";
+    }
+
+    test::TemporaryFolder m_folder;
+    Decoder m_decoder{PELLUCID_MISBEHAVING_DECODER};
+};
+
+} // namespace
+
+TEST(Decoder, isConfinedHere) {
+    EXPECT_EQ(Decoder::ofProgram().confinement(), limitsHold | callsAreFiltered);
+}
+
+TEST(Decoder, aMissingProgramIsNamed) {
+    const test::TemporaryFolder folder;
+    test::writeText(folder / "a.dcm", std::string(128, '\0') + "DICM");
+    Decoder none(folder / "pellucid-decode");
+    try {
+        none.header(folder / "a.dcm");
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::internal);
+        EXPECT_THAT(error.what(), HasSubstr("cannot be started"));
+    }
+}
+
+TEST(Decoder, whatIsNoRegularFileIsNotWaitedFor) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(std::system(("mkfifo " + (folder / "pipe").string()).c_str()), 0);
+    for (const fs::path &path : {folder / "pipe", fs::path("/dev/zero"), folder.path()})
+        EXPECT_THROW(Decoder::ofProgram().header(path), task::Error) << path;
+}
+
+TEST_F(TakenOver, itReachesNothing) {
+    for (const char *const word :
+         {"open-file", "new-file", "unlink", "write-arena-size", "code", "kill-parent"})
+        EXPECT_EQ(said(word), "Operation not permitted") << word;
+    // What no decoder ever tries ends it.
+    for (const char *const word : {"socket", "process", "program"})
+        EXPECT_THAT(said(word), HasSubstr("what no image needs")) << word;
+    EXPECT_FALSE(fs::exists("pwned"));
+}
+
+TEST_F(TakenOver, itsEndCostsOneFile) {
+    EXPECT_THAT(said("crash"), HasSubstr("the decoder crashed"));
+    EXPECT_THAT(said("silence"), HasSubstr("the decoder crashed"));
+    EXPECT_THAT(said("killed"), HasSubstr("more memory than there is"));
+    EXPECT_EQ(said("well"), "decoded by hand");
+    EXPECT_EQ(said("well"), "decoded by hand");
+}
+
+TEST_F(TakenOver, nothingItSaysIsBelieved) {
+    for (const char *const word :
+         {"large-body", "large-data", "other-kind", "short-message", "empty-header"})
+        EXPECT_EQ(said(word), "was decoded to nonsense") << word;
+    EXPECT_EQ(said("ask-for-all"), "refused");
+    EXPECT_EQ(said("well"), "decoded by hand");
+}
+
+#ifndef PELLUCID_SANITIZED
+TEST_F(TakenOver, itsMemoryEnds) {
+    const std::string had = said("memory");
+    ASSERT_THAT(had, HasSubstr("had "));
+    EXPECT_LT(std::atoi(had.c_str() + 4), 1000);
+}
+#endif
+
+TEST_F(TakenOver, cancellingDoesNotWaitForIt) {
+    const fs::path hanging = file("hang");
+    std::stop_source stop;
+    std::jthread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        stop.request_stop();
+    });
+    const auto start = Clock::now();
+    EXPECT_THROW(m_decoder.header(hanging, task::Progress(stop.get_token())), task::Cancelled);
+    EXPECT_LT(secondsSince(start), 2.0); // 20 seconds are allowed to decode
+    EXPECT_EQ(said("well"), "decoded by hand");
+}
+
+// The slice that takes the decoder over is named, the others are a volume.
+TEST_F(TakenOver, aSeriesLosesOneSlice) {
+    const auto lattice =
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 20}});
+    dicom::writeCtSeries(m_folder / "series", phantom::makePhantom(phantom::Kind::head, lattice),
+                         {}, dicom::TransferSyntax::explicitLittle);
+    // Sequences in sequences until the stack would end.
+    std::string nested = test::readText(m_folder / "series/IM0007.dcm").substr(0, 132);
+    nested += std::string("\x02\0\x10\0UI\x14\0"
+                          "1.2.840.10008.1.2.1\0",
+                          28);
+    for (int n = 0; n < 200000; ++n)
+        nested +=
+            std::string("\x08\0\x40\x11SQ\0\0\xFF\xFF\xFF\xFF\xFE\xFF\0\xE0\xFF\xFF\xFF\xFF", 20);
+    test::writeText(m_folder / "series/deep.dcm", nested);
+    const auto catalogue = dicom::scan({m_folder / "series"});
+    ASSERT_EQ(catalogue.skipped.size(), 1U);
+    EXPECT_EQ(catalogue.skipped[0].path, m_folder / "series/deep.dcm");
+    EXPECT_THAT(catalogue.skipped[0].reason, HasSubstr("nested too deeply"));
+    EXPECT_EQ(dicom::defaultSelection(catalogue).volume->geometry.lattice.size().k, 20);
+}
+
+// What is decoded in another process is what is decoded in this one.
+TEST(Decoder, givesTheSameSamples) {
+    const test::TemporaryFolder folder;
+    const auto lattice =
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 64, 3}});
+    const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
+    for (const auto syntax : {dicom::TransferSyntax::explicitLittle,
+                              dicom::TransferSyntax::jpeg2000, dicom::TransferSyntax::rle}) {
+        dicom::writeCtSeries(folder.path(), volume, {}, syntax);
+        const fs::path path = folder / "IM0002.dcm";
+        const DecodedImage here = parse::decodeImage(test::readBytes(path));
+        const DecodedFile there = Decoder::ofProgram().image(path);
+        EXPECT_TRUE(std::equal(here.samples.begin(), here.samples.end(), there.samples.begin(),
+                               there.samples.end()));
+        EXPECT_EQ(pack(here.header), pack(there.header));
+    }
+}
+
+// What the other process costs of a series' load; cold decoders included. The figures are printed,
+// the bound leaves room for a busy machine.
+TEST(Decoder, costsLittleOfALoad) {
+    const test::TemporaryFolder folder;
+    const int slices = std::getenv("PELLUCID_LONG_TESTS") != nullptr ? 300 : 40;
+    const auto lattice =
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{512, 512, slices}});
+    const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
+    for (const auto syntax :
+         {dicom::TransferSyntax::explicitLittle, dicom::TransferSyntax::jpegLs}) {
+        dicom::writeCtSeries(folder.path(), volume, {}, syntax);
+        std::vector<fs::path> files;
+        for (const auto &entry : fs::directory_iterator(folder.path()))
+            files.push_back(entry.path());
+        const auto seconds = [&](const auto &work) {
+            const auto start = Clock::now();
+            tbb::parallel_for(std::size_t(0), files.size(), [&](std::size_t n) { work(files[n]); });
+            return secondsSince(start);
+        };
+        std::vector<double> here, there, whole;
+        for (int round = 0; round < 5; ++round) {
+            here.push_back(seconds([](const fs::path &path) {
+                const auto bytes = test::readBytes(path);
+                parse::parseHeader(bytes);
+                parse::decodeImage(bytes);
+            }));
+            Decoder cold(PELLUCID_DECODE);
+            there.push_back(seconds([&](const fs::path &path) {
+                cold.header(path);
+                cold.image(path);
+            }));
+            const auto start = Clock::now();
+            const auto catalogue = dicom::scan({folder.path()});
+            dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
+            whole.push_back(secondsSince(start));
+        }
+        const auto median = [](std::vector<double> v) {
+            std::nth_element(v.begin(), v.begin() + 2, v.end());
+            return v[2];
+        };
+        const double more = median(there) - median(here);
+        std::cout << slices << " slices: here " << 1e3 * median(here) << " ms, confined "
+                  << 1e3 * median(there) << " ms, whole load " << 1e3 * median(whole)
+                  << " ms; isolation is " << 100.0 * more / (median(whole) - more)
+                  << " % of a load without it\n";
+        EXPECT_LT(more, 0.5 * median(whole));
+    }
+}
+
+} // namespace pellucid::decoder

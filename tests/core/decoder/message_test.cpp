@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decoder/message.h"
+
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::decoder {
+
+namespace {
+
+InstanceHeader someHeader() {
+    InstanceHeader h;
+    h.patientName = "Zhang^Wei=\xE5\xBC\xA0";
+    h.seriesUid = "1.2.3";
+    h.rows = 512;
+    h.columns = 7;
+    h.isSigned = true;
+    h.paddingValue = -2000;
+    h.windows = {{40.0, 400.0, "soft"}, {-600.0, 1500.0, ""}};
+    h.modalityTable = {1, 2, 65535};
+    FrameHeader frame;
+    frame.positionMm = glm::dvec3(1.5, -2.0, 1e-3);
+    frame.spacingMm = glm::dvec2(0.5, 0.25);
+    frame.rescale = {2.0, -1024.0};
+    frame.dimensions = {{"echo", "1"}, {"b-value", "800"}};
+    h.frames = {frame, FrameHeader()};
+    return h;
+}
+
+std::span<const std::byte> bytesOf(const std::string &body) {
+    return std::as_bytes(std::span(body));
+}
+
+} // namespace
+
+TEST(Message, headersComeThrough) {
+    const InstanceHeader sent = someHeader(), got = unpackHeader(bytesOf(pack(sent)));
+    EXPECT_EQ(got.patientName, sent.patientName);
+    EXPECT_EQ(got.seriesUid, sent.seriesUid);
+    EXPECT_EQ(got.columns, 7);
+    EXPECT_TRUE(got.isSigned);
+    EXPECT_FALSE(got.lossy);
+    EXPECT_EQ(got.paddingValue, sent.paddingValue);
+    EXPECT_FALSE(got.paddingLimit);
+    ASSERT_EQ(got.windows.size(), 2U);
+    EXPECT_EQ(got.windows[1].center, -600.0);
+    EXPECT_EQ(got.modalityTable, sent.modalityTable);
+    ASSERT_EQ(got.frames.size(), 2U);
+    EXPECT_EQ(got.frames[0].positionMm, sent.frames[0].positionMm);
+    EXPECT_EQ(got.frames[0].spacingMm, sent.frames[0].spacingMm);
+    EXPECT_EQ(got.frames[0].rescale, sent.frames[0].rescale);
+    EXPECT_EQ(got.frames[0].dimensions, sent.frames[0].dimensions);
+    EXPECT_FALSE(got.frames[1].positionMm);
+}
+
+// Whatever a decoder sends that a file has taken over: a header or a refusal, in little memory.
+TEST(Message, nonsenseIsRefused) {
+    const std::string good = pack(someHeader());
+    for (std::size_t size = 0; size < good.size(); ++size)
+        EXPECT_THROW(unpackHeader(bytesOf(good).first(size)), task::Error) << size;
+    EXPECT_THROW(unpackHeader(bytesOf(good + "x")), task::Error);
+    std::mt19937 random(7);
+    for (int round = 0; round < 20000; ++round) {
+        std::string bad = good;
+        for (int n = 0; n < 3; ++n)
+            bad[random() % bad.size()] = char(random() % 4 == 0 ? 0xFF : random());
+        try {
+            for (const FrameHeader &frame : unpackHeader(bytesOf(bad)).frames)
+                if (frame.positionMm) {
+                    EXPECT_TRUE(std::isfinite(frame.positionMm->x));
+                }
+        } catch (const task::Error &) {
+        }
+    }
+    InstanceHeader endless = someHeader();
+    endless.frames[0].rescale.slope = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(unpackHeader(bytesOf(pack(endless))), task::Error);
+    InstanceHeader without = someHeader();
+    without.frames.clear();
+    EXPECT_THROW(unpackHeader(bytesOf(pack(without))), task::Error);
+}
+
+TEST(Message, reasonsAreOneLine) {
+    EXPECT_EQ(unpackReason(bytesOf("broken\n\x1B[2Jhere")), "broken  [2Jhere");
+    EXPECT_LE(unpackReason(bytesOf(std::string(100000, 'x'))).size(), 400U);
+}
+
+} // namespace pellucid::decoder

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A decoder that a file has taken over: it is confined as the real one is, and does what the word
+// behind the file's preamble says.
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <string>
+#include <string_view>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <vector>
+
+#include "core/decoder/channel.h"
+#include "core/parse/serve.h"
+
+namespace {
+
+using namespace pellucid;
+using decoder::Mapping;
+using decoder::Message;
+
+constexpr std::size_t mib = std::size_t(1) << 20;
+
+void finish(const std::string &reason) {
+    const Mapping arena(decoder::arenaDescriptor, mib, Mapping::Access::write);
+    std::memcpy(arena.data(), reason.data(), reason.size());
+    decoder::send(decoder::socketDescriptor, {Message::Kind::done, 3, reason.size(), 0});
+}
+
+std::string outcome(long result) {
+    return result >= 0 ? "went through" : std::strerror(errno);
+}
+
+void act(std::string_view word) {
+    if (word == "crash")
+        ::raise(SIGSEGV);
+    else if (word == "killed")
+        ::raise(SIGKILL);
+    else if (word == "hang")
+        for (;;)
+            ::alarm(0);
+    else if (word == "silence")
+        ::_exit(0);
+    else if (word == "open-file")
+        finish(outcome(::open("/etc/passwd", O_RDONLY)));
+    else if (word == "new-file")
+        finish(outcome(::open("pwned", O_WRONLY | O_CREAT, 0600)));
+    else if (word == "unlink")
+        finish(outcome(::unlink("/tmp/anything")));
+    else if (word == "write-arena-size")
+        finish(outcome(::ftruncate(decoder::arenaDescriptor, 16)));
+    else if (word == "socket")
+        finish(outcome(::socket(AF_INET, SOCK_STREAM, 0)));
+    else if (word == "process")
+        finish(outcome(::fork()));
+    else if (word == "program")
+        finish(outcome(::execl("/bin/true", "true", nullptr)));
+    else if (word == "code")
+        finish(::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) ==
+                       MAP_FAILED
+                   ? std::strerror(errno)
+                   : "went through");
+    else if (word == "kill-parent")
+        finish(outcome(::kill(::getppid(), SIGTERM)));
+    else if (word == "memory") {
+        std::vector<char *> taken;
+        for (;;) {
+            auto *const more = static_cast<char *>(std::malloc(256 * mib));
+            if (more == nullptr)
+                break;
+            taken.push_back(more);
+        }
+        finish("had " + std::to_string(taken.size() / 4) + " GB");
+    } else if (word == "ask-for-all")
+        decoder::send(decoder::socketDescriptor,
+                      {Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
+    else if (word == "large-body")
+        decoder::send(decoder::socketDescriptor,
+                      {Message::Kind::done, 0, std::uint64_t(1) << 60, 8});
+    else if (word == "large-data")
+        decoder::send(decoder::socketDescriptor,
+                      {Message::Kind::done, 0, 8, ~std::uint64_t(0) - 8});
+    else if (word == "other-kind")
+        decoder::send(decoder::socketDescriptor, {Message::Kind(7777), 0, 0, 0});
+    else if (word == "short-message")
+        (void)!::write(decoder::socketDescriptor, "x", 1);
+    else if (word == "empty-header")
+        decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});
+    else
+        finish("decoded by hand");
+}
+
+} // namespace
+
+int main() {
+    const int confinement = parse::confine();
+    decoder::send(decoder::socketDescriptor, {Message::Kind::ready, confinement, 0, 0});
+    while (const auto request = decoder::receive(decoder::socketDescriptor)) {
+        if (!request->descriptor) { // an answer to what it asked
+            finish(request->message.kind == Message::Kind::refused ? "refused" : "granted");
+            continue;
+        }
+        const Mapping file(request->descriptor.get(), request->message.size, Mapping::Access::read);
+        const std::string_view text(reinterpret_cast<const char *>(file.data()), file.size());
+        act(text.substr(std::min<std::size_t>(132, text.size())));
+    }
+    return 0;
+}
