@@ -20,6 +20,7 @@
 #include "core/decoder/decoder.h"
 #include "core/dicom/group_series.h"
 #include "core/task/error.h"
+#include "core/task/memory.h"
 #include "core/volume/nrrd.h"
 
 namespace pellucid::dicom {
@@ -206,6 +207,8 @@ private:
     // Nothing if a value does not fit T.
     template <class T> std::optional<LoadedVolume> loadAs() {
         const std::size_t plane = std::size_t(m_columns()) * m_rows();
+        // A preview, or the resampled stack, is there as well.
+        task::requireMemory(2.0 * sizeof(T) * double(plane) * double(m_entry.frames.size()));
         std::vector<T> samples(plane * m_entry.frames.size(), Missing<T>::value);
         // Set when a slice is complete, so that a preview copies no half-written one.
         std::vector<std::atomic<bool>> arrived(m_entry.frames.size());

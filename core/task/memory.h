@@ -8,4 +8,8 @@ namespace pellucid::task {
 /// Memory that can be had without pushing other programs out; the largest size if it is not known.
 std::size_t availableMemoryBytes();
 
+/// Asked before memory is: systems that overcommit give what they do not have, and kill later.
+/// *Throws* Error{outOfMemory} if `bytes` are not available.
+void requireMemory(double bytes);
+
 } // namespace pellucid::task

@@ -16,6 +16,7 @@
 #include <zlib.h>
 
 #include "core/task/error.h"
+#include "core/task/memory.h"
 #include "core/volume/nrrd.h"
 
 namespace pellucid::volume {
@@ -49,30 +50,53 @@ std::string lower(std::string text) {
 }
 
 Header readHeader(const fs::path &path) {
+    std::error_code unknown;
+    // A pipe would be waited for.
+    if (!fs::is_regular_file(path, unknown))
+        throw Error(ErrorCode::unusable, unknown ? unknown.message() : "is not a regular file",
+                    path);
     std::ifstream in(path, std::ios::binary);
     if (!in)
         throw Error(ErrorCode::unusable, "cannot be read", path);
+    // One that has no line end is not read to its own.
+    std::string text(maxHeaderBytes, '\0');
+    in.read(text.data(), std::streamsize(text.size()));
+    text.resize(std::size_t(in.gcount()));
+    const bool isWhole = in.eof();
     Header header;
+    std::istringstream lines(text);
     std::string line;
-    if (!std::getline(in, line) || line.rfind("NRRD000", 0) != 0)
+    if (!std::getline(lines, line) || line.rfind("NRRD000", 0) != 0)
         throw Error(ErrorCode::unusable, "is not a NRRD file", path);
-    std::size_t bytes = line.size();
-    while (std::getline(in, line)) {
-        bytes += line.size() + 1;
-        if (bytes > maxHeaderBytes)
-            throw Error(ErrorCode::unusable, "the NRRD header has no end", path);
+    bool hasEnd = false;
+    while (!hasEnd && std::getline(lines, line)) {
         line = trimmed(line);
-        if (line.empty())
-            break;
-        if (line.front() == '#' || line.find(":=") != std::string::npos)
+        hasEnd = line.empty();
+        if (hasEnd || line.front() == '#' || line.find(":=") != std::string::npos)
             continue;
         const auto colon = line.find(':');
         if (colon == std::string::npos)
             throw Error(ErrorCode::unusable, "the NRRD header has a line without a colon", path);
         header.fields[lower(trimmed(line.substr(0, colon)))] = trimmed(line.substr(colon + 1));
     }
-    header.dataOffset = in ? std::uint64_t(in.tellg()) : 0;
+    if (!hasEnd && !isWhole)
+        throw Error(ErrorCode::unusable, "the NRRD header has no end", path);
+    header.dataOffset = lines ? std::uint64_t(lines.tellg()) : 0;
     return header;
+}
+
+// Of a file beside the header or below: one that names others is after something else.
+fs::path detachedData(const fs::path &header, const std::string &name) {
+    const fs::path relative = fs::path(name).lexically_normal();
+    if (name.find('\0') != std::string::npos || relative.is_absolute() || relative.empty() ||
+        *relative.begin() == "..")
+        throw Error(ErrorCode::unusable, "lists a file outside its folder", header);
+    const fs::path data = header.parent_path() / relative;
+    std::error_code unknown;
+    if (!fs::is_regular_file(data, unknown))
+        throw Error(ErrorCode::unusable, unknown ? unknown.message() : "is not a regular file",
+                    data);
+    return data;
 }
 
 class Fields {
@@ -383,7 +407,7 @@ Layout parseLayout(const fs::path &path) {
     layout.dataPath = path;
     layout.offset = header.dataOffset;
     if (const auto detached = fields.find({"data file", "datafile"})) {
-        layout.dataPath = path.parent_path() / *detached;
+        layout.dataPath = detachedData(path, *detached);
         layout.offset = 0;
     } else if (layout.offset == 0) {
         fields.fail("is truncated");
@@ -409,6 +433,8 @@ Volume readNrrd(const fs::path &path, const task::Progress &progress) {
     const Layout layout = parseLayout(path);
     try {
         const std::uint64_t count = layout.lattice.size().count() * scalarBytes(layout.scalar);
+        // The file's bytes and the samples that they become, of 4 bytes at most.
+        task::requireMemory(double(count) + 4.0 * double(layout.lattice.size().count()));
         const auto bytes =
             readBytes(layout.dataPath, layout.offset, count, layout.gzip, progress.part(0, 0.8));
         Volume volume = toVolume(layout.scalar, bytes, layout.swap, layout.lattice, notesFor(path));
@@ -416,6 +442,10 @@ Volume readNrrd(const fs::path &path, const task::Progress &progress) {
         return volume;
     } catch (const std::bad_alloc &) {
         throw Error(ErrorCode::outOfMemory, "not enough memory for the volume", path);
+    } catch (const Error &error) {
+        if (!error.path().empty())
+            throw;
+        throw Error(error.code(), error.reason(), path);
     }
 }
 

@@ -342,7 +342,12 @@ TEST_F(Cli, AFolderOfAnotherUserIsNamed) {
 }
 
 TEST_F(Cli, AFullDiskLeavesNothingBehind) {
-    const fs::path series = phantomFolder("--kind ellipsoids --size 48x48x48");
+    // A volume of its own: a limit on files is one on the arena of the decoder, too.
+    const fs::path series = folder / "volume.nrrd";
+    ASSERT_EQ(cli("volume " + quoted(phantomFolder("--kind ellipsoids --size 48x48x48")) + " -o " +
+                  quoted(series))
+                  .exitCode,
+              0);
     fs::create_directory(folder / "out");
     for (const char *name : {"o.png", "o.npy", "o.nrrd"})
         expectOneLine(cli("render " + quoted(series) + " -o " + quoted(folder / "out" / name),

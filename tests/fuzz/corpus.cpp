@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/fuzz/corpus.h"
+
+#include <archive.h>
+#include <archive_entry.h>
+
+#include "core/decoder/message.h"
+#include "core/dicom/write_capture.h"
+#include "core/dicom/write_series.h"
+#include "core/measure/measurement.h"
+#include "core/parse/parse.h"
+#include "core/phantom/phantom.h"
+#include "core/presets/preset_library.h"
+#include "core/render/scene.h"
+#include "core/volume/nrrd.h"
+#include "tests/support/files.h"
+
+namespace pellucid::fuzz {
+
+namespace {
+
+namespace fs = std::filesystem;
+using test::writeText;
+
+volume::Volume smallVolume() {
+    return phantom::makePhantom(
+        phantom::Kind::head,
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{24, 20, 2}}));
+}
+
+void writeDicom(const fs::path &folder) {
+    using Syntax = dicom::TransferSyntax;
+    for (const Syntax syntax :
+         {Syntax::implicitLittle, Syntax::explicitLittle, Syntax::explicitBig, Syntax::deflated,
+          Syntax::rle, Syntax::jpegLossless, Syntax::jpegLs, Syntax::jpeg2000}) {
+        const fs::path series = folder / "series";
+        dicom::writeCtSeries(series, smallVolume(),
+                             {.patientName = "Fuzz^Jane", .windows = {{40, 400, "soft"}}}, syntax);
+        fs::rename(series / "IM0001.dcm", folder / ("syntax" + std::to_string(int(syntax))));
+        fs::remove_all(series);
+    }
+    const std::vector<std::uint8_t> rgba(16 * 8 * 4, 90);
+    dicom::writeCapture(folder / "capture", rgba, 8, 16, {.patientName = "Fuzz^Jane"});
+}
+
+void append(std::string &out, unsigned group, unsigned element, const char *vr,
+            const std::string &value) {
+    const auto put16 = [&](unsigned v) {
+        out += char(v & 0xFF);
+        out += char(v >> 8 & 0xFF);
+    };
+    put16(group);
+    put16(element);
+    out += vr;
+    const std::string padded = value.size() % 2 == 0 ? value : value + ' ';
+    if (std::string_view(vr) == "SQ") {
+        put16(0);
+        put16(unsigned(padded.size()));
+        put16(0);
+    } else {
+        put16(unsigned(padded.size()));
+    }
+    out += padded;
+}
+
+void writeDirectory(const fs::path &folder) {
+    std::string record, item, sequence, meta, file(128, '\0');
+    append(record, 0x0004, 0x1430, "CS", "IMAGE");
+    append(record, 0x0004, 0x1500, "CS", "DISC\\SERIES\\IM0001");
+    item = std::string("\xFE\xFF\0\xE0", 4) + char(record.size()) + std::string(3, '\0') + record;
+    sequence = item + item;
+    append(meta, 0x0002, 0x0002, "UI", std::string("1.2.840.10008.1.3.10\0", 21));
+    append(meta, 0x0002, 0x0010, "UI", std::string("1.2.840.10008.1.2.1\0", 20));
+    file += "DICM" + meta;
+    append(file, 0x0004, 0x1220, "SQ", sequence);
+    writeText(folder / "dicomdir", file);
+}
+
+void writeArchives(const fs::path &folder) {
+    for (const char *const options : {"zip:store", "zip:compression=deflate"}) {
+        struct archive *writer = archive_write_new();
+        archive_write_set_format_zip(writer);
+        archive_write_set_options(writer, options);
+        const fs::path path = folder / std::to_string(std::string_view(options).size());
+        archive_write_open_filename(writer, path.c_str());
+        for (const char *const name : {"a/b.dcm", "../c"}) {
+            struct archive_entry *entry = archive_entry_new();
+            archive_entry_set_pathname(entry, name);
+            archive_entry_set_filetype(entry, AE_IFREG);
+            archive_entry_set_perm(entry, 0644);
+            const std::string text(300, 'x');
+            archive_entry_set_size(entry, la_int64_t(text.size()));
+            archive_write_header(writer, entry);
+            archive_write_data(writer, text.data(), text.size());
+            archive_entry_free(entry);
+        }
+        archive_write_close(writer);
+        archive_write_free(writer);
+    }
+}
+
+void writeMessages(const fs::path &folder) {
+    const fs::path dicom = folder / "dicom";
+    fs::create_directory(dicom);
+    writeDicom(dicom);
+    writeText(folder / "header",
+              decoder::pack(parse::parseHeader(test::readBytes(dicom / "syntax1"))));
+    fs::remove_all(dicom);
+    writeText(folder / "directory", decoder::pack(decoder::DirectoryFile{true, {{"A", "B"}}}));
+    writeText(folder / "archive",
+              decoder::pack(std::vector<decoder::ArchiveFile>{{"name", 7, false}}));
+}
+
+void writePresets(const fs::path &folder) {
+    const auto library = presets::PresetLibrary::ofUser();
+    for (const auto &entry : library.entries())
+        if (entry.isBuiltIn())
+            writeText(folder / entry.preset.name, presets::toJson(entry.preset));
+}
+
+void writeScenes(const fs::path &folder) {
+    render::Scene scene;
+    writeText(folder / "plain", render::toJson(scene));
+    const auto library = presets::PresetLibrary::ofUser();
+    for (const auto &entry : library.entries()) {
+        if (!entry.isBuiltIn())
+            continue;
+        scene.fieldWindow = entry.preset.window;
+        scene.look =
+            presets::lookFor(entry.preset, entry.preset.window.value_or(classify::FieldWindow()));
+        scene.shading = entry.preset.shading;
+        writeText(folder / entry.preset.name, render::toJson(scene));
+    }
+}
+
+void writeMeasurements(const fs::path &folder) {
+    const mpr::Axes axes = mpr::standardAxes(mpr::Orientation::axial);
+    writeText(
+        folder / "three",
+        measure::toJson({{measure::Kind::distance, "one", {{0, 0, 0}, {1, 2, 3}}, axes},
+                         {measure::Kind::angle, "two", {{0, 0, 0}, {1, 2, 3}, {4, 5, 6}}, axes},
+                         {measure::Kind::ellipse, "", {{-1, 0, 0}, {5, 2, 0}}, axes}}));
+}
+
+void writeSlicer(const fs::path &folder) {
+    writeText(folder / "vp", "1\n1\n0.9\n0.1\n0.2\n10\n8 -3024 0 100 0 1100 1 3071 1\n"
+                             "4 0 1 255 1\n8 -3024 0 0 0 3071 1 1 1\n");
+}
+
+void writeSlicerJson(const fs::path &folder) {
+    writeText(folder / "json", R"({"@schema":"volume-property-schema-v1.0.0.json#",
+"volumeProperties":[{"name":"X","components":[{"rgbTransferFunction":{"points":[
+{"x":-100,"color":[0.1,0.2,0.3]},{"x":900,"color":[1,1,1]}]},
+"scalarOpacity":{"points":[{"x":-100,"y":0},{"x":900,"y":0.9}]}}]}]})");
+}
+
+} // namespace
+
+void writeCorpus(const std::string &target, const fs::path &folder) {
+    if (target == "dicom")
+        writeDicom(folder);
+    else if (target == "directory")
+        writeDirectory(folder);
+    else if (target == "archive")
+        writeArchives(folder);
+    else if (target == "message")
+        writeMessages(folder);
+    else if (target == "nrrd")
+        for (const auto encoding : {volume::NrrdEncoding::raw, volume::NrrdEncoding::gzip})
+            volume::writeNrrd(folder / ("volume" + std::to_string(int(encoding)) + ".nrrd"),
+                              smallVolume(), encoding);
+    else if (target == "preset")
+        writePresets(folder);
+    else if (target == "scene")
+        writeScenes(folder);
+    else if (target == "measurements")
+        writeMeasurements(folder);
+    else if (target == "slicer_preset")
+        writeSlicer(folder);
+    else if (target == "slicer_preset_json")
+        writeSlicerJson(folder);
+    else if (target == "wisdom")
+        writeText(folder / "wisdom",
+                  "(fftw-3.3.10 fftwf_wisdom #x458a31c8 #x92381c4c #x4f974889 #xcd46f97e\n"
+                  "  (fftwf_codelet_n1fv_64_avx2 0 #x11048 #x11048 #x0 #x2f9d9d2d #x0f0f0f0f "
+                  "#x12345678 #x87654321)\n)\n");
+}
+
+} // namespace pellucid::fuzz

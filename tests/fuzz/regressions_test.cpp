@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What fuzzing once broke, and what the corpora hold, at every build; and each cut short or with
+// bits turned, which finds the plainest faults without a fuzzer.
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/fuzz/corpus.h"
+#include "tests/fuzz/targets.h"
+#include "tests/support/files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid::fuzz {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Regressions : public testing::TestWithParam<NamedTarget> {};
+
+} // namespace
+
+TEST_P(Regressions, areTakenOrRefused) {
+    const NamedTarget &target = GetParam();
+    const fs::path found = fs::path(PELLUCID_SOURCE) / "tests/fuzz/regressions" / target.name;
+    if (fs::exists(found))
+        for (const auto &entry : fs::directory_iterator(found)) {
+            SCOPED_TRACE(entry.path());
+            target.run(test::readBytes(entry.path()));
+        }
+    const test::TemporaryFolder folder;
+    writeCorpus(target.name, folder.path());
+    ASSERT_FALSE(fs::is_empty(folder.path()));
+    std::mt19937 random(11);
+    for (const auto &entry : fs::directory_iterator(folder.path())) {
+        const auto seed = test::readBytes(entry.path());
+        target.run(seed);
+        for (int round = 0; round < 60; ++round) {
+            auto bytes = seed;
+            if (round % 3 == 0)
+                bytes.resize(random() % (bytes.size() + 1));
+            for (unsigned n = 0; n < 1 + random() % 4 && !bytes.empty(); ++n)
+                bytes[random() % std::min<std::size_t>(bytes.size(), 4096)] = std::byte(random());
+            target.run(bytes);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fuzz, Regressions, testing::ValuesIn(targets()),
+                         [](const auto &info) { return std::string(info.param.name); });
+
+} // namespace pellucid::fuzz

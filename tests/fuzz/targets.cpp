@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/fuzz/targets.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "core/decoder/message.h"
+#include "core/dicom/group_series.h"
+#include "core/fourier/spectrum.h"
+#include "core/fourier/wisdom.h"
+#include "core/measure/measurement.h"
+#include "core/parse/parse.h"
+#include "core/presets/preset.h"
+#include "core/presets/slicer_preset.h"
+#include "core/render/scene.h"
+#include "core/task/error.h"
+#include "core/volume/nrrd.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pellucid::fuzz {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::span<const std::byte>;
+
+void check(bool holds) {
+    if (!holds)
+        std::abort();
+}
+
+std::string textOf(Bytes bytes) {
+    return {reinterpret_cast<const char *>(bytes.data()), bytes.size()};
+}
+
+// The same file over and over: a new one each time would be most of the time.
+fs::path fileOf(Bytes bytes, const char *name) {
+    static const test::TemporaryFolder folder;
+    const fs::path path = folder / name;
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char *>(bytes.data()), std::streamsize(bytes.size()));
+    return path;
+}
+
+template <class F> void refusing(F &&f) {
+    try {
+        f();
+    } catch (const task::Error &error) {
+        check(!error.reason().empty());
+    }
+}
+
+// From the bytes of a file to a volume's lattice, by way of what decoder and program tell each
+// other.
+void dicom(Bytes bytes) {
+    refusing([&] {
+        const auto header = parse::parseHeader(bytes);
+        const std::string packed = decoder::pack(header);
+        const auto received = decoder::unpackHeader(std::as_bytes(std::span(packed)));
+        check(decoder::pack(received) == packed);
+        if (decoder::whyUnusable(received))
+            return;
+        // A stack of it and of its neighbours.
+        std::vector<dicom::SeriesFile> files;
+        for (int n = 0; n < 3; ++n) {
+            dicom::SeriesFile file{"slice" + std::to_string(n), received};
+            file.header.sopInstanceUid += std::to_string(n);
+            for (auto &frame : file.header.frames)
+                if (frame.positionMm)
+                    *frame.positionMm += glm::dvec3(0.0, 0.0, 2.0 * n);
+            files.push_back(std::move(file));
+        }
+        std::vector<dicom::Skipped> skipped;
+        for (const auto &entry : dicom::groupSeries(files, skipped)) {
+            check(!entry.frames.empty());
+            check(entry.geometry.lattice.size().i == received.columns);
+        }
+    });
+    refusing([&] {
+        const auto image = parse::decodeImage(bytes);
+        check(!decoder::whyUnusable(image.header));
+        check(image.samples.size() == std::size_t(image.header.rows) *
+                                          std::size_t(image.header.columns) *
+                                          image.header.frames.size());
+    });
+}
+
+void directory(Bytes bytes) {
+    refusing([&] { decoder::pack(parse::parseDirectory(bytes)); });
+}
+
+void archive(Bytes bytes) {
+    refusing([&] {
+        parse::listArchive(bytes, [](const parse::ArchiveFile &) {});
+        std::size_t total = 0;
+        parse::readArchive(bytes, [&](const parse::ArchiveFile &, Bytes part, bool, bool) {
+            total += part.size();
+            if (total > (std::size_t(1) << 26)) // the program's own limit is in another place
+                throw task::Error(task::ErrorCode::unusable, "is a bomb");
+        });
+    });
+}
+
+void message(Bytes bytes) {
+    refusing([&] {
+        const auto header = decoder::unpackHeader(bytes);
+        check(!header.frames.empty());
+    });
+    refusing([&] { decoder::unpackDirectory(bytes); });
+    refusing([&] { decoder::unpackArchiveFiles(bytes); });
+    decoder::unpackReason(bytes);
+}
+
+void nrrd(Bytes bytes) {
+    refusing([&] {
+        const auto path = fileOf(bytes, "volume.nrrd");
+        const auto header = volume::readNrrdHeader(path);
+        if (header.lattice.size().count() > (1U << 24))
+            return;
+        const auto volume = volume::readNrrd(path);
+        check(volume.lattice().size().count() == header.lattice.size().count());
+    });
+}
+
+void preset(Bytes bytes) {
+    refusing([&] {
+        const auto preset = presets::presetFromJson(textOf(bytes));
+        // What is taken can be kept and is then the same.
+        const std::string kept = presets::toJson(preset);
+        check(presets::toJson(presets::presetFromJson(kept)) == kept);
+    });
+}
+
+void scene(Bytes bytes) {
+    refusing([&] {
+        const auto scene = render::sceneFromJson(textOf(bytes));
+        const std::string kept = render::toJson(scene);
+        check(render::toJson(render::sceneFromJson(kept)) == kept);
+    });
+}
+
+void measurements(Bytes bytes) {
+    refusing([&] { measure::toJson(measure::measurementsFromJson(textOf(bytes))); });
+}
+
+void slicerPreset(Bytes bytes) {
+    refusing([&] { presets::importSlicerPreset(fileOf(bytes, "property.vp")); });
+}
+
+void slicerPresetJson(Bytes bytes) {
+    refusing([&] { presets::importSlicerPreset(fileOf(bytes, "property.vp.json")); });
+}
+
+// FFTW reads it: a wrong one must leave right transforms.
+void wisdom(Bytes bytes) {
+    refusing([&] { fourier::keepWisdomIn(fileOf(bytes, "wisdom")); });
+}
+
+} // namespace
+
+const std::vector<NamedTarget> &targets() {
+    static const std::vector<NamedTarget> all{{"dicom", dicom},
+                                              {"directory", directory},
+                                              {"archive", archive},
+                                              {"message", message},
+                                              {"nrrd", nrrd},
+                                              {"preset", preset},
+                                              {"scene", scene},
+                                              {"measurements", measurements},
+                                              {"slicer_preset", slicerPreset},
+                                              {"slicer_preset_json", slicerPresetJson},
+                                              {"wisdom", wisdom}};
+    return all;
+}
+
+} // namespace pellucid::fuzz
