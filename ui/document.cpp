@@ -7,6 +7,8 @@ namespace pellucid::ui {
 
 namespace {
 
+constexpr int fewSlices = 6;
+
 volume::PatientPoint middleSample(const volume::Lattice &lattice) {
     const volume::GridSize n = lattice.size();
     return lattice.patient(volume::VoxelIndex{n.i / 2, n.j / 2, n.k / 2});
@@ -48,7 +50,12 @@ void Document::setCurrentSource(int index) {
 void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
     if (problems.empty())
         return;
-    m_problems.insert(m_problems.end(), problems.begin(), problems.end());
+    // The same folder opened again has the same ones.
+    for (const dicom::Skipped &problem : problems)
+        if (std::none_of(m_problems.begin(), m_problems.end(), [&](const dicom::Skipped &known) {
+                return known.path == problem.path && known.reason == problem.reason;
+            }))
+            m_problems.push_back(problem);
     emit problemsChanged();
 }
 
@@ -68,7 +75,10 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
         // Edits belong to the study they were made on.
         m_undo.clear();
         m_crosshair = middleSample(volume.lattice());
-        m_cut.axes = {};
+        // Of few slices only their own planes show more than a strip.
+        m_cut.axes = volume.lattice().size().k < fewSlices && volume.notes().placed
+                         ? mpr::PlaneAxes::along(volume.lattice())
+                         : mpr::PlaneAxes();
         m_measured.clear();
         m_selectedMeasurement = -1;
         // How well pictures are made belongs to the person, what they show to the study.

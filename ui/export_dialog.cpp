@@ -16,6 +16,7 @@
 #include <QSpinBox>
 #include <QStyle>
 
+#include "core/dicom/scan.h"
 #include "core/task/error.h"
 #include "ui/document.h"
 #include "ui/job_runner.h"
@@ -174,12 +175,18 @@ void ExportDialog::write() {
         if (!mayReplace(path))
             return;
         m_jobs.start(tr("Writing"),
-                     [this, path,
+                     [this, path, isCapture = chosen().format == PictureFormat::capture,
                       writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {
                          writer(job.progress());
-                         job.deliver([this, path] {
+                         std::shared_ptr<const dicom::Catalogue> capture;
+                         if (isCapture)
+                             capture = std::make_shared<const dicom::Catalogue>(
+                                 dicom::scan({path.toStdString()}));
+                         job.deliver([this, path, capture] {
                              QSettings().setValue(folderKey, QFileInfo(path).absolutePath());
                              emit written(path);
+                             if (capture)
+                                 emit captured(capture);
                              close();
                          });
                      });

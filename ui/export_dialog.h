@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+
 #include <QDialog>
 
+#include "core/dicom/catalogue.h"
 #include "ui/picture_export.h"
 
 class QCheckBox;
@@ -28,6 +31,8 @@ public:
 
 signals:
     void written(const QString &path);
+    /// A capture belongs to the study, and into its list.
+    void captured(const std::shared_ptr<const pellucid::dicom::Catalogue> &capture);
 
 private:
     PictureExport chosen() const;

@@ -74,10 +74,8 @@ void FileMenu::chooseFolder() {
 
 void FileMenu::importPaths(const QStringList &paths) {
     auto *dialog = new ImportDialog(paths, &m_window);
-    connect(dialog, &ImportDialog::chosen, this, [this](const Import &import) {
-        m_bench.document.clearProblems(); // those of the import are to come
-        m_bench.library.import(import);
-    });
+    connect(dialog, &ImportDialog::chosen, this,
+            [this](const Import &import) { m_bench.library.import(import); });
     dialog->open();
 }
 
@@ -110,6 +108,10 @@ void FileMenu::exportPicture() {
     // Beside the window, which goes on: it may be turned to what is to be written.
     auto *dialog = new ExportDialog(m_bench.document, m_panes, m_bench.exports, &m_window);
     connect(dialog, &ExportDialog::written, this, &FileMenu::sayWritten);
+    connect(dialog, &ExportDialog::captured, this,
+            [this](const std::shared_ptr<const dicom::Catalogue> &capture) {
+                m_bench.document.addSources(sourcesFrom(capture));
+            });
     dialog->show();
 }
 

@@ -10,6 +10,7 @@
 #include <QLocale>
 #include <QMenu>
 #include <QPlainTextEdit>
+#include <QShortcut>
 #include <QTabWidget>
 #include <QTextBrowser>
 #include <QTreeWidget>
@@ -43,7 +44,9 @@ void showManual() {
     browser->setAttribute(Qt::WA_QuitOnClose, false); // the program ends with its window
     browser->setWindowTitle(HelpMenuTexts::tr("Pellucid manual"));
     browser->setSource(manual());
-    browser->resize(640, 760);
+    browser->resize(760, 800);
+    QObject::connect(new QShortcut(Qt::Key_Escape, browser), &QShortcut::activated, browser,
+                     &QWidget::close);
     browser->show();
 }
 

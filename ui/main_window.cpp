@@ -234,16 +234,24 @@ void MainWindow::createFileMenu() {
         keepSession(std::nullopt);
         showStart();
     });
-    connect(m_file, &FileMenu::preferencesRequested, this, [this] {
-        auto *dialog = new PreferencesDialog(this);
-        connect(dialog, &PreferencesDialog::changed, this, &MainWindow::preferencesChanged);
-        dialog->show();
-    });
+    connect(m_file, &FileMenu::preferencesRequested, this, [this] { openPreferences(); });
     connect(m_measurements, &MeasurementsPanel::exportRequested, m_file,
             &FileMenu::exportMeasurements);
     connect(m_studies, &StudyPanel::importRequested, m_file, &FileMenu::importPaths);
     connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
     connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
+}
+
+PreferencesDialog &MainWindow::openPreferences() {
+    auto *dialog = findChild<PreferencesDialog *>();
+    if (dialog == nullptr) {
+        dialog = new PreferencesDialog(this);
+        connect(dialog, &PreferencesDialog::changed, this, &MainWindow::preferencesChanged);
+    }
+    dialog->show();
+    dialog->raise();
+    dialog->activateWindow();
+    return *dialog;
 }
 
 void MainWindow::createEditMenu() {
@@ -364,9 +372,18 @@ void MainWindow::createToolBar() {
     windowBox->setObjectName("windowBox");
     windowBox->setAccessibleName(tr("Window of the planes"));
     windowBox->setToolTip(tr("Window of the planes: width / center (keys 0 to 5)"));
-    windowBox->setMinimumWidth(230);
+    windowBox->setMinimumWidth(64); // on a screen of 960 points, too
+    windowBox->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    windowBox->setMinimumContentsLength(22);
+    windowBox->setMaximumWidth(260);
     bar->addWidget(windowBox);
     new WindowChooser(m_bench.document, *m_windowMenu, *windowBox);
+    // What does not fit is behind an arrow, which Qt draws in the colours of its own style.
+    if (auto *more = bar->findChild<QToolButton *>("qt_toolbar_ext_button")) {
+        more->setIcon(themedIcon("down", m_theme));
+        more->setToolTip(tr("More"));
+        more->setAccessibleName(tr("More"));
+    }
 }
 
 void MainWindow::giveIcons() {

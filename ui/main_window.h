@@ -22,6 +22,7 @@ class LookDocks;
 class MeasurementsPanel;
 class MprView;
 class PaneArea;
+class PreferencesDialog;
 class ProjectionView;
 class StartPage;
 class StudyBeside;
@@ -43,6 +44,7 @@ public:
     void resumeSession();
     /// Those that need no new window.
     void setPreferences(const Preferences &preferences);
+    PreferencesDialog &openPreferences();
     /// Sizes and places of window and docks.
     void keepLayout();
 

@@ -15,6 +15,13 @@
 
 namespace pellucid::ui {
 
+OverlayColors filmColors(const QString &planeRole) {
+    static const Theme light = Theme::named("light");
+    return {light.color(planeRole), light.color("warning"), light.color("text"),
+            light.color("text"),    light.color("raised"),  light.color("accent"),
+            light.color("warning"), light.color("accent")};
+}
+
 OverlayColors overlayColors(const QString &planeRole) {
     static const Theme dark = Theme::named("dark");
     return {dark.color(planeRole), dark.color("letters"), dark.color("text"),
@@ -24,7 +31,7 @@ OverlayColors overlayColors(const QString &planeRole) {
 
 void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
               const QColor &color) {
-    painter.setPen(QColor(0, 0, 0, 190));
+    painter.setPen(color.lightness() > 110 ? QColor(0, 0, 0, 190) : QColor(255, 255, 255, 210));
     for (const QPoint &offset : {QPoint(-1, 0), QPoint(1, 0), QPoint(0, -1), QPoint(0, 1)})
         painter.drawText(area.translated(offset), flags, text);
     painter.setPen(color);

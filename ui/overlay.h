@@ -12,13 +12,16 @@ class QPainter;
 
 namespace pellucid::ui {
 
-/// Colors of what is drawn over pictures; the same in both themes, since pictures stay black.
+/// Colors of what is drawn over pictures; the same in both themes: they follow the picture.
 struct OverlayColors {
     QColor plane, letters, text, muted, raised, accent, warning, curve;
 };
 
 /// The dark theme's colors, with the plane's own by its role in resources/styles/colors.json.
 OverlayColors overlayColors(const QString &planeRole);
+
+/// The light theme's, for pictures that are shown as film, dark on light.
+OverlayColors filmColors(const QString &planeRole);
 
 /// Letters at the middle of the four sides for an image with these axes (LPS).
 void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,

@@ -81,15 +81,18 @@ void putOver(QImage &picture, const Annotations &annotations, double pixelRatio)
     picture.setDevicePixelRatio(1.0);
 }
 
+// `isGrey`: the picture is, whatever the colour of its annotations: captures in colour are read by
+// fewer programs.
 void write(const QImage &picture, PictureFormat format, const QString &path,
-           const dicom::CaptureLabels &labels) {
+           const dicom::CaptureLabels &labels, bool isGrey = false) {
     if (format != PictureFormat::capture) {
         QImage said = picture;
         said.setText("Comment", "Not for diagnostic use");
         writePictureFile(path, said);
         return;
     }
-    const QImage rgba = picture.convertToFormat(QImage::Format_RGBA8888);
+    const QImage rgba = (isGrey ? picture.convertToFormat(QImage::Format_Grayscale8) : picture)
+                            .convertToFormat(QImage::Format_RGBA8888);
     dicom::writeCapture(path.toStdString(), {rgba.constBits(), std::size_t(rgba.sizeInBytes())},
                         rgba.height(), rgba.width(), labels);
 }
@@ -123,12 +126,13 @@ PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const D
     labels.seriesDescription = "Plane";
     labels.derivation = "Reformatted plane";
     return [make = view.pictureMaker(what.scale), what, path, ratio, labels,
-            over = recorded(what.isAnnotated, [&](QPainter &painter) { view.paintOver(painter); })](
-               const task::Progress &progress) {
+            isGrey = !document.tint(), over = recorded(what.isAnnotated, [&](QPainter &painter) {
+                                           view.paintOver(painter);
+                                       })](const task::Progress &progress) {
         QImage picture = make();
         progress.report(0.3);
         putOver(picture, over, ratio);
-        write(picture, what.format, path, labels);
+        write(picture, what.format, path, labels, isGrey);
     };
 }
 
@@ -192,6 +196,7 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
         }));
     }
     return [what, path, scene, render, ratio, turn, lattice = document.volume()->lattice(),
+            isGrey = classify::isGrey(scene.look) && scene.shading.isGrey(),
             labels = labelsOf(document, {scene.camera.axes()[0], scene.camera.axes()[1]},
                               scene.camera.pixelMm)](const task::Progress &progress) {
         const auto picture = [&](std::size_t n) {
@@ -209,7 +214,7 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
         switch (what.format) {
         case PictureFormat::png:
         case PictureFormat::capture:
-            write(picture(0), what.format, path, labels);
+            write(picture(0), what.format, path, labels, isGrey);
             break;
         case PictureFormat::png16:
             writePictureFile(path, sixteenBits(render(scene.camera), scene.tone));

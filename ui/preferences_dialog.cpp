@@ -49,16 +49,30 @@ PreferencesDialog::PreferencesDialog(QWidget *window)
     setObjectName("preferencesDialog");
     setWindowTitle(tr("Preferences"));
     setAttribute(Qt::WA_DeleteOnClose);
-    auto *tabs = new QTabWidget;
-    tabs->setObjectName("preferencesTabs");
-    tabs->addTab(makeGeneral(), tr("General"));
-    tabs->addTab(makeShortcuts(), tr("Keys"));
+    m_tabs = new QTabWidget;
+    m_tabs->setObjectName("preferencesTabs");
+    m_tabs->addTab(makeGeneral(), tr("General"));
+    m_tabs->addTab(makeShortcuts(), tr("Keys"));
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
     auto *layout = new QVBoxLayout(this);
-    layout->addWidget(tabs);
+    layout->addWidget(m_tabs);
     layout->addWidget(buttons);
     resize(640, 560);
+}
+
+PreferencesDialog::Place PreferencesDialog::place() const {
+    const QWidget *const focus = focusWidget();
+    return {saveGeometry(), m_tabs->currentIndex(), focus != nullptr ? focus->objectName() : "",
+            m_filter->text()};
+}
+
+void PreferencesDialog::setPlace(const Place &place) {
+    restoreGeometry(place.geometry);
+    m_tabs->setCurrentIndex(place.tab);
+    m_filter->setText(place.filter);
+    if (auto *const focus = findChild<QWidget *>(place.focus); focus && !place.focus.isEmpty())
+        focus->setFocus();
 }
 
 QWidget *PreferencesDialog::makeGeneral() {
@@ -212,6 +226,14 @@ void PreferencesDialog::giveKey() {
     const ShortcutEntry &entry = m_entries[std::size_t(chosen())];
     const QKeySequence key = m_key->keySequence();
     m_conflict->clear();
+    // Panes have these whatever a command is given.
+    for (const char *const fixed : {"Q", "R", "Up", "Down", "Left", "Right", "Home", "End", "Esc"})
+        if (key == QKeySequence(fixed)) {
+            m_conflict->setText(tr("%1 belongs to the panes: choose another key")
+                                    .arg(key.toString(QKeySequence::NativeText)));
+            showChosenKey();
+            return;
+        }
     // A key runs one command: it is taken from the one that had it.
     for (const ShortcutEntry &other : m_entries)
         if (!key.isEmpty() && other.action != entry.action && other.action->shortcut() == key) {

@@ -11,6 +11,7 @@ class QComboBox;
 class QKeySequenceEdit;
 class QLabel;
 class QLineEdit;
+class QTabWidget;
 class QTreeWidget;
 
 namespace pellucid::ui {
@@ -20,6 +21,15 @@ class PreferencesDialog : public QDialog {
     Q_OBJECT
 public:
     explicit PreferencesDialog(QWidget *window);
+
+    /// Where it stands and what is looked at in it, for one that takes its place.
+    struct Place {
+        QByteArray geometry;
+        int tab = 0;
+        QString focus, filter;
+    };
+    Place place() const;
+    void setPlace(const Place &place);
 
 signals:
     void changed(const pellucid::ui::Preferences &preferences);
@@ -34,6 +44,7 @@ private:
     int chosen() const;
 
     std::vector<ShortcutEntry> m_entries;
+    QTabWidget *m_tabs;
     QComboBox *m_language, *m_theme, *m_toolBar;
     QCheckBox *m_remembers, *m_resumes, *m_title;
     QLineEdit *m_filter;

@@ -13,6 +13,15 @@ namespace {
 // What may be said, with %1 and on for what is filled in; the longer ones before those that they
 // begin with.
 constexpr const char *reasons[] = {
+    QT_TRANSLATE_NOOP("Reasons", "planes are not at right angles"),
+    QT_TRANSLATE_NOOP("Reasons", "was decoded to nonsense"),
+    QT_TRANSLATE_NOOP("Reasons", "takes too long to read"),
+    QT_TRANSLATE_NOOP("Reasons", "needs %1 MB of memory, there are %2 MB"),
+    QT_TRANSLATE_NOOP("Reasons", "the decoder cannot be started: %1"),
+    QT_TRANSLATE_NOOP("Reasons", "has sequences nested too deeply"),
+    QT_TRANSLATE_NOOP("Reasons", "holds more files than it announces"),
+    QT_TRANSLATE_NOOP("Reasons", "is so damaged that the decoder crashed"),
+    QT_TRANSLATE_NOOP("Reasons", "made the decoder try what no image needs"),
     QT_TRANSLATE_NOOP(
         "Reasons",
         "a spectrum of %1 x %2 x %3 cells is larger than the graphics card's textures, %4 a side"),
@@ -68,7 +77,6 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "the most accurate that fits the memory"),
     QT_TRANSLATE_NOOP("Reasons", "there is no folder for temporary files"),
     QT_TRANSLATE_NOOP("Reasons", "is a study library of a newer version"),
-    QT_TRANSLATE_NOOP("Reasons", "not enough memory to decode the image"),
     QT_TRANSLATE_NOOP("Reasons", "the image is not what the header says"),
     QT_TRANSLATE_NOOP("Reasons", "has an image larger than DICOM allows"),
     QT_TRANSLATE_NOOP("Reasons", "is listed in the DICOMDIR but missing"),
@@ -173,12 +181,25 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "without %1: %2"),
     QT_TRANSLATE_NOOP("Reasons", "is no file"),
     QT_TRANSLATE_NOOP("Reasons", "class '%1': %2"),
+    QT_TRANSLATE_NOOP("Reasons", "is damaged"),
     QT_TRANSLATE_NOOP("Reasons", "is empty"),
     QT_TRANSLATE_NOOP("Reasons", "b-value %1"),
     QT_TRANSLATE_NOOP("Reasons", "line %1: %2"),
     QT_TRANSLATE_NOOP("Reasons", "stack %1"),
     QT_TRANSLATE_NOOP("Reasons", "echo %1"),
     QT_TRANSLATE_NOOP("Reasons", "type %1"),
+    QT_TRANSLATE_NOOP("Reasons", "%1, axial"),
+    QT_TRANSLATE_NOOP("Reasons", "%1, coronal"),
+    QT_TRANSLATE_NOOP("Reasons", "%1, sagittal"),
+    QT_TRANSLATE_NOOP("Reasons", "axial %1"),
+    QT_TRANSLATE_NOOP("Reasons", "coronal %1"),
+    QT_TRANSLATE_NOOP("Reasons", "sagittal %1"),
+    QT_TRANSLATE_NOOP("Reasons", "images %1"),
+    QT_TRANSLATE_NOOP("Reasons", "axial"),
+    QT_TRANSLATE_NOOP("Reasons", "coronal"),
+    QT_TRANSLATE_NOOP("Reasons", "sagittal"),
+    QT_TRANSLATE_NOOP("Reasons", "images"),
+    QT_TRANSLATE_NOOP("Reasons", "%1 (%2 then %3 mm)"),
     QT_TRANSLATE_NOOP("Reasons", "set %1")};
 
 // The names of presets, classes and windows, for whoever translates.

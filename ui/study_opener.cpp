@@ -80,7 +80,6 @@ void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &
 void StudyOpener::openPaths(const QStringList &paths) {
     if (paths.isEmpty())
         return;
-    m_document.clearProblems();
     std::vector<std::filesystem::path> files;
     for (const QString &path : paths)
         files.emplace_back(path.toStdString());
@@ -136,7 +135,6 @@ void StudyOpener::openPhantom(const QString &kind) {
 void StudyOpener::openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
                                   const QString &volume,
                                   const std::vector<dicom::InstanceFile> &files) {
-    m_document.clearProblems();
     std::vector<StudySource> sources;
     for (const VolumeFacts &v : series)
         sources.push_back(librarySource(study, v, files));

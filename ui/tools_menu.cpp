@@ -52,6 +52,12 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
                                   cut.axes = {};
                                   m_document.setCut(cut);
                               });
+    m_alongScan = addCommand(menu, tr("Planes a&long the scan"), "alongScanAction",
+                             QKeySequence("Shift+P"), this, [this] {
+                                 Cut cut = m_document.cut();
+                                 cut.axes = mpr::PlaneAxes::along(m_document.volume()->lattice());
+                                 m_document.setCut(cut);
+                             });
     menu.addSeparator();
     addCine(menu);
     addPhases(menu, phases);
@@ -275,6 +281,8 @@ void ToolsMenu::showCut() {
     for (QAction *action : m_interpolations->actions())
         action->setChecked(action->data().toInt() == int(cut.options.interpolation));
     m_straighten->setEnabled(!cut.axes.areStandard());
+    m_alongScan->setEnabled(m_document.volume() && m_document.volume()->notes().placed &&
+                            !(cut.axes == mpr::PlaneAxes::along(m_document.volume()->lattice())));
     m_wholeVolume->setEnabled(!m_document.scene().crop.isWhole());
 }
 

@@ -56,7 +56,8 @@ private:
     Tool m_tool = Tool::window;
     QActionGroup *m_tools, *m_thicknesses, *m_modes, *m_interpolations;
     QMenu *m_slabMenu = nullptr;
-    QAction *m_slab = nullptr, *m_straighten = nullptr, *m_wholeVolume = nullptr;
+    QAction *m_slab = nullptr, *m_alongScan = nullptr, *m_straighten = nullptr,
+            *m_wholeVolume = nullptr;
     double m_lastThicknessMm = 10.0;
 };
 

@@ -6,6 +6,7 @@
 #include <QLocale>
 
 #include "ui/main_window.h"
+#include "ui/preferences_dialog.h"
 #include "ui/recent_paths.h"
 #include "ui/session.h"
 
@@ -46,12 +47,18 @@ void Workstation::makeWindow() {
         geometry = m_window->saveGeometry();
         m_window->keepLayout();
     }
+    std::optional<PreferencesDialog::Place> preferences; // it is in the middle of a choice
+    if (wasThere)
+        if (const auto *const dialog = m_window->findChild<PreferencesDialog *>())
+            preferences = dialog->place();
     m_window.reset();
     m_window = std::make_unique<MainWindow>(m_bench, theme, m_preferences);
     if (wasThere)
         m_window->restoreGeometry(geometry);
     connect(m_window.get(), &MainWindow::preferencesChanged, this, &Workstation::follow);
     m_window->show();
+    if (preferences)
+        m_window->openPreferences().setPlace(*preferences);
 }
 
 // What is being written looks at the panes: it is finished first.

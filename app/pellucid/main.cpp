@@ -2,8 +2,11 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <QApplication>
+#include <QSocketNotifier>
 #include <QSurfaceFormat>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +20,34 @@
 #include "ui/graphics_card.h"
 #include "ui/main_window.h"
 #include "ui/workstation.h"
+
+namespace {
+
+// Whoever asks the program to end gets what the user would get: files whole or not there, a session
+// that can be taken up. The handler only writes to a socket, the rest happens in the event loop.
+int signalSocket = -1;
+
+void endOnSignals(QObject &application) {
+    int ends[2] = {-1, -1};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends) != 0)
+        return;
+    signalSocket = ends[1];
+    auto *const notifier = new QSocketNotifier(ends[0], QSocketNotifier::Read, &application);
+    QObject::connect(notifier, &QSocketNotifier::activated, &application, [notifier] {
+        notifier->setEnabled(false);
+        QApplication::quit();
+    });
+    struct sigaction action {};
+    action.sa_handler = [](int) {
+        const char byte = 1;
+        (void)!::write(signalSocket, &byte, 1);
+    };
+    action.sa_flags = SA_RESTART;
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP})
+        ::sigaction(signal, &action, nullptr);
+}
+
+} // namespace
 
 int main(int argc, char **argv) {
     using namespace pellucid;
@@ -76,6 +107,7 @@ int main(int argc, char **argv) {
     // The engine's context shares with those of the windows: its pictures stay on the card.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
     QApplication application(argc, argv);
+    endOnSignals(application);
     QApplication::setApplicationName("pellucid");
     QApplication::setOrganizationName("pellucid");
     QApplication::setApplicationVersion(PELLUCID_VERSION);

@@ -35,7 +35,7 @@ struct StackGeometry {
 
 /// Frames that make one volume, or, without positions, a set of images.
 struct VolumeEntry {
-    std::string label; ///< what tells it from the other volumes of its series, may be empty
+    std::string label; ///< what tells it from the other volumes of its series; empty if it is alone
     std::vector<FrameReference> frames; ///< in the order of the stack
     StackGeometry geometry;
     bool placed = true; ///< false: images only, not a volume

@@ -172,6 +172,36 @@ blocksOf(const Frames &frames,
     return blocks;
 }
 
+// The side of the body that a stack's slices are seen from: the nearest.
+std::string orientationName(const VolumeEntry &entry) {
+    if (!entry.placed)
+        return "images";
+    const glm::dvec3 normal =
+        glm::abs(glm::cross(entry.geometry.lattice.step(0), entry.geometry.lattice.step(1)));
+    return normal.z >= normal.x && normal.z >= normal.y ? "axial"
+           : normal.y >= normal.x                       ? "coronal"
+                                                        : "sagittal";
+}
+
+// Stacks that nothing has told apart yet: the three of a localizer, slices of different angles.
+void tellApart(std::vector<VolumeEntry> &entries) {
+    const auto labelAlike = [&](const auto &label) {
+        std::map<std::string, std::vector<VolumeEntry *>> alike;
+        for (VolumeEntry &entry : entries)
+            alike[entry.label].push_back(&entry);
+        for (auto &[former, same] : alike)
+            for (std::size_t n = 0; same.size() > 1 && n < same.size(); ++n)
+                same[n]->label = label(*same[n], n + 1);
+    };
+    labelAlike([](const VolumeEntry &entry, std::size_t) {
+        const std::string name = orientationName(entry);
+        return entry.label.empty() ? name : entry.label + ", " + name;
+    });
+    labelAlike([](const VolumeEntry &entry, std::size_t number) {
+        return fmt::format("{} {}", entry.label, number);
+    });
+}
+
 std::string missingGeometry(const FrameHeader &h) {
     if (!h.positionMm)
         return "the images have no position";
@@ -227,6 +257,7 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
         makeImages(entry, block, missingGeometry(block.front().header));
         entries.push_back(std::move(entry));
     }
+    tellApart(entries);
     return entries;
 }
 

@@ -87,6 +87,30 @@ PlaneAxes PlaneAxes::facing(const Axes &wanted) const {
     return out;
 }
 
+PlaneAxes PlaneAxes::along(const volume::Lattice &lattice) {
+    const glm::dvec3 row = glm::normalize(lattice.step(0));
+    const glm::dvec3 across = lattice.step(1) - glm::dot(lattice.step(1), row) * row;
+    const glm::dvec3 column = glm::normalize(across);
+    PlaneAxes out = PlaneAxes().facing({row, column});
+    // The plane that faces the slices now is turned in itself till a row lies along one of its own.
+    for (const Axes &axes : out.m_axes) {
+        const glm::dvec3 normal = axes.toViewer();
+        if (std::abs(glm::dot(normal, glm::cross(row, column))) < 0.9)
+            continue;
+        glm::dvec3 right = row;
+        for (const glm::dvec3 &side : {-row, column, -column})
+            if (glm::dot(side, axes.right) > glm::dot(right, axes.right))
+                right = side;
+        const double angle = std::atan2(glm::dot(glm::cross(axes.right, right), normal),
+                                        glm::dot(axes.right, right));
+        const glm::dquat turn = glm::angleAxis(angle, normal);
+        for (Axes &a : out.m_axes)
+            a = {glm::normalize(turn * a.right), glm::normalize(turn * a.up)};
+        break;
+    }
+    return out;
+}
+
 volume::PatientPoint Plane::at(double column, double row) const {
     const double u = (column - 0.5 * (width - 1)) * pixelMm,
                  v = (0.5 * (height - 1) - row) * pixelMm;

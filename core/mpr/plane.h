@@ -46,6 +46,9 @@ public:
     PlaneAxes turned(Orientation about, double angleRad) const;
     /// Turned together so that the plane nearest to it has this normal.
     PlaneAxes facing(const Axes &wanted) const;
+    /// The planes of a scan: the one nearest to its slices shows them as they were taken, row on
+    /// row, the others are at right angles to it.
+    static PlaneAxes along(const volume::Lattice &lattice);
 
     bool operator==(const PlaneAxes &) const = default;
 

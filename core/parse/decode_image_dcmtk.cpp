@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstring>
-#include <new>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -12,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/dictionary.h"
 #include "core/parse/jpeg2000.h"
@@ -139,62 +139,63 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
     take(data);
 }
 
+DecodedImage decoded(std::span<const std::byte> bytes) {
+    prepareDcmtk();
+
+    const auto input = memoryInput(bytes);
+    DcmFileFormat file;
+    file.transferInit();
+    const OFCondition parsed = file.read(*input, EXS_Unknown, EGL_noChange);
+    file.transferEnd();
+    DcmDataset *dataset = file.getDataset();
+    if (dataset == nullptr || dataset->card() == 0)
+        fail("is not a DICOM file");
+    DecodedImage image{headerOf(*dataset, bytes.size()), {}};
+    if (const auto reason = whyUnusable(image.header))
+        fail(*reason);
+    // DCMTK keeps what it has of an element that the file does not finish, and fills the rest.
+    DcmElement *pixels = nullptr;
+    if (parsed.bad() && dataset->findAndGetElement(DCM_PixelData, pixels).good() &&
+        pixels->transferState() != ERW_ready)
+        fail("the pixels are truncated");
+    const E_TransferSyntax syntax = dataset->getOriginalXfer();
+    const DcmXfer transfer(syntax);
+    const std::size_t plane = std::size_t(image.header.rows) * image.header.columns;
+    const std::size_t announced = plane * image.header.frames.size(); // at most 2^32 * 10^5
+    const bool plain = !transfer.isEncapsulated() && syntax != EXS_DeflatedLittleEndianExplicit;
+    // No coder in use packs more samples into a byte, not even of an empty image; what
+    // announces more is refused before memory is asked for.
+    constexpr std::size_t mostSamplesPerByte = 20000;
+    if (announced / (plain ? 1 : mostSamplesPerByte) > bytes.size())
+        fail("the pixels are truncated");
+    image.samples.resize(plane * image.header.frames.size());
+    if (isJpeg2000(syntax)) {
+        decodeJpeg2000Frames(*dataset, image);
+        return image;
+    }
+    if (transfer.isEncapsulated()) {
+        const OFCondition decoded =
+            dataset->chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
+        if (decoded.bad())
+            fail(fmt::format("{}: {}", transfer.getXferName(), decoded.text()));
+        // The decoder may have widened or narrowed the samples.
+        const InstanceHeader after = headerOf(*dataset, bytes.size());
+        image.header.bitsAllocated = after.bitsAllocated;
+        image.header.bitsStored = after.bitsStored;
+        image.header.highBit = after.highBit;
+        image.header.isSigned = after.isSigned;
+        if (after.rows != image.header.rows || after.columns != image.header.columns ||
+            after.samplesPerPixel != 1 || whyUnusable(image.header))
+            fail("the compressed image is not what the header says");
+    }
+    decodePlainFrames(*dataset, image);
+    return image;
+}
+
 } // namespace
 
 DecodedImage decodeImage(std::span<const std::byte> bytes) {
-    prepareDcmtk();
-    try {
-        const auto input = memoryInput(bytes);
-        DcmFileFormat file;
-        file.transferInit();
-        const OFCondition parsed = file.read(*input, EXS_Unknown, EGL_noChange);
-        file.transferEnd();
-        DcmDataset *dataset = file.getDataset();
-        if (dataset == nullptr || dataset->card() == 0)
-            fail("is not a DICOM file");
-        DecodedImage image{headerOf(*dataset, bytes.size()), {}};
-        if (const auto reason = whyUnusable(image.header))
-            fail(*reason);
-        // DCMTK keeps what it has of an element that the file does not finish, and fills the rest.
-        DcmElement *pixels = nullptr;
-        if (parsed.bad() && dataset->findAndGetElement(DCM_PixelData, pixels).good() &&
-            pixels->transferState() != ERW_ready)
-            fail("the pixels are truncated");
-        const E_TransferSyntax syntax = dataset->getOriginalXfer();
-        const DcmXfer transfer(syntax);
-        const std::size_t plane = std::size_t(image.header.rows) * image.header.columns;
-        const std::size_t announced = plane * image.header.frames.size(); // at most 2^32 * 10^5
-        const bool plain = !transfer.isEncapsulated() && syntax != EXS_DeflatedLittleEndianExplicit;
-        // No coder in use packs more samples into a byte, not even of an empty image; what
-        // announces more is refused before memory is asked for.
-        constexpr std::size_t mostSamplesPerByte = 20000;
-        if (announced / (plain ? 1 : mostSamplesPerByte) > bytes.size())
-            fail("the pixels are truncated");
-        image.samples.resize(plane * image.header.frames.size());
-        if (isJpeg2000(syntax)) {
-            decodeJpeg2000Frames(*dataset, image);
-            return image;
-        }
-        if (transfer.isEncapsulated()) {
-            const OFCondition decoded =
-                dataset->chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
-            if (decoded.bad())
-                fail(fmt::format("{}: {}", transfer.getXferName(), decoded.text()));
-            // The decoder may have widened or narrowed the samples.
-            const InstanceHeader after = headerOf(*dataset, bytes.size());
-            image.header.bitsAllocated = after.bitsAllocated;
-            image.header.bitsStored = after.bitsStored;
-            image.header.highBit = after.highBit;
-            image.header.isSigned = after.isSigned;
-            if (after.rows != image.header.rows || after.columns != image.header.columns ||
-                after.samplesPerPixel != 1 || whyUnusable(image.header))
-                fail("the compressed image is not what the header says");
-        }
-        decodePlainFrames(*dataset, image);
-        return image;
-    } catch (const std::bad_alloc &) {
-        throw Error(ErrorCode::outOfMemory, "not enough memory to decode the image");
-    }
+    return orDamaged([&] { return decoded(bytes); });
 }
 
 } // namespace pellucid::parse

@@ -3,6 +3,7 @@
 
 #include <dcmtk/dcmdata/dctk.h>
 
+#include "core/parse/damage.h"
 #include "core/parse/dictionary.h"
 #include "core/parse/memory_input.h"
 #include "core/parse/parse.h"
@@ -10,7 +11,9 @@
 
 namespace pellucid::parse {
 
-DirectoryFile parseDirectory(std::span<const std::byte> bytes) {
+namespace {
+
+DirectoryFile parsed(std::span<const std::byte> bytes) {
     prepareDcmtk();
     DirectoryFile directory;
     OFString sopClass;
@@ -54,6 +57,12 @@ DirectoryFile parseDirectory(std::span<const std::byte> bytes) {
             directory.files.push_back(std::move(parts));
     }
     return directory;
+}
+
+} // namespace
+
+DirectoryFile parseDirectory(std::span<const std::byte> bytes) {
+    return orDamaged([&] { return parsed(bytes); });
 }
 
 } // namespace pellucid::parse

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/decoder/decoder.h"
+#include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/dictionary.h"
 #include "core/parse/memory_input.h"
@@ -280,7 +281,9 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     return h;
 }
 
-InstanceHeader parseHeader(std::span<const std::byte> bytes) {
+namespace {
+
+InstanceHeader parsed(std::span<const std::byte> bytes) {
     prepareDcmtk();
     if (bytes.empty())
         throw Error(ErrorCode::unusable, "is empty");
@@ -312,6 +315,12 @@ InstanceHeader parseHeader(std::span<const std::byte> bytes) {
     if (loaded.bad() && !(header.hasPixels && header.rows > 0))
         throw Error(ErrorCode::unusable, std::string("is damaged: ") + loaded.text());
     return header;
+}
+
+} // namespace
+
+InstanceHeader parseHeader(std::span<const std::byte> bytes) {
+    return orDamaged([&] { return parsed(bytes); });
 }
 
 } // namespace pellucid::parse

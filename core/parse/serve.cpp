@@ -10,6 +10,7 @@
 
 #include "core/decoder/channel.h"
 #include "core/decoder/child.h"
+#include "core/parse/damage.h"
 #include "core/parse/dictionary.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
@@ -42,13 +43,9 @@ public:
         m_seconds = unsigned(std::ceil(decoder::decodingSeconds(request->message.size)));
         ::alarm(m_seconds);
         try {
-            answer(*request);
+            orDamaged([&] { answer(*request); });
         } catch (const Error &error) {
             finish(int(error.code()), error.reason(), {});
-        } catch (const std::bad_alloc &) {
-            finish(int(ErrorCode::outOfMemory), "needs more memory than there is", {});
-        } catch (const std::exception &error) {
-            finish(int(ErrorCode::unusable), error.what(), {});
         }
         ::alarm(0);
         return true;

@@ -663,10 +663,6 @@
         <translation>為較新版本的檢查資料庫</translation>
     </message>
     <message>
-        <source>not enough memory to decode the image</source>
-        <translation>記憶體不足，無法解碼影像</translation>
-    </message>
-    <message>
         <source>the image is not what the header says</source>
         <translation>影像與檔頭不符</translation>
     </message>
@@ -1126,6 +1122,94 @@
         <source>has its samples in another file; not imported</source>
         <translation>取樣資料在另一個檔案；未匯入</translation>
     </message>
+    <message>
+        <source>planes are not at right angles</source>
+        <translation>各平面不互相垂直</translation>
+    </message>
+    <message>
+        <source>was decoded to nonsense</source>
+        <translation>解碼結果沒有意義</translation>
+    </message>
+    <message>
+        <source>takes too long to read</source>
+        <translation>讀取時間過長</translation>
+    </message>
+    <message>
+        <source>needs %1 MB of memory, there are %2 MB</source>
+        <translation>需要 %1 MB 記憶體，目前只有 %2 MB</translation>
+    </message>
+    <message>
+        <source>the decoder cannot be started: %1</source>
+        <translation>無法啟動解碼程式：%1</translation>
+    </message>
+    <message>
+        <source>has sequences nested too deeply</source>
+        <translation>序列巢狀層次過深</translation>
+    </message>
+    <message>
+        <source>holds more files than it announces</source>
+        <translation>內含的檔案多於其所宣告</translation>
+    </message>
+    <message>
+        <source>is so damaged that the decoder crashed</source>
+        <translation>損壞嚴重，解碼程式因此當掉</translation>
+    </message>
+    <message>
+        <source>made the decoder try what no image needs</source>
+        <translation>使解碼程式嘗試影像不需要的動作</translation>
+    </message>
+    <message>
+        <source>%1, axial</source>
+        <translation>%1，橫斷面</translation>
+    </message>
+    <message>
+        <source>%1, coronal</source>
+        <translation>%1，冠狀面</translation>
+    </message>
+    <message>
+        <source>%1, sagittal</source>
+        <translation>%1，矢狀面</translation>
+    </message>
+    <message>
+        <source>axial %1</source>
+        <translation>橫斷面 %1</translation>
+    </message>
+    <message>
+        <source>coronal %1</source>
+        <translation>冠狀面 %1</translation>
+    </message>
+    <message>
+        <source>sagittal %1</source>
+        <translation>矢狀面 %1</translation>
+    </message>
+    <message>
+        <source>images %1</source>
+        <translation>影像 %1</translation>
+    </message>
+    <message>
+        <source>axial</source>
+        <translation>橫斷面</translation>
+    </message>
+    <message>
+        <source>coronal</source>
+        <translation>冠狀面</translation>
+    </message>
+    <message>
+        <source>sagittal</source>
+        <translation>矢狀面</translation>
+    </message>
+    <message>
+        <source>images</source>
+        <translation>影像</translation>
+    </message>
+    <message>
+        <source>%1 (%2 then %3 mm)</source>
+        <translation>%1（先 %2 再 %3 mm）</translation>
+    </message>
+    <message>
+        <source>is damaged</source>
+        <translation>已損壞</translation>
+    </message>
 </context>
 <context>
     <name>SceneFiles</name>
@@ -1234,6 +1318,14 @@
     <message>
         <source>Phantoms</source>
         <translation>假體</translation>
+    </message>
+    <message>
+        <source>Files</source>
+        <translation>檔案</translation>
+    </message>
+    <message>
+        <source>Volume files</source>
+        <translation>體積檔案</translation>
     </message>
 </context>
 <context>
@@ -2066,6 +2158,10 @@
         <source>There is no look before this one</source>
         <translation>在此之前沒有其他外觀</translation>
     </message>
+    <message>
+        <source>More</source>
+        <translation>更多</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::MeasurementStore</name>
@@ -2257,6 +2353,10 @@
         <source>%1 was the key of &quot;%2&quot;, which has none now</source>
         <translation>%1 原為「%2」的按鍵，該指令現在沒有按鍵</translation>
     </message>
+    <message>
+        <source>%1 belongs to the panes: choose another key</source>
+        <translation>%1 是各窗格固定的按鍵，請選其他按鍵</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::PresetsPanel</name>
@@ -2354,6 +2454,14 @@
     <message>
         <source>PROBLEMS (%1)</source>
         <translation>問題 (%1)</translation>
+    </message>
+    <message>
+        <source>Clear</source>
+        <translation>清除</translation>
+    </message>
+    <message>
+        <source>They have been read</source>
+        <translation>已經讀過了</translation>
     </message>
 </context>
 <context>
@@ -3104,6 +3212,10 @@
     <message>
         <source>Play p&amp;hases</source>
         <translation>播放時相(&amp;H)</translation>
+    </message>
+    <message>
+        <source>Planes a&amp;long the scan</source>
+        <translation>沿掃描方向的平面(&amp;L)</translation>
     </message>
 </context>
 <context>

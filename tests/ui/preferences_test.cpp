@@ -276,7 +276,13 @@ private:
         auto *choice = find<QComboBox>(box);
         choice->setCurrentIndex(choice->findData(value));
         emit choice->activated(choice->currentIndex());
-        QTRY_VERIFY(window_().findChild<QDialog *>("preferencesDialog") == nullptr);
+        // The window may be made anew for it; the dialog stays, with what was chosen.
+        QTest::qWait(100);
+        auto *dialog = window_().findChild<QDialog *>("preferencesDialog");
+        QVERIFY(dialog != nullptr && dialog->isVisible());
+        QCOMPARE(dialog->findChild<QComboBox *>(box)->currentData().toString(), value);
+        dialog->close();
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
         QVERIFY(QTest::qWaitForWindowExposed(&window_()));
         window_().resize(1600, 1000);
         window_().activateWindow();

@@ -198,8 +198,14 @@ private slots:
         QVERIFY(QApplication::activeModalWidget() == nullptr);
         drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
         QTRY_VERIFY_WITH_TIMEOUT(
-            list->count() == 1 && list->item(0)->text().contains("does not exist"), patienceMs);
+            list->count() == 2 && list->item(1)->text().contains("does not exist"), patienceMs);
         QVERIFY(find<QWidget>("startPage")->isVisible());
+        // What was there is still there, once; until it has been read.
+        drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
+        QTRY_VERIFY(!m_window->jobs().isRunning());
+        QCOMPARE(list->count(), 2);
+        QTest::mouseClick(find<QPushButton>("clearProblemsButton"), Qt::LeftButton);
+        QVERIFY(!list->isVisible());
     }
 
     void cancelGivesTheProgramBackAtOnce() {

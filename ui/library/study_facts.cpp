@@ -74,6 +74,8 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
 QString patientText(const StudyFacts &study) {
     if (study.patientId == "phantoms")
         return StudyFactsTexts::tr("Phantoms");
+    if (study.patientId == "files") // of which nobody says whose they are
+        return StudyFactsTexts::tr("Files");
     const QString name = QString(study.patientName).replace('^', ' ').simplified();
     if (!name.isEmpty())
         return name;
@@ -81,6 +83,8 @@ QString patientText(const StudyFacts &study) {
 }
 
 QString studyText(const StudyFacts &study) {
+    if (study.patientId == "files")
+        return StudyFactsTexts::tr("Volume files");
     const QString said =
         (dateText(study.date) + " " + study.modalities + " " + study.description).simplified();
     return said.isEmpty() ? StudyFactsTexts::tr("Study") : said;
@@ -96,7 +100,7 @@ QString seriesText(const VolumeFacts &volume) {
 }
 
 QString sizeText(const VolumeFacts &v) {
-    QString said = QString::fromUtf8("%1 × %2 × %3").arg(v.size.k).arg(v.size.j).arg(v.size.i);
+    QString said = QString::fromUtf8("%1 × %2 × %3").arg(v.size.i).arg(v.size.j).arg(v.size.k);
     if (v.spacingMm.x > 0.0)
         said += QString::fromUtf8("\n%1 × %2")
                     .arg(v.spacingMm.x, 0, 'f', 2)

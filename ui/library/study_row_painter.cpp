@@ -32,11 +32,13 @@ int textWidth(int cardWidth) {
 }
 
 int cardWidth(const QStyleOptionViewItem &option) {
-    // Before the first layout there is no row whose width could be asked.
+    // A row's height is asked before there is a row, and kept when a scroll bar takes its part.
     const auto *const view = qobject_cast<const QAbstractItemView *>(option.widget);
-    return option.rect.width() > 0 ? option.rect.width()
-           : view != nullptr       ? view->viewport()->width()
-                                   : 220;
+    if (view == nullptr)
+        return option.rect.width();
+    const int bar = view->style()->pixelMetric(QStyle::PM_ScrollBarExtent, nullptr, view);
+    const int indent = view->width() - view->viewport()->width();
+    return view->width() - std::max(bar, indent);
 }
 
 // Broken into lines that fit.
@@ -133,16 +135,19 @@ void StudyRowPainter::paintVolume(QPainter &painter, const QStyleOptionViewItem 
     }
     const int line = lineHeight(option.font);
     QRect texts(frame.right() + gap + 1, frame.top(), textWidth(option.rect.width()), line);
-    const auto draw = [&](const QString &text, const char *role) {
+    const auto draw = [&](const QString &text, const char *role,
+                          Qt::TextElideMode elide = Qt::ElideRight) {
         painter.setPen(m_theme.color(role));
         painter.drawText(texts, Qt::AlignTop | Qt::AlignLeft,
-                         option.fontMetrics.elidedText(text, Qt::ElideRight, texts.width()));
+                         option.fontMetrics.elidedText(text, elide, texts.width()));
         texts.translate(0, line);
     };
-    draw(seriesText(volume), "text");
+    // What tells phases and stacks apart stands at the end.
+    draw(seriesText(volume), "text", volume.label.isEmpty() ? Qt::ElideRight : Qt::ElideMiddle);
     for (const QString &text : sizeText(volume).split('\n'))
         draw(text, "muted");
-    for (const QString &text : warningLines(option.font, texts.width(), warningTexts(volume)))
+    for (const QString &text :
+         warningLines(option.font, textWidth(cardWidth(option)), warningTexts(volume)))
         draw(text, "warning");
 }
 

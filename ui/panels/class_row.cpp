@@ -26,7 +26,8 @@ QIcon dotIcon(const QColor &color, bool isShown) {
     pixmap.fill(Qt::transparent);
     QPainter painter(&pixmap);
     painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(color, 3.0));
+    // An edge of its own: white on white is a dot, too.
+    painter.setPen(isShown ? QPen(color.darker(150), 1.5) : QPen(color, 3.0));
     painter.setBrush(isShown ? QBrush(color) : QBrush(Qt::NoBrush));
     painter.drawEllipse(QRectF(5, 5, side - 10, side - 10));
     return QIcon(pixmap);

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <map>
 
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
+#include <QPushButton>
 #include <QVBoxLayout>
 
 #include "ui/document.h"
@@ -41,7 +43,15 @@ ProblemList::ProblemList(Document &document, const Theme &theme, QWidget *parent
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(4);
-    layout->addWidget(m_heading);
+    auto *clear = new QPushButton(tr("Clear"));
+    clear->setObjectName("clearProblemsButton");
+    clear->setProperty("role", "link");
+    clear->setToolTip(tr("They have been read"));
+    connect(clear, &QPushButton::clicked, &document, &Document::clearProblems);
+    auto *row = new QHBoxLayout;
+    row->addWidget(m_heading, 1);
+    row->addWidget(clear);
+    layout->addLayout(row);
     layout->addWidget(m_list);
     connect(&document, &Document::problemsChanged, this, &ProblemList::showProblems);
     showProblems();
@@ -83,12 +93,24 @@ void ProblemList::showProblems() {
                 reason);
         }
     }
-    int height = 2 * m_list->frameWidth() + 2;
-    for (int row = 0; row < m_list->count() && height < mostHeight; ++row)
-        height += m_list->sizeHintForRow(row);
-    m_list->setFixedHeight(std::min(height, mostHeight));
+    fitHeight();
     m_heading->setText(tr("PROBLEMS (%1)").arg(problems.size()));
     setVisible(!problems.empty());
+}
+
+// As high as the lines are at this width, within bounds.
+void ProblemList::fitHeight() {
+    m_list->doItemsLayout();
+    int height = 2 * m_list->frameWidth() + 2;
+    for (int row = 0; row < m_list->count() && height < mostHeight; ++row)
+        height += std::max(m_list->sizeHintForRow(row),
+                           m_list->visualItemRect(m_list->item(row)).height());
+    m_list->setFixedHeight(std::min(height, mostHeight));
+}
+
+void ProblemList::resizeEvent(QResizeEvent *event) {
+    QWidget::resizeEvent(event);
+    fitHeight();
 }
 
 } // namespace pellucid::ui

@@ -31,6 +31,8 @@ StartPage::StartPage(QWidget *parent)
     auto *hint = new QLabel(tr("Drop DICOM files, folders, a DICOMDIR, a ZIP archive or an NRRD "
                                "volume anywhere in this window."));
     hint->setProperty("role", "muted");
+    hint->setWordWrap(true);
+    hint->setAlignment(Qt::AlignCenter);
     auto *files =
         button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or NRRD files (Ctrl+O)"));
     auto *folder = button(tr("Open folder..."), "openFolderButton",
@@ -48,7 +50,7 @@ StartPage::StartPage(QWidget *parent)
         layout->addWidget(widget, 0, Qt::AlignHCenter);
     };
     add(title, 0);
-    add(hint, 0);
+    layout->addWidget(hint); // as wide as the page, and no wider
     add(m_resume, 12);
     add(files, 12);
     add(folder, 0);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <QCoreApplication>
 #include <QLineF>
@@ -225,33 +226,114 @@ void MeasureTool::edit(const QString &text) {
     m_document.undoStack()->push(new EditMeasurements(m_document, all, text, m_drag));
 }
 
-void MeasureTool::paint(QPainter &painter, const Pane &pane, const OverlayColors &colors) const {
+namespace {
+
+// A place for a figure's text near one of its points that covers no other text and, if there is
+// one, no line. *Units*: logical pixels.
+QRect placeOf(const QSize &text, const std::vector<QPointF> &points, const QRect &viewport,
+              const std::vector<QRect> &taken, const QRegion &lines) {
+    const int w = text.width(), h = text.height();
+    const auto isFree = [&](const QRect &area) {
+        return viewport.contains(area) &&
+               std::none_of(taken.begin(), taken.end(),
+                            [&](const QRect &other) { return other.intersects(area); });
+    };
+    std::optional<QRect> found;
+    for (int distance = 10; distance < 200; distance += 14) {
+        for (const QPointF &point : points) {
+            const QPoint p = point.toPoint();
+            for (const QPoint &at :
+                 {p + QPoint(distance, -8), p + QPoint(-distance - w, -8),
+                  p + QPoint(-w / 2, distance), p + QPoint(-w / 2, -distance - h)}) {
+                const QRect area(at, text);
+                if (!isFree(area))
+                    continue;
+                if (!lines.intersects(area.adjusted(-3, -2, 3, 2)))
+                    return area;
+                if (!found)
+                    found = area;
+            }
+        }
+    }
+    if (found)
+        return *found;
+    // In a pane that is full: in its corner, whatever is there.
+    QRect area(points.front().toPoint(), text);
+    area.translate(std::min(0, viewport.right() - area.right()),
+                   std::min(0, viewport.bottom() - area.bottom()));
+    return area;
+}
+
+QRegion regionAround(const QPolygonF &outline) {
+    QRegion region;
+    for (qsizetype n = 1; n < outline.size(); ++n) {
+        // Short pieces: the box of a long oblique line is mostly empty.
+        const QLineF line(outline[n - 1], outline[n]);
+        const int pieces = std::clamp(int(line.length() / 12.0), 1, 200);
+        for (int k = 0; k < pieces; ++k)
+            region += QRectF(line.pointAt(double(k) / pieces), line.pointAt(double(k + 1) / pieces))
+                          .normalized()
+                          .toAlignedRect()
+                          .adjusted(-1, -1, 1, 1);
+    }
+    return region;
+}
+
+} // namespace
+
+void MeasureTool::paint(QPainter &painter, const Pane &pane, const OverlayColors &colors,
+                        Marks marks) const {
     const bool isMaking = m_grip == Grip::making || m_grip == Grip::thirdPoint;
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
     const auto &all = m_document.measured();
+    const auto isSelected = [&](std::size_t n) {
+        return marks == Marks::withSelection && int(n) == m_document.selectedMeasurement();
+    };
+    const auto colorOf = [&](std::size_t n) {
+        return isSelected(n) ? colors.accent : colors.curve;
+    };
+    QRegion lines;
+    for (std::size_t n = 0; n < all.size(); ++n)
+        if (const Measurement &m = all[n].measurement; isShown(m, pane)) {
+            paintOne(painter, pane, m, colorOf(n), isSelected(n));
+            lines += regionAround(outlineOf(m, pane.mapping));
+        }
+    // All lines first: a text stands on none, and beside the texts before it.
+    const QRect viewport(0, 0, int(pane.mapping.plane.width / pane.mapping.pixelRatio),
+                         int(pane.mapping.plane.height / pane.mapping.pixelRatio));
+    // The patient's sides stay legible.
+    const QRegion upperAndLower = upperAndLowerLetters(viewport);
+    std::vector<QRect> taken(upperAndLower.begin(), upperAndLower.end());
+    taken.emplace_back(0, viewport.center().y() - 12, 26, 24);
+    taken.emplace_back(viewport.right() - 26, viewport.center().y() - 12, 26, 24);
     for (std::size_t n = 0; n < all.size(); ++n) {
         const Measurement &m = all[n].measurement;
         if (!isShown(m, pane))
             continue;
-        const bool isSelected = int(n) == m_document.selectedMeasurement();
-        const QColor color = isSelected ? colors.accent : colors.curve;
-        paintOne(painter, pane, m, color, isSelected);
-        // Beside the point furthest right, where there is room for it.
-        QPointF at;
+        std::vector<QPointF> points;
         for (const glm::dvec3 &p : gripsOf(m))
-            if (const QPointF q = pane.mapping.positionOf({p}); at.isNull() || q.x() > at.x())
-                at = q;
-        const QStringList lines = allFigures(m, all[n].result, *m_document.volume());
-        const QRect box = painter.fontMetrics().boundingRect(QRect(0, 0, 400, 200), Qt::AlignLeft,
-                                                             lines.join('\n'));
-        QRect area = box.translated((at + QPointF(10, -8)).toPoint() - box.topLeft());
-        const QRect viewport(0, 0, int(pane.mapping.plane.width / pane.mapping.pixelRatio),
-                             int(pane.mapping.plane.height / pane.mapping.pixelRatio));
-        area.translate(std::min(0, viewport.right() - 6 - area.right()),
-                       std::min(0, viewport.bottom() - 6 - area.bottom()));
+            points.push_back(pane.mapping.positionOf({p}));
+        std::sort(points.begin(), points.end(),
+                  [](const QPointF &a, const QPointF &b) { return a.x() > b.x(); });
+        const QString text = allFigures(m, all[n].result, *m_document.volume()).join('\n');
+        const QSize size =
+            painter.fontMetrics().boundingRect(QRect(0, 0, 400, 200), Qt::AlignLeft, text).size();
+        const QRect area = placeOf(size, points, viewport.adjusted(6, 4, -6, -4), taken, lines);
+        taken.push_back(area.adjusted(-5, -3, 5, 3));
+        // Far from its figure, a line leads there.
+        const QPointF nearest = *std::min_element(
+            points.begin(), points.end(), [&](const QPointF &a, const QPointF &b) {
+                return QLineF(a, area.center()).length() < QLineF(b, area.center()).length();
+            });
+        const QPointF edge(std::clamp(nearest.x(), qreal(area.left()), qreal(area.right())),
+                           std::clamp(nearest.y(), qreal(area.top()), qreal(area.bottom())));
+        if (QLineF(nearest, edge).length() > 26.0) {
+            painter.setPen(QPen(colorOf(n), 1.0, Qt::DotLine));
+            painter.drawLine(nearest, edge);
+        }
         painter.fillRect(area.adjusted(-4, -2, 4, 2), QColor(0, 0, 0, 165));
-        drawText(painter, area, Qt::AlignLeft, lines.join('\n'), color);
+        drawText(painter, area, Qt::AlignLeft, text, colorOf(n));
     }
     if (isMaking)
         paintOne(painter, pane, m_current, colors.accent, true);

@@ -36,7 +36,9 @@ public:
     /// Something drawn is there that can be dragged.
     bool isOver(const Pane &pane, const QPointF &at) const;
 
-    void paint(QPainter &painter, const Pane &pane, const OverlayColors &colors) const;
+    /// `plain`: nothing of what the hand takes hold of.
+    enum class Marks { withSelection, plain };
+    void paint(QPainter &painter, const Pane &pane, const OverlayColors &colors, Marks marks) const;
 
 private:
     enum class Grip { none, making, thirdPoint, point, whole };

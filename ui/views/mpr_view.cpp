@@ -179,7 +179,8 @@ void MprView::paintEvent(QPaintEvent *) {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
         painter.drawImage(QPoint(0, 0), m_image);
         painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
-        paintAnnotations(painter);
+        paintHandles(painter);
+        paintAnnotations(painter, MeasureTool::Marks::withSelection);
     } else if (m_document.volume()) {
         painter.setPen(colors.muted);
         painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
@@ -196,14 +197,18 @@ void MprView::paintEvent(QPaintEvent *) {
     }
 }
 
-void MprView::paintAnnotations(QPainter &painter) const {
+// What the hand takes hold of belongs to the pane, and not to a picture that leaves it.
+void MprView::paintHandles(QPainter &painter) const {
     m_crop.paint(painter, mapping(), rect(), m_tool == Tool::crop,
                  overlayColors(colorRole(m_orientation)));
     painter.save();
     painter.setClipRegion(QRegion(rect()) - upperAndLowerLetters(rect()));
     crosshairLines().paint(painter, size(), m_tool == Tool::crosshair);
     painter.restore();
-    m_measure.paint(painter, measurePane(), overlayColors(colorRole(m_orientation)));
+}
+
+void MprView::paintAnnotations(QPainter &painter, MeasureTool::Marks marks) const {
+    m_measure.paint(painter, measurePane(), overlayColors(colorRole(m_orientation)), marks);
     paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation);
 }
 
@@ -221,7 +226,7 @@ std::function<QImage()> MprView::pictureMaker(int scale) const {
 }
 
 void MprView::paintOver(QPainter &painter) const {
-    paintAnnotations(painter);
+    paintAnnotations(painter, MeasureTool::Marks::plain);
     const OverlayColors colors = overlayColors(colorRole(m_orientation));
     const int line = painter.fontMetrics().height() + 3;
     drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,
@@ -313,7 +318,8 @@ void MprView::mouseReleaseEvent(QMouseEvent *event) {
 }
 
 void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
-    if (event->button() == Qt::LeftButton && !measuredBy(m_tool))
+    // The third point of an angle may come fast.
+    if (event->button() == Qt::LeftButton && !m_measure.isBusy())
         emit maximizeRequested(this);
     else
         mousePressEvent(event);

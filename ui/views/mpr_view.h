@@ -76,7 +76,8 @@ private:
     bool showsVolume() const;
     void refresh();
     void updateImage();
-    void paintAnnotations(QPainter &painter) const;
+    void paintHandles(QPainter &painter) const;
+    void paintAnnotations(QPainter &painter, MeasureTool::Marks marks) const;
     void drag(const QPoint &delta, const QPoint &to);
     void moveCrosshair(const QPoint &to);
     void turnTo(const QPoint &to);

@@ -40,13 +40,19 @@ void ProjectionOverlay::setComparison(const QImage &picture, const QString &name
     update();
 }
 
-void ProjectionOverlay::paintEvent(QPaintEvent *) {
-    QPainter painter(this);
-    paint(painter, m_mapping);
+OverlayColors ProjectionOverlay::colors() const {
+    return m_document.scene().tone.inverted && m_document.volume() ? filmColors("accent")
+                                                                   : overlayColors("accent");
 }
 
-void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping) const {
-    const OverlayColors colors = overlayColors("accent");
+void ProjectionOverlay::paintEvent(QPaintEvent *) {
+    QPainter painter(this);
+    paint(painter, m_mapping, MeasureTool::Marks::withSelection);
+}
+
+void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping,
+                              MeasureTool::Marks marks) const {
+    const OverlayColors colors = this->colors();
     if (!m_comparison.isNull()) {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
         painter.drawImage(rect(), m_comparison);
@@ -97,20 +103,21 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping) con
                          m_texts.message);
     }
     if (!m_texts.figures.isEmpty())
-        paintPicture(painter, mapping);
+        paintPicture(painter, mapping, marks);
 }
 
 // The point that turning keeps.
 void ProjectionOverlay::paintCrosshair(QPainter &painter, const PaneMapping &mapping) const {
     constexpr double gap = 4.0, arm = 12.0;
     const QPointF at = mapping.positionOf(m_document.crosshair());
-    painter.setPen(QPen(overlayColors("accent").accent, 1.5));
+    painter.setPen(QPen(colors().accent, 1.5));
     for (const QPointF &way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
         painter.drawLine(at + gap * way, at + arm * way);
 }
 
-void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mapping) const {
-    const OverlayColors colors = overlayColors("accent");
+void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mapping,
+                                     MeasureTool::Marks marks) const {
+    const OverlayColors colors = this->colors();
     const int line = painter.fontMetrics().height() + 3;
     drawText(painter, rect().adjusted(10, 8, -10, -8), Qt::AlignRight | Qt::AlignTop,
              m_texts.figures, colors.text);
@@ -124,9 +131,9 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
                  width() - barLeft - 60, colors);
     if (!m_comparison.isNull())
         return; // two pictures have no common places
-    if (m_showsCrosshair)
+    if (m_showsCrosshair && marks == MeasureTool::Marks::withSelection)
         paintCrosshair(painter, mapping);
-    m_measure.paint(painter, {mapping, 0.0}, colors);
+    m_measure.paint(painter, {mapping, 0.0}, colors, marks);
 }
 
 } // namespace pellucid::ui

@@ -28,13 +28,15 @@ public:
     /// left.
     void setComparison(const QImage &picture, const QString &name);
     /// Over any picture of the pane's size.
-    void paint(QPainter &painter, const PaneMapping &mapping) const;
+    void paint(QPainter &painter, const PaneMapping &mapping, MeasureTool::Marks marks) const;
 
 protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
-    void paintPicture(QPainter &painter, const PaneMapping &mapping) const;
+    void paintPicture(QPainter &painter, const PaneMapping &mapping,
+                      MeasureTool::Marks marks) const;
+    OverlayColors colors() const;
     void paintCrosshair(QPainter &painter, const PaneMapping &mapping) const;
 
     const Document &m_document;

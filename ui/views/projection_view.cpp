@@ -353,7 +353,7 @@ std::function<render::ProjectionImage(const render::Camera &)> ProjectionView::p
 }
 
 void ProjectionView::paintAnnotations(QPainter &painter, const render::Camera &camera) const {
-    m_overlay->paint(painter, mapping(camera));
+    m_overlay->paint(painter, mapping(camera), MeasureTool::Marks::plain);
 }
 
 render::Camera ProjectionView::turnedAroundPatient(const render::Camera &camera,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "core/dicom/group_series.h"
@@ -36,6 +37,31 @@ std::vector<SeriesFile> stack(const std::vector<double> &depths) {
 std::vector<dicom::VolumeEntry> group(const std::vector<SeriesFile> &files) {
     std::vector<dicom::Skipped> skipped;
     return dicom::groupSeries(files, skipped);
+}
+
+// A localizer: three stacks of one size and spacing, one of them twice at another angle.
+TEST(GroupSeries, EveryVolumeOfASeriesHasALabelOfItsOwn) {
+    std::vector<SeriesFile> files;
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    const auto add = [&](const glm::dvec3 &row, const glm::dvec3 &column) {
+        for (int n = 0; n < 3; ++n) {
+            SeriesFile f = file("f" + std::to_string(files.size()), 0.0);
+            f.header.frames[0].rowAxis = row;
+            f.header.frames[0].columnAxis = column;
+            f.header.frames[0].positionMm = 5.0 * n * glm::cross(row, column);
+            files.push_back(f);
+        }
+    };
+    add(x, y);
+    add(x, -z);
+    add(y, -z);
+    add(glm::normalize(x + 0.2 * y), glm::normalize(y - 0.2 * x));
+    const auto entries = group(files);
+    ASSERT_EQ(entries.size(), 4U);
+    EXPECT_EQ(entries[0].label, "axial 1");
+    EXPECT_EQ(entries[1].label, "coronal");
+    EXPECT_EQ(entries[2].label, "sagittal");
+    EXPECT_EQ(entries[3].label, "axial 2");
 }
 
 TEST(GroupSeries, OrderComesFromPositionsNotFromNames) {

@@ -221,5 +221,28 @@ TEST(Reslice, OneSampleFillsItsCell) {
     EXPECT_EQ(mpr::valueAt(one, {{0.9, -0.9, 0.9}}), 7.0F);
 }
 
+// The slices of a tilted scan as they were taken: a plane of the scan shows its samples, row on
+// row.
+TEST(PlaneAxes, AlongTheScanShowsItsSlices) {
+    const auto lattice = test::tiltedLattice({30, 28, 12}, {1, 1, 3}, 25);
+    const auto axes = mpr::PlaneAxes::along(lattice);
+    const mpr::Axes &axial = axes.of(Orientation::axial);
+    EXPECT_NEAR(std::abs(glm::dot(axial.right, glm::normalize(lattice.step(0)))), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(glm::dot(axial.up, glm::normalize(lattice.step(1)))), 1.0, 1e-12);
+    EXPECT_NO_THROW(mpr::PlaneAxes({axes.of(Orientation::axial), axes.of(Orientation::coronal),
+                                    axes.of(Orientation::sagittal)}));
+    // Turned by any angle, too, and always the same way up.
+    for (double angle = 0.1; angle < 6.3; angle += 0.37) {
+        const double c = std::cos(angle), s = std::sin(angle);
+        const auto turned = volume::Lattice::make(
+            {20, 20, 5}, {{0, 0, 0}},
+            {glm::dvec3(c, s, 0.2), glm::dvec3(-s, c, 0.1), glm::dvec3(0.0, 0.1, 2.0)});
+        const auto planes = mpr::PlaneAxes::along(turned);
+        const mpr::Axes &shown = planes.of(Orientation::axial);
+        EXPECT_GT(glm::dot(shown.right, glm::dvec3(1, 0, 0)), 0.65) << angle;
+        EXPECT_LT(std::abs(glm::dot(shown.toViewer(), glm::normalize(turned.step(0)))), 1e-9);
+    }
+}
+
 } // namespace
 } // namespace pellucid

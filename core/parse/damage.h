@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <exception>
+#include <new>
+
+#include "core/task/error.h"
+
+namespace pellucid::parse {
+
+/// Runs what a damaged file may surprise: DCMTK and OpenJPEG let exceptions of the standard library
+/// through. *Throws* task::Error only.
+template <class F> auto orDamaged(F &&f) {
+    try {
+        return f();
+    } catch (const task::Error &) {
+        throw;
+    } catch (const std::bad_alloc &) {
+        throw task::Error(task::ErrorCode::outOfMemory, "needs more memory than there is");
+    } catch (const std::exception &) {
+        throw task::Error(task::ErrorCode::unusable, "is damaged");
+    }
+}
+
+} // namespace pellucid::parse

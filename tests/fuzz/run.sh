@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Fuzzes every target, or the named ones, and fails if one breaks.
+# Usage: run.sh BIN SECONDS [TARGET...]; what breaks a target is left in BIN/../fuzz/found.
+set -uo pipefail
+bin=$1 seconds=$2
+shift 2
+work=$(dirname "$bin")/fuzz
+mkdir -p "$work/found"
+export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+mapfile -t targets < <("$bin/fuzz_corpus" "$work/corpus")
+(($#)) && targets=("$@")
+failed=0
+for target in "${targets[@]}"; do
+    log=$work/$target.log
+    if PELLUCID_FUZZ_TARGET=$target timeout $((seconds + 120)) "$bin/pellucid_fuzz" -max_total_time="$seconds" \
+        -timeout=25 -rss_limit_mb=4096 -max_len=65536 -artifact_prefix="$work/found/$target-" "$work/corpus/$target" >"$log" 2>&1; then
+        echo "$target: $(grep -oE '^Done [0-9]+ runs' "$log" || echo 'done')"
+    else
+        echo "$target: broken, see $log"
+        grep -E 'ERROR|runtime error|SUMMARY|Test unit written|what\(\)' "$log" | head -5
+        failed=1
+    fi
+done
+exit $failed
