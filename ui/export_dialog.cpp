@@ -49,7 +49,8 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
                                        tr("DICOM Secondary Capture"), tr("Turntable, frames (PNG)"),
                                        tr("Turntable, video (MP4)")})),
       m_scale(box("exportScaleBox", {"1 x", "2 x", "3 x", "4 x"})),
-      m_annotated(new QCheckBox(tr("With annotations"))), m_path(new QLineEdit),
+      m_annotated(new QCheckBox(tr("With annotations"))),
+      m_deidentified(new QCheckBox(tr("Without the patient's identity"))), m_path(new QLineEdit),
       m_frames(new QSpinBox), m_said(new QLabel) {
     setObjectName("exportDialog");
     setWindowTitle(tr("Export picture"));
@@ -59,6 +60,9 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_annotated->setChecked(true);
     m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them a picture "
                                "has no patient's side on it"));
+    m_deidentified->setObjectName("exportDeidentifiedBox");
+    m_deidentified->setToolTip(tr("No name, number, dates or study of the patient, and a new study "
+                                  "UID (DICOM PS3.15, basic profile)"));
     m_frames->setObjectName("exportFramesBox");
     m_frames->setRange(2, 720);
     m_frames->setValue(PictureExport().frameCount);
@@ -79,6 +83,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     form->addRow(tr("Format"), m_format);
     form->addRow(tr("Size"), m_scale);
     form->addRow(QString(), m_annotated);
+    form->addRow(QString(), m_deidentified);
     form->addRow(tr("Frames"), m_frames);
     form->addRow(tr("File"), where);
     form->addRow(m_said);
@@ -90,6 +95,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     form->addRow(buttons);
     for (QComboBox *choice : {m_pane, m_format, m_scale})
         connect(choice, &QComboBox::currentIndexChanged, this, &ExportDialog::showChosen);
+    connect(m_deidentified, &QCheckBox::toggled, this, &ExportDialog::showChosen);
     connect(m_panes.projection, &ProjectionView::finalImageShown, this, &ExportDialog::showChosen);
     connect(&document, &Document::volumeChanged, this, &ExportDialog::showChosen);
     connect(other, &QPushButton::clicked, this, &ExportDialog::browse);
@@ -110,14 +116,19 @@ ExportDialog::~ExportDialog() {
 }
 
 PictureExport ExportDialog::chosen() const {
-    return {Pane(m_pane->currentIndex()), PictureFormat(m_format->currentIndex()),
-            m_scale->currentIndex() + 1, m_annotated->isChecked(), m_frames->value()};
+    return {Pane(m_pane->currentIndex()),
+            PictureFormat(m_format->currentIndex()),
+            m_scale->currentIndex() + 1,
+            m_annotated->isChecked(),
+            m_frames->value(),
+            m_deidentified->isEnabled() && m_deidentified->isChecked()};
 }
 
 void ExportDialog::showChosen() {
     const PictureExport what = chosen();
     m_annotated->setEnabled(what.isPicture());
     m_frames->setEnabled(what.isTurn());
+    m_deidentified->setEnabled(what.format == PictureFormat::capture);
     const QWidget *const pane = m_panes.of(what.pane);
     const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
     const QString why = obstacle(what, m_panes, m_document);
@@ -125,7 +136,9 @@ void ExportDialog::showChosen() {
         return;
     QString text = tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height());
     if (what.format == PictureFormat::capture)
-        text += "; " + tr("holds the patient's name and identifier");
+        text +=
+            "; " + (m_deidentified->isChecked() ? tr("holds nothing of the patient's identity")
+                                                : tr("holds the patient's name and identifier"));
     if (what.format == PictureFormat::frames)
         text += "; " + tr("one file for each frame, numbered");
     say(why.isEmpty() ? text : why, why.isEmpty() ? "muted" : "warning");
@@ -157,10 +170,11 @@ bool ExportDialog::mayReplace(const QString &path) {
         return true;
     if (!QFileInfo::exists(first))
         return true;
-    return QMessageBox::question(
-               this, tr("Export picture"),
-               tr("%1 is there already. Replace it?").arg(QFileInfo(first).fileName())) ==
-           QMessageBox::Yes;
+    QMessageBox question(QMessageBox::NoIcon, tr("Export picture"),
+                         tr("%1 is there already. Replace it?").arg(QFileInfo(first).fileName()),
+                         QMessageBox::Yes | QMessageBox::No, this);
+    question.setDefaultButton(QMessageBox::No);
+    return question.exec() == QMessageBox::Yes;
 }
 
 void ExportDialog::say(const QString &text, const char *role) {
@@ -174,22 +188,24 @@ void ExportDialog::write() {
         const QString path = m_path->text();
         if (!mayReplace(path))
             return;
-        m_jobs.start(tr("Writing"),
-                     [this, path, isCapture = chosen().format == PictureFormat::capture,
-                      writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {
-                         writer(job.progress());
-                         std::shared_ptr<const dicom::Catalogue> capture;
-                         if (isCapture)
-                             capture = std::make_shared<const dicom::Catalogue>(
-                                 dicom::scan({path.toStdString()}));
-                         job.deliver([this, path, capture] {
-                             QSettings().setValue(folderKey, QFileInfo(path).absolutePath());
-                             emit written(path);
-                             if (capture)
-                                 emit captured(capture);
-                             close();
-                         });
-                     });
+        m_jobs.start(
+            tr("Writing"),
+            [this, path,
+             isCapture = chosen().format == PictureFormat::capture && !chosen().isDeidentified,
+             writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {
+                writer(job.progress());
+                std::shared_ptr<const dicom::Catalogue> capture;
+                if (isCapture)
+                    capture =
+                        std::make_shared<const dicom::Catalogue>(dicom::scan({path.toStdString()}));
+                job.deliver([this, path, capture] {
+                    QSettings().setValue(folderKey, QFileInfo(path).absolutePath());
+                    emit written(path);
+                    if (capture)
+                        emit captured(capture);
+                    close();
+                });
+            });
         m_write->setEnabled(false);
     } catch (const task::Error &error) {
         say(spoken(error.reason()), "warning");

@@ -47,7 +47,7 @@ private:
     Panes m_panes;
     JobRunner &m_jobs;
     QComboBox *m_pane, *m_format, *m_scale;
-    QCheckBox *m_annotated;
+    QCheckBox *m_annotated, *m_deidentified;
     QLineEdit *m_path;
     QSpinBox *m_frames;
     QLabel *m_said;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/main_window.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <QAbstractSpinBox>
 #include <QAction>
 #include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QComboBox>
+#include <QDir>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QKeySequenceEdit>
@@ -134,8 +138,7 @@ void MainWindow::createPanes() {
 
     m_start = new StartPage;
     connect(m_start, &StartPage::phantomRequested, this, &MainWindow::openPhantom);
-    connect(m_start, &StartPage::pathRequested, this,
-            [this](const QString &path) { openPaths({path}); });
+    connect(m_start, &StartPage::recentRequested, this, &MainWindow::openRecent);
     connect(m_start, &StartPage::resumeRequested, this, &MainWindow::resumeSession);
     showStart();
     m_stack = new QStackedWidget;
@@ -171,15 +174,7 @@ void MainWindow::createStudyDock() {
     connect(m_studies, &StudyPanel::sourceActivated, &m_bench.opener, &StudyOpener::openSource);
     connect(m_studies, &StudyPanel::closeRequested, &m_bench.opener, &StudyOpener::closeSource);
     connect(m_studies, &StudyPanel::besideRequested, this, &MainWindow::openBeside);
-    connect(m_studies, &StudyPanel::libraryVolumeActivated, this,
-            [this](const StudyFacts &study, const VolumeFacts &volume) {
-                std::vector<VolumeFacts> series = m_bench.library.volumes(study);
-                std::erase_if(series, [&](const VolumeFacts &v) {
-                    return v.seriesUid != volume.seriesUid || v.file != volume.file;
-                });
-                m_bench.opener.openFromLibrary(study, series, volume.key(),
-                                               m_bench.library.files(volume));
-            });
+    connect(m_studies, &StudyPanel::libraryVolumeActivated, this, &MainWindow::openFromLibrary);
     connect(&m_bench.library, &StudyLibrary::failed, this, &MainWindow::report);
     connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
         m_bench.document.addProblems(result.skipped);
@@ -464,10 +459,47 @@ void MainWindow::openPaths(const QStringList &paths) {
     m_bench.opener.openPaths(absolute);
 }
 
+void MainWindow::openFromLibrary(const StudyFacts &study, const VolumeFacts &volume) {
+    std::vector<VolumeFacts> series = m_bench.library.volumes(study);
+    std::erase_if(series, [&](const VolumeFacts &v) {
+        return v.seriesUid != volume.seriesUid || v.file != volume.file;
+    });
+    m_bench.opener.openFromLibrary(study, series, volume.key(), m_bench.library.files(volume));
+    remember({recentEntry(study)});
+}
+
+// Of a study the volume with most samples, as of a folder.
+void MainWindow::openRecent(const QString &entry) {
+    const auto study = recentStudy(entry, m_bench.library);
+    if (!study) {
+        openPaths({entry});
+        return;
+    }
+    const auto volumes = m_bench.library.volumes(*study);
+    const auto largest =
+        std::max_element(volumes.begin(), volumes.end(), [](const auto &a, const auto &b) {
+            return std::pair(a.placed, a.size.count()) < std::pair(b.placed, b.size.count());
+        });
+    if (largest != volumes.end())
+        openFromLibrary(*study, *largest);
+}
+
 void MainWindow::showStart() {
     const bool remembers = m_preferences.remembersStudies;
-    m_start->setRecentPaths(remembers ? recentPaths() : QStringList());
-    m_start->setOffersResuming(remembers && keptSession().has_value());
+    std::vector<StartPage::Recent> recent;
+    for (const QString &entry : remembers ? recentPaths() : QStringList()) {
+        const auto study = recentStudy(entry, m_bench.library);
+        if (study)
+            recent.push_back({m_preferences.showsPatientInTitle
+                                  ? patientText(*study) + ", " + studyText(*study)
+                                  : studyText(*study),
+                              entry});
+        else if (QDir::isAbsolutePath(entry))
+            recent.push_back({QDir::toNativeSeparators(entry), entry});
+    }
+    m_start->setRecent(recent);
+    const auto session = remembers ? keptSession() : std::nullopt;
+    m_start->setOffersResuming(session.has_value(), session && session->hasEnded);
 }
 
 void MainWindow::resumeSession() {

@@ -82,6 +82,8 @@ private:
     void openBeside(const StudySource &source);
     void closeBeside();
     void showHeading();
+    void openFromLibrary(const StudyFacts &study, const VolumeFacts &volume);
+    void openRecent(const QString &entry);
     void showStart();
     void showTitle();
     void remember(const QStringList &paths);

@@ -125,6 +125,8 @@ PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const D
     dicom::CaptureLabels labels = labelsOf(document, plane.axes, plane.pixelMm / what.scale);
     labels.seriesDescription = "Plane";
     labels.derivation = "Reformatted plane";
+    if (what.isDeidentified)
+        labels = dicom::deidentified(labels);
     return [make = view.pictureMaker(what.scale), what, path, ratio, labels,
             isGrey = !document.tint(), over = recorded(what.isAnnotated, [&](QPainter &painter) {
                                            view.paintOver(painter);
@@ -195,10 +197,13 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
                                   view.turnedAroundPatient(document.scene().camera, degrees));
         }));
     }
-    return [what, path, scene, render, ratio, turn, lattice = document.volume()->lattice(),
-            isGrey = classify::isGrey(scene.look) && scene.shading.isGrey(),
-            labels = labelsOf(document, {scene.camera.axes()[0], scene.camera.axes()[1]},
-                              scene.camera.pixelMm)](const task::Progress &progress) {
+    dicom::CaptureLabels labels =
+        labelsOf(document, {scene.camera.axes()[0], scene.camera.axes()[1]}, scene.camera.pixelMm);
+    if (what.isDeidentified)
+        labels = dicom::deidentified(labels);
+    return [what, path, scene, render, ratio, turn, labels, lattice = document.volume()->lattice(),
+            isGrey = classify::isGrey(scene.look) &&
+                     scene.shading.isGrey()](const task::Progress &progress) {
         const auto picture = [&](std::size_t n) {
             QImage made = asItLooks(render(turn.cameras[n]), scene.tone);
             putOver(made, turn.over[n], ratio);

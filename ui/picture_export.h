@@ -37,7 +37,8 @@ struct PictureExport {
     PictureFormat format = PictureFormat::png;
     int scale = 1; ///< pixels for one of the screen, a side
     bool isAnnotated = true;
-    int frameCount = 120; ///< of a turn
+    int frameCount = 120;        ///< of a turn
+    bool isDeidentified = false; ///< a capture of nobody's
 
     /// Whether it shows colours and annotations.
     bool isPicture() const {

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include <QStringList>
+
+#include "ui/library/study_facts.h"
 
 namespace pellucid::ui {
 
-/// The paths opened last, newest first, from the user's settings.
+class StudyLibrary;
+
+/// What was opened last, newest first, from the user's settings: paths, and studies of the library
+/// by number and digest, without a name.
 QStringList recentPaths();
+/// A study of the library as such an entry; the study that an entry means, if it is one and there.
+QString recentEntry(const StudyFacts &study);
+std::optional<StudyFacts> recentStudy(const QString &entry, StudyLibrary &library);
 /// Puts paths in front; the oldest beyond eight go.
 void addRecentPaths(const QStringList &paths);
 void forgetRecentPaths();

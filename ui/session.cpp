@@ -58,6 +58,7 @@ QJsonObject toJson(const Session &s) {
     const mpr::ResliceOptions &cut = s.shown.cut.options;
     return {
         {"schema", schema},
+        {"ended", s.hasEnded},
         {"files", QJsonArray::fromStringList(s.files)},
         {"phantom", s.phantom},
         {"key", s.key},
@@ -78,7 +79,8 @@ Session fromJson(const QJsonObject &in) {
         s.files << file.toString();
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
-    if (!s.phantom.isEmpty()) // of a newer program it may be unknown
+    s.hasEnded = in["ended"].toBool(true); // an earlier program wrote at its end only
+    if (!s.phantom.isEmpty())              // of a newer program it may be unknown
         phantom::kindFromName(s.phantom.toStdString());
     s.shown.scene = render::sceneFromJson(
         QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());

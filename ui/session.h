@@ -16,14 +16,17 @@ struct Session {
     QString phantom;   ///< or its name
     QString key;       ///< a digest of the source's
     Continuity shown;
+    /// The program that kept it has ended as programs should.
+    bool hasEnded = false;
 };
 
 /// The session as it is; none while nothing is open, or where what is open is gone with the
 /// program.
 std::optional<Session> currentSession(const Document &document);
 
-/// The user's file of it, written when the program ends. What cannot be written or read is as if
-/// there were none: nobody is kept from ending or beginning.
+/// The user's file of it, written a moment after each change and when the program ends: one that is
+/// killed loses a second or two. What cannot be written or read is as if there were none: nobody is
+/// kept from ending or beginning.
 void keepSession(const std::optional<Session> &session);
 std::optional<Session> keptSession();
 

@@ -12,18 +12,42 @@
 
 namespace pellucid::ui {
 
+namespace {
+
+constexpr int keepingMs = 1500;
+
+} // namespace
+
 Workstation::Workstation(std::optional<EngineChoice> engine)
     : m_preferences(Preferences::load()), m_bench(engine) {
     speak(m_preferences.language);
     makeWindow();
+    m_keeping.setSingleShot(true);
+    m_keeping.setInterval(keepingMs);
+    connect(&m_keeping, &QTimer::timeout, this, [this] { keepWhatIsOpen(false); });
+    for (const auto changed :
+         {&Document::volumeChanged, &Document::sceneChanged, &Document::cameraChanged,
+          &Document::displayWindowChanged, &Document::crosshairChanged, &Document::cutChanged})
+        connect(&m_bench.document, changed, this, [this] {
+            if (!m_keeping.isActive()) // a hand that does not rest is kept, too
+                m_keeping.start();
+        });
 }
 
 Workstation::~Workstation() {
-    // Who opened nothing still has what was open before.
-    if (!m_preferences.remembersStudies)
+    keepWhatIsOpen(true);
+}
+
+void Workstation::keepWhatIsOpen(bool hasEnded) {
+    if (!m_preferences.remembersStudies) {
         keepSession(std::nullopt);
-    else if (const auto session = currentSession(m_bench.document))
+        return;
+    }
+    // Who opened nothing still has what was open before.
+    if (auto session = currentSession(m_bench.document)) {
+        session->hasEnded = hasEnded;
         keepSession(session);
+    }
 }
 
 // English stands in the program; what is missing of another language stays English.

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <QObject>
+#include <QTimer>
 #include <QTranslator>
 
 #include "ui/preferences.h"
@@ -29,11 +30,13 @@ private:
     void makeWindow();
     void makeWindowWhenIdle();
     void speak(const QString &language);
+    void keepWhatIsOpen(bool hasEnded);
 
     Preferences m_preferences;
     QTranslator m_texts, m_ofQt;
     Workbench m_bench;
     std::unique_ptr<MainWindow> m_window;
+    QTimer m_keeping; ///< runs from a change until it is kept
 };
 
 } // namespace pellucid::ui

@@ -33,7 +33,7 @@ struct Options {
     std::string path, out, series, engine = "auto";
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
-    bool turntable = false, json = false;
+    bool turntable = false, json = false, isDeidentified = false;
 };
 
 // A picture asks for each step once; two classes may share one.
@@ -129,7 +129,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     render::FrameTimes times;
     double writeMs = 0.0;
     const int frames = std::max(1, o.frames);
-    dicom::CaptureLabels labels = input.labels;
+    dicom::CaptureLabels labels =
+        o.isDeidentified ? dicom::deidentified(input.labels) : input.labels;
     labels.seriesUid = dicom::newSeriesUid(); // one for all frames
     for (int frame = 0; frame < frames; ++frame) {
         task::Progress(context.stop).check();
@@ -215,6 +216,8 @@ void addRenderCommand(CLI::App &app, const Context &context) {
         ->check(CLI::Range(1, 100000));
     c->add_flag("--turntable", o->turntable,
                 "Turn once about the patient's long axis; OUT gets the frame number");
+    c->add_flag("--deidentify", o->isDeidentified,
+                "A .dcm without the patient's identity (PS3.15, basic profile)");
     c->add_flag("--json", o->json, "Print one JSON object about what was done");
     c->callback([o, c, context] { run(*o, *c, context); });
 }

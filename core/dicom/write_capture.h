@@ -21,7 +21,12 @@ struct CaptureLabels {
     int seriesNumber = 9001, instanceNumber = 1;
     std::string patientOrientation; ///< of rows and columns, "L\F"; may be empty
     double pixelMm = 0.0;           ///< of a pixel in the plane of the picture; 0: not told
+    bool isDeidentified = false;    ///< and is marked so
 };
+
+/// The same without whose it is: what the Basic Application Level Confidentiality Profile (PS3.15,
+/// E.2) removes, empties or replaces of what `writeCapture` writes; the study's UID is a new one.
+CaptureLabels deidentified(const CaptureLabels &labels);
 
 /// Of the study that a volume belongs to.
 CaptureLabels captureLabels(const Selection &selection);

@@ -63,6 +63,16 @@ CaptureLabels captureLabels(const Selection &s) {
     return labels;
 }
 
+CaptureLabels deidentified(const CaptureLabels &labels) {
+    CaptureLabels nobody = labels;
+    for (std::string *const text : {&nobody.patientId, &nobody.patientName, &nobody.birthDate,
+                                    &nobody.sex, &nobody.studyDate, &nobody.studyDescription})
+        text->clear();
+    nobody.studyUid = newUid(UidKind::study);
+    nobody.isDeidentified = true;
+    return nobody;
+}
+
 std::string newSeriesUid() {
     return newUid(UidKind::series);
 }
@@ -79,8 +89,13 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     put(d, DCM_SOPInstanceUID, newUid(UidKind::instance));
     put(d, DCM_StudyDate, labels.studyDate);
     put(d, DCM_StudyTime, "");
-    put(d, DCM_ContentDate, now("%Y%m%d"));
-    put(d, DCM_ContentTime, now("%H%M%S"));
+    // The day of the picture tells the day of the patient's visit.
+    put(d, DCM_ContentDate, labels.isDeidentified ? "" : now("%Y%m%d"));
+    put(d, DCM_ContentTime, labels.isDeidentified ? "" : now("%H%M%S"));
+    if (labels.isDeidentified) {
+        put(d, DCM_PatientIdentityRemoved, "YES");
+        put(d, DCM_DeidentificationMethod, "Basic Application Confidentiality Profile");
+    }
     put(d, DCM_AccessionNumber, "");
     put(d, DCM_Modality, "OT");
     put(d, DCM_ConversionType, "WSD");

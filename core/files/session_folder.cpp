@@ -2,12 +2,13 @@
 #include "core/files/session_folder.h"
 
 #include <cerrno>
-#include <charconv>
-#include <csignal>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <optional>
 #include <string>
+#include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -29,11 +30,18 @@ std::optional<fs::path> sessionsFolder() {
     return failed ? std::nullopt : std::optional(*cache / "sessions");
 }
 
-// The process that a folder "1234-XXXXXX" belongs to; 0 if it is none of ours.
-pid_t ownerOf(const std::string &name) {
-    pid_t owner = 0;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), owner);
-    return error == std::errc() && *end == '-' ? owner : 0;
+fs::path lockOf(const fs::path &folder) {
+    return folder.string() + ".lock";
+}
+
+// The lock if nobody else holds it; -1. The system lets go of it when a program ends, however.
+int takeLock(const fs::path &lock, int flags) {
+    const int fd = ::open(lock.c_str(), O_RDWR | O_CLOEXEC | flags, 0600);
+    if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0)
+        return fd;
+    if (fd >= 0)
+        ::close(fd);
+    return -1;
 }
 
 } // namespace
@@ -42,16 +50,20 @@ SessionFolder::SessionFolder() {
     const auto sessions = sessionsFolder();
     if (!sessions)
         throw task::Error(task::ErrorCode::output, "there is no folder for temporary files");
-    std::string name = (*sessions / (std::to_string(getpid()) + "-XXXXXX")).string();
+    std::string name = (*sessions / "XXXXXX").string();
     // Made for the user alone.
     if (mkdtemp(name.data()) == nullptr)
         throw task::Error(task::ErrorCode::output, std::strerror(errno), *sessions);
     m_path = name;
+    m_lock = takeLock(lockOf(m_path), O_CREAT);
 }
 
 SessionFolder::~SessionFolder() {
     std::error_code ignored;
     fs::remove_all(m_path, ignored);
+    fs::remove(lockOf(m_path), ignored);
+    if (m_lock >= 0)
+        ::close(m_lock);
 }
 
 bool isInSessionFolder(const fs::path &path) {
@@ -66,10 +78,19 @@ void removeAbandonedSessionFolders() {
     std::error_code failed;
     for (fs::directory_iterator entry(*sessions, failed), end; !failed && entry != end;
          entry.increment(failed)) {
-        const pid_t owner = ownerOf(entry->path().filename().string());
         std::error_code ignored;
-        if (owner > 0 && kill(owner, 0) != 0 && errno == ESRCH)
-            fs::remove_all(entry->path(), ignored);
+        if (!entry->is_directory(ignored))
+            continue;
+        // One that is just being made has no lock yet: it is no minute old.
+        const auto made = fs::last_write_time(entry->path(), ignored);
+        const bool isNew = fs::file_time_type::clock::now() - made < std::chrono::minutes(1);
+        const int lock = takeLock(lockOf(entry->path()), 0);
+        if (lock < 0 && (isNew || fs::exists(lockOf(entry->path()), ignored)))
+            continue;
+        fs::remove_all(entry->path(), ignored);
+        fs::remove(lockOf(entry->path()), ignored);
+        if (lock >= 0)
+            ::close(lock);
     }
 }
 

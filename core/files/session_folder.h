@@ -6,8 +6,8 @@
 namespace pellucid::files {
 
 /// A private folder for what a running program unpacks, gone with the object. It lies below the
-/// user's cache and carries the program's process number, so that what a killed program left is
-/// found by `removeAbandonedSessionFolders`.
+/// user's cache, and the program holds a lock beside it as long as it runs, so that what a killed
+/// program left is found by `removeAbandonedSessionFolders`.
 class SessionFolder {
 public:
     /// *Throws* Error{output} if there is no place for it.
@@ -20,6 +20,7 @@ public:
 
 private:
     std::filesystem::path m_path;
+    int m_lock = -1;
 };
 
 /// Whether a file will be gone with a program that runs.

@@ -1646,6 +1646,18 @@
         <source>%1 is there already. Replace it?</source>
         <translation>%1 已經存在。要取代它嗎？</translation>
     </message>
+    <message>
+        <source>Without the patient&apos;s identity</source>
+        <translation>不含病人身分</translation>
+    </message>
+    <message>
+        <source>No name, number, dates or study of the patient, and a new study UID (DICOM PS3.15, basic profile)</source>
+        <translation>不含病人的姓名、編號、日期與檢查資料，並使用新的檢查 UID（DICOM PS3.15 基本設定檔）</translation>
+    </message>
+    <message>
+        <source>holds nothing of the patient&apos;s identity</source>
+        <translation>不含任何病人身分資料</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::FileMenu</name>
@@ -2897,6 +2909,14 @@
     <message>
         <source>Open %1</source>
         <translation>開啟%1</translation>
+    </message>
+    <message>
+        <source>Recover what was open</source>
+        <translation>復原先前開啟的內容</translation>
+    </message>
+    <message>
+        <source>Pellucid ended unexpectedly: the study that was open, with its look as it was last</source>
+        <translation>Pellucid 意外結束：開啟先前的檢查，並恢復最後的外觀</translation>
     </message>
 </context>
 <context>

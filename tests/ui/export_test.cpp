@@ -109,6 +109,24 @@ private slots:
         QVERIFY(dump.readAll().contains("MONOCHROME2"));
     }
 
+    void aCaptureOfNobodyNamesNobody() {
+        const QString file = QString::fromStdString((m_folder / "nobody.dcm").string());
+        dialogFor("Projection", 4, 1, true);
+        find<QCheckBox>("exportDeidentifiedBox")->click();
+        QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("nothing of the patient"));
+        find<QLineEdit>("exportPathEdit")->setText(file);
+        finish();
+        QProcess dump;
+        dump.start("dcmdump", {"-q", file});
+        QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
+        const QString said = QString::fromUtf8(dump.readAll());
+        const ui::StudyFacts study = m_window->document().sources().at(0).study;
+        for (const QString &of : {study.patientName, study.patientId, study.uid, study.date})
+            QVERIFY2(of.isEmpty() || !said.contains("[" + of + "]"), qPrintable(of));
+        QVERIFY(said.contains("(0012,0062) CS [YES]"));
+        QCOMPARE(m_window->document().sources().size(), std::size_t(1));
+    }
+
     void whatIsThereIsReplacedOnlyWhenThatIsWanted() {
         const QImage first = exported("Projection", 0, 1, false);
         dialogFor("Projection", 0, 2, false);

@@ -278,6 +278,13 @@ bool Library::holds(const StudyFacts &study, const VolumeFacts &volume) const {
     return findSeries(list, study, volume) != 0;
 }
 
+std::optional<StudyFacts> Library::study(qint64 id) const {
+    const QSqlDatabase list = QSqlDatabase::database(m_connection);
+    ListQuery row(list, QString("SELECT %1 FROM studies WHERE id = ?").arg(studyColumns));
+    row.bind(id).run();
+    return row.next() ? std::optional(studyOf(row)) : std::nullopt;
+}
+
 std::vector<VolumeFacts> Library::volumes(qint64 study) const {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
     const std::string copies = m_place.copiesFolder().string() + "/";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include <QString>
@@ -73,6 +74,8 @@ public:
     /// Of a series that is there already; empty if it is not.
     std::vector<dicom::InstanceFile> files(const StudyFacts &study,
                                            const VolumeFacts &volume) const;
+
+    std::optional<StudyFacts> study(qint64 id) const;
 
     /// Adds series, in place of those that are there already, all of them or none.
     void put(const std::vector<LibrarySeries> &series);

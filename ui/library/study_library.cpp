@@ -73,6 +73,10 @@ bool StudyLibrary::holds(const StudyFacts &study, const VolumeFacts &volume) {
     return attempt([&](Library &l) { return l.holds(study, volume); });
 }
 
+std::optional<StudyFacts> StudyLibrary::study(qint64 id) {
+    return attempt([&](Library &l) { return l.study(id); });
+}
+
 std::vector<VolumeFacts> StudyLibrary::volumes(const StudyFacts &study) {
     return attempt([&](Library &l) { return l.volumes(study.libraryId); });
 }

@@ -25,6 +25,8 @@ public:
 
     StudyPage find(const QString &search, StudyOrder order, int offset, int limit);
     bool holds(const StudyFacts &study, const VolumeFacts &volume);
+    /// None if it has been removed.
+    std::optional<StudyFacts> study(qint64 id);
     std::vector<VolumeFacts> volumes(const StudyFacts &study);
     std::vector<dicom::InstanceFile> files(const VolumeFacts &volume);
 

@@ -21,9 +21,7 @@ QPushButton *button(const QString &text, const char *name, const QString &tip) {
 } // namespace
 
 StartPage::StartPage(QWidget *parent)
-    : QWidget(parent), m_resume(button(tr("Go on where you ended"), "resumeButton",
-                                       tr("The study that was open last, as it was looked at"))),
-      m_recent(new QVBoxLayout) {
+    : QWidget(parent), m_resume(button({}, "resumeButton", {})), m_recent(new QVBoxLayout) {
     setObjectName("startPage");
     setAttribute(Qt::WA_StyledBackground);
     auto *title = new QLabel(tr("Open a study"));
@@ -68,26 +66,32 @@ StartPage::StartPage(QWidget *parent)
     connect(chest, &QPushButton::clicked, this, [this] { emit phantomRequested("chest"); });
 }
 
-void StartPage::setOffersResuming(bool offers) {
+void StartPage::setOffersResuming(bool offers, bool hasEnded) {
+    m_resume->setText(hasEnded ? tr("Go on where you ended") : tr("Recover what was open"));
+    m_resume->setToolTip(hasEnded
+                             ? tr("The study that was open last, as it was looked at")
+                             : tr("Pellucid ended unexpectedly: the study that was open, with its "
+                                  "look as it was last"));
     m_resume->setVisible(offers);
 }
 
-void StartPage::setRecentPaths(const QStringList &paths) {
+void StartPage::setRecent(const std::vector<Recent> &recent) {
     while (QLayoutItem *item = m_recent->takeAt(0)) {
         delete item->widget();
         delete item;
     }
-    if (paths.isEmpty())
+    if (recent.empty())
         return;
     auto *heading = new QLabel(tr("RECENT"));
     heading->setProperty("role", "heading");
     m_recent->addWidget(heading, 0, Qt::AlignHCenter);
-    for (const QString &path : paths) {
-        auto *link = new QPushButton(QDir::toNativeSeparators(path));
+    for (const Recent &one : recent) {
+        auto *link = new QPushButton(one.text);
         link->setProperty("role", "link");
-        link->setToolTip(tr("Open %1").arg(path));
+        link->setToolTip(tr("Open %1").arg(one.text));
         m_recent->addWidget(link, 0, Qt::AlignHCenter);
-        connect(link, &QPushButton::clicked, this, [this, path] { emit pathRequested(path); });
+        connect(link, &QPushButton::clicked, this,
+                [this, entry = one.entry] { emit recentRequested(entry); });
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <QWidget>
 
 class QPushButton;
@@ -14,15 +16,19 @@ class StartPage : public QWidget {
 public:
     explicit StartPage(QWidget *parent = nullptr);
 
-    void setRecentPaths(const QStringList &paths);
-    /// What was open when the program ended is there to be taken up.
-    void setOffersResuming(bool offers);
+    /// What is opened again by a click: its name, and what `recentRequested` gives.
+    struct Recent {
+        QString text, entry;
+    };
+    void setRecent(const std::vector<Recent> &recent);
+    /// What was open when the program ended is there to be taken up; `hasEnded`: as it should.
+    void setOffersResuming(bool offers, bool hasEnded);
 
 signals:
     void openFilesRequested();
     void openFolderRequested();
     void phantomRequested(const QString &kind);
-    void pathRequested(const QString &path);
+    void recentRequested(const QString &entry);
     void resumeRequested();
 
 private:

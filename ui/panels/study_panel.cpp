@@ -4,6 +4,7 @@
 #include <set>
 
 #include <QActionGroup>
+#include <QApplication>
 #include <QDragEnterEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -102,6 +103,7 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &t
         showCurrent();
     });
     connect(&document, &Document::currentSourceChanged, this, &StudyPanel::showCurrent);
+    m_tree->setExpandsOnDoubleClick(false);
     connect(m_tree, &QTreeView::clicked, this, &StudyPanel::activate);
     connect(m_tree, &QTreeView::activated, this, &StudyPanel::activate);
     connect(m_tree, &QWidget::customContextMenuRequested, this, &StudyPanel::showMenu);
@@ -158,7 +160,11 @@ void StudyPanel::showCurrent() {
 void StudyPanel::activate(const QModelIndex &index) {
     const VolumeFacts *const volume = m_list.volume(index);
     if (volume == nullptr) {
-        m_tree->setExpanded(index, !m_tree->isExpanded(index));
+        // A click may come as an activation, too, and a double click as three.
+        if (!m_sinceToggle.isValid() ||
+            m_sinceToggle.elapsed() > QApplication::doubleClickInterval())
+            m_tree->setExpanded(index, !m_tree->isExpanded(index));
+        m_sinceToggle.restart();
         return;
     }
     if (const int source = m_list.source(index); source >= 0)
@@ -246,7 +252,7 @@ void StudyPanel::remove(const StudyFacts &study) {
         what += "\n\n" + tr("%n files that were copied into the library are deleted.", "", copied);
     if (referred > 0)
         what += "\n\n" + tr("%n files elsewhere stay where they are.", "", referred);
-    auto *question = new QMessageBox(QMessageBox::Question, tr("Remove from the library"), what,
+    auto *question = new QMessageBox(QMessageBox::NoIcon, tr("Remove from the library"), what,
                                      QMessageBox::Cancel, window());
     question->setObjectName("removeStudyQuestion");
     question->setAttribute(Qt::WA_DeleteOnClose);

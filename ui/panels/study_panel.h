@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QElapsedTimer>
 #include <QTimer>
 #include <QWidget>
 
@@ -58,6 +59,7 @@ private:
     StudyLibrary &m_library;
     StudyList m_list;
     QLineEdit *m_search;
+    QElapsedTimer m_sinceToggle; ///< of a study
     QTreeView *m_tree;
     QPushButton *m_corner;
     QTimer m_typing;

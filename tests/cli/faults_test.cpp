@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the world does to a program: kills it, fills its disk, changes its files, gives it no
+// memory. Each time it is done or it is not, nothing is half done, and one line says why.
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <random>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+#include "core/dicom/load_volume.h"
+#include "core/dicom/scan.h"
+#include "core/dicom/write_series.h"
+#include "core/phantom/phantom.h"
+#include "core/presets/preset.h"
+#include "core/presets/preset_library.h"
+#include "core/render/prepared_engine.h"
+#include "core/task/error.h"
+#include "core/volume/nrrd.h"
+#include "tests/cli/cli.h"
+#include "tests/support/files.h"
+
+namespace pellucid {
+
+using namespace test;
+using namespace std::chrono_literals;
+
+namespace {
+
+volume::Volume head(int slices, int side = 64) {
+    return phantom::makePhantom(
+        phantom::Kind::head,
+        phantom::phantomLattice(phantom::Kind::head,
+                                {.size = volume::GridSize{side, side, slices}}));
+}
+
+class Faults : public Cli {
+protected:
+    fs::path series(const std::string &name, int slices, int side = 64) {
+        dicom::writeCtSeries(folder / name, head(slices, side), {},
+                             dicom::TransferSyntax::explicitLittle);
+        return folder / name;
+    }
+    // Runs it in a child of its own and kills that after a while. True: it was killed in the
+    // middle.
+    template <class F> static bool killedAfter(std::chrono::microseconds time, F &&work) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            try {
+                work();
+            } catch (...) {
+                ::_exit(9);
+            }
+            ::_exit(0);
+        }
+        std::this_thread::sleep_for(time);
+        ::kill(child, SIGKILL);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        return WIFSIGNALED(status);
+    }
+};
+
+} // namespace
+
+TEST_F(Faults, AKillWhileAPresetIsSavedLeavesTheOldOrTheNew) {
+    const fs::path path = folder / "kept.json";
+    presets::Preset before, after;
+    before.name = after.name = "Kept";
+    before.look.transferFunction.weights = {0.0, 1.0};
+    after.look.transferFunction.weights = {0.5, 1.5, 0.25};
+    after.notes = std::string(200000, 'n'); // many writes
+    presets::writePreset(path, before);
+    std::mt19937 random(3);
+    int killed = 0;
+    for (int round = 0; round < 60; ++round) {
+        const auto &next = round % 2 == 0 ? after : before;
+        killed += killedAfter(std::chrono::microseconds(random() % 6000), [&] {
+            for (;;)
+                presets::writePreset(path, next);
+        });
+        const auto kept = presets::readPreset(path);
+        EXPECT_TRUE(kept.look == before.look || kept.look == after.look);
+    }
+    EXPECT_EQ(killed, 60);
+}
+
+TEST_F(Faults, AKillWhileAPictureIsExportedLeavesAWholeOneOrNone) {
+    const fs::path in = series("head", 40), out = folder / "out.png";
+    std::mt19937 random(5);
+    for (int round = 0; round < 25; ++round) {
+        fs::remove(out);
+        run(std::string("timeout -s KILL 0.") + std::to_string(100 + random() % 400) + " " +
+            PELLUCID_CLI + " render " + quoted(in) + " -o " + quoted(out));
+        if (!fs::exists(out))
+            continue;
+        const std::string png = readText(out);
+        EXPECT_EQ(png.substr(1, 3), "PNG");
+        EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND");
+    }
+    const auto whole = cli("render " + quoted(in) + " -o " + quoted(out));
+    EXPECT_EQ(whole.exitCode, 0) << whole.error;
+}
+
+TEST_F(Faults, AFileThatChangesWhileItIsReadIsAVolumeOrAReason) {
+    const fs::path in = series("changing", 30, 256);
+    const fs::path victim = in / "IM0011.dcm";
+    const std::string whole = readText(victim);
+    std::atomic<bool> isOver = false;
+    std::jthread changer([&] {
+        std::mt19937 random(7);
+        while (!isOver) {
+            std::error_code ignored;
+            switch (random() % 4) {
+            case 0:
+                fs::resize_file(victim, random() % (whole.size() + 1), ignored);
+                break;
+            case 1:
+                fs::remove(victim, ignored);
+                break;
+            default:
+                writeText(victim, whole);
+            }
+            std::this_thread::sleep_for(300us);
+        }
+    });
+    int volumes = 0;
+    for (int round = 0; round < 40; ++round) {
+        try {
+            const auto catalogue = dicom::scan({in});
+            const auto loaded = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
+            const int slices = loaded.volume.lattice().size().k;
+            // All of them, or a reason for the one that is missing.
+            EXPECT_TRUE(slices == 30 || !loaded.skipped.empty() || !catalogue.skipped.empty() ||
+                        !loaded.volume.notes().warnings.empty())
+                << slices;
+            ++volumes;
+        } catch (const task::Error &error) {
+            EXPECT_FALSE(error.reason().empty());
+        }
+    }
+    isOver = true;
+    EXPECT_GT(volumes, 0);
+}
+
+TEST_F(Faults, AFolderOfTwentyThousandFilesWithLoopsPipesAndDevicesIsReadToItsEnd) {
+    const fs::path in = series("head", 12);
+    fs::create_directories(in / "many");
+    for (int n = 0; n < 20000; ++n)
+        writeText(in / "many" / ("note" + std::to_string(n)), "no image at all, but a note");
+    fs::create_directory_symlink(in, in / "many/loop");
+    fs::create_symlink(in / "nowhere", in / "many/broken");
+    ASSERT_EQ(std::system(("mkfifo '" + (in / "many/pipe").string() + "'").c_str()), 0);
+    fs::create_symlink("/dev/zero", in / "many/zero");
+    const auto start = std::chrono::steady_clock::now();
+    const auto catalogue = dicom::scan({in});
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    RecordProperty("seconds", std::to_string(seconds));
+    EXPECT_EQ(dicom::defaultSelection(catalogue).volume->geometry.lattice.size().k, 12);
+    EXPECT_EQ(catalogue.skipped.size(), 20004U);
+}
+
+// Wherever it is asked to stop, it stops: at once, and with nothing left.
+TEST_F(Faults, CancellingIsPossibleAtEveryStage) {
+    const fs::path in = series("head", 24);
+    const auto stages = [&](const task::Progress &progress) {
+        const auto catalogue = dicom::scan({in}, progress.part(0.0, 0.3));
+        const auto loaded =
+            dicom::loadVolume(*dicom::defaultSelection(catalogue).volume, progress.part(0.3, 0.6));
+        volume::writeNrrd(folder / "out.nrrd", loaded.volume, volume::NrrdEncoding::gzip,
+                          progress.part(0.6, 1.0));
+    };
+    std::atomic<int> reports = 0;
+    stages(task::Progress({}, [&](double) { ++reports; }));
+    const int all = reports;
+    ASSERT_GT(all, 40);
+    fs::remove(folder / "out.nrrd");
+    double slowest = 0.0;
+    for (int at = 0; at < all; at += std::max(1, all / 40)) {
+        std::stop_source stop;
+        std::atomic<int> count = 0;
+        std::chrono::steady_clock::time_point asked;
+        std::once_flag once;
+        try {
+            stages(task::Progress(stop.get_token(), [&](double) {
+                if (++count > at)
+                    std::call_once(once, [&] {
+                        asked = std::chrono::steady_clock::now();
+                        stop.request_stop();
+                    });
+            }));
+            continue; // it was the last report
+        } catch (const task::Cancelled &) {
+        }
+        slowest = std::max(
+            slowest,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count());
+        EXPECT_FALSE(fs::exists(folder / "out.nrrd")) << at;
+    }
+    RecordProperty("slowest_seconds", std::to_string(slowest));
+    EXPECT_EQ(entries(folder.path()), 1U); // nothing beside the series
+}
+
+#ifndef PELLUCID_SANITIZED // which reserve terabytes
+// From too little to start to enough, in steps: done, or refused in one line with a documented
+// code.
+TEST_F(Faults, LittleMemoryIsRefusedOrReduced) {
+    const fs::path in = series("head", 96, 192), out = folder / "out.png";
+    int done = 0, refused = 0;
+    for (int mb = 150; mb <= 1500; mb += 75) {
+        fs::remove(out);
+        const std::string limit = "ulimit -v " + std::to_string(mb * 1024) + ";";
+        if (cli("--version", limit).exitCode != 0)
+            continue; // the libraries themselves do not fit
+        const auto r = cli("render " + quoted(in) + " -o " + quoted(out) + " --threads 2", limit);
+        EXPECT_EQ(fs::exists(out), r.exitCode == 0) << mb;
+        if (r.exitCode == 0) {
+            ++done;
+            continue;
+        }
+        ++refused;
+        EXPECT_TRUE(r.exitCode == 4 || r.exitCode == 1 || r.exitCode == 3)
+            << mb << " MB: " << r.exitCode << " " << r.error;
+        EXPECT_FALSE(r.error.empty()) << mb;
+    }
+    EXPECT_GT(done, 0);
+    EXPECT_GT(refused, 0);
+}
+#endif
+
+} // namespace pellucid

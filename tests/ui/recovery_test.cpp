@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A program that is killed, or told to end, loses nothing but the last moment.
+#include "tests/ui/workstation.h"
+
+#include <csignal>
+#include <fstream>
+
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+#include <QPushButton>
+
+#include "core/files/session_folder.h"
+#include "tests/support/files.h"
+#include "ui/session.h"
+#include "ui/workstation.h"
+
+namespace pellucid {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+class RecoveryTest : public Workstation {
+    Q_OBJECT
+private slots:
+    void initTestCase() {
+        Workstation::initTestCase();
+        m_sessionFile = m_folder / "data" / "pellucid" / "session.json";
+    }
+    void init() { fs::remove(m_sessionFile); }
+
+    void whatWasOpenIsOfferedAfterAKill() {
+        QProcess program;
+        start(program, {headPath()});
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        QVERIFY(!readText(m_sessionFile).empty());
+        program.kill();
+        QVERIFY(program.waitForFinished(patienceMs));
+        ui::Workstation next;
+        auto *offer = next.window().findChild<QPushButton *>("resumeButton");
+        QVERIFY(offer->isVisible());
+        QCOMPARE(offer->text(), QString("Recover what was open"));
+        offer->click();
+        QTRY_VERIFY_WITH_TIMEOUT(
+            next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
+        QCOMPARE(next.bench().document.volume()->lattice().size().k, 80);
+    }
+
+    // A look that nobody has saved.
+    void anUnsavedLookIsRecovered() {
+        render::Scene edited;
+        {
+            ui::Workstation program;
+            program.window().openPaths({headPath()});
+            ui::Document &document = program.bench().document;
+            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
+            edited = document.scene();
+            edited.look.transferFunction.weights = {0.0, 0.7, 1.9, 0.3};
+            document.undoStack()->push(new ui::EditScene(document, edited, "Weights"));
+            QTRY_VERIFY_WITH_TIMEOUT(hasSession() && kept().shown.scene.look == edited.look,
+                                     patienceMs);
+            QVERIFY(!kept().hasEnded);
+            // As it would be found after a kill now.
+            fs::copy_file(m_sessionFile, m_folder / "killed.json");
+        }
+        QVERIFY(kept().hasEnded);
+        fs::copy_file(m_folder / "killed.json", m_sessionFile,
+                      fs::copy_options::overwrite_existing);
+        ui::Workstation next;
+        next.window().resumeSession();
+        QTRY_VERIFY_WITH_TIMEOUT(next.bench().document.scene().look == edited.look, patienceMs);
+    }
+
+    void aProgramThatIsToldToEndEndsAsOneThatIsClosed() {
+        QProcess program;
+        start(program, {headPath()});
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        program.terminate();
+        QVERIFY(program.waitForFinished(patienceMs));
+        QCOMPARE(program.exitStatus(), QProcess::NormalExit);
+        QCOMPARE(program.exitCode(), 0);
+        QVERIFY(kept().hasEnded);
+    }
+
+    // What an archive was unpacked to is the patient's.
+    void whatAKilledProgramUnpackedIsRemovedByTheNext() {
+        const QString zip = QString::fromStdString((m_folder / "study.zip").string());
+        QProcess packer;
+        packer.setWorkingDirectory(headPath());
+        packer.start("python3", {"-m", "zipfile", "-c", zip, "."});
+        QVERIFY(packer.waitForFinished() && packer.exitCode() == 0);
+        const fs::path sessions = m_folder / "cache" / "pellucid" / "sessions";
+        QProcess program;
+        start(program, {zip});
+        const auto unpacked = [&] {
+            std::error_code ignored;
+            int count = 0;
+            for (const auto &entry : fs::directory_iterator(sessions, ignored))
+                count += entry.is_directory() ? 1 : 0;
+            return count;
+        };
+        QTRY_VERIFY_WITH_TIMEOUT(unpacked() == 1, patienceMs);
+        // Not of one that runs.
+        files::removeAbandonedSessionFolders();
+        QCOMPARE(unpacked(), 1);
+        program.kill();
+        QVERIFY(program.waitForFinished(patienceMs));
+        files::removeAbandonedSessionFolders();
+        QVERIFY(fs::is_empty(sessions));
+    }
+
+    // No name, no number of a patient in what the program keeps for itself.
+    void nothingThatIsKeptNamesThePatient() {
+        {
+            ui::Workstation program;
+            program.window().openPaths({headPath()});
+            ui::Document &document = program.bench().document;
+            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
+            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+            QVERIFY(!program.window().windowTitle().contains("Secret"));
+        }
+        QProcess program;
+        start(program, {headPath()});
+        QTRY_VERIFY_WITH_TIMEOUT(
+            fs::exists(m_folder / "cache" / "pellucid" / "log" / "pellucid.log"), patienceMs);
+        QTest::qWait(1500);
+        program.terminate();
+        QVERIFY(program.waitForFinished(patienceMs));
+        int looked = 0;
+        for (const char *const place : {"data", "cache"})
+            for (const auto &entry : fs::recursive_directory_iterator(m_folder / place)) {
+                QVERIFY2(entry.path().string().find("Secret") == std::string::npos,
+                         entry.path().c_str());
+                if (!entry.is_regular_file() ||
+                    entry.path().string().find("library.sqlite") != std::string::npos)
+                    continue; // the library is what the user keeps
+                ++looked;
+                QVERIFY2(readText(entry.path()).find("Secret") == std::string::npos,
+                         entry.path().c_str());
+            }
+        QVERIFY(looked > 2);
+    }
+
+private:
+    void start(QProcess &program, const QStringList &arguments) {
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        environment.insert("XDG_CONFIG_HOME",
+                           QString::fromStdString((m_folder / "config").string()));
+        program.setProcessEnvironment(environment);
+        program.start(PELLUCID_WORKSTATION, arguments);
+        QVERIFY(program.waitForStarted(patienceMs));
+    }
+    bool hasSession() const { return ui::keptSession().has_value(); }
+    ui::Session kept() const { return *ui::keptSession(); }
+
+    fs::path m_sessionFile;
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::RecoveryTest>(argc, argv);
+}
+
+#include "recovery_test.moc"

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Random use, the same each time: what is given back must be given back, and no click may wait.
+// A few dozen operations at every build, a thousand with PELLUCID_LONG_TESTS.
+#include "tests/ui/workstation.h"
+
+#include <algorithm>
+#include <fstream>
+#include <malloc.h>
+#include <random>
+#include <unistd.h>
+
+#include <QListWidget>
+
+#include "ui/views/mpr_view.h"
+#include "ui/workstation.h"
+
+namespace pellucid {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+namespace {
+
+// How long the event loop was kept by one event. *Units*: ms.
+class WatchedApplication : public QApplication {
+public:
+    using QApplication::QApplication;
+    bool notify(QObject *receiver, QEvent *event) override {
+        if (m_depth++ > 0) {
+            const bool done = QApplication::notify(receiver, event);
+            --m_depth;
+            return done;
+        }
+        QElapsedTimer clock;
+        clock.start();
+        const bool done = QApplication::notify(receiver, event);
+        const double ms = double(clock.nsecsElapsed()) * 1e-6;
+        --m_depth;
+        if (isWatching) {
+            spans.push_back(ms);
+            if (ms > worst) {
+                worst = ms;
+                worstWas = QString("%1 to %2 (%3)")
+                               .arg(event->type())
+                               .arg(receiver->metaObject()->className(), receiver->objectName());
+            }
+        }
+        return done;
+    }
+
+    std::vector<double> spans;
+    double worst = 0.0;
+    QString worstWas;
+    bool isWatching = false;
+
+private:
+    int m_depth = 0;
+};
+
+double residentMb() {
+    std::ifstream statm("/proc/self/statm");
+    double pages = 0.0, resident = 0.0;
+    statm >> pages >> resident;
+    return resident * double(::sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
+
+int openDescriptors() {
+    int count = 0;
+    for ([[maybe_unused]] const auto &entry : fs::directory_iterator("/proc/self/fd"))
+        ++count;
+    return count;
+}
+
+WatchedApplication &application() {
+    return *static_cast<WatchedApplication *>(qApp);
+}
+
+} // namespace
+
+class SoakTest : public QObject {
+    Q_OBJECT
+private slots:
+    void initTestCase() {
+        QStandardPaths::setTestModeEnabled(true);
+        QSettings().clear();
+        qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "data").string()));
+        qputenv("XDG_CACHE_HOME", QByteArray::fromStdString((m_folder / "cache").string()));
+        fourier::keepWisdomIn(*files::userCacheFolder() / "fftw-wisdom");
+        for (int n = 0; n < 3; ++n) {
+            const auto kind = n == 1 ? phantom::Kind::chest : phantom::Kind::head;
+            const auto lattice =
+                phantom::phantomLattice(kind, {.size = volume::GridSize{96, 96, 60 + 10 * n}});
+            dicom::writeCtSeries(m_folder / ("study" + std::to_string(n)),
+                                 phantom::makePhantom(kind, lattice),
+                                 {.patientName = "Soak^" + std::to_string(n)},
+                                 dicom::TransferSyntax::explicitLittle);
+        }
+    }
+
+    void aThousandRandomOperationsLeaveNothingBehind() {
+        const bool isLong = qEnvironmentVariableIsSet("PELLUCID_LONG_TESTS");
+        const int rounds = isLong ? 1000 : 60;
+        m_program = std::make_unique<ui::Workstation>();
+        m_program->window().resize(1400, 900);
+        QVERIFY(QTest::qWaitForWindowExposed(&m_program->window()));
+        // Caches and kept studies have their size after a while: memory is compared from there on.
+        std::mt19937 random(20261122);
+        for (int n = 0; n < rounds / 3; ++n)
+            operate(random());
+        const double before = memoryAtRestMb();
+        const int descriptors = openDescriptors();
+        application().isWatching = true;
+        for (int n = 0; n < rounds; ++n)
+            operate(random());
+        application().isWatching = false;
+        const double after = memoryAtRestMb();
+        auto &spans = application().spans;
+        std::sort(spans.begin(), spans.end());
+        const auto at = [&](double share) {
+            return spans[std::min(spans.size() - 1, std::size_t(share * double(spans.size())))];
+        };
+        qInfo("%d operations; memory %.0f MB, then %.0f MB; descriptors %d, then %d", rounds,
+              before, after, descriptors, openDescriptors());
+        qInfo("%zu events: half within %.3f ms, 99 %% %.2f, 99.9 %% %.2f, the worst %.1f: %s",
+              spans.size(), at(0.5), at(0.99), at(0.999), application().worst,
+              qPrintable(application().worstWas));
+        qInfo("above 16 ms: %zu, above 100 ms: %zu", above(16.0), above(100.0));
+        QVERIFY(!spans.empty());
+        if (!isLong) // caches are still being filled
+            return;
+        QVERIFY2(after < 1.05 * before, "memory grows");
+        QVERIFY2(openDescriptors() <= descriptors + 3, "descriptors stay open");
+    }
+    void cleanupTestCase() { m_program.reset(); }
+
+private:
+    std::size_t above(double ms) const {
+        const auto &spans = application().spans;
+        return std::size_t(spans.end() - std::upper_bound(spans.begin(), spans.end(), ms));
+    }
+    ui::Document &document() { return m_program->bench().document; }
+    QWidget *widget(const char *name) { return m_program->window().findChild<QWidget *>(name); }
+    void trigger(const char *name) {
+        if (auto *const action = m_program->window().findChild<QAction *>(name);
+            action != nullptr && action->isEnabled())
+            action->trigger();
+    }
+
+    void settleDown() {
+        QTRY_VERIFY_WITH_TIMEOUT(!m_program->bench().jobs.isRunning(), patienceMs);
+        QTest::qWait(500);
+    }
+
+    // With nothing open, and what the allocator keeps for later given back.
+    double memoryAtRestMb() {
+        settleDown();
+        const int count = int(document().sources().size());
+        for (int n = 0; n < count; ++n)
+            m_program->bench().opener.closeSource(n);
+        settleDown();
+        ::malloc_trim(0);
+        return residentMb();
+    }
+
+    // Not waited for its end, most of the time: users do not either.
+    void operate(unsigned what) {
+        const unsigned detail = what / 16;
+        const bool isOpen = document().volume().has_value();
+        switch (what % 16) {
+        case 0:
+        case 1:
+            m_program->window().openPaths({QString::fromStdString(
+                (m_folder / ("study" + std::to_string(detail % 3))).string())});
+            if (detail % 4 != 0)
+                QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(),
+                                         patienceMs);
+            break;
+        case 2:
+        case 3:
+        case 4:
+            if (isOpen)
+                dragMouse(widget("projectionView"), Qt::LeftButton, {200, 200},
+                          {int(detail % 120) - 60, int(detail / 128 % 80) - 40});
+            break;
+        case 5:
+            if (isOpen)
+                turnWheel(widget("axialView"), int(detail % 9) - 4);
+            break;
+        case 6:
+            if (isOpen)
+                dragMouse(widget("coronalView"), Qt::LeftButton, {60, 60},
+                          {int(detail % 60) - 30, 10});
+            break;
+        case 7:
+        case 8:
+            if (auto *gallery = m_program->window().findChild<QListWidget *>("presetGallery");
+                isOpen && gallery->count() > 0) {
+                auto *item = gallery->item(int(detail) % gallery->count());
+                gallery->scrollToItem(item);
+                QTest::mouseClick(gallery->viewport(), Qt::LeftButton, {},
+                                  gallery->visualItemRect(item).center());
+            }
+            break;
+        case 9:
+            trigger("undoAction");
+            break;
+        case 10:
+            trigger(detail % 2 == 0 ? "redoAction" : "undoAction");
+            break;
+        case 11:
+            trigger(detail % 3 == 0   ? "filmAction"
+                    : detail % 3 == 1 ? "depthCueAction"
+                                      : "slabAction");
+            break;
+        case 12:
+            trigger(detail % 2 == 0 ? "twoByTwoAction" : "onePlusThreeAction");
+            break;
+        case 13:
+            if (isOpen && document().currentSource() >= 0 && detail % 3 == 0)
+                m_program->bench().opener.closeSource(document().currentSource());
+            break;
+        case 14:
+            if (isOpen && detail % 2 == 0) {
+                trigger("distanceToolAction");
+                dragMouse(widget("axialView"), Qt::LeftButton, {50, 50},
+                          {int(detail % 70) + 8, 20});
+                trigger("windowToolAction");
+            }
+            break;
+        default:
+            trigger("addLightAction");
+            if (detail % 2 == 0)
+                trigger("resetShadingAction");
+        }
+        QTest::qWait(int(detail % 40));
+        if (detail % 7 == 0)
+            settleDown();
+    }
+
+    test::TemporaryFolder m_folder;
+    std::unique_ptr<ui::Workstation> m_program;
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    QSurfaceFormat format;
+    format.setVersion(3, 3);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    format.setOption(QSurfaceFormat::ResetNotification);
+    QSurfaceFormat::setDefaultFormat(format);
+    QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+    pellucid::WatchedApplication application(argc, argv);
+    QApplication::setApplicationName("pellucid-test");
+    QApplication::setOrganizationName("pellucid-test");
+    pellucid::SoakTest test;
+    return QTest::qExec(&test, argc, argv);
+}
+
+#include "soak_test.moc"
