@@ -35,7 +35,7 @@ bool send(int socket, const Message &message, int descriptor) {
     }
     ssize_t sent = -1;
     do
-        sent = ::sendmsg(socket, &header, MSG_NOSIGNAL);
+        sent = ::sendmsg(socket, &header, MSG_NOSIGNAL | MSG_DONTWAIT);
     while (sent < 0 && errno == EINTR);
     return sent == ssize_t(sizeof copy);
 }

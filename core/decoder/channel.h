@@ -30,7 +30,8 @@ private:
 /// The descriptors that a decoder begins with.
 inline constexpr int socketDescriptor = 3, arenaDescriptor = 4;
 
-/// Sends a message, and a descriptor if it is not -1. False if nobody is there any more.
+/// Sends a message, and a descriptor if it is not -1; never waits. False if nobody is there any more,
+/// or nobody listens.
 bool send(int socket, const Message &message, int descriptor = -1);
 
 /// Waits for a message. Nothing if nobody is there any more, or what came is none.

@@ -34,6 +34,7 @@ constexpr std::uint64_t firstArenaBytes = 1 << 20;
 constexpr std::uint64_t keptArenaBytes = 16 << 20; // of a decoder that waits
 constexpr std::uint64_t largestBodyBytes = 256 << 20;
 constexpr int cancelMs = 20;        // how long a cancelled call may still wait
+constexpr int mostWishes = 8;       // for memory, of one request
 constexpr double startSeconds = 30; // of a loaded machine
 constexpr std::chrono::milliseconds endPatience(500);
 
@@ -117,7 +118,8 @@ void Child::start(const std::filesystem::path &program) {
         failStarting(program, std::strerror(failed));
     }
     std::optional<Received> ready;
-    if (waitForMessage({}, startSeconds))
+    allow(startSeconds);
+    if (waitForMessage({}))
         ready = receive(m_socket.get());
     if (!ready || ready->message.kind != Message::Kind::ready)
         failStarting(program, "it does not answer");
@@ -126,7 +128,7 @@ void Child::start(const std::filesystem::path &program) {
 }
 
 void Child::ask(Message::Kind kind, int file, std::uint64_t fileBytes) {
-    m_secondsLeft = decodingSeconds(fileBytes) + patienceSeconds;
+    allow(decodingSeconds(fileBytes));
     const bool isSent = send(m_socket.get(), {kind, 0, fileBytes, 0}, file);
     m_isSound = false; // until it has answered
     if (!isSent)
@@ -134,27 +136,32 @@ void Child::ask(Message::Kind kind, int file, std::uint64_t fileBytes) {
 }
 
 void Child::askForNext() {
-    m_secondsLeft = decodingSeconds(0) + patienceSeconds;
+    allow(decodingSeconds(0));
     if (!send(m_socket.get(), {Message::Kind::next, 0, 0, 0}))
         failAsItEnded();
 }
 
+void Child::allow(double seconds) {
+    m_end = Clock::now() +
+            std::chrono::duration_cast<Clock::duration>(
+                std::chrono::duration<double>(seconds + patienceSeconds));
+}
+
 // False: the time is over.
-bool Child::waitForMessage(const task::Progress &progress, double seconds) const {
-    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+bool Child::waitForMessage(const task::Progress &progress) const {
     for (;;) {
         progress.check();
         pollfd waiting{m_socket.get(), POLLIN, 0};
         if (::poll(&waiting, 1, cancelMs) > 0)
             return true;
-        if (Clock::now() > end)
+        if (Clock::now() > m_end)
             return false;
     }
 }
 
 Child::Answer Child::answer(const task::Progress &progress) {
-    for (;;) {
-        if (!waitForMessage(progress, m_secondsLeft))
+    for (int wishes = 0;;) {
+        if (!waitForMessage(progress))
             throw Error(ErrorCode::unusable, "takes too long to read");
         const auto received = receive(m_socket.get());
         if (!received)
@@ -162,6 +169,8 @@ Child::Answer Child::answer(const task::Progress &progress) {
         const Message &message = received->message;
         switch (message.kind) {
         case Message::Kind::need: {
+            if (++wishes > mostWishes) // it only wants to be talked to
+                throw Error(ErrorCode::unusable, "was decoded to nonsense");
             const bool isGranted = grow(message.size);
             if (!send(m_socket.get(), {isGranted ? Message::Kind::granted : Message::Kind::refused,
                                        0, m_arenaBytes, 0}))

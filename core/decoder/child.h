@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <sys/types.h>
@@ -41,7 +42,8 @@ public:
 
 private:
     void start(const std::filesystem::path &program);
-    bool waitForMessage(const task::Progress &progress, double seconds) const;
+    void allow(double seconds);
+    bool waitForMessage(const task::Progress &progress) const;
     [[noreturn]] void failAsItEnded();
     bool grow(std::uint64_t bytes);
     Answer take(const Message &message);
@@ -51,7 +53,7 @@ private:
     Mapping m_mapped;
     std::uint64_t m_arenaBytes = 0;
     std::string m_body;
-    double m_secondsLeft = 0.0;
+    std::chrono::steady_clock::time_point m_end; ///< when patience ends
     bool m_isSound = false;
     int m_confinement = 0;
 };

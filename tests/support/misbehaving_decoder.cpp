@@ -78,6 +78,9 @@ void act(std::string_view word) {
     } else if (word == "ask-for-all")
         decoder::send(decoder::socketDescriptor,
                       {Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
+    else if (word == "flood") // without ever listening
+        for (;;)
+            decoder::send(decoder::socketDescriptor, {Message::Kind::need, 0, mib, 0});
     else if (word == "large-body")
         decoder::send(decoder::socketDescriptor,
                       {Message::Kind::done, 0, std::uint64_t(1) << 60, 8});

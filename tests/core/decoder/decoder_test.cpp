@@ -100,7 +100,7 @@ TEST_F(TakenOver, itsEndCostsOneFile) {
 
 TEST_F(TakenOver, nothingItSaysIsBelieved) {
     for (const char *const word :
-         {"large-body", "large-data", "other-kind", "short-message", "empty-header"})
+         {"large-body", "large-data", "other-kind", "short-message", "empty-header", "flood"})
         EXPECT_EQ(said(word), "was decoded to nonsense") << word;
     EXPECT_EQ(said("ask-for-all"), "refused");
     EXPECT_EQ(said("well"), "decoded by hand");
