@@ -180,6 +180,9 @@ private:
             m_program->bench().opener.closeSource(n);
         settleDown();
         ::malloc_trim(0);
+        const auto heap = ::mallinfo2();
+        qInfo("at rest: %.0f MB resident, of them %.0f in use on the heap, %.0f mapped",
+              residentMb(), double(heap.uordblks) / 1048576.0, double(heap.hblkhd) / 1048576.0);
         return residentMb();
     }
 
