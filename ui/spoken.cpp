@@ -13,6 +13,7 @@ namespace {
 // What may be said, with %1 and on for what is filled in; the longer ones before those that they
 // begin with.
 constexpr const char *reasons[] = {
+    QT_TRANSLATE_NOOP("Reasons", "the slices lie at one place"),
     QT_TRANSLATE_NOOP("Reasons", "planes are not at right angles"),
     QT_TRANSLATE_NOOP("Reasons", "was decoded to nonsense"),
     QT_TRANSLATE_NOOP("Reasons", "takes too long to read"),

@@ -47,6 +47,12 @@ void Workstation::keepWhatIsOpen(bool hasEnded) {
     if (auto session = currentSession(m_bench.document)) {
         session->hasEnded = hasEnded;
         keepSession(session);
+        m_hasKept = true;
+    } else if (hasEnded && m_hasKept) { // what was kept before is not of a crash
+        if (auto kept = keptSession()) {
+            kept->hasEnded = true;
+            keepSession(kept);
+        }
     }
 }
 

@@ -36,7 +36,8 @@ private:
     QTranslator m_texts, m_ofQt;
     Workbench m_bench;
     std::unique_ptr<MainWindow> m_window;
-    QTimer m_keeping; ///< runs from a change until it is kept
+    bool m_hasKept = false; ///< in this run
+    QTimer m_keeping;       ///< runs from a change until it is kept
 };
 
 } // namespace pellucid::ui

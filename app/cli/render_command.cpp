@@ -131,7 +131,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     const int frames = std::max(1, o.frames);
     dicom::CaptureLabels labels =
         o.isDeidentified ? dicom::deidentified(input.labels) : input.labels;
-    labels.seriesUid = dicom::newSeriesUid(); // one for all frames
+    if (!o.isDeidentified)
+        labels.seriesUid = dicom::newSeriesUid(); // one for all frames
     for (int frame = 0; frame < frames; ++frame) {
         task::Progress(context.stop).check();
         render::Scene turned = scene;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -39,12 +40,18 @@ void endOnSignals(QObject &application) {
     });
     struct sigaction action {};
     action.sa_handler = [](int) {
+        const int before = errno; // of whatever it interrupts
         const char byte = 1;
         (void)!::write(signalSocket, &byte, 1);
+        errno = before;
     };
-    action.sa_flags = SA_RESTART;
-    for (const int signal : {SIGTERM, SIGINT, SIGHUP})
-        ::sigaction(signal, &action, nullptr);
+    // The second one ends a program that does not listen.
+    action.sa_flags = SA_RESTART | SA_RESETHAND;
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+        struct sigaction usual {};
+        if (::sigaction(signal, nullptr, &usual) == 0 && usual.sa_handler != SIG_IGN)
+            ::sigaction(signal, &action, nullptr);
+    }
 }
 
 } // namespace

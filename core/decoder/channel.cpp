@@ -40,27 +40,30 @@ bool send(int socket, const Message &message, int descriptor) {
     return sent == ssize_t(sizeof copy);
 }
 
-std::optional<Received> receive(int socket) {
+std::optional<Received> receive(int socket, Takes takes) {
     Received received;
     iovec part{&received.message, sizeof received.message};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
     msghdr header{};
     header.msg_iov = &part;
     header.msg_iovlen = 1;
-    header.msg_control = control.data();
-    header.msg_controllen = control.size();
+    // Without room for one the kernel drops what is sent along, and says so.
+    if (takes == Takes::descriptor) {
+        header.msg_control = control.data();
+        header.msg_controllen = control.size();
+    }
     ssize_t got = -1;
     do
         got = ::recvmsg(socket, &header, MSG_CMSG_CLOEXEC);
     while (got < 0 && errno == EINTR);
     for (cmsghdr *c = got > 0 ? CMSG_FIRSTHDR(&header) : nullptr; c != nullptr;
          c = CMSG_NXTHDR(&header, c))
-        if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SCM_RIGHTS &&
-            c->cmsg_len == CMSG_LEN(sizeof(int))) {
-            int fd = -1;
-            std::memcpy(&fd, CMSG_DATA(c), sizeof fd);
-            received.descriptor = Descriptor(fd);
-        }
+        if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SCM_RIGHTS)
+            for (std::size_t at = 0; CMSG_LEN(at + sizeof(int)) <= c->cmsg_len; at += sizeof(int)) {
+                int fd = -1;
+                std::memcpy(&fd, CMSG_DATA(c) + at, sizeof fd);
+                received.descriptor = Descriptor(fd); // the one before is closed
+            }
     // Packets keep their borders: of another size it is none of ours.
     if (got != ssize_t(sizeof(Message)) || (header.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0)
         return std::nullopt;

@@ -30,8 +30,8 @@ private:
 /// The descriptors that a decoder begins with.
 inline constexpr int socketDescriptor = 3, arenaDescriptor = 4;
 
-/// Sends a message, and a descriptor if it is not -1; never waits. False if nobody is there any more,
-/// or nobody listens.
+/// Sends a message, and a descriptor if it is not -1; never waits. False if nobody is there any
+/// more, or nobody listens.
 bool send(int socket, const Message &message, int descriptor = -1);
 
 /// Waits for a message. Nothing if nobody is there any more, or what came is none.
@@ -39,7 +39,8 @@ struct Received {
     Message message;
     Descriptor descriptor;
 };
-std::optional<Received> receive(int socket);
+enum class Takes { descriptor, noDescriptors };
+std::optional<Received> receive(int socket, Takes takes);
 
 /// Part of a file or of an arena in memory. *Throws* Error{outOfMemory}.
 class Mapping {

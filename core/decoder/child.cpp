@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <mutex>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -32,7 +34,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t firstArenaBytes = 1 << 20;
 constexpr std::uint64_t keptArenaBytes = 16 << 20; // of a decoder that waits
-constexpr std::uint64_t largestBodyBytes = 256 << 20;
+constexpr std::uint64_t largestBodyBytes = 64 << 20;
 constexpr int cancelMs = 20;        // how long a cancelled call may still wait
 constexpr int mostWishes = 8;       // for memory, of one request
 constexpr double startSeconds = 30; // of a loaded machine
@@ -41,6 +43,8 @@ constexpr std::chrono::milliseconds endPatience(500);
 [[noreturn]] void failStarting(const std::filesystem::path &program, const std::string &why) {
     throw Error(ErrorCode::internal, "the decoder cannot be started: " + why, program);
 }
+
+std::atomic<std::uint64_t> grantedBytes = 0; // of all arenas
 
 // Beyond the numbers that the decoder begins with, so that none of them is overwritten.
 Descriptor movedUp(int fd, const std::filesystem::path &program) {
@@ -69,11 +73,15 @@ double decodingSeconds(std::uint64_t fileBytes) {
     return anyFile + double(fileBytes) / bytesPerSecond;
 }
 
-Child::Child(const std::filesystem::path &program) {
-    start(program);
+Child::Child() = default;
+
+// The other constructor has made an object by then: what fails in here is tidied up.
+Child::Child(const std::filesystem::path &program, const task::Progress &progress) : Child() {
+    start(program, progress);
 }
 
 Child::~Child() {
+    grantedBytes -= m_grantedBytes;
     if (m_pid <= 0)
         return;
     ::kill(m_pid, SIGKILL);
@@ -81,12 +89,12 @@ Child::~Child() {
     }
 }
 
-void Child::start(const std::filesystem::path &program) {
+void Child::start(const std::filesystem::path &program, const task::Progress &progress) {
     std::array<int, 2> ends{-1, -1};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
         failStarting(program, std::strerror(errno));
     m_socket = movedUp(ends[0], program);
-    const Descriptor theirs = movedUp(ends[1], program);
+    Descriptor theirs = movedUp(ends[1], program);
     m_arena = movedUp(::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING), program);
     // It may never get smaller below us: reading beyond its end would end the program.
     if (::ftruncate(m_arena.get(), off_t(firstArenaBytes)) != 0 ||
@@ -94,6 +102,17 @@ void Child::start(const std::filesystem::path &program) {
         failStarting(program, std::strerror(errno));
     m_arenaBytes = firstArenaBytes;
 
+    // The terminal's interrupt is for the program, and its signals begin as usual.
+    posix_spawnattr_t attributes;
+    sigset_t none, all;
+    ::sigemptyset(&none);
+    ::sigfillset(&all);
+    ::posix_spawnattr_init(&attributes);
+    ::posix_spawnattr_setpgroup(&attributes, 0);
+    ::posix_spawnattr_setsigmask(&attributes, &none);
+    ::posix_spawnattr_setsigdefault(&attributes, &all);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK |
+                                                POSIX_SPAWN_SETSIGDEF);
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, theirs.get(), socketDescriptor);
@@ -110,20 +129,28 @@ void Child::start(const std::filesystem::path &program) {
     for (std::string &variable : variables)
         pointers.push_back(variable.data());
     pointers.push_back(nullptr);
-    const int failed = ::posix_spawn(&m_pid, program.c_str(), &actions, nullptr, arguments.data(),
-                                     pointers.data());
+    const int failed = ::posix_spawn(&m_pid, program.c_str(), &actions, &attributes,
+                                     arguments.data(), pointers.data());
     ::posix_spawn_file_actions_destroy(&actions);
+    ::posix_spawnattr_destroy(&attributes);
     if (failed != 0) {
         m_pid = -1;
         failStarting(program, std::strerror(failed));
     }
+    theirs = Descriptor(); // its end is to be seen
     std::optional<Received> ready;
     allow(startSeconds);
-    if (waitForMessage({}))
-        ready = receive(m_socket.get());
+    if (waitForMessage(progress))
+        ready = receive(m_socket.get(), Takes::noDescriptors);
     if (!ready || ready->message.kind != Message::Kind::ready)
         failStarting(program, "it does not answer");
     m_confinement = ready->message.code;
+    static std::once_flag once;
+    std::call_once(once, [this] {
+        task::log(std::string("decoders: limits ") +
+                  ((m_confinement & limitsHold) != 0 ? "hold" : "DO NOT hold") + ", calls are " +
+                  ((m_confinement & callsAreFiltered) != 0 ? "filtered" : "NOT filtered"));
+    });
     m_isSound = true;
 }
 
@@ -142,9 +169,8 @@ void Child::askForNext() {
 }
 
 void Child::allow(double seconds) {
-    m_end = Clock::now() +
-            std::chrono::duration_cast<Clock::duration>(
-                std::chrono::duration<double>(seconds + patienceSeconds));
+    m_end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                               std::chrono::duration<double>(seconds + patienceSeconds));
 }
 
 // False: the time is over.
@@ -163,7 +189,7 @@ Child::Answer Child::answer(const task::Progress &progress) {
     for (int wishes = 0;;) {
         if (!waitForMessage(progress))
             throw Error(ErrorCode::unusable, "takes too long to read");
-        const auto received = receive(m_socket.get());
+        const auto received = receive(m_socket.get(), Takes::noDescriptors);
         if (!received)
             failAsItEnded();
         const Message &message = received->message;
@@ -190,8 +216,15 @@ Child::Answer Child::answer(const task::Progress &progress) {
 bool Child::grow(std::uint64_t bytes) {
     if (bytes <= m_arenaBytes)
         return true;
-    if (bytes > task::availableMemoryBytes() || ::ftruncate(m_arena.get(), off_t(bytes)) != 0)
+    // What other decoders were granted may not be filled yet.
+    const std::uint64_t more = bytes - m_arenaBytes;
+    const std::uint64_t granted = grantedBytes.fetch_add(more) + more;
+    m_grantedBytes += more;
+    if (granted > task::availableMemoryBytes() || ::ftruncate(m_arena.get(), off_t(bytes)) != 0) {
+        grantedBytes -= more;
+        m_grantedBytes -= more;
         return false;
+    }
     m_arenaBytes = bytes;
     return true;
 }
@@ -245,10 +278,8 @@ void Child::failAsItEnded() {
     }
 }
 
-void Child::tidy() {
-    if (m_arenaBytes > keptArenaBytes)
-        ::fallocate(m_arena.get(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, 0,
-                    off_t(m_arenaBytes));
+bool Child::isLarge() const {
+    return m_arenaBytes > keptArenaBytes;
 }
 
 } // namespace pellucid::decoder

@@ -16,7 +16,7 @@ namespace pellucid::decoder {
 class Child {
 public:
     /// *Throws* Error{internal} if the program cannot be started or is not a decoder.
-    explicit Child(const std::filesystem::path &program);
+    explicit Child(const std::filesystem::path &program, const task::Progress &progress = {});
     ~Child();
     Child(const Child &) = delete;
     Child &operator=(const Child &) = delete;
@@ -37,11 +37,14 @@ public:
 
     bool isSound() const { return m_isSound; }
     int confinement() const { return m_confinement; }
-    /// Gives memory of large images back.
-    void tidy();
+    /// It has had an image so large that its memory is better given back.
+    bool isLarge() const;
+
+    std::uint64_t opening = 0; ///< whose files it has read
 
 private:
-    void start(const std::filesystem::path &program);
+    Child();
+    void start(const std::filesystem::path &program, const task::Progress &progress);
     void allow(double seconds);
     bool waitForMessage(const task::Progress &progress) const;
     [[noreturn]] void failAsItEnded();
@@ -51,7 +54,7 @@ private:
     pid_t m_pid = -1;
     Descriptor m_socket, m_arena;
     Mapping m_mapped;
-    std::uint64_t m_arenaBytes = 0;
+    std::uint64_t m_arenaBytes = 0, m_grantedBytes = 0;
     std::string m_body;
     std::chrono::steady_clock::time_point m_end; ///< when patience ends
     bool m_isSound = false;

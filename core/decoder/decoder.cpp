@@ -124,7 +124,15 @@ Decoder &Decoder::ofProgram() {
     return decoder;
 }
 
-std::unique_ptr<Child> Decoder::lend() {
+void Decoder::beginOpening() {
+    std::vector<std::unique_ptr<Child>> former; // ended without the lock
+    const std::lock_guard lock(m_mutex);
+    ++m_opening;
+    former.swap(m_idle);
+}
+
+std::unique_ptr<Child> Decoder::lend(const task::Progress &progress) {
+    std::uint64_t opening = 0;
     {
         const std::lock_guard lock(m_mutex);
         if (!m_idle.empty()) {
@@ -132,27 +140,33 @@ std::unique_ptr<Child> Decoder::lend() {
             m_idle.pop_back();
             return child;
         }
+        opening = m_opening;
     }
-    return std::make_unique<Child>(m_program);
+    auto child = std::make_unique<Child>(m_program, progress);
+    child->opening = opening;
+    return child;
 }
 
 void Decoder::takeBack(std::unique_ptr<Child> child) {
-    if (!child->isSound())
+    if (!child->isSound() || child->isLarge())
         return; // another one will be started
-    child->tidy();
     const std::lock_guard lock(m_mutex);
-    if (m_idle.size() < std::max(1U, std::thread::hardware_concurrency()))
+    if (child->opening == m_opening &&
+        m_idle.size() < std::max(1U, std::thread::hardware_concurrency()))
         m_idle.push_back(std::move(child));
 }
 
 // Asks a decoder; one that ended while it waited (the system may have wanted its memory) is
 // replaced.
-std::unique_ptr<Child> Decoder::ask(int kind, int file, std::uint64_t bytes) {
-    auto child = lend();
+std::unique_ptr<Child> Decoder::ask(int kind, int file, std::uint64_t bytes,
+                                    const task::Progress &progress) {
+    auto child = lend(progress);
     try {
         child->ask(Message::Kind(kind), file, bytes);
     } catch (const Error &) {
-        child = std::make_unique<Child>(m_program);
+        const std::uint64_t opening = child->opening;
+        child = std::make_unique<Child>(m_program, progress);
+        child->opening = opening;
         child->ask(Message::Kind(kind), file, bytes);
     }
     return child;
@@ -160,20 +174,23 @@ std::unique_ptr<Child> Decoder::ask(int kind, int file, std::uint64_t bytes) {
 
 template <class F>
 auto Decoder::answered(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack) {
-    try {
-        const Child::Answer answer = child->answer(progress);
-        return unpack(answer);
-    } catch (...) {
-        takeBack(std::move(child));
-        throw;
-    }
+    const auto taken = [&] {
+        try {
+            return child->answer(progress);
+        } catch (...) {
+            takeBack(std::move(child)); // a reason leaves it sound
+            throw;
+        }
+    }();
+    // What is nonsense ends with the child that said it.
+    return unpack(taken);
 }
 
 InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progress) {
     const OpenFile file = open(path);
     checkStart(file, path);
     return naming(path, [&] {
-        auto child = ask(int(Message::Kind::header), file.descriptor.get(), file.bytes);
+        auto child = ask(int(Message::Kind::header), file.descriptor.get(), file.bytes, progress);
         InstanceHeader header = answered(
             child, progress, [](const Child::Answer &answer) { return unpackHeader(answer.body); });
         takeBack(std::move(child));
@@ -184,7 +201,7 @@ InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progr
 DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress) {
     const OpenFile file = open(path);
     return naming(path, [&] {
-        auto child = ask(int(Message::Kind::image), file.descriptor.get(), file.bytes);
+        auto child = ask(int(Message::Kind::image), file.descriptor.get(), file.bytes, progress);
         std::span<const std::uint16_t> samples;
         InstanceHeader header = answered(child, progress, [&](const Child::Answer &answer) {
             InstanceHeader h = unpackHeader(answer.body);
@@ -201,7 +218,8 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
 DirectoryFile Decoder::directory(const fs::path &path, const task::Progress &progress) {
     const OpenFile file = open(path);
     return naming(path, [&] {
-        auto child = ask(int(Message::Kind::directory), file.descriptor.get(), file.bytes);
+        auto child =
+            ask(int(Message::Kind::directory), file.descriptor.get(), file.bytes, progress);
         DirectoryFile directory = answered(child, progress, [](const Child::Answer &answer) {
             return unpackDirectory(answer.body);
         });
@@ -216,7 +234,10 @@ void Decoder::archive(const fs::path &path,
                       const task::Progress &progress) {
     const OpenFile file = open(path);
     naming(path, [&] {
-        auto child = ask(int(Message::Kind::archive), file.descriptor.get(), file.bytes);
+        auto child = ask(int(Message::Kind::archive), file.descriptor.get(), file.bytes, progress);
+        // Every part but the last is full, and files come one after the other: nobody talks for
+        // ever.
+        bool isAnnouncing = true, isInFile = false;
         for (bool isDone = false; !isDone;) {
             answered(child, progress, [&](const Child::Answer &answer) {
                 isDone = answer.message.kind == Message::Kind::done;
@@ -224,14 +245,21 @@ void Decoder::archive(const fs::path &path,
                     return;
                 const auto files = unpackArchiveFiles(answer.body);
                 const int flags = answer.message.code;
-                if ((flags & announcement) != 0)
+                const bool isFirst = (flags & firstPart) != 0, isLast = (flags & lastPart) != 0;
+                if ((flags & announcement) != 0) {
+                    if (!isAnnouncing)
+                        throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                    isAnnouncing = files.size() == filesAnnouncedAtOnce;
                     for (const ArchiveFile &f : files)
                         announce(f);
-                else if (files.size() == 1)
-                    take(
-                        {files[0], answer.data, (flags & firstPart) != 0, (flags & lastPart) != 0});
-                else
-                    throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                } else {
+                    if (files.size() != 1 || isFirst == isInFile ||
+                        (!isLast && answer.data.size() != archivePartBytes))
+                        throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                    isAnnouncing = false;
+                    isInFile = !isLast;
+                    take({files[0], answer.data, isFirst, isLast});
+                }
                 child->askForNext();
             });
         }
@@ -240,7 +268,7 @@ void Decoder::archive(const fs::path &path,
 }
 
 int Decoder::confinement() {
-    auto child = lend();
+    auto child = lend({});
     const int confinement = child->confinement();
     takeBack(std::move(child));
     return confinement;

@@ -69,20 +69,27 @@ public:
                  const std::function<void(const ArchivePart &)> &take,
                  const task::Progress &progress = {});
 
+    /// Other files come, of somebody else perhaps: decoders that have read the former ones read
+    /// none of these. One that a file has taken over could give wrong headers and pixels for what
+    /// it reads next.
+    void beginOpening();
+
     /// What holds decoders back here, see `Confinement`; of one that is started for it if need be.
     int confinement();
 
 private:
     friend class DecodedFile;
-    std::unique_ptr<Child> lend();
+    std::unique_ptr<Child> lend(const task::Progress &progress);
     void takeBack(std::unique_ptr<Child> child);
-    std::unique_ptr<Child> ask(int kind, int file, std::uint64_t bytes);
+    std::unique_ptr<Child> ask(int kind, int file, std::uint64_t bytes,
+                               const task::Progress &progress);
     template <class F>
     auto answered(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack);
 
     std::filesystem::path m_program;
     std::mutex m_mutex;
     std::vector<std::unique_ptr<Child>> m_idle;
+    std::uint64_t m_opening = 0;
 };
 
 /// Whether a file begins as DICOM files do, with a preamble or without.

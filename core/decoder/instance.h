@@ -15,6 +15,12 @@
 
 namespace pellucid::decoder {
 
+/// Beyond these a number is rubbish: a kilometre from the isocentre, a pixel of a nanometre or of
+/// ten metres. The parser leaves such attributes out.
+inline constexpr double farthestMm = 1e6, smallestSpacingMm = 1e-6, largestSpacingMm = 1e4,
+                        largestRescale = 1e9;
+inline constexpr std::size_t mostFrames = 100000; ///< of a file
+
 /// How stored values become values: value = slope * stored + intercept, or a modality table.
 struct Rescale {
     double slope = 1.0, intercept = 0.0;

@@ -7,6 +7,9 @@
 #include <cstring>
 #include <type_traits>
 
+#include <glm/geometric.hpp>
+#include <glm/gtx/component_wise.hpp>
+
 #include "core/task/error.h"
 
 namespace pellucid::decoder {
@@ -15,6 +18,7 @@ namespace {
 
 // Longer ones are cut where they are read from a file.
 constexpr std::uint64_t longestString = 1 << 16;
+constexpr std::uint64_t mostElements = 1'000'000;
 constexpr std::size_t longestReason = 400;
 
 [[noreturn]] void fail() {
@@ -80,6 +84,8 @@ public:
     std::uint64_t count(std::uint64_t) {
         std::uint64_t size = 0;
         number(size);
+        if (size > std::min<std::uint64_t>(mostElements, m_rest.size()))
+            fail();
         return size;
     }
     void end() const {
@@ -218,8 +224,28 @@ std::string pack(const InstanceHeader &header) {
 InstanceHeader unpackHeader(std::span<const std::byte> body) {
     auto header = unpacked<InstanceHeader>(body);
     // What everybody relies on.
-    if (header.frames.empty())
+    const auto isWithin = [](double value, double most) { return std::abs(value) <= most; };
+    const auto isUnit = [](const std::optional<glm::dvec3> &axis) {
+        return !axis || std::abs(glm::length(*axis) - 1.0) < 1e-6;
+    };
+    if (header.frames.empty() || header.frames.size() > mostFrames ||
+        header.modalityTable.size() > 65536 || header.windows.size() > 100 ||
+        !isWithin(header.modalityTableFirst, 65536) ||
+        !isWithin(header.paddingValue.value_or(0), 65536) ||
+        !isWithin(header.paddingLimit.value_or(0), 65536))
         fail();
+    for (const FrameHeader &frame : header.frames) {
+        const glm::dvec3 position = frame.positionMm.value_or(glm::dvec3(0.0));
+        const glm::dvec2 spacing = frame.spacingMm.value_or(glm::dvec2(1.0));
+        if (!isUnit(frame.rowAxis) || !isUnit(frame.columnAxis) ||
+            (frame.rowAxis && frame.columnAxis &&
+             std::abs(glm::dot(*frame.rowAxis, *frame.columnAxis)) > 1e-6) ||
+            glm::length(position) > farthestMm || glm::compMin(spacing) < smallestSpacingMm ||
+            glm::compMax(spacing) > largestSpacingMm ||
+            !isWithin(frame.rescale.slope, largestRescale) ||
+            !isWithin(frame.rescale.intercept, largestRescale))
+            fail();
+    }
     return header;
 }
 

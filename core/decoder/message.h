@@ -43,6 +43,9 @@ enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2 };
 /// the file that the data are of.
 enum ArchiveFlag : std::int32_t { announcement = 1, firstPart = 2, lastPart = 4 };
 
+/// A part that is not the last of its file is full; so is an announcement that is not the last.
+inline constexpr std::size_t archivePartBytes = 1 << 20, filesAnnouncedAtOnce = 500;
+
 /// Where the data begin in the arena: after the body, on a page.
 constexpr std::uint64_t dataOffset(std::uint64_t bodyBytes) {
     return (bodyBytes + 4095U) / 4096U * 4096U;

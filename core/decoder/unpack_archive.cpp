@@ -5,12 +5,16 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "core/decoder/channel.h"
 #include "core/decoder/decoder.h"
 #include "core/task/error.h"
 
@@ -40,16 +44,24 @@ fs::path inside(const fs::path &folder, const std::string &name, std::size_t num
     return folder / (below.empty() ? fs::path(std::to_string(number)) : below);
 }
 
-// Two names may differ in what was taken from them.
+// Two names may differ in what was taken from them; a file may have the folder's name; what lies
+// too deep or has too long a path goes into a folder of its number.
 fs::path freePlace(const fs::path &folder, const std::string &name, std::size_t number) {
+    constexpr std::size_t longestPath = 3000;
+    constexpr std::ptrdiff_t deepest = 32;
     fs::path to = inside(folder, name, number);
     std::error_code failed;
-    fs::create_directories(to.parent_path(), failed); // a file may have the folder's name
-    for (std::size_t n = number; failed || fs::exists(to); ++n) {
-        to = folder / ("_" + std::to_string(n)) / to.filename();
-        failed.clear();
+    const auto depth =
+        std::distance(to.begin(), to.end()) - std::distance(folder.begin(), folder.end());
+    if (to.native().size() <= longestPath && depth <= deepest) {
         fs::create_directories(to.parent_path(), failed);
+        if (!failed && !fs::exists(to, failed))
+            return to;
     }
+    to = folder / ("_" + std::to_string(number)) / to.filename();
+    fs::create_directories(to.parent_path(), failed);
+    if (failed)
+        throw Error(ErrorCode::output, failed.message(), to);
     return to;
 }
 
@@ -60,10 +72,11 @@ fs::path freePlace(const fs::path &folder, const std::string &name, std::size_t 
 } // namespace
 
 bool isArchive(const fs::path &path) {
+    // What became a pipe meanwhile must not be waited for.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     std::array<char, 4> start{};
-    std::ifstream in(path, std::ios::binary);
-    in.read(start.data(), start.size());
-    return in.gcount() == 4 && std::memcmp(start.data(), "PK\3\4", 4) == 0;
+    return file && ::pread(file.get(), start.data(), start.size(), 0) == 4 &&
+           std::memcmp(start.data(), "PK\3\4", 4) == 0;
 }
 
 void unpackArchive(Decoder &decoder, const fs::path &path, const fs::path &folder,

@@ -102,10 +102,12 @@ template <class T>
 bool place(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit, T *out) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
-    const std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
+    // Read once each: what decoded them may change them still.
+    const volatile std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
     const auto padding = paddingOf(h, unit);
     for (std::size_t n = 0; n < plane; ++n) {
-        const int stored = h.isSigned ? int(std::int16_t(in[n])) : int(in[n]);
+        const std::uint16_t code = in[n];
+        const int stored = h.isSigned ? int(std::int16_t(code)) : int(code);
         if (padding && padding->holds(stored)) {
             out[n] = Missing<T>::value;
             continue;
@@ -195,11 +197,18 @@ public:
     }
 
 private:
+    // A file that asks for too much costs itself, as one that is damaged.
     decoder::DecodedFile decode(const std::filesystem::path &path) const {
-        decoder::DecodedFile image = decoder::Decoder::ofProgram().image(path, m_progress);
-        if (image.header.columns != m_columns() || image.header.rows != m_rows())
-            throw Error(ErrorCode::unusable, "changed while it was read", path);
-        return image;
+        try {
+            decoder::DecodedFile image = decoder::Decoder::ofProgram().image(path, m_progress);
+            if (image.header.columns != m_columns() || image.header.rows != m_rows())
+                throw Error(ErrorCode::unusable, "changed while it was read", path);
+            return image;
+        } catch (const Error &error) {
+            if (error.code() != ErrorCode::outOfMemory)
+                throw;
+            throw Error(ErrorCode::unusable, error.reason(), path);
+        }
     }
     int m_columns() const { return m_entry.geometry.lattice.size().i; }
     int m_rows() const { return m_entry.geometry.lattice.size().j; }
@@ -208,14 +217,16 @@ private:
     template <class T> std::optional<LoadedVolume> loadAs() {
         const std::size_t plane = std::size_t(m_columns()) * m_rows();
         // A preview, or the resampled stack, is there as well.
-        task::requireMemory(2.0 * sizeof(T) * double(plane) * double(m_entry.frames.size()));
+        const double slices =
+            std::max<double>(m_entry.geometry.lattice.size().k, double(m_entry.frames.size()));
+        task::requireMemory(2.0 * sizeof(T) * double(plane) * slices);
         std::vector<T> samples(plane * m_entry.frames.size(), Missing<T>::value);
         // Set when a slice is complete, so that a preview copies no half-written one.
         std::vector<std::atomic<bool>> arrived(m_entry.frames.size());
         std::vector<std::pair<std::size_t, Skipped>> failed;
         std::mutex guard;
         std::size_t done = 0;
-        bool fits = true;
+        bool fits = true, isPreviewing = false;
         auto lastPreview = Clock::now();
         tbb::parallel_for(std::size_t(0), m_paths.size(), [&](std::size_t n) {
             m_progress.check();
@@ -245,18 +256,28 @@ private:
                 for (const std::size_t slice : frames)
                     failed.emplace_back(slice, Skipped{m_paths[n], error.reason()});
             }
-            const std::lock_guard lock(guard);
-            m_progress.report(0.9 * double(++done) / double(m_paths.size()));
-            if (m_observer.preview && done < m_paths.size() &&
-                Clock::now() - lastPreview > previewInterval) {
-                m_observer.preview(preview(samples, arrived));
-                lastPreview = Clock::now();
+            bool isDue = false;
+            {
+                const std::lock_guard lock(guard);
+                m_progress.report(0.9 * double(++done) / double(m_paths.size()));
+                isDue = m_observer.preview && done < m_paths.size() && !isPreviewing &&
+                        Clock::now() - lastPreview > previewInterval;
+                isPreviewing = isPreviewing || isDue;
             }
+            if (!isDue)
+                return;
+            // Without the lock: inside, this thread may be given other slices to read.
+            m_observer.preview(preview(samples, arrived));
+            const std::lock_guard lock(guard);
+            lastPreview = Clock::now();
+            isPreviewing = false;
         });
         if (!fits)
             return std::nullopt;
-        if (!failed.empty())
+        if (!failed.empty()) {
+            samples = {};
             return loadWithout(failed);
+        }
         fillMissing(samples);
         if (!m_entry.geometry.frameOffsetsMm.empty())
             samples = resampled(samples, m_entry.geometry, m_progress);
@@ -306,7 +327,9 @@ private:
             std::vector<FrameHeader> kept;
             for (const std::size_t slice : frames) {
                 const int frame = m_entry.frames[slice].frame;
-                kept.push_back(file.header.frames.at(std::size_t(frame)));
+                if (std::size_t(frame) >= file.header.frames.size())
+                    throw Error(ErrorCode::unusable, "changed while it was read", path);
+                kept.push_back(file.header.frames[std::size_t(frame)]);
                 originalFrame[path].push_back(frame);
             }
             file.header.frames = std::move(kept);

@@ -93,7 +93,10 @@ private:
     }
 
     void addDirectory(const fs::path &path, const decoder::DirectoryFile &directory) {
+        std::error_code unknown;
+        const fs::path folder = fs::weakly_canonical(fs::absolute(path).parent_path(), unknown);
         for (const auto &parts : directory.files) {
+            m_progress.check();
             fs::path listed = path.parent_path();
             for (const std::string &part : parts) {
                 // A part must be a plain name: an index may not lead out of its own folder.
@@ -102,10 +105,17 @@ private:
                 listed = childOf(listed, part);
             }
             std::error_code ignored;
-            if (fs::is_regular_file(listed, ignored))
-                addFile(listed);
-            else
+            if (!fs::is_regular_file(listed, ignored)) {
                 skipped.push_back({listed, "is listed in the DICOMDIR but missing"});
+                continue;
+            }
+            // A link leads elsewhere, too.
+            const fs::path meant =
+                fs::weakly_canonical(fs::absolute(listed), ignored).lexically_relative(folder);
+            if (meant.empty() || *meant.begin() == "..")
+                skipped.push_back({listed, "lists a file outside its folder"});
+            else
+                addFile(listed);
         }
     }
 
@@ -218,6 +228,7 @@ void addNrrd(Catalogue &catalogue, const fs::path &path, const volume::NrrdHeade
 } // namespace
 
 Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress) {
+    decoder::Decoder::ofProgram().beginOpening();
     FileList list(progress);
     for (const fs::path &path : paths) {
         try {

@@ -104,6 +104,10 @@ StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {
         for (const PlacedFrame &frame : frames)
             depths.push_back(frame.depthMm - frames.front().depthMm);
         const double total = depths.back();
+        if (!std::isfinite(total) || !(total > 0.0)) {
+            result.refusal = "the slices lie at one place";
+            return result;
+        }
         // One millimetre along the normal moves the stack by this much: along the normal for a
         // plain scan, askew for a tilted gantry.
         const glm::dvec3 along = (*last.positionMm - *first.positionMm) / total;
@@ -111,7 +115,7 @@ StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {
         for (int n = 0; n < count; ++n) {
             const glm::dvec3 off =
                 *frames[n].header.positionMm - (*first.positionMm + depths[n] * along);
-            if (glm::length(off) > stray) {
+            if (!(glm::length(off) <= stray)) {
                 result.refusal =
                     fmt::format("{} lies {:.2f} mm beside the line of the other slices",
                                 frames[n].reference.path.filename().string(), glm::length(off));

@@ -25,7 +25,8 @@ struct CaptureLabels {
 };
 
 /// The same without whose it is: what the Basic Application Level Confidentiality Profile (PS3.15,
-/// E.2) removes, empties or replaces of what `writeCapture` writes; the study's UID is a new one.
+/// E.2) removes, empties or replaces of what `writeCapture` writes; UIDs are random ones, which
+/// tell neither machine nor time.
 CaptureLabels deidentified(const CaptureLabels &labels);
 
 /// Of the study that a volume belongs to.

@@ -68,7 +68,8 @@ CaptureLabels deidentified(const CaptureLabels &labels) {
     for (std::string *const text : {&nobody.patientId, &nobody.patientName, &nobody.birthDate,
                                     &nobody.sex, &nobody.studyDate, &nobody.studyDescription})
         text->clear();
-    nobody.studyUid = newUid(UidKind::study);
+    nobody.studyUid = randomUid();
+    nobody.seriesUid = randomUid();
     nobody.isDeidentified = true;
     return nobody;
 }
@@ -86,7 +87,7 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
     put(d, DCM_ImageType, "DERIVED\\SECONDARY");
     put(d, DCM_SOPClassUID, UID_SecondaryCaptureImageStorage);
-    put(d, DCM_SOPInstanceUID, newUid(UidKind::instance));
+    put(d, DCM_SOPInstanceUID, labels.isDeidentified ? randomUid() : newUid(UidKind::instance));
     put(d, DCM_StudyDate, labels.studyDate);
     put(d, DCM_StudyTime, "");
     // The day of the picture tells the day of the patient's visit.
@@ -94,7 +95,7 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     put(d, DCM_ContentTime, labels.isDeidentified ? "" : now("%H%M%S"));
     if (labels.isDeidentified) {
         put(d, DCM_PatientIdentityRemoved, "YES");
-        put(d, DCM_DeidentificationMethod, "Basic Application Confidentiality Profile");
+        put(d, DCM_DeidentificationMethod, "Attributes of patient and study removed by Pellucid");
     }
     put(d, DCM_AccessionNumber, "");
     put(d, DCM_Modality, "OT");

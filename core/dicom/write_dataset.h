@@ -18,6 +18,8 @@ std::string decimals(std::initializer_list<double> values);
 /// A new UID below this program's root.
 enum class UidKind { study, series, instance };
 std::string newUid(UidKind kind);
+/// One that tells neither the machine nor the time (PS3.5, B.2: 2.25 and 128 random bits).
+std::string randomUid();
 
 /// *Throws* Error{internal} if the attribute does not take the value.
 void put(DcmDataset &dataset, const DcmTagKey &tag, const std::string &value);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,14 @@ std::string newUid(UidKind kind) {
                                                    : kind == UidKind::series
                                                        ? SITE_SERIES_UID_ROOT
                                                        : SITE_INSTANCE_UID_ROOT);
+}
+
+std::string randomUid() {
+    std::random_device random;
+    std::string digits; // decimal, of 125 bits: no digit is lost, and none leads with 0
+    for (int n = 0; n < 37; ++n)
+        digits += char('0' + (n == 0 ? 1 + random() % 9 : random() % 10));
+    return "2.25." + digits;
 }
 
 void put(DcmDataset &dataset, const DcmTagKey &tag, const std::string &value) {

@@ -59,9 +59,10 @@ SessionFolder::SessionFolder() {
 }
 
 SessionFolder::~SessionFolder() {
-    std::error_code ignored;
-    fs::remove_all(m_path, ignored);
-    fs::remove(lockOf(m_path), ignored);
+    std::error_code failed, ignored;
+    fs::remove_all(m_path, failed);
+    if (!failed) // else the next program tries again
+        fs::remove(lockOf(m_path), ignored);
     if (m_lock >= 0)
         ::close(m_lock);
 }
@@ -87,8 +88,10 @@ void removeAbandonedSessionFolders() {
         const int lock = takeLock(lockOf(entry->path()), 0);
         if (lock < 0 && (isNew || fs::exists(lockOf(entry->path()), ignored)))
             continue;
-        fs::remove_all(entry->path(), ignored);
-        fs::remove(lockOf(entry->path()), ignored);
+        std::error_code kept;
+        fs::remove_all(entry->path(), kept);
+        if (!kept)
+            fs::remove(lockOf(entry->path()), ignored);
         if (lock >= 0)
             ::close(lock);
     }

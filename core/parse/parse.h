@@ -33,10 +33,9 @@ DirectoryFile parseDirectory(std::span<const std::byte> file);
 using TakeData = std::function<void(const ArchiveFile &file, std::span<const std::byte> data,
                                     bool isFirst, bool isLast)>;
 /// The regular files that a ZIP archive announces; then their data, in parts of at most
-/// `archivePartBytes`. *Throws* Error{unusable} if it is damaged.
+/// `decoder::archivePartBytes`. *Throws* Error{unusable} if it is damaged.
 void listArchive(std::span<const std::byte> archive,
                  const std::function<void(const ArchiveFile &)> &announce);
 void readArchive(std::span<const std::byte> archive, const TakeData &take);
-inline constexpr std::size_t archivePartBytes = 1 << 20;
 
 } // namespace pellucid::parse

@@ -104,15 +104,16 @@ void readOrientation(DcmItem *item, FrameHeader &frame) {
 }
 
 void readPosition(DcmItem *item, FrameHeader &frame) {
-    if (const auto position = vector3(numbers(item, DCM_ImagePositionPatient, 3), 0))
+    if (const auto position = vector3(numbers(item, DCM_ImagePositionPatient, 3), 0);
+        position && glm::length(*position) <= decoder::farthestMm)
         frame.positionMm = position;
 }
 
 void readMeasures(DcmItem *item, FrameHeader &frame) {
     const auto spacing = numbers(item, DCM_PixelSpacing, 2);
     // The attribute gives the distance of rows first.
-    if (spacing.size() == 2 && spacing[0] > 0.0 && spacing[1] > 0.0 &&
-        std::isfinite(spacing[0] + spacing[1]))
+    if (spacing.size() == 2 && std::min(spacing[0], spacing[1]) >= decoder::smallestSpacingMm &&
+        std::max(spacing[0], spacing[1]) <= decoder::largestSpacingMm)
         frame.spacingMm = glm::dvec2(spacing[1], spacing[0]);
     for (const DcmTagKey &tag : {DCM_SliceThickness, DCM_SpacingBetweenSlices})
         if (const auto mm = number(item, tag); mm && *mm > 0.0)
@@ -120,9 +121,11 @@ void readMeasures(DcmItem *item, FrameHeader &frame) {
 }
 
 void readRescale(DcmItem *item, FrameHeader &frame) {
-    if (const auto slope = number(item, DCM_RescaleSlope); slope && *slope != 0.0)
+    if (const auto slope = number(item, DCM_RescaleSlope);
+        slope && *slope != 0.0 && std::abs(*slope) <= decoder::largestRescale)
         frame.rescale.slope = *slope;
-    if (const auto intercept = number(item, DCM_RescaleIntercept))
+    if (const auto intercept = number(item, DCM_RescaleIntercept);
+        intercept && std::abs(*intercept) <= decoder::largestRescale)
         frame.rescale.intercept = *intercept;
 }
 
@@ -259,7 +262,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
                 h.windows = readWindows(lut);
     }
     const auto count = number(&dataset, DCM_NumberOfFrames);
-    const double most = std::min(100000.0, double(fileBytes));
+    const double most = std::min(double(decoder::mostFrames), double(fileBytes));
     const int frames = count && *count >= 1.0 ? int(std::min(*count, most)) : 1;
     h.announcedFrames = count && *count >= 1.0 && *count < 1e9 ? int(*count) : 1;
     for (int n = 0; n < frames; ++n) {

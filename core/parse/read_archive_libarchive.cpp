@@ -7,6 +7,7 @@
 #include <archive.h>
 #include <archive_entry.h>
 
+#include "core/decoder/message.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
 
@@ -69,7 +70,7 @@ void listArchive(std::span<const std::byte> archive,
 
 void readArchive(std::span<const std::byte> archive, const TakeData &take) {
     const Reader reader = open(archive);
-    std::vector<std::byte> part(archivePartBytes);
+    std::vector<std::byte> part(decoder::archivePartBytes);
     forEachFile(reader.get(), [&](const ArchiveFile &file) {
         for (bool isFirst = true, isLast = false; !isLast; isFirst = false) {
             std::size_t filled = 0;

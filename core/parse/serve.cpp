@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iconv.h>
 #include <new>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "core/decoder/channel.h"
@@ -25,8 +26,6 @@ using decoder::Message;
 using task::Error;
 using task::ErrorCode;
 
-constexpr std::size_t announcedAtOnce = 500;
-
 // The other side went away, or says so: there is nobody to work for.
 struct Gone {};
 
@@ -36,7 +35,7 @@ public:
 
     // False when the other side has gone.
     bool serveNext() {
-        const auto request = decoder::receive(m_socket);
+        const auto request = decoder::receive(m_socket, decoder::Takes::descriptor);
         if (!request)
             return false;
         // A file that takes longer than anybody waits ends this process.
@@ -56,6 +55,8 @@ private:
         const Mapping file(request.descriptor.get(), request.message.size, Mapping::Access::read);
         switch (request.message.kind) {
         case Message::Kind::header:
+            // What lies beside the header is not wanted: discs and shares are slow.
+            ::madvise(file.data(), file.size(), MADV_RANDOM);
             finish(0, decoder::pack(parseHeader(file.bytes())), {});
             break;
         case Message::Kind::image: {
@@ -82,7 +83,7 @@ private:
         };
         listArchive(archive, [&](const ArchiveFile &file) {
             announced.push_back(file);
-            if (announced.size() == announcedAtOnce)
+            if (announced.size() == decoder::filesAnnouncedAtOnce)
                 announce();
         });
         announce();
@@ -99,7 +100,7 @@ private:
         ::alarm(0);
         if (!decoder::send(m_socket, message))
             throw Gone();
-        const auto reply = decoder::receive(m_socket);
+        const auto reply = decoder::receive(m_socket, decoder::Takes::descriptor);
         if (!reply)
             throw Gone();
         ::alarm(m_seconds);

@@ -2,14 +2,17 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <fcntl.h>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -49,20 +52,29 @@ std::string lower(std::string text) {
     return text;
 }
 
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE *)>;
+
+// What is, or has become, a pipe or a device is not waited for.
+File openRegular(const fs::path &path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    struct stat about {};
+    const bool isKnown = fd >= 0 && ::fstat(fd, &about) == 0;
+    const int error = errno;
+    if (isKnown && S_ISREG(about.st_mode))
+        if (std::FILE *const file = ::fdopen(fd, "rb"))
+            return File(file, &std::fclose);
+    if (fd >= 0)
+        ::close(fd);
+    throw Error(ErrorCode::unusable, isKnown ? "is not a regular file" : std::strerror(error),
+                path);
+}
+
 Header readHeader(const fs::path &path) {
-    std::error_code unknown;
-    // A pipe would be waited for.
-    if (!fs::is_regular_file(path, unknown))
-        throw Error(ErrorCode::unusable, unknown ? unknown.message() : "is not a regular file",
-                    path);
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        throw Error(ErrorCode::unusable, "cannot be read", path);
+    const auto in = openRegular(path);
     // One that has no line end is not read to its own.
     std::string text(maxHeaderBytes, '\0');
-    in.read(text.data(), std::streamsize(text.size()));
-    text.resize(std::size_t(in.gcount()));
-    const bool isWhole = in.eof();
+    text.resize(std::fread(text.data(), 1, text.size(), in.get()));
+    const bool isWhole = text.size() < maxHeaderBytes;
     Header header;
     std::istringstream lines(text);
     std::string line;
@@ -92,10 +104,13 @@ fs::path detachedData(const fs::path &header, const std::string &name) {
         *relative.begin() == "..")
         throw Error(ErrorCode::unusable, "lists a file outside its folder", header);
     const fs::path data = header.parent_path() / relative;
+    // A link leads elsewhere, too.
     std::error_code unknown;
-    if (!fs::is_regular_file(data, unknown))
-        throw Error(ErrorCode::unusable, unknown ? unknown.message() : "is not a regular file",
-                    data);
+    const fs::path folder = fs::weakly_canonical(
+        header.parent_path().empty() ? fs::path(".") : header.parent_path(), unknown);
+    const fs::path meant = fs::weakly_canonical(data, unknown).lexically_relative(folder);
+    if (unknown || meant.empty() || *meant.begin() == "..")
+        throw Error(ErrorCode::unusable, "lists a file outside its folder", header);
     return data;
 }
 
@@ -199,9 +214,8 @@ std::vector<std::byte> readBytes(const fs::path &path, std::uint64_t offset, std
     // gzread passes bytes through when a file is not compressed, so one loop serves both encodings;
     // an attached gzip payload starts at an offset, which gzdopen on a positioned descriptor
     // honours.
-    std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"),
-                                                          &std::fclose);
-    if (!file || fseeko(file.get(), off_t(offset), SEEK_SET) != 0)
+    const File file = openRegular(path);
+    if (fseeko(file.get(), off_t(offset), SEEK_SET) != 0)
         throw Error(ErrorCode::unusable, "cannot be read", path);
     constexpr std::uint64_t chunk = 1 << 24;
     std::vector<std::byte> bytes;
@@ -223,6 +237,7 @@ std::vector<std::byte> readBytes(const fs::path &path, std::uint64_t offset, std
     std::unique_ptr<gzFile_s, int (*)(gzFile)> stream(gzdopen(descriptor, "rb"), &gzclose);
     if (!stream)
         throw Error(ErrorCode::unusable, "cannot be read", path);
+    bytes.reserve(count);
     while (bytes.size() < count) {
         const std::uint64_t done = bytes.size();
         const std::uint64_t part = std::min(chunk, count - done);

@@ -1210,6 +1210,10 @@
         <source>is damaged</source>
         <translation>已損壞</translation>
     </message>
+    <message>
+        <source>the slices lie at one place</source>
+        <translation>各切片位於同一位置</translation>
+    </message>
 </context>
 <context>
     <name>SceneFiles</name>

@@ -64,6 +64,11 @@ void act(std::string_view word) {
                        MAP_FAILED
                    ? std::strerror(errno)
                    : "went through");
+    else if (word == "uncounted")
+        finish(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0) ==
+                       MAP_FAILED
+                   ? std::strerror(errno)
+                   : "went through");
     else if (word == "kill-parent")
         finish(outcome(::kill(::getppid(), SIGTERM)));
     else if (word == "memory") {
@@ -81,6 +86,10 @@ void act(std::string_view word) {
     else if (word == "flood") // without ever listening
         for (;;)
             decoder::send(decoder::socketDescriptor, {Message::Kind::need, 0, mib, 0});
+    else if (word == "descriptors")
+        for (int n = 0; n < 4; ++n)
+            decoder::send(decoder::socketDescriptor, {Message::Kind::need, 0, mib, 0},
+                          decoder::socketDescriptor);
     else if (word == "large-body")
         decoder::send(decoder::socketDescriptor,
                       {Message::Kind::done, 0, std::uint64_t(1) << 60, 8});
@@ -102,7 +111,8 @@ void act(std::string_view word) {
 int main() {
     const int confinement = parse::confine();
     decoder::send(decoder::socketDescriptor, {Message::Kind::ready, confinement, 0, 0});
-    while (const auto request = decoder::receive(decoder::socketDescriptor)) {
+    while (const auto request =
+               decoder::receive(decoder::socketDescriptor, decoder::Takes::descriptor)) {
         if (!request->descriptor) { // an answer to what it asked
             finish(request->message.kind == Message::Kind::refused ? "refused" : "granted");
             continue;

@@ -109,7 +109,7 @@ private slots:
             fillCaches();
         for (int n = 0; n < rounds / 3; ++n)
             operate(random());
-        const double before = memoryAtRestMb();
+        const double before = memoryAtRestMb(), inUseBefore = m_inUseMb;
         const int descriptors = openDescriptors();
         application().isWatching = true;
         for (int n = 0; n < rounds; ++n)
@@ -130,7 +130,10 @@ private slots:
         QVERIFY(!spans.empty());
         if (!isLong) // caches are still being filled
             return;
-        QVERIFY2(after < 1.05 * before, "memory grows");
+        // What is in use returns to its level; the software renderer's code and what the allocator
+        // cannot give back are resident beside it.
+        QVERIFY2(m_inUseMb < 1.05 * inUseBefore, "memory grows");
+        QVERIFY2(after < 1.2 * before, "resident memory grows");
         QVERIFY2(openDescriptors() <= descriptors + 3, "descriptors stay open");
     }
     void cleanupTestCase() { m_program.reset(); }
@@ -181,6 +184,7 @@ private:
         settleDown();
         ::malloc_trim(0);
         const auto heap = ::mallinfo2();
+        m_inUseMb = double(heap.uordblks + heap.hblkhd) / 1048576.0;
         qInfo("at rest: %.0f MB resident, of them %.0f in use on the heap, %.0f mapped",
               residentMb(), double(heap.uordblks) / 1048576.0, double(heap.hblkhd) / 1048576.0);
         return residentMb();
@@ -259,6 +263,7 @@ private:
             settleDown();
     }
 
+    double m_inUseMb = 0.0; ///< of the heap, at rest
     test::TemporaryFolder m_folder;
     std::unique_ptr<ui::Workstation> m_program;
 };

@@ -313,10 +313,14 @@ void MeasureTool::paint(QPainter &painter, const Pane &pane, const OverlayColors
             continue;
         std::vector<QPointF> points;
         for (const glm::dvec3 &p : gripsOf(m))
-            points.push_back(pane.mapping.positionOf({p}));
+            if (const QPointF at = pane.mapping.positionOf({p});
+                std::abs(at.x()) < 1e6 && std::abs(at.y()) < 1e6) // far outside of the pane
+                points.push_back(at);
         std::sort(points.begin(), points.end(),
                   [](const QPointF &a, const QPointF &b) { return a.x() > b.x(); });
         const QString text = allFigures(m, all[n].result, *m_document.volume()).join('\n');
+        if (points.empty() || text.isEmpty())
+            continue;
         const QSize size =
             painter.fontMetrics().boundingRect(QRect(0, 0, 400, 200), Qt::AlignLeft, text).size();
         const QRect area = placeOf(size, points, viewport.adjusted(6, 4, -6, -4), taken, lines);

@@ -81,8 +81,8 @@ TEST(Decoder, whatIsNoRegularFileIsNotWaitedFor) {
 }
 
 TEST_F(TakenOver, itReachesNothing) {
-    for (const char *const word :
-         {"open-file", "new-file", "unlink", "write-arena-size", "code", "kill-parent"})
+    for (const char *const word : {"open-file", "new-file", "unlink", "write-arena-size", "code",
+                                   "uncounted", "kill-parent"})
         EXPECT_EQ(said(word), "Operation not permitted") << word;
     // What no decoder ever tries ends it.
     for (const char *const word : {"socket", "process", "program"})
@@ -99,8 +99,8 @@ TEST_F(TakenOver, itsEndCostsOneFile) {
 }
 
 TEST_F(TakenOver, nothingItSaysIsBelieved) {
-    for (const char *const word :
-         {"large-body", "large-data", "other-kind", "short-message", "empty-header", "flood"})
+    for (const char *const word : {"large-body", "large-data", "other-kind", "short-message",
+                                   "empty-header", "flood", "descriptors"})
         EXPECT_EQ(said(word), "was decoded to nonsense") << word;
     EXPECT_EQ(said("ask-for-all"), "refused");
     EXPECT_EQ(said("well"), "decoded by hand");
