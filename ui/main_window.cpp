@@ -464,8 +464,11 @@ void MainWindow::openFromLibrary(const StudyFacts &study, const VolumeFacts &vol
     std::erase_if(series, [&](const VolumeFacts &v) {
         return v.seriesUid != volume.seriesUid || v.file != volume.file;
     });
-    m_bench.opener.openFromLibrary(study, series, volume.key(), m_bench.library.files(volume));
-    remember({recentEntry(study)});
+    // The list that gave them is made anew by the opening.
+    const QString entry = recentEntry(study);
+    m_bench.opener.openFromLibrary(StudyFacts(study), series, volume.key(),
+                                   m_bench.library.files(volume));
+    remember({entry});
 }
 
 // Of a study the volume with most samples, as of a folder.
