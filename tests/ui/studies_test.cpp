@@ -60,6 +60,24 @@ private slots:
         save("library");
     }
 
+    void aStudyOfTheLibraryIsAmongTheRecentOnesWithoutItsName() {
+        import(m_folder / "head", false);
+        click(volumeRow("Secret Name"));
+        settle();
+        for (const QString &kept : QSettings().value("recentPaths").toStringList())
+            QVERIFY(!kept.contains("Secret"));
+        restart();
+        QPushButton *recent = nullptr;
+        for (auto *link : find<QWidget>("startPage")->findChildren<QPushButton *>())
+            if (link->isVisible() && link->text().contains("2026-01-01"))
+                recent = link;
+        QVERIFY(recent != nullptr);
+        QVERIFY(!recent->text().contains("Secret"));
+        QTest::mouseClick(recent, Qt::LeftButton);
+        settle();
+        QCOMPARE(m_window->document().volume()->lattice().size().k, 80);
+    }
+
     void searchNarrowsTheListAndOrderTurnsIt() {
         import(m_folder / "three", false);
         auto *search = find<QLineEdit>("studySearch");

@@ -77,7 +77,9 @@ void StartPage::setOffersResuming(bool offers, bool hasEnded) {
 
 void StartPage::setRecent(const std::vector<Recent> &recent) {
     while (QLayoutItem *item = m_recent->takeAt(0)) {
-        delete item->widget();
+        // Its click may be what this is the answer to.
+        item->widget()->hide();
+        item->widget()->deleteLater();
         delete item;
     }
     if (recent.empty())
