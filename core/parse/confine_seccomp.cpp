@@ -34,9 +34,9 @@ void goFirst() {
 
 bool limitResources() {
     goFirst();
-    bool holds = limit(RLIMIT_CORE, 0) && limit(RLIMIT_FSIZE, 0) && limit(RLIMIT_NPROC, 0) &&
-                 limit(RLIMIT_MEMLOCK, 0);
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
+    bool holds = limit(RLIMIT_CORE, 0) && limit(RLIMIT_NPROC, 0) && limit(RLIMIT_MEMLOCK, 0);
+#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes, and write reports
+    holds = limit(RLIMIT_FSIZE, 0) && holds;
     // What is its own: neither files nor the arena, which its parent fills, count.
     holds = limit(RLIMIT_DATA, task::availableMemoryBytes()) && holds;
     ::prctl(PR_SET_DUMPABLE, 0); // no debugger but root's
