@@ -6,16 +6,10 @@
 #include <cstring>
 #include <sys/mman.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "core/task/error.h"
 
 namespace pellucid::decoder {
-
-Descriptor::~Descriptor() {
-    if (m_fd >= 0)
-        ::close(m_fd);
-}
 
 bool send(int socket, const Message &message, int descriptor) {
     Message copy = message;

@@ -6,26 +6,11 @@
 #include <utility>
 
 #include "core/decoder/message.h"
+#include "core/files/descriptor.h"
 
 namespace pellucid::decoder {
 
-/// A file descriptor that is closed with its owner.
-class Descriptor {
-public:
-    Descriptor() = default;
-    explicit Descriptor(int fd) : m_fd(fd) {}
-    ~Descriptor();
-    Descriptor(Descriptor &&other) noexcept : m_fd(std::exchange(other.m_fd, -1)) {}
-    Descriptor &operator=(Descriptor &&other) noexcept {
-        std::swap(m_fd, other.m_fd);
-        return *this;
-    }
-    int get() const { return m_fd; }
-    explicit operator bool() const { return m_fd >= 0; }
-
-private:
-    int m_fd = -1;
-};
+using files::Descriptor;
 
 /// The descriptors that a decoder begins with.
 inline constexpr int socketDescriptor = 3, arenaDescriptor = 4;

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
@@ -30,13 +29,10 @@ struct OpenFile {
 };
 
 OpenFile open(const fs::path &path) {
-    // What became a pipe meanwhile must not be waited for.
-    OpenFile file{Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY))};
+    OpenFile file{files::openRegular(path)};
     struct stat about {};
-    if (!file.descriptor || ::fstat(file.descriptor.get(), &about) != 0)
+    if (::fstat(file.descriptor.get(), &about) != 0)
         throw Error(ErrorCode::unusable, std::strerror(errno), path);
-    if (!S_ISREG(about.st_mode))
-        throw Error(ErrorCode::unusable, "is not a regular file", path);
     if (about.st_size == 0)
         throw Error(ErrorCode::unusable, "is empty", path);
     file.bytes = std::uint64_t(about.st_size);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -72,11 +71,14 @@ fs::path freePlace(const fs::path &folder, const std::string &name, std::size_t 
 } // namespace
 
 bool isArchive(const fs::path &path) {
-    // What became a pipe meanwhile must not be waited for.
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-    std::array<char, 4> start{};
-    return file && ::pread(file.get(), start.data(), start.size(), 0) == 4 &&
-           std::memcmp(start.data(), "PK\3\4", 4) == 0;
+    try {
+        const Descriptor file = files::openRegular(path);
+        std::array<char, 4> start{};
+        return ::pread(file.get(), start.data(), start.size(), 0) == 4 &&
+               std::memcmp(start.data(), "PK\3\4", 4) == 0;
+    } catch (const Error &) {
+        return false; // whoever reads it says why it cannot be
+    }
 }
 
 void unpackArchive(Decoder &decoder, const fs::path &path, const fs::path &folder,

@@ -6,18 +6,17 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fcntl.h>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include "core/files/descriptor.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
 #include "core/volume/nrrd.h"
@@ -54,23 +53,17 @@ std::string lower(std::string text) {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE *)>;
 
-// What is, or has become, a pipe or a device is not waited for.
-File openRegular(const fs::path &path) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    struct stat about {};
-    const bool isKnown = fd >= 0 && ::fstat(fd, &about) == 0;
-    const int error = errno;
-    if (isKnown && S_ISREG(about.st_mode))
-        if (std::FILE *const file = ::fdopen(fd, "rb"))
-            return File(file, &std::fclose);
-    if (fd >= 0)
-        ::close(fd);
-    throw Error(ErrorCode::unusable, isKnown ? "is not a regular file" : std::strerror(error),
-                path);
+File openFile(const fs::path &path) {
+    files::Descriptor file = files::openRegular(path);
+    File stream(::fdopen(file.get(), "rb"), &std::fclose);
+    if (!stream)
+        throw Error(ErrorCode::unusable, std::strerror(errno), path);
+    file.release(); // the stream's
+    return stream;
 }
 
 Header readHeader(const fs::path &path) {
-    const auto in = openRegular(path);
+    const auto in = openFile(path);
     // One that has no line end is not read to its own.
     std::string text(maxHeaderBytes, '\0');
     text.resize(std::fread(text.data(), 1, text.size(), in.get()));
@@ -214,7 +207,7 @@ std::vector<std::byte> readBytes(const fs::path &path, std::uint64_t offset, std
     // gzread passes bytes through when a file is not compressed, so one loop serves both encodings;
     // an attached gzip payload starts at an offset, which gzdopen on a positioned descriptor
     // honours.
-    const File file = openRegular(path);
+    const File file = openFile(path);
     if (fseeko(file.get(), off_t(offset), SEEK_SET) != 0)
         throw Error(ErrorCode::unusable, "cannot be read", path);
     constexpr std::uint64_t chunk = 1 << 24;

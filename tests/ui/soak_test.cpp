@@ -81,11 +81,7 @@ class SoakTest : public QObject {
     Q_OBJECT
 private slots:
     void initTestCase() {
-        QStandardPaths::setTestModeEnabled(true);
-        QSettings().clear();
-        qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "data").string()));
-        qputenv("XDG_CACHE_HOME", QByteArray::fromStdString((m_folder / "cache").string()));
-        fourier::keepWisdomIn(*files::userCacheFolder() / "fftw-wisdom");
+        keepToFolder(m_folder);
         for (int n = 0; n < 3; ++n) {
             const auto kind = n == 1 ? phantom::Kind::chest : phantom::Kind::head;
             const auto lattice =
@@ -271,17 +267,7 @@ private:
 } // namespace pellucid
 
 int main(int argc, char **argv) {
-    QSurfaceFormat format;
-    format.setVersion(3, 3);
-    format.setProfile(QSurfaceFormat::CoreProfile);
-    format.setOption(QSurfaceFormat::ResetNotification);
-    QSurfaceFormat::setDefaultFormat(format);
-    QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-    pellucid::WatchedApplication application(argc, argv);
-    QApplication::setApplicationName("pellucid-test");
-    QApplication::setOrganizationName("pellucid-test");
-    pellucid::SoakTest test;
-    return QTest::qExec(&test, argc, argv);
+    return pellucid::test::run<pellucid::SoakTest, pellucid::WatchedApplication>(argc, argv);
 }
 
 #include "soak_test.moc"

@@ -122,18 +122,22 @@ inline void clickPreset(QWidget &window, const QString &name) {
                       gallery->visualItemRect(item).center());
 }
 
+/// Settings, presets, library and caches of a test's own.
+inline void keepToFolder(const test::TemporaryFolder &folder) {
+    QStandardPaths::setTestModeEnabled(true);
+    QSettings().clear();
+    qputenv("XDG_DATA_HOME", QByteArray::fromStdString((folder / "data").string()));
+    // As the programs do: one plan of FFTW, and so the same bits, for all of them.
+    qputenv("XDG_CACHE_HOME", QByteArray::fromStdString((folder / "cache").string()));
+    fourier::keepWisdomIn(*files::userCacheFolder() / "fftw-wisdom");
+}
+
 /// The real window, anew for each test, and a head to open in it.
 class Workstation : public QObject {
     Q_OBJECT
 protected slots:
     void initTestCase() {
-        QStandardPaths::setTestModeEnabled(true);
-        QSettings().clear();
-        // The user's own presets stay out of it.
-        qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "data").string()));
-        // As the programs do: one plan of FFTW, and so the same bits, for all of them.
-        qputenv("XDG_CACHE_HOME", QByteArray::fromStdString((m_folder / "cache").string()));
-        fourier::keepWisdomIn(*files::userCacheFolder() / "fftw-wisdom");
+        keepToFolder(m_folder);
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 96, 80}});
         dicom::writeCtSeries(
@@ -198,7 +202,7 @@ protected:
 };
 
 /// Runs the tests of a class in an application of their own.
-template <class Test> int run(int argc, char **argv) {
+template <class Test, class Application = QApplication> int run(int argc, char **argv) {
     QSurfaceFormat format;
     format.setVersion(3, 3);
     format.setProfile(QSurfaceFormat::CoreProfile);
@@ -206,7 +210,7 @@ template <class Test> int run(int argc, char **argv) {
     format.setOption(QSurfaceFormat::ResetNotification);
     QSurfaceFormat::setDefaultFormat(format);
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-    QApplication application(argc, argv);
+    Application application(argc, argv);
     QApplication::setApplicationName("pellucid-test");
     QApplication::setOrganizationName("pellucid-test");
     ui::Theme::named("dark").apply(application);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -150,6 +151,47 @@ TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
         }
     }
     EXPECT_THROW(readNrrd(folder / "absent.nrrd"), task::Error);
+}
+
+// A header may not have another file shown, nor be read for ever, nor waited for.
+TEST_F(Nrrd, NamesFilesBesideItOnly) {
+    std::filesystem::create_directories(folder / "study/below");
+    write(folder / "secret.raw", "abcdef");
+    write(folder / "study/below/own.raw", "abcdef");
+    std::filesystem::create_symlink(folder / "secret.raw", folder / "study/link.raw");
+    const auto reasonFor = [&](const std::string &name) -> std::string {
+        const auto path = folder / "study/h.nhdr";
+        write(path, "NRRD0001\ntype: unsigned char\ndimension: 3\nsizes: 3 2 1\nencoding: raw\n"
+                    "data file: " +
+                        name + "\n");
+        try {
+            readNrrd(path);
+        } catch (const task::Error &error) {
+            return error.reason();
+        }
+        return "read";
+    };
+    EXPECT_EQ(reasonFor("below/own.raw"), "read");
+    EXPECT_EQ(reasonFor("./below/../below/own.raw"), "read");
+    for (const std::string &name :
+         {std::string("../secret.raw"), (folder / "secret.raw").string(), std::string("link.raw"),
+          std::string("below/../../secret.raw"), std::string("/dev/zero")})
+        EXPECT_EQ(reasonFor(name), "lists a file outside its folder") << name;
+    EXPECT_EQ(reasonFor("below"), "is not a regular file");
+}
+
+TEST_F(Nrrd, AHeaderWithoutAnEndIsNotReadToIt) {
+    write(folder / "line.nrrd", "NRRD0004\n" + std::string(3 << 20, 'x'));
+    write(folder / "lines.nrrd", [] {
+        std::string text = "NRRD0004\n";
+        while (text.size() < (3U << 20))
+            text += "# and on\n";
+        return text;
+    }());
+    for (const char *const name : {"line.nrrd", "lines.nrrd"})
+        EXPECT_THROW(volume::readNrrdHeader(folder / name), task::Error) << name;
+    ASSERT_EQ(std::system(("mkfifo '" + (folder / "pipe.nrrd").string() + "'").c_str()), 0);
+    EXPECT_THROW(volume::readNrrdHeader(folder / "pipe.nrrd"), task::Error);
 }
 
 } // namespace

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/files/descriptor.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::files {
+
+Descriptor::~Descriptor() {
+    if (m_fd >= 0)
+        ::close(m_fd);
+}
+
+Descriptor openRegular(const std::filesystem::path &path) {
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    struct stat about {};
+    if (!file || ::fstat(file.get(), &about) != 0)
+        throw task::Error(task::ErrorCode::unusable, std::strerror(errno), path);
+    if (!S_ISREG(about.st_mode))
+        throw task::Error(task::ErrorCode::unusable, "is not a regular file", path);
+    return file;
+}
+
+} // namespace pellucid::files
