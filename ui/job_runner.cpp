@@ -2,9 +2,8 @@
 #include "ui/job_runner.h"
 
 #include <chrono>
-#include <new>
 
-#include "ui/spoken.h"
+#include "ui/failure.h"
 
 namespace pellucid::ui {
 
@@ -47,6 +46,16 @@ void JobRunner::start(const QString &title, Work work) {
     const quint64 generation = ++m_generation;
     m_running = true;
     emit started(title);
+    try {
+        launch(generation, std::move(work));
+    } catch (const std::exception &) { // there is no thread for it
+        m_running = false;
+        emit failed(tr("not enough memory"), {});
+        emit finished();
+    }
+}
+
+void JobRunner::launch(quint64 generation, Work work) {
     auto over = std::make_shared<std::atomic<bool>>(false);
     m_threads.push_back(
         {over, std::jthread([this, generation, over, work = std::move(work)](std::stop_token stop) {
@@ -65,22 +74,17 @@ void JobRunner::start(const QString &title, Work work) {
                          return;
                      post(generation, [this, fraction] { emit progressed(fraction); });
                  });
-             QString what, path;
+             Failure failure;
              try {
                  work(job);
              } catch (const task::Cancelled &) {
-             } catch (const task::Error &error) {
-                 what = spoken(error.reason());
-                 path = QString::fromStdString(error.path().string());
-             } catch (const std::bad_alloc &) {
-                 what = tr("not enough memory");
-             } catch (const std::exception &error) {
-                 what = QString::fromUtf8(error.what());
+             } catch (...) {
+                 failure = currentFailure();
              }
-             post(generation, [this, what, path] {
+             post(generation, [this, failure] {
                  m_running = false;
-                 if (!what.isEmpty())
-                     emit failed(what, path);
+                 if (!failure.what.isEmpty())
+                     emit failed(failure.what, failure.path);
                  emit finished();
              });
              over->store(true);

@@ -63,6 +63,7 @@ private:
         std::jthread thread;
     };
     void post(quint64 generation, std::function<void()> onUiThread);
+    void launch(quint64 generation, Work work);
     void joinFinished();
 
     quint64 m_generation = 0;

@@ -33,6 +33,7 @@
 
 #include "core/task/log.h"
 #include "ui/add_command.h"
+#include "ui/application.h"
 #include "ui/dock.h"
 #include "ui/engine_menu.h"
 #include "ui/file_menu.h"
@@ -221,12 +222,14 @@ void MainWindow::createFileMenu() {
     connect(m_file, &FileMenu::pathsChosen, this, &MainWindow::openPaths);
     connect(m_file, &FileMenu::phantomChosen, this, &MainWindow::openPhantom);
     connect(m_file, &FileMenu::failed, this, &MainWindow::report);
+    if (const auto *const application = qobject_cast<Application *>(qApp))
+        connect(application, &Application::failed, this, &MainWindow::report);
     connect(m_file, &FileMenu::said, this,
             [this](const QString &text) { statusBar()->showMessage(text, 4000); });
     connect(m_file, &FileMenu::quitRequested, this, &QWidget::close);
     connect(m_file, &FileMenu::recentForgotten, this, [this] {
         forgetRecentPaths();
-        keepSession(std::nullopt);
+        m_bench.session.forget();
         showStart();
     });
     connect(m_file, &FileMenu::preferencesRequested, this, [this] { openPreferences(); });
@@ -501,12 +504,12 @@ void MainWindow::showStart() {
             recent.push_back({QDir::toNativeSeparators(entry), entry});
     }
     m_start->setRecent(recent);
-    const auto session = remembers ? keptSession() : std::nullopt;
+    const auto session = remembers ? m_bench.session.kept() : std::nullopt;
     m_start->setOffersResuming(session.has_value(), session && session->hasEnded);
 }
 
 void MainWindow::resumeSession() {
-    if (const auto session = keptSession())
+    if (const auto session = m_bench.session.kept())
         resume(*session, m_bench.opener);
 }
 

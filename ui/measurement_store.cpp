@@ -21,7 +21,7 @@ constexpr int restMs = 400;
 
 void write(const fs::path &path, const std::string &text) {
     files::AtomicFile file(path);
-    file.write(std::as_bytes(std::span(text)));
+    file.write(text);
     file.commit();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/task/error.h"
+#include "ui/failure.h"
 #include "ui/spoken.h"
 
 namespace pellucid::ui {
@@ -116,8 +117,8 @@ void RenderWorker::makeFrame(const Request &request) {
         if (const auto &other = request.compared)
             frame->compared = other->engine->render(request.camera, other->image, other->shading);
         emit frameReady(std::move(frame));
-    } catch (const std::exception &error) {
-        emit failed(QString::fromUtf8(error.what()));
+    } catch (...) {
+        emit failed(currentFailure().what);
     }
 }
 
@@ -138,8 +139,8 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
         answer.refusal = spoken(error.reason());
         // A picture too large for the card is none of its next.
         answer.isLost = error.code() != task::ErrorCode::outOfMemory;
-    } catch (const std::exception &error) {
-        answer.refusal = QString::fromUtf8(error.what());
+    } catch (...) {
+        answer.refusal = currentFailure().what;
     }
     const std::lock_guard lock(m_mutex);
     m_cardIsDone = true;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/scene_files.h"
 
-#include <QCoreApplication>
+#include <QBuffer>
 #include <QFile>
 #include <QImage>
-#include <QSaveFile>
 
+#include "core/files/atomic_file.h"
 #include "core/task/error.h"
 
 namespace pellucid::ui {
@@ -14,16 +14,6 @@ namespace {
 
 using task::Error;
 using task::ErrorCode;
-
-template <class Write> void save(const QString &path, const Write &write) {
-    QSaveFile file(path);
-    if (!file.open(QIODevice::WriteOnly) || !write(file) || !file.commit())
-        throw Error(ErrorCode::output,
-                    QCoreApplication::translate("SceneFiles", "cannot be written: %1")
-                        .arg(file.errorString())
-                        .toStdString(),
-                    path.toStdString());
-}
 
 } // namespace
 
@@ -39,12 +29,20 @@ render::Scene readSceneFile(const QString &path) {
 }
 
 void writeSceneFile(const QString &path, const render::Scene &scene) {
-    const QByteArray text = QByteArray::fromStdString(render::toJson(scene));
-    save(path, [&](QSaveFile &file) { return file.write(text) == text.size(); });
+    files::AtomicFile file(path.toStdString());
+    file.write(render::toJson(scene));
+    file.commit();
 }
 
 void writePictureFile(const QString &path, const QImage &picture) {
-    save(path, [&](QSaveFile &file) { return picture.save(&file, "PNG"); });
+    QByteArray png;
+    QBuffer buffer(&png);
+    if (!buffer.open(QIODevice::WriteOnly) || !picture.save(&buffer, "PNG"))
+        throw Error(ErrorCode::output, "cannot be encoded: " + buffer.errorString().toStdString(),
+                    path.toStdString());
+    files::AtomicFile file(path.toStdString());
+    file.write({png.constData(), std::size_t(png.size())});
+    file.commit();
 }
 
 } // namespace pellucid::ui

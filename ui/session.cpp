@@ -2,17 +2,21 @@
 #include "ui/session.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
 
 #include <QFile>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <QSaveFile>
 
+#include "core/files/atomic_file.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/phantom/phantom.h"
 #include "core/task/error.h"
+#include "core/task/log.h"
 
 namespace pellucid::ui {
 
@@ -20,11 +24,9 @@ namespace {
 
 constexpr const char *schema = "pellucid-session/1";
 
-std::optional<QString> sessionFile() {
+std::optional<std::filesystem::path> sessionFile() {
     const auto folder = files::userDataFolder();
-    if (!folder)
-        return std::nullopt;
-    return QString::fromStdString((*folder / "session.json").string());
+    return folder ? std::optional(*folder / "session.json") : std::nullopt;
 }
 
 QJsonArray toJson(const glm::dvec3 &v) {
@@ -54,7 +56,7 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
     return mpr::PlaneAxes(axes);
 }
 
-QJsonObject toJson(const Session &s) {
+QJsonObject objectOf(const Session &s) {
     const mpr::ResliceOptions &cut = s.shown.cut.options;
     return {
         {"schema", schema},
@@ -74,6 +76,8 @@ QJsonObject toJson(const Session &s) {
 }
 
 Session fromJson(const QJsonObject &in) {
+    if (in["schema"].toString() != schema)
+        throw task::Error(task::ErrorCode::unusable, "is not a session");
     Session s;
     for (const QJsonValue &file : in["files"].toArray())
         s.files << file.toString();
@@ -118,33 +122,76 @@ std::optional<Session> currentSession(const Document &document) {
     return session;
 }
 
-void keepSession(const std::optional<Session> &session) {
-    const auto path = sessionFile();
-    if (!path)
-        return;
-    if (!session) {
-        QFile::remove(*path);
-        return;
-    }
-    QSaveFile file(*path);
-    if (file.open(QIODevice::WriteOnly)) {
-        file.write(QJsonDocument(toJson(*session)).toJson(QJsonDocument::Compact));
-        file.commit();
+std::string toJson(const Session &session) {
+    return QJsonDocument(objectOf(session)).toJson(QJsonDocument::Compact).toStdString();
+}
+
+Session sessionFromJson(const std::string &text) {
+    return fromJson(QJsonDocument::fromJson(QByteArray::fromStdString(text)).object());
+}
+
+SessionFile::SessionFile() : m_thread([this](std::stop_token stop) { write(std::move(stop)); }) {}
+
+SessionFile::~SessionFile() {
+    m_thread.request_stop();
+    m_thread.join();
+}
+
+void SessionFile::write(std::stop_token stop) {
+    std::unique_lock lock(m_mutex);
+    while (m_changed.wait(lock, stop, [this] { return m_next.has_value(); })) {
+        const Session session = *std::exchange(m_next, std::nullopt);
+        m_isWriting = true;
+        lock.unlock();
+        try {
+            if (const auto path = sessionFile()) {
+                files::AtomicFile file(*path);
+                file.write(toJson(session));
+                file.commit();
+            }
+        } catch (const std::exception &error) {
+            // Without the path: it may be the patient's.
+            const auto *const known = dynamic_cast<const task::Error *>(&error);
+            task::log("the session is not kept: " + (known ? known->reason() : error.what()));
+        }
+        lock.lock();
+        m_isWriting = false;
+        m_changed.notify_all();
     }
 }
 
-std::optional<Session> keptSession() {
+std::unique_lock<std::mutex> SessionFile::rest() const {
+    std::unique_lock lock(m_mutex);
+    m_changed.wait(lock, [this] { return !m_isWriting; });
+    return lock;
+}
+
+void SessionFile::keep(const Session &session) {
+    const std::lock_guard lock(m_mutex);
+    m_next = session; // what was not begun is old
+    m_changed.notify_all();
+}
+
+void SessionFile::forget() {
+    const auto lock = rest();
+    m_next.reset();
+    std::error_code ignored;
+    if (const auto path = sessionFile())
+        std::filesystem::remove(*path, ignored);
+}
+
+std::optional<Session> SessionFile::kept() const {
+    const auto lock = rest();
+    if (m_next)
+        return m_next;
     const auto path = sessionFile();
     if (!path)
         return std::nullopt;
-    QFile file(*path);
+    QFile file(QString::fromStdString(path->string()));
     if (!file.open(QIODevice::ReadOnly))
         return std::nullopt;
-    const QJsonObject in = QJsonDocument::fromJson(file.readAll()).object();
-    if (in["schema"].toString() != schema)
-        return std::nullopt;
     try {
-        return fromJson(in);
+        return sessionFromJson(file.readAll().toStdString());
     } catch (const task::Error &) {
         return std::nullopt;
     }

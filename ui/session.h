@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <condition_variable>
+#include <mutex>
 #include <optional>
+#include <string>
+#include <thread>
 
 #include <QStringList>
 
@@ -20,6 +24,10 @@ struct Session {
     bool hasEnded = false;
 };
 
+/// As it is kept. Reading *throws* Error{unusable} if the text is no session.
+std::string toJson(const Session &session);
+Session sessionFromJson(const std::string &text);
+
 /// The session as it is; none while nothing is open, or where what is open is gone with the
 /// program.
 std::optional<Session> currentSession(const Document &document);
@@ -27,8 +35,28 @@ std::optional<Session> currentSession(const Document &document);
 /// The user's file of it, written a moment after each change and when the program ends: one that is
 /// killed loses a second or two. What cannot be written or read is as if there were none: nobody is
 /// kept from ending or beginning.
-void keepSession(const std::optional<Session> &session);
-std::optional<Session> keptSession();
+class SessionFile {
+public:
+    SessionFile();
+    /// Waits until what was given last is written.
+    ~SessionFile();
+
+    /// Written aside, because it waits for the disk.
+    void keep(const Session &session);
+    void forget();
+    std::optional<Session> kept() const;
+
+private:
+    void write(std::stop_token stop);
+    /// A moment when nothing is being written; what was not begun may be dropped then.
+    std::unique_lock<std::mutex> rest() const;
+
+    mutable std::mutex m_mutex;
+    mutable std::condition_variable_any m_changed;
+    std::optional<Session> m_next;
+    bool m_isWriting = false;
+    std::jthread m_thread; ///< last: it uses the others
+};
 
 /// Opens it, as it was looked at. Files that are gone are among the problems.
 void resume(const Session &session, StudyOpener &opener);

@@ -11,6 +11,7 @@
 #include "ui/look_preparer.h"
 #include "ui/measurement_store.h"
 #include "ui/phases.h"
+#include "ui/session.h"
 #include "ui/study_opener.h"
 
 namespace pellucid::ui {
@@ -33,6 +34,7 @@ struct Workbench {
     StudyOpener opener;
     Phases phases;
     MeasurementStore measurements;
+    SessionFile session;
 };
 
 } // namespace pellucid::ui

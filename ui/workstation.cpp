@@ -40,18 +40,18 @@ Workstation::~Workstation() {
 
 void Workstation::keepWhatIsOpen(bool hasEnded) {
     if (!m_preferences.remembersStudies) {
-        keepSession(std::nullopt);
+        m_bench.session.forget();
         return;
     }
     // Who opened nothing still has what was open before.
     if (auto session = currentSession(m_bench.document)) {
         session->hasEnded = hasEnded;
-        keepSession(session);
+        m_bench.session.keep(*session);
         m_hasKept = true;
     } else if (hasEnded && m_hasKept) { // what was kept before is not of a crash
-        if (auto kept = keptSession()) {
+        if (auto kept = m_bench.session.kept()) {
             kept->hasEnded = true;
-            keepSession(kept);
+            m_bench.session.keep(*kept);
         }
     }
 }
@@ -104,7 +104,7 @@ void Workstation::follow(const Preferences &preferences) {
     const Preferences before = m_preferences;
     m_preferences = preferences;
     if (!preferences.remembersStudies) {
-        keepSession(std::nullopt);
+        m_bench.session.forget();
         forgetRecentPaths();
     }
     if (preferences.language != before.language)

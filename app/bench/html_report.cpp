@@ -17,7 +17,7 @@ namespace {
 
 void save(const std::filesystem::path &path, const std::string &text) {
     files::AtomicFile file(path);
-    file.write(std::as_bytes(std::span(text)));
+    file.write(text);
     file.commit();
 }
 

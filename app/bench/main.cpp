@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 
 #include "app/bench/suites.h"
+#include "core/decoder/read_nrrd.h"
 #include "core/files/atomic_file.h"
 #include "core/reference/wide_kernel.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
-#include "core/volume/nrrd.h"
 
 namespace {
 
@@ -31,13 +31,13 @@ void save(const std::string &path, const std::string &text) {
     if (path.empty())
         return;
     pellucid::files::AtomicFile file(path);
-    file.write(std::as_bytes(std::span(text)));
+    file.write(text);
     file.commit();
 }
 
 pellucid::bench::Subject readSubject(const std::string &path) {
     using namespace pellucid;
-    const auto volume = volume::readNrrd(path);
+    const auto volume = decoder::readNrrd(path);
     bench::Subject subject{std::filesystem::path(path).stem().string(),
                            classify::densityField(volume, classify::defaultFieldWindow(volume))};
     // The exact reference that errors are taken against is the largest thing by far.

@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <QApplication>
 #include <QSocketNotifier>
 #include <QSurfaceFormat>
 
@@ -18,6 +17,7 @@
 #include "core/fourier/wisdom.h"
 #include "core/task/error.h"
 #include "core/task/log.h"
+#include "ui/application.h"
 #include "ui/graphics_card.h"
 #include "ui/main_window.h"
 #include "ui/workstation.h"
@@ -113,7 +113,7 @@ int main(int argc, char **argv) {
     task::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
     // The engine's context shares with those of the windows: its pictures stay on the card.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-    QApplication application(argc, argv);
+    ui::Application application(argc, argv);
     endOnSignals(application);
     QApplication::setApplicationName("pellucid");
     QApplication::setOrganizationName("pellucid");

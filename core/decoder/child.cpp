@@ -154,9 +154,9 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
     m_isSound = true;
 }
 
-void Child::ask(Message::Kind kind, int file, std::uint64_t fileBytes) {
-    allow(decodingSeconds(fileBytes));
-    const bool isSent = send(m_socket.get(), {kind, 0, fileBytes, 0}, file);
+void Child::ask(const Message &request, int file) {
+    allow(decodingSeconds(request.size));
+    const bool isSent = send(m_socket.get(), request, file);
     m_isSound = false; // until it has answered
     if (!isSent)
         throw Error(ErrorCode::unusable, "the decoder is gone");

@@ -27,7 +27,8 @@ public:
         std::span<const std::byte> data; ///< in the arena
     };
     /// Begins a request. *Throws* Error{unusable} if the process has ended meanwhile.
-    void ask(Message::Kind kind, int file, std::uint64_t fileBytes);
+    /// The request's `size` is that of the file.
+    void ask(const Message &request, int file);
     /// The next part of an archive.
     void askForNext();
     /// Waits for the answer, which is a `part` or `done`. *Throws* Error{unusable, outOfMemory}

@@ -154,16 +154,16 @@ void Decoder::takeBack(std::unique_ptr<Child> child) {
 
 // Asks a decoder; one that ended while it waited (the system may have wanted its memory) is
 // replaced.
-std::unique_ptr<Child> Decoder::ask(int kind, int file, std::uint64_t bytes,
+std::unique_ptr<Child> Decoder::ask(const Message &request, int file,
                                     const task::Progress &progress) {
     auto child = lend(progress);
     try {
-        child->ask(Message::Kind(kind), file, bytes);
+        child->ask(request, file);
     } catch (const Error &) {
         const std::uint64_t opening = child->opening;
         child = std::make_unique<Child>(m_program, progress);
         child->opening = opening;
-        child->ask(Message::Kind(kind), file, bytes);
+        child->ask(request, file);
     }
     return child;
 }
@@ -186,7 +186,8 @@ InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progr
     const OpenFile file = open(path);
     checkStart(file, path);
     return naming(path, [&] {
-        auto child = ask(int(Message::Kind::header), file.descriptor.get(), file.bytes, progress);
+        auto child =
+            ask({Message::Kind::header, 0, file.bytes, 0}, file.descriptor.get(), progress);
         InstanceHeader header = answered(
             child, progress, [](const Child::Answer &answer) { return unpackHeader(answer.body); });
         takeBack(std::move(child));
@@ -197,7 +198,7 @@ InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progr
 DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress) {
     const OpenFile file = open(path);
     return naming(path, [&] {
-        auto child = ask(int(Message::Kind::image), file.descriptor.get(), file.bytes, progress);
+        auto child = ask({Message::Kind::image, 0, file.bytes, 0}, file.descriptor.get(), progress);
         std::span<const std::uint16_t> samples;
         InstanceHeader header = answered(child, progress, [&](const Child::Answer &answer) {
             InstanceHeader h = unpackHeader(answer.body);
@@ -215,7 +216,7 @@ DirectoryFile Decoder::directory(const fs::path &path, const task::Progress &pro
     const OpenFile file = open(path);
     return naming(path, [&] {
         auto child =
-            ask(int(Message::Kind::directory), file.descriptor.get(), file.bytes, progress);
+            ask({Message::Kind::directory, 0, file.bytes, 0}, file.descriptor.get(), progress);
         DirectoryFile directory = answered(child, progress, [](const Child::Answer &answer) {
             return unpackDirectory(answer.body);
         });
@@ -230,7 +231,8 @@ void Decoder::archive(const fs::path &path,
                       const task::Progress &progress) {
     const OpenFile file = open(path);
     naming(path, [&] {
-        auto child = ask(int(Message::Kind::archive), file.descriptor.get(), file.bytes, progress);
+        auto child =
+            ask({Message::Kind::archive, 0, file.bytes, 0}, file.descriptor.get(), progress);
         // Every part but the last is full, and files come one after the other: nobody talks for
         // ever.
         bool isAnnouncing = true, isInFile = false;
@@ -256,6 +258,48 @@ void Decoder::archive(const fs::path &path,
                     isInFile = !isLast;
                     take({files[0], answer.data, isFirst, isLast});
                 }
+                child->askForNext();
+            });
+        }
+        takeBack(std::move(child));
+    });
+}
+
+NrrdLayout Decoder::nrrd(const fs::path &path, const task::Progress &progress) {
+    const OpenFile file = open(path);
+    return naming(path, [&] {
+        auto child = ask({Message::Kind::nrrd, 0, file.bytes, 0}, file.descriptor.get(), progress);
+        NrrdLayout layout = answered(
+            child, progress, [](const Child::Answer &answer) { return unpackNrrd(answer.body); });
+        takeBack(std::move(child));
+        return layout;
+    });
+}
+
+void Decoder::nrrdSamples(const fs::path &path, const NrrdSamples &samples,
+                          const std::function<void(std::span<const std::byte>)> &take,
+                          const task::Progress &progress) {
+    const OpenFile file = open(path);
+    naming(path, [&] {
+        const int code = samples.bytesEach | (samples.isGzip ? deflated : 0) |
+                         (samples.isSwapped ? swapped : 0) |
+                         (samples.isBehindHeader ? behindHeader : 0);
+        auto child = ask({Message::Kind::nrrdSamples, code, file.bytes, samples.bytes},
+                         file.descriptor.get(), progress);
+        std::uint64_t left = samples.bytes;
+        for (bool isDone = false; !isDone;) {
+            answered(child, progress, [&](const Child::Answer &answer) {
+                isDone = answer.message.kind == Message::Kind::done;
+                const std::uint64_t bytes = answer.data.size();
+                // Some of them each time, none too many, and all of them.
+                if (isDone ? left != 0
+                           : bytes == 0 || bytes > left ||
+                                 bytes % std::uint64_t(samples.bytesEach) != 0)
+                    throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                if (isDone)
+                    return;
+                left -= bytes;
+                take(answer.data);
                 child->askForNext();
             });
         }

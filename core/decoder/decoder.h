@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/decoder/instance.h"
+#include "core/decoder/nrrd_layout.h"
 #include "core/task/progress.h"
 
 namespace pellucid::decoder {
@@ -69,6 +70,12 @@ public:
                  const std::function<void(const ArchivePart &)> &take,
                  const task::Progress &progress = {});
 
+    NrrdLayout nrrd(const std::filesystem::path &path, const task::Progress &progress = {});
+    /// Exactly so many bytes, in parts of whole samples. The callback may throw.
+    void nrrdSamples(const std::filesystem::path &path, const NrrdSamples &samples,
+                     const std::function<void(std::span<const std::byte>)> &take,
+                     const task::Progress &progress = {});
+
     /// Other files come, of somebody else perhaps: decoders that have read the former ones read
     /// none of these. One that a file has taken over could give wrong headers and pixels for what
     /// it reads next.
@@ -81,7 +88,7 @@ private:
     friend class DecodedFile;
     std::unique_ptr<Child> lend(const task::Progress &progress);
     void takeBack(std::unique_ptr<Child> child);
-    std::unique_ptr<Child> ask(int kind, int file, std::uint64_t bytes,
+    std::unique_ptr<Child> ask(const struct Message &request, int file,
                                const task::Progress &progress);
     template <class F>
     auto answered(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack);

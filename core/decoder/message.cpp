@@ -165,6 +165,20 @@ template <class A> void pass(A &archive, ArchiveFile &file) {
     pass(archive, file.isEncrypted);
 }
 
+template <class A> void pass(A &archive, NrrdLayout &layout) {
+    for (int *const number : {&layout.size.i, &layout.size.j, &layout.size.k})
+        pass(archive, *number);
+    pass(archive, layout.originMm);
+    for (glm::dvec3 &step : layout.stepsMm)
+        pass(archive, step);
+    auto scalar = std::int32_t(layout.scalar);
+    pass(archive, scalar);
+    layout.scalar = NrrdScalar(scalar);
+    pass(archive, layout.isGzip);
+    pass(archive, layout.isSwapped);
+    pass(archive, layout.dataFile);
+}
+
 template <class A, class T> void pass(A &archive, std::optional<T> &value) {
     bool isThere = value.has_value();
     pass(archive, isThere);
@@ -263,6 +277,22 @@ std::string pack(const std::vector<ArchiveFile> &files) {
 
 std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body) {
     return unpacked<std::vector<ArchiveFile>>(body);
+}
+
+std::string pack(const NrrdLayout &layout) {
+    return packed(layout);
+}
+
+NrrdLayout unpackNrrd(std::span<const std::byte> body) {
+    const auto layout = unpacked<NrrdLayout>(body);
+    const volume::GridSize n = layout.size;
+    if (std::min({n.i, n.j, n.k}) < 1 || layout.scalar < NrrdScalar::i8 ||
+        layout.scalar > NrrdScalar::f64)
+        fail();
+    // Divided, not multiplied: the product of three sizes may wrap.
+    if (std::uint64_t(n.i) > mostNrrdSamples / std::uint64_t(n.j) / std::uint64_t(n.k))
+        fail();
+    return layout;
 }
 
 std::string unpackReason(std::span<const std::byte> body) {

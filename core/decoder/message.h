@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/decoder/instance.h"
+#include "core/decoder/nrrd_layout.h"
 
 namespace pellucid::decoder {
 
@@ -20,14 +21,16 @@ struct Message {
         image,
         directory,
         archive,
-        granted, ///< `size`: of the arena now
+        nrrd,        ///< the header of one
+        nrrdSamples, ///< `dataBytes`: all of them, `code`: the size of one and bits of `NrrdFlag`
+        granted,     ///< `size`: of the arena now
         refused,
-        next, ///< part of an archive
+        next, ///< part of an archive or of samples
         // from it
         ready = 100, ///< it is confined, see `Confinement`, in `code`
         need,        ///< `size`: of the arena
-        part,        ///< of an archive: `size` bytes of body, then `dataBytes`; `code`: bits of
-                     ///< `ArchiveFlag`
+        part,        ///< `size` bytes of body, then `dataBytes`; of an archive with bits of
+                     ///< `ArchiveFlag` in `code`
         done,        ///< `code`, `size` bytes of body, then `dataBytes`
     };
     Kind kind = Kind::ready;
@@ -42,6 +45,9 @@ enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2 };
 /// Bits of `Message::code` of `part`. An announcement has a list of files for a body, the others
 /// the file that the data are of.
 enum ArchiveFlag : std::int32_t { announcement = 1, firstPart = 2, lastPart = 4 };
+
+/// Bits of `Message::code` of `nrrdSamples`, beside the size of a sample.
+enum NrrdFlag : std::int32_t { deflated = 16, swapped = 32, behindHeader = 64 };
 
 /// A part that is not the last of its file is full; so is an announcement that is not the last.
 inline constexpr std::size_t archivePartBytes = 1 << 20, filesAnnouncedAtOnce = 500;
@@ -59,6 +65,8 @@ std::string pack(const DirectoryFile &directory);
 DirectoryFile unpackDirectory(std::span<const std::byte> body);
 std::string pack(const std::vector<ArchiveFile> &files);
 std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body);
+std::string pack(const NrrdLayout &layout);
+NrrdLayout unpackNrrd(std::span<const std::byte> body);
 /// A reason: printable, one line, not endless.
 std::string unpackReason(std::span<const std::byte> body);
 

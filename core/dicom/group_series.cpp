@@ -6,7 +6,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <tuple>
+#include <unordered_map>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -46,7 +48,7 @@ bool placesRepeat(const Frames &sorted) {
 // One instance twice, as when a CD is copied into a folder that has it already.
 void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
     std::map<std::pair<std::string, int>, std::filesystem::path> seen;
-    std::vector<std::filesystem::path> reported;
+    std::set<std::filesystem::path> reported;
     std::erase_if(frames, [&](const PlacedFrame &frame) {
         if (frame.sopInstanceUid.empty())
             return false;
@@ -54,11 +56,9 @@ void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
             seen.try_emplace({frame.sopInstanceUid, frame.reference.frame}, frame.reference.path);
         if (fresh)
             return false;
-        if (std::find(reported.begin(), reported.end(), frame.reference.path) == reported.end()) {
+        if (reported.insert(frame.reference.path).second)
             skipped.push_back({frame.reference.path,
                                "has the instance UID of " + it->second.filename().string()});
-            reported.push_back(frame.reference.path);
-        }
         return true;
     });
 }
@@ -68,16 +68,18 @@ struct Part {
     Frames frames;
 };
 
-std::vector<Part> splitBy(const Frames &sorted, const std::string &name,
-                          const std::function<std::string(const PlacedFrame &)> &key) {
+// By a name that every frame has, in the order in which the names first come.
+std::vector<Part> splitBy(const Frames &sorted,
+                          const std::function<std::string(const PlacedFrame &)> &name,
+                          const task::Progress &progress) {
     std::vector<Part> parts;
+    std::unordered_map<std::string, std::size_t> known;
     for (const PlacedFrame &frame : sorted) {
-        const std::string label = fmt::format("{} {}", name, key(frame));
-        auto it = std::find_if(parts.begin(), parts.end(),
-                               [&](const Part &p) { return p.label == label; });
-        if (it == parts.end())
-            it = parts.insert(parts.end(), {label, {}});
-        it->frames.push_back(frame);
+        progress.check();
+        const auto [it, isNew] = known.try_emplace(name(frame), parts.size());
+        if (isNew)
+            parts.push_back({it->first, {}});
+        parts[it->second].frames.push_back(frame);
     }
     return parts;
 }
@@ -96,46 +98,58 @@ bool separatesUnevenly(const std::vector<Part> &parts, std::size_t places) {
            });
 }
 
-std::vector<Part> splitRepeats(const Frames &sorted) {
-    std::size_t places = 1;
-    for (std::size_t n = 1; n < sorted.size(); ++n)
-        places += samePlace(sorted[n - 1], sorted[n]) ? 0 : 1;
-    std::vector<std::vector<Part>> splits;
-    for (const char *name : {"temporal position", "echo", "b-value", "trigger time", "stack",
-                             "acquisition", "acquisition time", "content time"})
-        splits.push_back(splitBy(sorted, name, [name](const PlacedFrame &frame) {
-            const auto it = frame.header.dimensions.find(name);
-            return it == frame.header.dimensions.end() ? std::string() : it->second;
-        }));
-    splits.push_back(
-        splitBy(sorted, "type", [](const PlacedFrame &f) { return f.header.imageType; }));
-    splits.push_back(splitBy(
-        sorted, "file", [](const PlacedFrame &f) { return f.reference.path.filename().string(); }));
-    for (const auto &parts : splits)
-        if (separates(parts, places))
-            return parts;
-    for (const auto &parts : splits)
-        if (separatesUnevenly(parts, places))
-            return parts;
-    // Nothing in the headers tells them apart: the first image of every place, then the second, ...
-    Frames byNumber = sorted;
-    std::stable_sort(byNumber.begin(), byNumber.end(),
-                     [](const PlacedFrame &a, const PlacedFrame &b) {
-                         return a.instanceNumber < b.instanceNumber;
-                     });
-    std::vector<Part> parts;
-    for (const PlacedFrame &frame : byNumber) {
-        auto it = std::find_if(parts.begin(), parts.end(), [&](const Part &part) {
-            return std::none_of(part.frames.begin(), part.frames.end(),
-                                [&](const PlacedFrame &other) { return samePlace(frame, other); });
+// Nothing in the headers tells them apart: the first image of every place, then the second, ...
+std::vector<Part> splitByNumber(const Frames &sorted, const task::Progress &progress) {
+    Frames byNumber;
+    for (auto place = sorted.begin(); place != sorted.end();) {
+        const auto end = std::adjacent_find(
+            place, sorted.end(), [](const auto &a, const auto &b) { return !samePlace(a, b); });
+        Frames here(place, end == sorted.end() ? end : end + 1);
+        place += std::ptrdiff_t(here.size());
+        std::stable_sort(here.begin(), here.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
+            return a.instanceNumber < b.instanceNumber;
         });
-        if (it == parts.end())
-            it = parts.insert(parts.end(), {fmt::format("set {}", parts.size() + 1), {}});
-        it->frames.push_back(frame);
+        byNumber.insert(byNumber.end(), here.begin(), here.end());
     }
+    int set = 0;
+    const PlacedFrame *last = nullptr;
+    std::vector<Part> parts = splitBy(
+        byNumber,
+        [&](const PlacedFrame &frame) {
+            set = last != nullptr && samePlace(*last, frame) ? set + 1 : 1;
+            last = &frame;
+            return fmt::format("set {}", set);
+        },
+        progress);
     for (Part &part : parts)
         sortByDepth(part.frames);
     return parts;
+}
+
+std::vector<Part> splitRepeats(const Frames &sorted, const task::Progress &progress) {
+    std::size_t places = 1;
+    for (std::size_t n = 1; n < sorted.size(); ++n)
+        places += samePlace(sorted[n - 1], sorted[n]) ? 0 : 1;
+    std::vector<std::function<std::string(const PlacedFrame &)>> names;
+    for (const char *name : {"temporal position", "echo", "b-value", "trigger time", "stack",
+                             "acquisition", "acquisition time", "content time"})
+        names.emplace_back([name](const PlacedFrame &frame) {
+            const auto it = frame.header.dimensions.find(name);
+            return fmt::format("{} {}", name,
+                               it == frame.header.dimensions.end() ? std::string() : it->second);
+        });
+    names.emplace_back([](const PlacedFrame &f) { return "type " + f.header.imageType; });
+    names.emplace_back(
+        [](const PlacedFrame &f) { return "file " + f.reference.path.filename().string(); });
+    std::vector<Part> uneven;
+    for (const auto &name : names) {
+        std::vector<Part> parts = splitBy(sorted, name, progress);
+        if (separates(parts, places))
+            return parts;
+        if (uneven.empty() && separatesUnevenly(parts, places))
+            uneven = std::move(parts);
+    }
+    return !uneven.empty() ? uneven : splitByNumber(sorted, progress);
 }
 
 VolumeEntry entryFrom(const Part &part) {
@@ -160,9 +174,11 @@ void makeImages(VolumeEntry &entry, const Frames &frames, const std::string &rea
 
 std::vector<Frames>
 blocksOf(const Frames &frames,
-         const std::function<bool(const PlacedFrame &, const PlacedFrame &)> &same) {
+         const std::function<bool(const PlacedFrame &, const PlacedFrame &)> &same,
+         const task::Progress &progress) {
     std::vector<Frames> blocks;
     for (const PlacedFrame &frame : frames) {
+        progress.check();
         auto it = std::find_if(blocks.begin(), blocks.end(),
                                [&](const Frames &b) { return same(b.front(), frame); });
         if (it == blocks.end())
@@ -215,7 +231,8 @@ std::string missingGeometry(const FrameHeader &h) {
 } // namespace
 
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
-                                     std::vector<Skipped> &skipped) {
+                                     std::vector<Skipped> &skipped,
+                                     const task::Progress &progress) {
     Frames placed, unplaced;
     for (const SeriesFile &file : files)
         for (int n = 0; n < int(file.header.frames.size()); ++n) {
@@ -228,11 +245,12 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
     dropCopies(unplaced, skipped);
 
     std::vector<VolumeEntry> entries;
-    for (Frames &block : blocksOf(placed, sameBlock)) {
+    for (Frames &block : blocksOf(placed, sameBlock, progress)) {
         sortByDepth(block);
         const std::vector<Part> parts =
-            placesRepeat(block) ? splitRepeats(block) : std::vector<Part>{{"", block}};
+            placesRepeat(block) ? splitRepeats(block, progress) : std::vector<Part>{{"", block}};
         for (const Part &part : parts) {
+            progress.check();
             VolumeEntry entry = entryFrom(part);
             StackResult stack = stackGeometry(part.frames);
             if (stack.refusal.empty())
@@ -247,7 +265,7 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
         return a.rows == b.rows && a.columns == b.columns &&
                missingGeometry(a.header) == missingGeometry(b.header);
     };
-    for (Frames &block : blocksOf(unplaced, sameSize)) {
+    for (Frames &block : blocksOf(unplaced, sameSize, progress)) {
         std::stable_sort(block.begin(), block.end(),
                          [](const PlacedFrame &a, const PlacedFrame &b) {
                              return std::tuple(a.instanceNumber, a.reference.frame) <

@@ -5,6 +5,7 @@
 
 #include "core/dicom/catalogue.h"
 #include "core/dicom/stack_geometry.h"
+#include "core/task/progress.h"
 
 namespace pellucid::dicom {
 
@@ -18,8 +19,9 @@ struct SeriesFile {
 /// positions then still repeat, by the first attribute that tells them apart (temporal position,
 /// acquisition, echo, b-value, ...), at last by the order of the files. Copies of the same instance
 /// are dropped and listed. Frames without position or orientation become sets of images with the
-/// reason.
+/// reason. *Throws* Cancelled.
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
-                                     std::vector<Skipped> &skipped);
+                                     std::vector<Skipped> &skipped,
+                                     const task::Progress &progress = {});
 
 } // namespace pellucid::dicom

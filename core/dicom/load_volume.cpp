@@ -18,10 +18,10 @@
 #include <tbb/parallel_for.h>
 
 #include "core/decoder/decoder.h"
+#include "core/decoder/read_nrrd.h"
 #include "core/dicom/group_series.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
-#include "core/volume/nrrd.h"
 
 namespace pellucid::dicom {
 
@@ -378,7 +378,7 @@ LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress
                         const LoadObserver &observer) {
     try {
         if (!entry.nrrd.empty())
-            return {volume::readNrrd(entry.nrrd, progress), {}};
+            return {decoder::readNrrd(entry.nrrd, progress), {}};
         return Assembly(entry, progress, observer).load();
     } catch (const std::bad_alloc &) {
         const volume::GridSize n = entry.geometry.lattice.size();

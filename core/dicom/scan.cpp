@@ -9,11 +9,13 @@
 #include <new>
 #include <set>
 #include <tuple>
+#include <unordered_map>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/decoder/decoder.h"
+#include "core/decoder/read_nrrd.h"
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/group_series.h"
 #include "core/task/error.h"
@@ -27,21 +29,32 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-// CDs are written in capitals and mounted in lower case: an entry matches whatever its case.
-fs::path childOf(const fs::path &folder, const std::string &name) {
-    std::error_code ignored;
-    if (fs::exists(folder / name, ignored))
-        return folder / name;
-    const auto lower = [](std::string text) {
-        std::transform(text.begin(), text.end(), text.begin(),
-                       [](unsigned char c) { return char(std::tolower(c)); });
-        return text;
-    };
-    for (const auto &entry : fs::directory_iterator(folder, ignored))
-        if (lower(entry.path().filename().string()) == lower(name))
-            return entry.path();
-    return folder / name;
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
 }
+
+// CDs are written in capitals and mounted in lower case: an entry matches whatever its case. Each
+// folder is read once.
+class CaselessFolders {
+public:
+    fs::path childOf(const fs::path &folder, const std::string &name) {
+        std::error_code ignored;
+        if (fs::exists(folder / name, ignored))
+            return folder / name;
+        const auto [names, isNew] = m_names.try_emplace(folder);
+        if (isNew)
+            for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+                 entry.increment(ignored))
+                names->second.try_emplace(lower(entry->path().filename().string()), entry->path());
+        const auto it = names->second.find(lower(name));
+        return it == names->second.end() ? folder / name : it->second;
+    }
+
+private:
+    std::map<fs::path, std::unordered_map<std::string, fs::path>> m_names;
+};
 
 class FileList {
 public:
@@ -95,6 +108,7 @@ private:
     void addDirectory(const fs::path &path, const decoder::DirectoryFile &directory) {
         std::error_code unknown;
         const fs::path folder = fs::weakly_canonical(fs::absolute(path).parent_path(), unknown);
+        CaselessFolders folders;
         for (const auto &parts : directory.files) {
             m_progress.check();
             fs::path listed = path.parent_path();
@@ -102,7 +116,7 @@ private:
                 // A part must be a plain name: an index may not lead out of its own folder.
                 if (part == ".." || part.find_first_of(std::string_view("/\0", 2)) != part.npos)
                     throw Error(ErrorCode::unusable, "lists a file outside its folder", path);
-                listed = childOf(listed, part);
+                listed = folders.childOf(listed, part);
             }
             std::error_code ignored;
             if (!fs::is_regular_file(listed, ignored)) {
@@ -162,12 +176,11 @@ private:
     std::set<fs::path> m_seen;
 };
 
+using HeadersByPath = std::map<fs::path, const InstanceHeader *>;
+
 // What the volume's values and notes are, from the first file of a series' entry.
-void describe(VolumeEntry &entry, const std::vector<SeriesFile> &files) {
-    const auto it = std::find_if(files.begin(), files.end(), [&](const SeriesFile &f) {
-        return f.path == entry.frames.front().path;
-    });
-    const InstanceHeader &h = it->header;
+void describe(VolumeEntry &entry, const HeadersByPath &headers) {
+    const InstanceHeader &h = *headers.at(entry.frames.front().path);
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
     entry.notes.modality = h.modality;
     entry.notes.windows = h.windows;
@@ -175,13 +188,9 @@ void describe(VolumeEntry &entry, const std::vector<SeriesFile> &files) {
     entry.notes.placed = entry.placed;
     if (!entry.placed)
         entry.notes.warnings.push_back("images only: " + entry.notPlacedReason);
-    std::set<fs::path> lossy;
-    for (const SeriesFile &f : files)
-        if (f.header.lossy)
-            lossy.insert(f.path);
     entry.notes.lossy =
         std::any_of(entry.frames.begin(), entry.frames.end(),
-                    [&](const FrameReference &frame) { return lossy.contains(frame.path); });
+                    [&](const FrameReference &frame) { return headers.at(frame.path)->lossy; });
     const bool hounsfield =
         h.rescaleType == "HU" ||
         (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
@@ -194,23 +203,32 @@ void describe(VolumeEntry &entry, const std::vector<SeriesFile> &files) {
             fmt::format("tilted by {:.1f} degrees; shown from its own lattice", tilt));
 }
 
-Patient &patientFor(Catalogue &catalogue, const InstanceHeader &h) {
-    for (Patient &p : catalogue.patients)
-        if (p.id == h.patientId && p.name == h.patientName)
-            return p;
-    catalogue.patients.push_back({h.patientId, h.patientName, h.birthDate, h.sex, {}});
-    return catalogue.patients.back();
-}
+// Where in a catalogue the studies are that series belong to; new ones are added.
+class Studies {
+public:
+    explicit Studies(Catalogue &catalogue) : m_catalogue(catalogue) {}
 
-Study &studyFor(Patient &patient, const InstanceHeader &h) {
-    for (Study &s : patient.studies)
-        if (s.uid == h.studyUid)
-            return s;
-    patient.studies.push_back({h.studyUid, h.studyDate, h.studyDescription, {}});
-    return patient.studies.back();
-}
+    Study &of(const InstanceHeader &h) {
+        auto &patients = m_catalogue.patients;
+        const auto [patient, isNewPatient] =
+            m_patients.try_emplace({h.patientId, h.patientName}, patients.size());
+        if (isNewPatient)
+            patients.push_back({h.patientId, h.patientName, h.birthDate, h.sex, {}});
+        auto &studies = patients[patient->second].studies;
+        const auto [study, isNewStudy] =
+            m_studies.try_emplace({patient->second, h.studyUid}, studies.size());
+        if (isNewStudy)
+            studies.push_back({h.studyUid, h.studyDate, h.studyDescription, {}});
+        return studies[study->second];
+    }
 
-void addNrrd(Catalogue &catalogue, const fs::path &path, const volume::NrrdHeader &header) {
+private:
+    Catalogue &m_catalogue;
+    std::map<std::pair<std::string, std::string>, std::size_t> m_patients;
+    std::map<std::pair<std::size_t, std::string>, std::size_t> m_studies;
+};
+
+void addNrrd(Catalogue &catalogue, const fs::path &path, const decoder::NrrdHeader &header) {
     if (catalogue.patients.empty() || catalogue.patients.back().id != "files")
         catalogue.patients.push_back({"files", "Files", "", "", {{"", "", "Volume files", {}}}});
     Series series;
@@ -242,25 +260,28 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     }
 
     std::vector<InstanceHeader> headers(list.found.size());
+    std::vector<std::optional<decoder::NrrdHeader>> nrrds(list.found.size());
     std::vector<std::string> reasons(list.found.size());
     std::atomic<std::size_t> done = 0;
     std::mutex reporting;
     tbb::parallel_for(std::size_t(0), list.found.size(), [&](std::size_t n) {
         progress.check();
-        if (!volume::isNrrdPath(list.found[n])) {
-            try {
+        try {
+            if (volume::isNrrdPath(list.found[n])) {
+                nrrds[n] = decoder::readNrrdHeader(list.found[n], progress);
+            } else {
                 headers[n] = decoder::Decoder::ofProgram().header(list.found[n], progress);
                 if (const auto reason = decoder::whyUnusable(headers[n]))
                     reasons[n] = *reason;
-            } catch (const Error &error) {
-                if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
-                    throw;
-                reasons[n] = decoder::isArchive(list.found[n])
-                                 ? "is an archive; archives are opened by themselves"
-                                 : error.reason();
-            } catch (const std::bad_alloc &) {
-                reasons[n] = "needs more memory than there is";
             }
+        } catch (const Error &error) {
+            if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
+                throw;
+            reasons[n] = decoder::isArchive(list.found[n])
+                             ? "is an archive; archives are opened by themselves"
+                             : error.reason();
+        } catch (const std::bad_alloc &) {
+            reasons[n] = "needs more memory than there is";
         }
         const std::lock_guard lock(reporting);
         progress.report(double(++done) / double(list.found.size()));
@@ -275,16 +296,12 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
         series;
     std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
     for (std::size_t n = 0; n < list.found.size(); ++n) {
-        if (volume::isNrrdPath(list.found[n])) {
-            try {
-                addNrrd(catalogue, list.found[n], volume::readNrrdHeader(list.found[n]));
-            } catch (const Error &error) {
-                catalogue.skipped.push_back({list.found[n], error.reason()});
-            }
-            continue;
-        }
         if (!reasons[n].empty()) {
             catalogue.skipped.push_back({list.found[n], reasons[n]});
+            continue;
+        }
+        if (nrrds[n]) {
+            addNrrd(catalogue, list.found[n], *nrrds[n]);
             continue;
         }
         const InstanceHeader &h = headers[n];
@@ -294,17 +311,22 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
             order.push_back(key);
         files.push_back({list.found[n], std::move(headers[n])});
     }
+    Studies studies(catalogue);
     for (const auto &key : order) {
         const std::vector<SeriesFile> &files = series[key];
         const InstanceHeader &h = files.front().header;
-        Series entry{h.seriesUid, h.seriesDescription, h.modality,
-                     h.bodyPart,  h.seriesNumber,      groupSeries(files, catalogue.skipped),
-                     {}};
+        Series entry{
+            h.seriesUid, h.seriesDescription, h.modality,
+            h.bodyPart,  h.seriesNumber,      groupSeries(files, catalogue.skipped, progress),
+            {}};
         for (const SeriesFile &file : files)
             entry.files.push_back({file.path, file.header.sopInstanceUid});
+        HeadersByPath headersByPath;
+        for (const SeriesFile &file : files)
+            headersByPath[file.path] = &file.header;
         for (VolumeEntry &volume : entry.volumes)
-            describe(volume, files);
-        studyFor(patientFor(catalogue, h), h).series.push_back(std::move(entry));
+            describe(volume, headersByPath);
+        studies.of(h).series.push_back(std::move(entry));
     }
     for (Patient &patient : catalogue.patients)
         for (Study &study : patient.studies)

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <string>
 #include <sys/stat.h>
 #include <system_error>
@@ -12,6 +13,29 @@
 #include "core/task/error.h"
 
 namespace pellucid::files {
+
+namespace {
+
+// A dot in front keeps an unfinished file out of listings and of folder scans.
+std::string hiddenNameFor(const std::filesystem::path &path) {
+    return (path.parent_path() / ("." + path.filename().string() + ".XXXXXX")).string();
+}
+
+// A file without a name that can be given one; -1 where there is no such thing.
+int openNameless(const std::filesystem::path &folder) {
+#ifdef O_TMPFILE
+    const int descriptor =
+        open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor >= 0 &&
+        access(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), F_OK) == 0)
+        return descriptor;
+    if (descriptor >= 0)
+        close(descriptor);
+#endif
+    return -1;
+}
+
+} // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path) : m_path(std::move(path)) {
     // Through a link to what it points at; and no device, pipe or folder becomes a file.
@@ -23,22 +47,24 @@ AtomicFile::AtomicFile(std::filesystem::path path) : m_path(std::move(path)) {
         !std::filesystem::is_regular_file(m_path, unknown) &&
         !std::filesystem::is_directory(m_path, unknown))
         throw task::Error(task::ErrorCode::output, "is no regular file", m_path);
-    // A dot in front keeps the unfinished file out of listings and of folder scans.
-    std::string name =
-        (m_path.parent_path() / ("." + m_path.filename().string() + ".XXXXXX")).string();
-    const int descriptor = mkstemp(name.data());
-    if (descriptor < 0)
-        fail(errno);
-    m_temporary = name;
-    // mkstemp makes files private; a finished result has the permissions of any new file.
-    const mode_t mask = umask(0);
-    umask(mask);
-    fchmod(descriptor, 0666 & ~mask);
+    int descriptor = openNameless(m_path.parent_path());
+    if (descriptor < 0) {
+        std::string name = hiddenNameFor(m_path);
+        descriptor = mkstemp(name.data());
+        if (descriptor < 0)
+            fail(errno);
+        m_temporary = name;
+        // mkstemp makes files private; a finished result has the permissions of any new file.
+        const mode_t mask = umask(0);
+        umask(mask);
+        fchmod(descriptor, 0666 & ~mask);
+    }
     m_file = fdopen(descriptor, "wb");
     if (m_file == nullptr) {
         const int error = errno;
         close(descriptor);
-        unlink(m_temporary.c_str());
+        if (!m_temporary.empty())
+            unlink(m_temporary.c_str());
         fail(error);
     }
 }
@@ -55,14 +81,41 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
         fail(errno);
 }
 
+// Gives a file without a name that of the path, if nothing has it, else a hidden one: a link
+// replaces nothing.
+void AtomicFile::takeName() {
+    const std::string self = "/proc/self/fd/" + std::to_string(fileno(m_file));
+    const auto link = [&](const std::filesystem::path &path) {
+        return linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    };
+    if (link(m_path))
+        return;
+    while (errno == EEXIST) {
+        // The name of a file that is there for a moment.
+        std::string name = hiddenNameFor(m_path);
+        const int placeholder = mkstemp(name.data());
+        if (placeholder < 0)
+            break;
+        close(placeholder);
+        unlink(name.c_str());
+        if (link(name)) {
+            m_temporary = name;
+            return;
+        }
+    }
+    fail(errno);
+}
+
 void AtomicFile::commit() {
     if (std::fflush(m_file) != 0 || fsync(fileno(m_file)) != 0)
         fail(errno);
+    if (m_temporary.empty())
+        takeName();
     const int closed = std::fclose(m_file);
     m_file = nullptr;
     if (closed != 0)
         fail(errno);
-    if (std::rename(m_temporary.c_str(), m_path.c_str()) != 0)
+    if (!m_temporary.empty() && std::rename(m_temporary.c_str(), m_path.c_str()) != 0)
         fail(errno);
     m_temporary.clear();
 }

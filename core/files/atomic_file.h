@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace pellucid::files {
 
-/// A file that appears under its name only when it is complete: bytes go to a temporary file in the
-/// same folder, `commit` flushes it to the disk and renames it. Without commit nothing is left.
+/// A file that appears under its name only when it is complete: until `commit` has flushed it to
+/// the disk its bytes are in a file without a name, which is gone with a program that is killed; on
+/// file systems without such files, in a hidden one in the same folder.
 class AtomicFile {
 public:
     /// *Throws* Error{output} if the folder cannot be written.
@@ -20,17 +22,16 @@ public:
 
     /// *Throws* Error{output}, for instance when the disk is full.
     void write(std::span<const std::byte> bytes);
+    void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
     /// *Throws* Error{output}; the former file of that name, if any, is then untouched.
     void commit();
 
-    /// Where the bytes go until commit, for writers that want a path of their own.
-    const std::filesystem::path &temporaryPath() const { return m_temporary; }
-
 private:
     [[noreturn]] void fail(int error) const;
+    void takeName();
 
     std::filesystem::path m_path;
-    std::filesystem::path m_temporary;
+    std::filesystem::path m_temporary; ///< empty if it has no name
     std::FILE *m_file = nullptr;
 };
 

@@ -23,11 +23,7 @@ namespace fs = std::filesystem;
 
 std::optional<fs::path> sessionsFolder() {
     const auto cache = userCacheFolder();
-    if (!cache)
-        return std::nullopt;
-    std::error_code failed;
-    fs::create_directories(*cache / "sessions", failed);
-    return failed ? std::nullopt : std::optional(*cache / "sessions");
+    return cache ? std::optional(*cache / "sessions") : std::nullopt;
 }
 
 fs::path lockOf(const fs::path &folder) {
@@ -50,10 +46,20 @@ SessionFolder::SessionFolder() {
     const auto sessions = sessionsFolder();
     if (!sessions)
         throw task::Error(task::ErrorCode::output, "there is no folder for temporary files");
-    std::string name = (*sessions / "XXXXXX").string();
+    make(*sessions);
+}
+
+SessionFolder::SessionFolder(const fs::path &parent) {
+    make(parent);
+}
+
+void SessionFolder::make(const fs::path &parent) {
+    std::error_code failed;
+    fs::create_directories(parent, failed);
+    std::string name = (parent / "XXXXXX").string();
     // Made for the user alone.
     if (mkdtemp(name.data()) == nullptr)
-        throw task::Error(task::ErrorCode::output, std::strerror(errno), *sessions);
+        throw task::Error(task::ErrorCode::output, std::strerror(errno), parent);
     m_path = name;
     m_lock = takeLock(lockOf(m_path), O_CREAT);
 }
@@ -73,11 +79,14 @@ bool isInSessionFolder(const fs::path &path) {
 }
 
 void removeAbandonedSessionFolders() {
-    const auto sessions = sessionsFolder();
-    if (!sessions)
-        return;
+    if (const auto sessions = sessionsFolder())
+        removeAbandonedSessionFolders(*sessions);
+}
+
+void removeAbandonedSessionFolders(const fs::path &parent,
+                                   const std::function<void(const fs::path &)> &before) {
     std::error_code failed;
-    for (fs::directory_iterator entry(*sessions, failed), end; !failed && entry != end;
+    for (fs::directory_iterator entry(parent, failed), end; !failed && entry != end;
          entry.increment(failed)) {
         std::error_code ignored;
         if (!entry->is_directory(ignored))
@@ -88,6 +97,8 @@ void removeAbandonedSessionFolders() {
         const int lock = takeLock(lockOf(entry->path()), 0);
         if (lock < 0 && (isNew || fs::exists(lockOf(entry->path()), ignored)))
             continue;
+        if (before)
+            before(entry->path());
         std::error_code kept;
         fs::remove_all(entry->path(), kept);
         if (!kept)

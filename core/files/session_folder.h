@@ -2,16 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 namespace pellucid::files {
 
-/// A private folder for what a running program unpacks, gone with the object. It lies below the
-/// user's cache, and the program holds a lock beside it as long as it runs, so that what a killed
-/// program left is found by `removeAbandonedSessionFolders`.
+/// A private folder for what a running program unpacks or has not finished, gone with the object.
+/// The program holds a lock beside it as long as it runs, so that what a killed program left is
+/// found by `removeAbandonedSessionFolders`.
 class SessionFolder {
 public:
-    /// *Throws* Error{output} if there is no place for it.
+    /// Below the user's cache. *Throws* Error{output} if there is no place for it.
     SessionFolder();
+    /// Below a folder, which is made. *Throws* Error{output}.
+    explicit SessionFolder(const std::filesystem::path &parent);
     ~SessionFolder();
     SessionFolder(const SessionFolder &) = delete;
     SessionFolder &operator=(const SessionFolder &) = delete;
@@ -19,14 +22,20 @@ public:
     const std::filesystem::path &path() const { return m_path; }
 
 private:
+    void make(const std::filesystem::path &parent);
+
     std::filesystem::path m_path;
     int m_lock = -1;
 };
 
-/// Whether a file will be gone with a program that runs.
+/// Whether a file is in a folder below the user's cache that will be gone with a program that runs.
 bool isInSessionFolder(const std::filesystem::path &path);
 
-/// Removes the folders of programs that no longer run.
+/// Removes the folders of programs that no longer run, below the user's cache.
 void removeAbandonedSessionFolders();
+/// Below a folder; `before` is given each while it is still there.
+void removeAbandonedSessionFolders(
+    const std::filesystem::path &parent,
+    const std::function<void(const std::filesystem::path &)> &before = {});
 
 } // namespace pellucid::files

@@ -22,7 +22,7 @@ void writeNpy(const std::filesystem::path &path, std::span<const float> samples,
     const std::string start = std::string("\x93NUMPY\x01\x00", 8) + char(header.size() & 0xFF) +
                               char(header.size() >> 8) + header;
     AtomicFile file(path);
-    file.write(std::as_bytes(std::span(start)));
+    file.write(start);
     file.write(std::as_bytes(samples));
     file.commit();
 }

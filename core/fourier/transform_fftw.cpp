@@ -140,7 +140,7 @@ bool saveWisdom() {
     const std::string text = wisdom();
     try {
         files::AtomicFile file(wisdomFile());
-        file.write(std::as_bytes(std::span(text)));
+        file.write(text);
         file.commit();
         return true;
     } catch (const task::Error &) {

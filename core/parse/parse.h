@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/decoder/instance.h"
+#include "core/decoder/nrrd_layout.h"
 
 namespace pellucid::parse {
 
@@ -14,6 +15,8 @@ using decoder::DecodedImage;
 using decoder::DirectoryFile;
 using decoder::FrameHeader;
 using decoder::InstanceHeader;
+using decoder::NrrdLayout;
+using decoder::NrrdSamples;
 
 // What `pellucid-decode` does with bytes that nobody vouches for. No path, no file, no process: all
 // of it runs confined. Other programs ask `decoder::Decoder`.
@@ -28,6 +31,13 @@ DecodedImage decodeImage(std::span<const std::byte> file);
 /// Whether it is a DICOMDIR, and what it lists. *Throws* Error{unusable} for a DICOMDIR that is
 /// damaged.
 DirectoryFile parseDirectory(std::span<const std::byte> file);
+
+/// The header of a NRRD file. *Throws* Error{unusable} naming what is damaged or not supported.
+NrrdLayout parseNrrd(std::span<const std::byte> file);
+/// Samples as they are stored, in this machine's byte order, in parts of 1 MB; the last is what is
+/// left. *Throws* Error{unusable} if there are fewer, or what is deflated is damaged.
+void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples,
+                     const std::function<void(std::span<const std::byte>)> &take);
 
 /// A part of the data of a file in an archive.
 using TakeData = std::function<void(const ArchiveFile &file, std::span<const std::byte> data,

@@ -70,9 +70,23 @@ private:
         case Message::Kind::archive:
             answerArchive(file.bytes());
             break;
+        case Message::Kind::nrrd:
+            finish(0, decoder::pack(parseNrrd(file.bytes())), {});
+            break;
+        case Message::Kind::nrrdSamples:
+            readNrrdSamples(file.bytes(), samplesOf(request.message),
+                            [&](std::span<const std::byte> data) { part(0, {}, data); });
+            finish(0, {}, {});
+            break;
         default:
             throw Error(ErrorCode::usage, "is asked for in a way that the decoder does not know");
         }
+    }
+
+    static NrrdSamples samplesOf(const Message &request) {
+        const auto has = [&](int flag) { return (request.code & flag) != 0; };
+        return {request.dataBytes, request.code & 15, has(decoder::deflated), has(decoder::swapped),
+                has(decoder::behindHeader)};
     }
 
     void answerArchive(std::span<const std::byte> archive) {

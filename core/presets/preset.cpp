@@ -106,7 +106,7 @@ Preset readPreset(const fs::path &path) {
 void writePreset(const fs::path &path, const Preset &preset) {
     const std::string text = toJson(preset) + "\n";
     files::AtomicFile file(path);
-    file.write(std::as_bytes(std::span(text)));
+    file.write(text);
     file.commit();
 }
 

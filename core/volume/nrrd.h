@@ -8,21 +8,7 @@
 
 namespace pellucid::volume {
 
-/// Reads a three-dimensional scalar NRRD: any scalar type, either endianness, raw or gzip, attached
-/// or detached, any three directions; RAS and LAS are converted to LPS, a missing origin is 0.
-/// 8 and 16 bits become int16 where every value fits, everything else float32.
-/// *Throws* Error{unusable} naming the file and what it does not support.
-Volume readNrrd(const std::filesystem::path &path, const task::Progress &progress = {});
-
-/// What a NRRD says before its samples. *Throws* as readNrrd.
-struct NrrdHeader {
-    Lattice lattice;
-    VolumeNotes notes;
-    std::filesystem::path samplesFile; ///< the file itself, or another one that it names
-};
-NrrdHeader readNrrdHeader(const std::filesystem::path &path);
-
-/// True if a path looks like a NRRD header (.nrrd, .nhdr).
+/// True if a path looks like a NRRD header (.nrrd, .nhdr). Who reads one: `decoder::readNrrd`.
 bool isNrrdPath(const std::filesystem::path &path);
 
 enum class NrrdEncoding { raw, gzip };

@@ -75,7 +75,7 @@ void writeNrrd(const std::filesystem::path &path, const Volume &volume, NrrdEnco
         vectorText(lattice.step(1)), vectorText(lattice.step(2)),
         encoding == NrrdEncoding::gzip ? "gzip" : "raw", vectorText(lattice.origin().mm));
     files::AtomicFile file(path);
-    file.write(std::as_bytes(std::span(header)));
+    file.write(header);
     volume.visit([&](auto samples) {
         if (encoding == NrrdEncoding::gzip)
             writeGzip(file, std::as_bytes(samples), progress);

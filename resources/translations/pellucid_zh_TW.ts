@@ -38,6 +38,17 @@
     </message>
 </context>
 <context>
+    <name>FailureTexts</name>
+    <message>
+        <source>not enough memory</source>
+        <translation>記憶體不足</translation>
+    </message>
+    <message>
+        <source>a fault of the program; the log says more</source>
+        <translation>程式發生錯誤；記錄檔中有詳情</translation>
+    </message>
+</context>
+<context>
     <name>HelpMenuTexts</name>
     <message>
         <source>manual.html</source>
@@ -1213,13 +1224,6 @@
     <message>
         <source>the slices lie at one place</source>
         <translation>各切片位於同一位置</translation>
-    </message>
-</context>
-<context>
-    <name>SceneFiles</name>
-    <message>
-        <source>cannot be written: %1</source>
-        <translation>無法寫入：%1</translation>
     </message>
 </context>
 <context>

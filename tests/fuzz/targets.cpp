@@ -17,7 +17,6 @@
 #include "core/presets/slicer_preset.h"
 #include "core/render/scene.h"
 #include "core/task/error.h"
-#include "core/volume/nrrd.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pellucid::fuzz {
@@ -111,17 +110,27 @@ void message(Bytes bytes) {
     });
     refusing([&] { decoder::unpackDirectory(bytes); });
     refusing([&] { decoder::unpackArchiveFiles(bytes); });
+    refusing([&] { decoder::unpackNrrd(bytes); });
     decoder::unpackReason(bytes);
 }
 
 void nrrd(Bytes bytes) {
     refusing([&] {
-        const auto path = fileOf(bytes, "volume.nrrd");
-        const auto header = volume::readNrrdHeader(path);
-        if (header.lattice.size().count() > (1U << 24))
+        const auto layout = parse::parseNrrd(bytes);
+        const std::string packed = decoder::pack(layout);
+        const auto received = decoder::unpackNrrd(std::as_bytes(std::span(packed)));
+        check(decoder::pack(received) == packed);
+        (void)volume::Lattice::make(received.size, {received.originMm}, received.stepsMm);
+        const std::size_t each = decoder::bytesOf(layout.scalar);
+        if (layout.size.count() > (1U << 24) || !layout.dataFile.empty())
             return;
-        const auto volume = volume::readNrrd(path);
-        check(volume.lattice().size().count() == header.lattice.size().count());
+        std::size_t left = layout.size.count() * each;
+        parse::readNrrdSamples(
+            bytes, {left, int(each), layout.isGzip, layout.isSwapped, true}, [&](Bytes part) {
+                check(!part.empty() && part.size() <= left && part.size() % each == 0);
+                left -= part.size();
+            });
+        check(left == 0);
     });
 }
 

@@ -102,6 +102,14 @@ void act(std::string_view word) {
         (void)!::write(decoder::socketDescriptor, "x", 1);
     else if (word == "empty-header")
         decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});
+    else if (word == "more-samples")
+        decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 1 << 16});
+    else if (word == "half-a-sample")
+        decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 3});
+    else if (word == "no-samples") // and so for ever
+        decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 0});
+    else if (word == "fewer-samples")
+        decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});
     else
         finish("decoded by hand");
 }

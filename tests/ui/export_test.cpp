@@ -14,7 +14,7 @@
 #include <QStatusBar>
 #include <QTimer>
 
-#include "core/volume/nrrd.h"
+#include "core/decoder/read_nrrd.h"
 #include "ui/video_writer.h"
 
 namespace pellucid {
@@ -56,7 +56,7 @@ private slots:
         }
         // The values of the file are those of the picture.
         exported("Projection", 3, 1, false);
-        const volume::Volume values = volume::readNrrd(m_folder / "out.nrrd");
+        const volume::Volume values = decoder::readNrrd(m_folder / "out.nrrd");
         const render::ProjectionImage image =
             projection()->pictureRenderer()(projection()->sceneOfPicture().camera);
         QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));

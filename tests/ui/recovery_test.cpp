@@ -4,6 +4,9 @@
 
 #include <csignal>
 #include <fstream>
+#include <stdexcept>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -11,6 +14,7 @@
 #include <QPushButton>
 
 #include "core/files/session_folder.h"
+#include "core/task/error.h"
 #include "tests/support/files.h"
 #include "ui/session.h"
 #include "ui/workstation.h"
@@ -109,6 +113,79 @@ private slots:
         QVERIFY(fs::is_empty(sessions));
     }
 
+    // Whatever is thrown, on whatever thread: it is said, and the next thing works.
+    void whatThrowsIsSaidAndTheProgramGoesOn() {
+        ui::Workstation program;
+        QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
+        QTimer::singleShot(0, &program, [] { throw std::bad_alloc(); });
+        QTRY_COMPARE(said.size(), 1);
+        QCOMPARE(said[0][0].toString(), QString("not enough memory"));
+        ui::JobRunner &jobs = program.bench().jobs;
+        QSignalSpy failed(&jobs, &ui::JobRunner::failed);
+        const std::vector<std::pair<std::function<void()>, QString>> faults{
+            {[] { throw std::bad_alloc(); }, "not enough memory"},
+            {[] { throw std::out_of_range("vector"); },
+             "a fault of the program; the log says more"},
+            {[] { throw 7; }, "a fault of the program; the log says more"},
+            {[] { throw task::Error(task::ErrorCode::unusable, "is empty", "/a"); }, "is empty"}};
+        for (const auto &[fault, text] : faults) {
+            failed.clear();
+            jobs.start("fault", [fault = fault](const ui::Job &) { fault(); });
+            QTRY_COMPARE(failed.size(), 1);
+            QCOMPARE(failed[0][0].toString(), text);
+            QVERIFY(!jobs.isRunning());
+        }
+        program.window().openPaths({headPath()});
+        QTRY_VERIFY_WITH_TIMEOUT(
+            program.bench().document.volume() && !program.bench().document.isPreview(), patienceMs);
+    }
+
+#ifndef PELLUCID_SANITIZED // which reserve terabytes
+    // From too little to enough, in steps: a study is open or a reason is given, and with memory
+    // the next one opens.
+    void littleMemoryIsSaidAndTheNextStudyOpens() {
+        const fs::path large = m_folder / "large";
+        dicom::writeCtSeries(large,
+                             phantom::makePhantom(phantom::Kind::head,
+                                                  phantom::phantomLattice(
+                                                      phantom::Kind::head,
+                                                      {.size = volume::GridSize{256, 256, 128}})),
+                             {}, dicom::TransferSyntax::explicitLittle);
+        ui::Workstation program;
+        ui::Document &document = program.bench().document;
+        ui::JobRunner &jobs = program.bench().jobs;
+        QSignalSpy failed(&jobs, &ui::JobRunner::failed);
+        QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
+        const auto rests = [&] { return !jobs.isRunning() && !document.isPreview(); };
+        program.window().openPaths({headPath()}); // all that is made once is there
+        QTRY_VERIFY_WITH_TIMEOUT(document.volume() && rests(), patienceMs);
+        rlimit before{};
+        QCOMPARE(getrlimit(RLIMIT_AS, &before), 0);
+        int opened = 0, refused = 0;
+        for (const rlim_t mb : {40, 80, 120, 160, 240, 320, 480, 640, 960, 1600}) {
+            failed.clear();
+            said.clear();
+            const rlimit little{addressSpaceBytes() + (mb << 20), before.rlim_max};
+            QCOMPARE(setrlimit(RLIMIT_AS, &little), 0);
+            program.window().openPaths({QString::fromStdString(large.string())});
+            QTest::qWait(50);
+            const bool isOver = QTest::qWaitFor(rests, patienceMs);
+            QTest::qWait(200); // frames
+            setrlimit(RLIMIT_AS, &before);
+            QVERIFY(isOver);
+            const bool isOpen = document.volume()->lattice().size().k == 128;
+            opened += isOpen ? 1 : 0;
+            refused += failed.size() + said.size() > 0 ? 1 : 0;
+            QVERIFY2(isOpen || failed.size() + said.size() > 0, qPrintable(QString::number(mb)));
+            program.window().openPaths({headPath()});
+            QTRY_VERIFY_WITH_TIMEOUT(document.volume()->lattice().size().k == 80 && rests(),
+                                     patienceMs);
+        }
+        qInfo("%d opened, %d with a reason", opened, refused);
+        QVERIFY(opened > 0 && refused > 0);
+    }
+#endif
+
     // No name, no number of a patient in what the program keeps for itself.
     void nothingThatIsKeptNamesThePatient() {
         {
@@ -150,8 +227,17 @@ private:
         program.start(PELLUCID_WORKSTATION, arguments);
         QVERIFY(program.waitForStarted(patienceMs));
     }
-    bool hasSession() const { return ui::keptSession().has_value(); }
-    ui::Session kept() const { return *ui::keptSession(); }
+    static rlim_t addressSpaceBytes() {
+        rlim_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        return pages * rlim_t(sysconf(_SC_PAGESIZE));
+    }
+    bool hasSession() const {
+        return ui::SessionFile().kept().has_value();
+    }
+    ui::Session kept() const {
+        return *ui::SessionFile().kept();
+    }
 
     fs::path m_sessionFile;
 };

@@ -22,18 +22,18 @@ namespace fs = std::filesystem;
 namespace {
 
 // How long the event loop was kept by one event. *Units*: ms.
-class WatchedApplication : public QApplication {
+class WatchedApplication : public ui::Application {
 public:
-    using QApplication::QApplication;
+    using Application::Application;
     bool notify(QObject *receiver, QEvent *event) override {
         if (m_depth++ > 0) {
-            const bool done = QApplication::notify(receiver, event);
+            const bool done = Application::notify(receiver, event);
             --m_depth;
             return done;
         }
         QElapsedTimer clock;
         clock.start();
-        const bool done = QApplication::notify(receiver, event);
+        const bool done = Application::notify(receiver, event);
         const double ms = double(clock.nsecsElapsed()) * 1e-6;
         --m_depth;
         if (isWatching) {

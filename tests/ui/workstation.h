@@ -19,6 +19,7 @@
 #include "core/fourier/wisdom.h"
 #include "core/phantom/phantom.h"
 #include "tests/support/temporary_folder.h"
+#include "ui/application.h"
 #include "ui/main_window.h"
 #include "ui/views/projection_view.h"
 
@@ -202,7 +203,7 @@ protected:
 };
 
 /// Runs the tests of a class in an application of their own.
-template <class Test, class Application = QApplication> int run(int argc, char **argv) {
+template <class Test, class Application = ui::Application> int run(int argc, char **argv) {
     QSurfaceFormat format;
     format.setVersion(3, 3);
     format.setProfile(QSurfaceFormat::CoreProfile);

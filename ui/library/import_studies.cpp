@@ -2,19 +2,18 @@
 #include "ui/library/import_studies.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
-#include <cstring>
+#include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
-#include <unistd.h>
 
 #include <QCoreApplication>
 #include <QCryptographicHash>
 
+#include "core/decoder/read_nrrd.h"
 #include "core/dicom/scan.h"
+#include "core/files/atomic_file.h"
 #include "core/files/session_folder.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
@@ -28,7 +27,14 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-constexpr const char *incomingPrefix = ".incoming-";
+fs::path incomingFolder(const LibraryPlace &place) {
+    return place.copiesFolder() / "incoming";
+}
+
+// In the folder of copies that have not all arrived: a line for each name that they will have.
+fs::path namesFile(const fs::path &incoming) {
+    return incoming / "names";
+}
 
 // No name of a patient becomes a name of a file.
 std::string digest(const QString &text) {
@@ -38,36 +44,28 @@ std::string digest(const QString &text) {
         .toStdString();
 }
 
-// Copies go to a folder of their own and take their names when all are there.
+// Copies go to a folder of their own and take their names when all are there. Which these are is
+// written down before: those of an import that is killed then are found by the next program.
 class Copies {
 public:
     explicit Copies(const LibraryPlace &place) : m_place(place) {}
     ~Copies() {
         std::error_code ignored;
-        if (!m_incoming.empty())
-            fs::remove_all(m_incoming, ignored);
         for (const fs::path &path : m_renamed)
             fs::remove(path, ignored);
+        m_incoming.reset();
+        fs::remove(incomingFolder(m_place), ignored); // when it was the last
     }
     Copies(const Copies &) = delete;
     Copies &operator=(const Copies &) = delete;
 
     /// Where the copy will be.
     fs::path add(const fs::path &from, const std::string &series, const std::string &instance) {
+        if (!m_incoming)
+            m_incoming.emplace(incomingFolder(m_place));
+        const fs::path incoming = m_incoming->path() / std::to_string(m_copies.size());
         std::error_code failed;
-        if (m_incoming.empty()) {
-            fs::create_directories(m_place.copiesFolder(), failed);
-            std::string name =
-                (m_place.copiesFolder() / (incomingPrefix + std::to_string(getpid()) + "-XXXXXX"))
-                    .string();
-            // An import that was cancelled may still be leaving its own.
-            if (mkdtemp(name.data()) == nullptr)
-                throw Error(ErrorCode::output, std::strerror(errno), m_place.copiesFolder());
-            m_incoming = name;
-        }
-        const fs::path incoming = m_incoming / std::to_string(m_copies.size());
-        if (!failed)
-            fs::copy_file(from, incoming, fs::copy_options::overwrite_existing, failed);
+        fs::copy_file(from, incoming, fs::copy_options::overwrite_existing, failed);
         if (failed)
             throw Error(ErrorCode::output, "cannot be copied into the library: " + failed.message(),
                         from);
@@ -77,6 +75,12 @@ public:
     }
 
     void rename() {
+        if (!m_incoming)
+            return;
+        files::AtomicFile names(namesFile(m_incoming->path()));
+        for (const auto &[from, to] : m_copies)
+            names.write(to.string() + "\n");
+        names.commit();
         for (const auto &[from, to] : m_copies) {
             std::error_code failed, ignored;
             fs::create_directories(to.parent_path(), failed);
@@ -96,7 +100,7 @@ private:
         fs::path from, to;
     };
     const LibraryPlace &m_place;
-    fs::path m_incoming;
+    std::optional<files::SessionFolder> m_incoming;
     std::vector<Copy> m_copies;
     std::vector<fs::path> m_renamed;
 };
@@ -231,7 +235,7 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
             if (!isCopied(file))
                 return false;
             if (volume::isNrrdPath(file.path) &&
-                volume::readNrrdHeader(file.path).samplesFile != file.path) {
+                decoder::readNrrdHeader(file.path).samplesFile != file.path) {
                 const bool isGoing = files::isInSessionFolder(file.path);
                 result.skipped.push_back(
                     {file.path, isGoing ? "has its samples in another file; not imported"
@@ -256,18 +260,20 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
     return result;
 }
 
-void removeAbandonedImports(const LibraryPlace &place) {
-    std::error_code failed;
-    for (fs::directory_iterator entry(place.copiesFolder(), failed), end; !failed && entry != end;
-         entry.increment(failed)) {
-        const std::string name = entry->path().filename().string();
-        if (!name.starts_with(incomingPrefix))
-            continue;
-        const int owner = std::atoi(name.c_str() + std::string(incomingPrefix).size());
-        std::error_code ignored;
-        if (owner > 0 && kill(owner, 0) != 0 && errno == ESRCH)
-            fs::remove_all(entry->path(), ignored);
-    }
+void removeAbandonedImports(Library &library, bool listIsWhole) {
+    files::removeAbandonedSessionFolders(incomingFolder(library.place()),
+                                         [&](const fs::path &folder) {
+                                             if (!listIsWhole)
+                                                 return;
+                                             // Copies that have their names already, without a row
+                                             // in the list.
+                                             std::ifstream names(namesFile(folder));
+                                             std::vector<fs::path> copies;
+                                             for (std::string name; std::getline(names, name);)
+                                                 if (isOwn(library.place(), name))
+                                                     copies.emplace_back(name);
+                                             library.removeCopies(copies);
+                                         });
 }
 
 } // namespace pellucid::ui

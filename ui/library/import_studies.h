@@ -29,7 +29,8 @@ struct ImportResult {
 ImportResult importStudies(const LibraryPlace &place, const Import &import,
                            const task::Progress &progress);
 
-/// Removes what a killed import left in the library's folder.
-void removeAbandonedImports(const LibraryPlace &place);
+/// Removes what a killed import left in the library's folder. Copies that had their names already
+/// go too, unless the list, which has no row of theirs, may have lost it.
+void removeAbandonedImports(Library &library, bool listIsWhole);
 
 } // namespace pellucid::ui

@@ -34,7 +34,8 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
         m_notices.push_back({error.path(), error.reason()});
         return;
     }
-    removeAbandonedImports(opened.place);
+    if (!opened.place.inMemory)
+        removeAbandonedImports(*m_library, !opened.wasDamaged);
     if (std::error_code ignored;
         opened.wasDamaged && std::filesystem::exists(opened.place.copiesFolder(), ignored))
         import({{opened.place.copiesFolder()}, ImportMode::refer});

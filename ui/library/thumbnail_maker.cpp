@@ -32,7 +32,7 @@ void ThumbnailMaker::work(const std::stop_token &stop) {
         QImage thumbnail;
         try {
             thumbnail = request.make();
-        } catch (const std::exception &) {
+        } catch (...) {
             // No picture, then; opening it will say why.
         }
         // Queued: the object lives on the user interface's thread.

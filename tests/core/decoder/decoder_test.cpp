@@ -106,6 +106,24 @@ TEST_F(TakenOver, nothingItSaysIsBelieved) {
     EXPECT_EQ(said("well"), "decoded by hand");
 }
 
+TEST_F(TakenOver, itsSamplesAreCounted) {
+    const NrrdSamples wanted{4096, 2, false, false, false};
+    for (const char *const word :
+         {"more-samples", "half-a-sample", "no-samples", "fewer-samples"}) {
+        std::uint64_t taken = 0;
+        try {
+            m_decoder.nrrdSamples(file(word), wanted,
+                                  [&](std::span<const std::byte> part) { taken += part.size(); });
+            ADD_FAILURE() << word;
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.reason(), "was decoded to nonsense") << word;
+            EXPECT_EQ(error.path(), m_folder / word);
+        }
+        EXPECT_EQ(taken, 0U) << word;
+    }
+    EXPECT_EQ(said("well"), "decoded by hand");
+}
+
 #ifndef PELLUCID_SANITIZED
 TEST_F(TakenOver, itsMemoryEnds) {
     const std::string had = said("memory");

@@ -84,6 +84,35 @@ TEST(Message, nonsenseIsRefused) {
     EXPECT_THROW(unpackHeader(bytesOf(pack(without))), task::Error);
 }
 
+TEST(Message, layoutsOfNrrdComeThroughOrAreRefused) {
+    NrrdLayout sent;
+    sent.size = {4, 3, 2};
+    sent.stepsMm = {glm::dvec3(1, 0, 0), glm::dvec3(0, 2, 0), glm::dvec3(0, 0.5, 3)};
+    sent.originMm = {1, 2, 3};
+    sent.scalar = NrrdScalar::f32;
+    sent.isSwapped = true;
+    sent.dataFile = "samples.raw";
+    const NrrdLayout got = unpackNrrd(bytesOf(pack(sent)));
+    EXPECT_EQ(got.size, sent.size);
+    EXPECT_EQ(got.stepsMm, sent.stepsMm);
+    EXPECT_EQ(got.originMm, sent.originMm);
+    EXPECT_EQ(got.scalar, sent.scalar);
+    EXPECT_TRUE(got.isSwapped);
+    EXPECT_FALSE(got.isGzip);
+    EXPECT_EQ(got.dataFile, sent.dataFile);
+    const auto refused = [&](auto change) {
+        NrrdLayout bad = sent;
+        change(bad);
+        EXPECT_THROW(unpackNrrd(bytesOf(pack(bad))), task::Error);
+    };
+    refused([](NrrdLayout &l) { l.size.j = 0; });
+    refused([](NrrdLayout &l) { l.size.k = -2; });
+    refused([](NrrdLayout &l) { l.size = {1 << 20, 1 << 20, 1 << 24}; }); // the product wraps
+    refused([](NrrdLayout &l) { l.scalar = NrrdScalar(10); });
+    refused([](NrrdLayout &l) { l.scalar = NrrdScalar(-1); });
+    refused([](NrrdLayout &l) { l.stepsMm[1].y = std::numeric_limits<double>::quiet_NaN(); });
+}
+
 TEST(Message, reasonsAreOneLine) {
     EXPECT_EQ(unpackReason(bytesOf("broken\n\x1B[2Jhere")), "broken  [2Jhere");
     EXPECT_LE(unpackReason(bytesOf(std::string(100000, 'x'))).size(), 400U);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -62,6 +64,33 @@ TEST(GroupSeries, EveryVolumeOfASeriesHasALabelOfItsOwn) {
     EXPECT_EQ(entries[1].label, "coronal");
     EXPECT_EQ(entries[2].label, "sagittal");
     EXPECT_EQ(entries[3].label, "axial 2");
+}
+
+// Thousands of images at a handful of places, as of a long perfusion without any times.
+TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
+    constexpr int places = 3, sets = 4000;
+    std::vector<SeriesFile> files;
+    for (int n = 0; n < places * sets; ++n) {
+        SeriesFile f = file("f", 2.0 * (n % places));
+        f.header.instanceNumber = n;
+        f.header.sopInstanceUid = std::to_string(n);
+        files.push_back(f);
+    }
+    std::reverse(files.begin(), files.end());
+    const auto entries = group(files);
+    ASSERT_EQ(entries.size(), std::size_t(sets));
+    EXPECT_EQ(entries.front().label, "set 1");
+    EXPECT_EQ(entries.back().label, "set 4000");
+    for (const auto &entry : entries)
+        EXPECT_EQ(entry.frames.size(), std::size_t(places));
+}
+
+TEST(GroupSeries, ASeriesOfManyStacksCanBeCancelled) {
+    std::stop_source stop;
+    stop.request_stop();
+    std::vector<dicom::Skipped> skipped;
+    EXPECT_THROW(dicom::groupSeries(stack({0, 0, 1, 1}), skipped, task::Progress(stop.get_token())),
+                 task::Cancelled);
 }
 
 TEST(GroupSeries, OrderComesFromPositionsNotFromNames) {

@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -30,7 +31,7 @@ TEST(AtomicFile, AppearsOnCommitAndReplacesTheOldOne) {
     const test::TemporaryFolder folder;
     std::ofstream(folder / "a") << "old";
     files::AtomicFile file(folder / "a");
-    file.write(std::as_bytes(std::span("new", 3)));
+    file.write("new");
     EXPECT_EQ(contents(folder / "a"), "old");
     file.commit();
     EXPECT_EQ(contents(folder / "a"), "new");
@@ -48,9 +49,8 @@ TEST(AtomicFile, ReportsAFolderThatDoesNotExist) {
     EXPECT_THROW(files::AtomicFile(folder / "no/such/file"), task::Error);
 }
 
-TEST(AtomicFile, AFullDiskKeepsTheOldFile) {
-    const test::TemporaryFolder folder;
-    std::ofstream(folder / "a") << "old";
+// Runs f while files may have 1 kB, and says whether it failed as on a full disk.
+template <class F> bool isRefusedWhenFull(F &&f) {
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
@@ -58,17 +58,35 @@ TEST(AtomicFile, AFullDiskKeepsTheOldFile) {
     setrlimit(RLIMIT_FSIZE, &small);
     bool failed = false;
     try {
-        files::AtomicFile file(folder / "a");
-        const std::vector<std::byte> much(1 << 20);
-        file.write(much);
-        file.commit();
+        f();
     } catch (const task::Error &error) {
         failed = error.code() == task::ErrorCode::output;
     }
     setrlimit(RLIMIT_FSIZE, &before);
-    EXPECT_TRUE(failed);
+    return failed;
+}
+
+TEST(AtomicFile, AFullDiskKeepsTheOldFile) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "a") << "old";
+    EXPECT_TRUE(isRefusedWhenFull([&] {
+        files::AtomicFile file(folder / "a");
+        const std::vector<std::byte> much(1 << 20);
+        file.write(much);
+        file.commit();
+    }));
     EXPECT_EQ(contents(folder / "a"), "old");
     EXPECT_EQ(entries(folder.path()), 1U);
+}
+
+TEST(AtomicFile, AFullDiskLeavesNoPicture) {
+    const test::TemporaryFolder folder;
+    std::vector<std::uint8_t> noise(std::size_t(64) * 64 * 4);
+    std::mt19937 random(1);
+    for (std::uint8_t &value : noise)
+        value = std::uint8_t(random());
+    EXPECT_TRUE(isRefusedWhenFull([&] { files::writePng(folder / "a.png", noise, 64, 64); }));
+    EXPECT_EQ(entries(folder.path()), 0U);
 }
 
 TEST(AtomicFile, FollowsLinksAndLeavesWhatIsNoFile) {
@@ -78,7 +96,7 @@ TEST(AtomicFile, FollowsLinksAndLeavesWhatIsNoFile) {
     {
         files::AtomicFile file(folder / "link");
         const std::string text = "new";
-        file.write(std::as_bytes(std::span(text)));
+        file.write(text);
         file.commit();
     }
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));

@@ -2,7 +2,11 @@
 // The study library without a window: what is put in is found, nothing is lost, damage is survived.
 #include <QtTest>
 
+#include <csignal>
 #include <fstream>
+#include <random>
+#include <string_view>
+#include <sys/resource.h>
 
 #include "core/dicom/write_series.h"
 #include "core/phantom/phantom.h"
@@ -253,6 +257,106 @@ private slots:
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
     }
 
+    // Whenever an import is killed: the study is there with all its files, or not at all, and
+    // nothing else is.
+    void aKilledImportIsDoneOrLeavesNothing() {
+        std::mt19937 random(11);
+        int killed = 0, done = 0;
+        for (int round = 0; round < 40; ++round) {
+            const LibraryPlace at = place("killed" + std::to_string(round));
+            { const Library empty(at); } // its tables are there
+            QProcess import;
+            import.start(QCoreApplication::applicationFilePath(),
+                         {"--import", QString::fromStdString(at.folder.string()),
+                          QString::fromStdString((m_folder / "head").string())});
+            QVERIFY(import.waitForStarted());
+            import.waitForFinished(int(random() % 120));
+            killed += import.state() == QProcess::Running ? 1 : 0;
+            import.kill();
+            import.waitForFinished();
+            OpenedLibrary opened = openLibrary(at.folder);
+            QVERIFY(!opened.wasDamaged && !opened.place.inMemory);
+            Library library(opened.place);
+            removeAbandonedImports(library, true);
+            const int studies = count(library);
+            done += studies;
+            QCOMPARE(filesBelow(at.copiesFolder()), 20 * studies);
+            if (studies > 0) {
+                const StudyFacts study = library.find("", StudyOrder::byName, 0, 1).studies.at(0);
+                const VolumeFacts v = library.volumes(study.libraryId).at(0);
+                const auto loaded =
+                    librarySource(study, v, library.files(v.libraryId)).load({}, {});
+                QCOMPARE(loaded.volume.lattice().size().k, 20);
+            }
+        }
+        qInfo("%d of 40 imports were killed, %d were done", killed, done);
+        QVERIFY(killed > 5);
+    }
+
+    // Copies that have their names but no row yet when the program is killed.
+    void copiesWithoutARowAreRemovedByTheNextProgram() {
+        const LibraryPlace at = place("journal");
+        importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
+        const fs::path abandoned = at.copiesFolder() / "incoming" / "abcdef";
+        fs::create_directories(abandoned);
+        std::ofstream names(abandoned / "names");
+        for (const auto &entry : fs::recursive_directory_iterator(at.copiesFolder()))
+            if (entry.path().extension() == ".dcm")
+                names << entry.path().string() << "\n"; // these have rows
+        const fs::path orphan = at.copiesFolder() / "series" / "orphan.dcm";
+        const fs::path other = m_folder / "other.dcm"; // no copy at all
+        for (const fs::path &path : {orphan, other}) {
+            fs::create_directories(path.parent_path());
+            std::ofstream(path) << "x";
+            names << path.string() << "\n";
+        }
+        names.close();
+        std::ofstream(abandoned.string() + ".lock") << "";
+        Library library(at);
+        removeAbandonedImports(library, true);
+        QVERIFY(!fs::exists(abandoned));
+        QVERIFY(!fs::exists(orphan));
+        QVERIFY(fs::exists(other));
+        QCOMPARE(filesBelow(at.copiesFolder()), 20);
+    }
+
+    // First the copies do not fit, then the list.
+    void aFullDiskLeavesTheLibraryAsItWas() {
+        const LibraryPlace at = place("full");
+        Library(at).put(many(3, 2));
+        const auto isRefused = [&](auto work) {
+            rlimit before{};
+            getrlimit(RLIMIT_FSIZE, &before);
+            const auto fill = [&](rlim_t bytes) {
+                const rlimit small{bytes, before.rlim_max};
+                setrlimit(RLIMIT_FSIZE, &small);
+            };
+            bool refused = false;
+            try {
+                work(fill);
+            } catch (const task::Error &error) {
+                refused = error.code() == task::ErrorCode::output;
+            }
+            setrlimit(RLIMIT_FSIZE, &before);
+            return refused && count(Library(at)) == 3 && filesBelow(at.copiesFolder()) == 0 &&
+                   !openLibrary(at.folder).wasDamaged;
+        };
+        std::signal(SIGXFSZ, SIG_IGN);
+        QVERIFY(isRefused([&](auto fill) {
+            const task::Progress progress({}, [&](double done) {
+                if (done > 0.75) // half way
+                    fill(1500);
+            });
+            importStudies(at, {{m_folder / "head"}, ImportMode::copy}, progress);
+        }));
+        QVERIFY(isRefused([&](auto fill) {
+            fill(fs::file_size(at.listFile()));
+            Library(at).put(many(200, 50));
+        }));
+        Library(at).put(many(5, 2)); // and works again
+        QCOMPARE(count(Library(at)), 5);
+    }
+
     void filesThatAreGoneAreNamed() {
         const fs::path folder = m_folder / "going";
         fs::copy(m_folder / "head", folder);
@@ -340,5 +444,15 @@ private:
 
 } // namespace pellucid
 
-QTEST_GUILESS_MAIN(pellucid::LibraryTest)
+// The test itself, or, to be killed: --import LIBRARY PATH.
+int main(int argc, char **argv) {
+    QCoreApplication application(argc, argv);
+    if (argc == 4 && std::string_view(argv[1]) == "--import") {
+        pellucid::ui::importStudies({argv[2]}, {{argv[3]}, pellucid::ui::ImportMode::copy}, {});
+        return 0;
+    }
+    pellucid::LibraryTest test;
+    return QTest::qExec(&test, argc, argv);
+}
+
 #include "library_test.moc"

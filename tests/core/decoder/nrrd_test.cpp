@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decoder/read_nrrd.h"
+
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -17,7 +19,8 @@ namespace pellucid {
 
 namespace {
 
-using volume::readNrrd;
+using decoder::readNrrd;
+using decoder::readNrrdHeader;
 using volume::Volume;
 
 void write(const std::filesystem::path &path, const std::string &text) {
@@ -189,9 +192,9 @@ TEST_F(Nrrd, AHeaderWithoutAnEndIsNotReadToIt) {
         return text;
     }());
     for (const char *const name : {"line.nrrd", "lines.nrrd"})
-        EXPECT_THROW(volume::readNrrdHeader(folder / name), task::Error) << name;
+        EXPECT_THROW(readNrrdHeader(folder / name), task::Error) << name;
     ASSERT_EQ(std::system(("mkfifo '" + (folder / "pipe.nrrd").string() + "'").c_str()), 0);
-    EXPECT_THROW(volume::readNrrdHeader(folder / "pipe.nrrd"), task::Error);
+    EXPECT_THROW(readNrrdHeader(folder / "pipe.nrrd"), task::Error);
 }
 
 } // namespace

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/failure.h"
+
+#include <exception>
+#include <new>
+
+#include <QCoreApplication>
+
+#include "core/task/error.h"
+#include "core/task/log.h"
+#include "ui/spoken.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+struct FailureTexts {
+    Q_DECLARE_TR_FUNCTIONS(FailureTexts)
+};
+
+} // namespace
+
+Failure currentFailure() {
+    try {
+        throw;
+    } catch (const task::Error &error) {
+        return {spoken(error.reason()), QString::fromStdString(error.path().string())};
+    } catch (const std::bad_alloc &) {
+        return {FailureTexts::tr("not enough memory"), {}};
+    } catch (const std::exception &error) {
+        task::log(std::string("a fault of the program: ") + error.what());
+    } catch (...) {
+        task::log("a fault of the program");
+    }
+    return {FailureTexts::tr("a fault of the program; the log says more"), {}};
+}
+
+} // namespace pellucid::ui
