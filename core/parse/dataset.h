@@ -6,8 +6,14 @@
 #include "core/decoder/instance.h"
 
 class DcmDataset;
+class DcmItem;
 
 namespace pellucid::parse {
+
+/// Drops all values that the file does not hold to their end, or that are longer than any that is
+/// read; not the pixels. DCMTK gives what is in memory already for the rest of such a value: of
+/// another file, perhaps, and gigabytes of it.
+void dropUnreadable(DcmItem &dataset);
 
 /// The header of a loaded dataset. `fileBytes` bounds how many frames are believed: each takes a
 /// byte at least.

@@ -60,9 +60,12 @@ std::vector<std::byte> bytesOf(DcmPixelSequence &sequence, unsigned long first, 
 bool startsCodestream(DcmPixelSequence &sequence, unsigned long fragment) {
     DcmPixelItem *item = nullptr;
     Uint8 *data = nullptr;
-    if (sequence.getItem(item, fragment).bad() || item->getLength() < 12 ||
-        item->getUint8Array(data).bad() || data == nullptr)
+    if (sequence.getItem(item, fragment).bad())
+        fail("a fragment of the compressed pixels is not readable");
+    if (item->getLength() < 12)
         return false;
+    if (item->getUint8Array(data).bad() || data == nullptr)
+        fail("a fragment of the compressed pixels is not readable");
     return (data[0] == 0xFF && data[1] == 0x4F) || std::memcmp(data + 4, "jP  ", 4) == 0;
 }
 

@@ -4,6 +4,7 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "core/parse/damage.h"
+#include "core/parse/dataset.h"
 #include "core/parse/dictionary.h"
 #include "core/parse/memory_input.h"
 #include "core/parse/parse.h"
@@ -36,6 +37,7 @@ DirectoryFile parsed(std::span<const std::byte> bytes) {
     if (loaded.bad() || file.getDataset() == nullptr)
         throw task::Error(task::ErrorCode::unusable,
                           std::string("is not readable: ") + loaded.text());
+    dropUnreadable(*file.getDataset());
     // Every record of the flat sequence is looked at; the offsets that make it a tree are often
     // wrong and not needed to find the files.
     constexpr unsigned long deepest = 16; // DICOM: 8

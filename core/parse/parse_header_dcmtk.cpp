@@ -24,6 +24,8 @@ namespace {
 using task::Error;
 using task::ErrorCode;
 
+// Of any attribute that is read: a table of 65536 entries.
+constexpr Uint32 longestValue = 2 * 65536;
 constexpr std::size_t longestText = 1024; // bytes; DICOM's longest texts have 10240 letters
 
 std::string text(DcmItem *item, const DcmTagKey &tag) {
@@ -204,7 +206,31 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
 
 } // namespace
 
+void dropUnreadable(DcmItem &dataset) {
+    // How the reading of an element ended is known to its class alone.
+    struct Outcome : DcmObject {
+        static OFCondition of(const DcmObject &object) { return object.*&Outcome::errorFlag; }
+    };
+    std::vector<std::pair<DcmItem *, DcmElement *>> unreadable;
+    DcmStack stack;
+    while (dataset.nextObject(stack, OFTrue).good()) {
+        auto *const element = dynamic_cast<DcmElement *>(stack.top());
+        auto *const parent = dynamic_cast<DcmItem *>(stack.elem(1));
+        if (element == nullptr || parent == nullptr || !element->isLeaf())
+            continue;
+        const DcmTagKey tag = element->getTag();
+        const bool isPixels =
+            tag == DCM_PixelData || tag == DCM_FloatPixelData || tag == DCM_DoubleFloatPixelData;
+        if (!isPixels && (Outcome::of(*element).bad() || element->getLengthField() > longestValue ||
+                          element->loadAllDataIntoMemory().bad()))
+            unreadable.emplace_back(parent, element);
+    }
+    for (const auto &[parent, element] : unreadable)
+        delete parent->remove(element);
+}
+
 InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
+    dropUnreadable(dataset);
     // Names in any character set come out as UTF-8; where conversion fails the bytes stay.
     if (dataset.tagExistsWithValue(DCM_SpecificCharacterSet))
         (void)dataset.convertToUTF8();

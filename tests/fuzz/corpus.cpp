@@ -13,7 +13,11 @@
 #include "core/presets/preset_library.h"
 #include "core/render/scene.h"
 #include "core/volume/nrrd.h"
+#include "tests/fuzz/targets.h"
 #include "tests/support/files.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/library/library.h"
+#include "ui/session.h"
 
 namespace pellucid::fuzz {
 
@@ -147,6 +151,29 @@ void writeMeasurements(const fs::path &folder) {
                          {measure::Kind::ellipse, "", {{-1, 0, 0}, {5, 2, 0}}, axes}}));
 }
 
+void writeSessions(const fs::path &folder) {
+    ui::Session session;
+    session.files = {"/a/b.dcm", "/a/c.dcm"};
+    session.key = "0123456789abcdef";
+    writeText(folder / "files", ui::toJson(session));
+    session.files.clear();
+    session.phantom = "head";
+    session.hasEnded = true;
+    writeText(folder / "phantom", ui::toJson(session));
+}
+
+void writeLibrary(const fs::path &folder) {
+    needApplication();
+    const test::TemporaryFolder place;
+    ui::LibrarySeries series;
+    series.study.patientName = "Fuzz^Jane";
+    series.study.uid = "1.2.3";
+    series.volumes.resize(2);
+    series.files = {{"/a/b.dcm", "1.2.3.1"}, {"/a/c.dcm", "1.2.3.2"}};
+    ui::Library({place.path()}).put({series});
+    fs::copy_file(ui::LibraryPlace{place.path()}.listFile(), folder / "list");
+}
+
 void writeSlicer(const fs::path &folder) {
     writeText(folder / "vp", "1\n1\n0.9\n0.1\n0.2\n10\n8 -3024 0 100 0 1100 1 3071 1\n"
                              "4 0 1 255 1\n8 -3024 0 0 0 3071 1 1 1\n");
@@ -184,6 +211,10 @@ void writeCorpus(const std::string &target, const fs::path &folder) {
         writeSlicer(folder);
     else if (target == "slicer_preset_json")
         writeSlicerJson(folder);
+    else if (target == "session")
+        writeSessions(folder);
+    else if (target == "library")
+        writeLibrary(folder);
     else if (target == "wisdom")
         writeText(folder / "wisdom",
                   "(fftw-3.3.10 fftwf_wisdom #x458a31c8 #x92381c4c #x4f974889 #xcd46f97e\n"

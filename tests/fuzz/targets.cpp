@@ -2,10 +2,13 @@
 #include "tests/fuzz/targets.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include <QCoreApplication>
 
 #include "core/decoder/message.h"
 #include "core/dicom/group_series.h"
@@ -18,6 +21,8 @@
 #include "core/render/scene.h"
 #include "core/task/error.h"
 #include "tests/support/temporary_folder.h"
+#include "ui/library/library.h"
+#include "ui/session.h"
 
 namespace pellucid::fuzz {
 
@@ -163,12 +168,43 @@ void slicerPresetJson(Bytes bytes) {
     refusing([&] { presets::importSlicerPreset(fileOf(bytes, "property.vp.json")); });
 }
 
+void session(Bytes bytes) {
+    refusing([&] {
+        const std::string kept = ui::toJson(ui::sessionFromJson(textOf(bytes)));
+        check(ui::toJson(ui::sessionFromJson(kept)) == kept);
+    });
+}
+
+// The list of a study library: read, rebuilt or left alone, and then it can be asked.
+void library(Bytes bytes) {
+    needApplication();
+    const test::TemporaryFolder folder;
+    const ui::LibraryPlace place{folder.path()};
+    std::ofstream(place.listFile(), std::ios::binary)
+        .write(reinterpret_cast<const char *>(bytes.data()), std::streamsize(bytes.size()));
+    const ui::OpenedLibrary opened = ui::openLibrary(folder.path());
+    refusing([&] {
+        ui::Library list(opened.place);
+        for (const auto &study : list.find("a", ui::StudyOrder::newestFirst, 0, 50).studies)
+            for (const auto &volume : list.volumes(study.libraryId))
+                list.files(volume.libraryId);
+        list.removeCopies(list.remove(1));
+    });
+}
+
 // FFTW reads it: a wrong one must leave right transforms.
 void wisdom(Bytes bytes) {
     refusing([&] { fourier::keepWisdomIn(fileOf(bytes, "wisdom")); });
 }
 
 } // namespace
+
+void needApplication() {
+    static int count = 1;
+    static std::array<char, 5> name{"fuzz"};
+    static std::array<char *, 2> arguments{name.data(), nullptr};
+    static const QCoreApplication application(count, arguments.data());
+}
 
 const std::vector<NamedTarget> &targets() {
     static const std::vector<NamedTarget> all{{"dicom", dicom},
@@ -181,6 +217,8 @@ const std::vector<NamedTarget> &targets() {
                                               {"measurements", measurements},
                                               {"slicer_preset", slicerPreset},
                                               {"slicer_preset_json", slicerPresetJson},
+                                              {"session", session},
+                                              {"library", library},
                                               {"wisdom", wisdom}};
     return all;
 }

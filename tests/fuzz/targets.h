@@ -19,4 +19,7 @@ struct NamedTarget {
 /// Every target; its corpus and its regressions lie in folders of its name.
 const std::vector<NamedTarget> &targets();
 
+/// Qt's, whose plugins have SQLite; made once.
+void needApplication();
+
 } // namespace pellucid::fuzz
