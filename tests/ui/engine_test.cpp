@@ -125,8 +125,7 @@ private slots:
         const QImage before = projection()->picture();
         // What failed before the card was chosen again is over.
         emit projection()->cardFailed("another card was lost", nullptr);
-        settle();
-        QVERIFY(isOnCard());
+        QTRY_VERIFY_WITH_TIMEOUT(isOnCard(), patienceMs);
         emit projection()->cardFailed("the graphics card was lost: its driver was reset",
                                       m_window->graphicsCard().passes());
         settle();
@@ -266,6 +265,28 @@ private slots:
         QVERIFY(!projection()->picture().isNull());
         QTest::qWait(50);
         QCOMPARE(started.count(), 1); // and is not begun again
+    }
+
+    // Spectra, programs, pictures: of three studies no more than of one.
+    void theCardGetsBackWhatAStudyTook() {
+        needCard();
+        open(headPath());
+        chooseCard();
+        const auto closeAndCount = [&] {
+            m_bench->opener.closeSource(0);
+            QTest::qWait(300);
+            return sharedGlObjects();
+        };
+        const int before = closeAndCount();
+        QVERIFY(before > 0);
+        for (int n = 0; n < 3; ++n) {
+            open(headPath());
+            QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !m_window->jobs().isRunning(), patienceMs);
+            settle();
+            QVERIFY(sharedGlObjects() > before);
+            QCOMPARE(closeAndCount(), before);
+        }
+        find<QAction>("automaticEngineAction")->trigger();
     }
 
     void theChoiceIsRemembered() {

@@ -25,7 +25,13 @@ private slots:
     }
 
     void aSlabIsSwitchedThickenedAndShown() {
+        settle();
         QImage thin = grab("coronalView");
+        const auto rests = [&] {
+            const QImage former = std::exchange(thin, grab("coronalView"));
+            return changed(former, thin) == 0.0;
+        };
+        QTRY_VERIFY(rests()); // the panes have taken their places
         key(Qt::Key_S);
         QCOMPARE(cut().options.slab, (mpr::Slab{10.0, mpr::SlabMode::mean}));
         QVERIFY(find<QToolButton>("slabButton")->isChecked());

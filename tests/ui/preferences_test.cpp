@@ -283,10 +283,12 @@ private:
         QCOMPARE(dialog->findChild<QComboBox *>(box)->currentData().toString(), value);
         dialog->close();
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-        QVERIFY(QTest::qWaitForWindowExposed(&window_()));
+        // Each time of the window that is there then.
+        QTRY_VERIFY_WITH_TIMEOUT(window_().isVisible() && window_().windowHandle()->isExposed(),
+                                 patienceMs);
         window_().resize(1600, 1000);
         window_().activateWindow();
-        QVERIFY(QTest::qWaitForWindowActive(&window_()));
+        QTRY_VERIFY_WITH_TIMEOUT(window_().isActiveWindow(), patienceMs);
     }
     void grabAs(const QString &name) {
         if (const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS"); !folder.isEmpty())

@@ -106,7 +106,7 @@ private slots:
         for (int n = 0; n < rounds / 3; ++n)
             operate(random());
         const double before = memoryAtRestMb(), inUseBefore = m_inUseMb;
-        const int descriptors = openDescriptors();
+        const int descriptors = openDescriptors(), glObjects = sharedGlObjects();
         application().isWatching = true;
         for (int n = 0; n < rounds; ++n)
             operate(random());
@@ -117,8 +117,9 @@ private slots:
         const auto at = [&](double share) {
             return spans[std::min(spans.size() - 1, std::size_t(share * double(spans.size())))];
         };
-        qInfo("%d operations; memory %.0f MB, then %.0f MB; descriptors %d, then %d", rounds,
-              before, after, descriptors, openDescriptors());
+        qInfo("%d operations; memory %.0f MB, then %.0f MB; descriptors %d, then %d; objects of "
+              "OpenGL %d, then %d",
+              rounds, before, after, descriptors, openDescriptors(), glObjects, sharedGlObjects());
         qInfo("%zu events: half within %.3f ms, 99 %% %.2f, 99.9 %% %.2f, the worst %.1f: %s",
               spans.size(), at(0.5), at(0.99), at(0.999), application().worst,
               qPrintable(application().worstWas));
@@ -131,6 +132,9 @@ private slots:
         QVERIFY2(m_inUseMb < 1.05 * inUseBefore, "memory grows");
         QVERIFY2(after < 1.2 * before, "resident memory grows");
         QVERIFY2(openDescriptors() <= descriptors + 3, "descriptors stay open");
+        QVERIFY(glObjects > 0);
+        // A pane that was never shown before makes its own.
+        QVERIFY2(sharedGlObjects() <= glObjects + 8, "objects of OpenGL stay");
     }
     void cleanupTestCase() { m_program.reset(); }
 

@@ -10,6 +10,9 @@
 #include <QDropEvent>
 #include <QListWidget>
 #include <QMimeData>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
 #include <QSlider>
 #include <QStandardPaths>
 #include <QStyleOptionSlider>
@@ -25,7 +28,11 @@
 
 namespace pellucid::test {
 
+#ifdef PELLUCID_SANITIZED
+constexpr int patienceMs = 240000;
+#else
 constexpr int patienceMs = 60000;
+#endif
 
 inline QString testData() {
     return qEnvironmentVariable("PELLUCID_TEST_DATA");
@@ -131,6 +138,24 @@ inline void keepToFolder(const test::TemporaryFolder &folder) {
     // As the programs do: one plan of FFTW, and so the same bits, for all of them.
     qputenv("XDG_CACHE_HOME", QByteArray::fromStdString((folder / "cache").string()));
     fourier::keepWisdomIn(*files::userCacheFolder() / "fftw-wisdom");
+}
+
+/// How many textures, buffers, programs and render buffers the program has: names of objects are
+/// small numbers, and contexts share them.
+inline int sharedGlObjects() {
+    QOffscreenSurface surface;
+    surface.create();
+    QOpenGLContext context;
+    context.setShareContext(QOpenGLContext::globalShareContext());
+    if (!context.create() || !context.makeCurrent(&surface))
+        return -1;
+    QOpenGLFunctions &gl = *context.functions();
+    int count = 0;
+    for (GLuint name = 1; name < 20000; ++name)
+        count += gl.glIsTexture(name) + gl.glIsBuffer(name) + gl.glIsProgram(name) +
+                 gl.glIsRenderbuffer(name);
+    context.doneCurrent();
+    return count;
 }
 
 /// The real window, anew for each test, and a head to open in it.

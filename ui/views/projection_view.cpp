@@ -53,6 +53,7 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
             return;
         // What was projected belongs to another volume.
         m_engine.reset();
+        m_onCard.reset();
         m_worker.setEngine(nullptr, nullptr, ++m_generation);
         m_planState = PlanState::holds;
         m_measure.cancel();

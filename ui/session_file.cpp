@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/session.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+
+#include "core/files/atomic_file.h"
+#include "core/files/user_folders.h"
+#include "core/phantom/phantom.h"
+#include "core/task/error.h"
+#include "core/task/log.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr const char *schema = "pellucid-session/1";
+
+std::optional<std::filesystem::path> sessionFile() {
+    const auto folder = files::userDataFolder();
+    return folder ? std::optional(*folder / "session.json") : std::nullopt;
+}
+
+QJsonArray toJson(const glm::dvec3 &v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dvec3 vectorFrom(const QJsonValue &value) {
+    const QJsonArray in = value.toArray();
+    return {in[0].toDouble(), in[1].toDouble(), in[2].toDouble()};
+}
+
+QJsonArray toJson(const mpr::PlaneAxes &axes) {
+    QJsonArray out;
+    for (const auto o : mpr::allOrientations)
+        out << QJsonObject{{"right", toJson(axes.of(o).right)}, {"up", toJson(axes.of(o).up)}};
+    return out;
+}
+
+mpr::PlaneAxes planesFrom(const QJsonArray &in) {
+    if (in.size() != 3) // an earlier program kept none
+        return {};
+    std::array<mpr::Axes, 3> axes;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const QJsonObject a = in[qsizetype(n)].toObject();
+        axes[n] = {vectorFrom(a["right"]), vectorFrom(a["up"])};
+    }
+    return mpr::PlaneAxes(axes);
+}
+
+QJsonObject objectOf(const Session &s) {
+    const mpr::ResliceOptions &cut = s.shown.cut.options;
+    return {
+        {"schema", schema},
+        {"ended", s.hasEnded},
+        {"files", QJsonArray::fromStringList(s.files)},
+        {"phantom", s.phantom},
+        {"key", s.key},
+        {"scene", QJsonDocument::fromJson(QByteArray::fromStdString(render::toJson(s.shown.scene)))
+                      .object()},
+        {"window", QJsonObject{{"center", s.shown.displayWindow.center},
+                               {"width", s.shown.displayWindow.width},
+                               {"name", QString::fromStdString(s.shown.displayWindow.name)}}},
+        {"crosshair", toJson(s.shown.crosshair.mm)},
+        {"planes", toJson(s.shown.cut.axes)},
+        {"slab", QJsonObject{{"mm", cut.slab.thicknessMm}, {"mode", int(cut.slab.mode)}}},
+        {"nearest", cut.interpolation == mpr::Interpolation::nearest}};
+}
+
+Session fromJson(const QJsonObject &in) {
+    if (in["schema"].toString() != schema)
+        throw task::Error(task::ErrorCode::unusable, "is not a session");
+    Session s;
+    for (const QJsonValue &file : in["files"].toArray())
+        s.files << file.toString();
+    s.phantom = in["phantom"].toString();
+    s.key = in["key"].toString();
+    s.hasEnded = in["ended"].toBool(true); // an earlier program wrote at its end only
+    if (!s.phantom.isEmpty())              // of a newer program it may be unknown
+        phantom::kindFromName(s.phantom.toStdString());
+    s.shown.scene = render::sceneFromJson(
+        QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());
+    const QJsonObject window = in["window"].toObject();
+    s.shown.displayWindow = {window["center"].toDouble(),
+                             std::max(1e-6, window["width"].toDouble(1.0)),
+                             window["name"].toString().toStdString()};
+    s.shown.crosshair = {vectorFrom(in["crosshair"])};
+    s.shown.cut.axes = planesFrom(in["planes"].toArray());
+    const QJsonObject slab = in["slab"].toObject();
+    s.shown.cut.options.slab = {std::clamp(slab["mm"].toDouble(), 0.0, 500.0),
+                                mpr::SlabMode(std::clamp(slab["mode"].toInt(), 0, 2))};
+    if (in["nearest"].toBool())
+        s.shown.cut.options.interpolation = mpr::Interpolation::nearest;
+    return s;
+}
+
+} // namespace
+
+std::string toJson(const Session &session) {
+    return QJsonDocument(objectOf(session)).toJson(QJsonDocument::Compact).toStdString();
+}
+
+Session sessionFromJson(const std::string &text) {
+    return fromJson(QJsonDocument::fromJson(QByteArray::fromStdString(text)).object());
+}
+
+SessionFile::SessionFile() : m_thread([this](std::stop_token stop) { write(std::move(stop)); }) {}
+
+SessionFile::~SessionFile() {
+    m_thread.request_stop();
+    m_thread.join();
+}
+
+void SessionFile::write(std::stop_token stop) {
+    std::unique_lock lock(m_mutex);
+    while (m_changed.wait(lock, stop, [this] { return m_next.has_value(); })) {
+        const Session session = *std::exchange(m_next, std::nullopt);
+        m_isWriting = true;
+        lock.unlock();
+        try {
+            if (const auto path = sessionFile()) {
+                files::AtomicFile file(*path);
+                file.write(toJson(session));
+                file.commit();
+            }
+        } catch (const std::exception &error) {
+            // Without the path: it may be the patient's.
+            const auto *const known = dynamic_cast<const task::Error *>(&error);
+            task::log("the session is not kept: " + (known ? known->reason() : error.what()));
+        }
+        lock.lock();
+        m_isWriting = false;
+        m_changed.notify_all();
+    }
+}
+
+std::unique_lock<std::mutex> SessionFile::rest() const {
+    std::unique_lock lock(m_mutex);
+    m_changed.wait(lock, [this] { return !m_isWriting; });
+    return lock;
+}
+
+void SessionFile::keep(const Session &session) {
+    const std::lock_guard lock(m_mutex);
+    m_next = session; // what was not begun is old
+    m_changed.notify_all();
+}
+
+void SessionFile::forget() {
+    const auto lock = rest();
+    m_next.reset();
+    std::error_code ignored;
+    if (const auto path = sessionFile())
+        std::filesystem::remove(*path, ignored);
+}
+
+std::optional<Session> SessionFile::kept() const {
+    const auto lock = rest();
+    if (m_next)
+        return m_next;
+    const auto path = sessionFile();
+    if (!path)
+        return std::nullopt;
+    QFile file(QString::fromStdString(path->string()));
+    if (!file.open(QIODevice::ReadOnly))
+        return std::nullopt;
+    try {
+        return sessionFromJson(file.readAll().toStdString());
+    } catch (const task::Error &) {
+        return std::nullopt;
+    }
+}
+
+} // namespace pellucid::ui
