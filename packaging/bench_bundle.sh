@@ -10,8 +10,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 folder=$work/pellucid-bench
 mkdir -p "$folder/lib"
+decoder=$(dirname "$program")/pellucid-decode # which reads NRRD volumes
 strip -o "$folder/pellucid-bench" "$program"
-ldd "$program" | while read -r name _ path _; do
+strip -o "$folder/pellucid-decode" "$decoder"
+{ ldd "$program"; ldd "$decoder"; } | sort -u | while read -r name _ path _; do
     [[ $path == /* ]] || continue
     case $name in
         libc.so.* | libm.so.* | libdl.so.* | librt.so.* | libpthread.so.* | libresolv.so.*) ;;

@@ -59,23 +59,23 @@ void JobRunner::launch(quint64 generation, Work work) {
     auto over = std::make_shared<std::atomic<bool>>(false);
     m_threads.push_back(
         {over, std::jthread([this, generation, over, work = std::move(work)](std::stop_token stop) {
-             Job job;
-             job.m_runner = this;
-             job.m_generation = generation;
-             // A report per file would flood the queue; thirty a second look smooth.
-             auto last = std::make_shared<std::atomic<std::chrono::steady_clock::rep>>(0);
-             job.m_progress =
-                 task::Progress(std::move(stop), [this, generation, last](double fraction) {
-                     const auto now = std::chrono::steady_clock::now().time_since_epoch();
-                     auto before = last->load();
-                     if (now - std::chrono::steady_clock::duration(before) <
-                             std::chrono::milliseconds(33) ||
-                         !last->compare_exchange_strong(before, now.count()))
-                         return;
-                     post(generation, [this, fraction] { emit progressed(fraction); });
-                 });
              Failure failure;
              try {
+                 Job job;
+                 job.m_runner = this;
+                 job.m_generation = generation;
+                 // A report per file would flood the queue; thirty a second look smooth.
+                 auto last = std::make_shared<std::atomic<std::chrono::steady_clock::rep>>(0);
+                 job.m_progress =
+                     task::Progress(std::move(stop), [this, generation, last](double fraction) {
+                         const auto now = std::chrono::steady_clock::now().time_since_epoch();
+                         auto before = last->load();
+                         if (now - std::chrono::steady_clock::duration(before) <
+                                 std::chrono::milliseconds(33) ||
+                             !last->compare_exchange_strong(before, now.count()))
+                             return;
+                         post(generation, [this, fraction] { emit progressed(fraction); });
+                     });
                  work(job);
              } catch (const task::Cancelled &) {
              } catch (...) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "core/task/error.h"
 #include "ui/failure.h"
@@ -38,6 +39,10 @@ void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
     m_generation = generation;
     m_next.reset();
     m_last.reset();
+    if (!m_engine) {
+        m_dropsCard = true;
+        m_wake.notify_one();
+    }
 }
 
 std::uint64_t RenderWorker::request(const render::Camera &camera,
@@ -69,35 +74,40 @@ RenderWorker::picture(std::shared_ptr<render::ProjectionEngine> engine,
 
 void RenderWorker::run(std::stop_token stop) {
     for (;;) {
-        Request request;
+        std::optional<Request> request;
+        bool dropsCard = false;
         std::packaged_task<render::ProjectionImage()> picture;
         {
             std::unique_lock lock(m_mutex);
-            if (!m_wake.wait(lock, stop, [this] { return m_next || !m_pictures.empty(); }))
+            if (!m_wake.wait(lock, stop,
+                             [this] { return m_next || m_dropsCard || !m_pictures.empty(); }))
                 return;
+            dropsCard = std::exchange(m_dropsCard, false);
             if (!m_pictures.empty()) {
                 picture = std::move(m_pictures.front());
                 m_pictures.pop_front();
-            } else {
-                request = std::move(*m_next);
+            } else if (m_next) {
+                m_last = m_next;
+                request = std::move(m_next);
                 m_next.reset();
-                m_last = request;
             }
         }
-        if (picture.valid()) {
+        if (dropsCard && m_card.valid())
+            m_card.get();
+        if (picture.valid())
             picture();
+        if (!request)
             continue;
-        }
-        render::Camera &camera = request.camera;
-        const double factor = std::max(request.reduction.draft ? 2.0 : 1.0,
-                                       request.reduction.finestPixelMm / camera.pixelMm);
+        render::Camera &camera = request->camera;
+        const double factor = std::max(request->reduction.draft ? 2.0 : 1.0,
+                                       request->reduction.finestPixelMm / camera.pixelMm);
         if (factor > 1.0) {
             // The reduced image covers the same part of the patient, up to a pixel.
             camera.width = std::max(1, int(std::lround(camera.width / factor)));
             camera.height = std::max(1, int(std::lround(camera.height / factor)));
             camera.pixelMm *= factor;
         }
-        makeFrame(request);
+        makeFrame(*request);
     }
 }
 

@@ -112,6 +112,7 @@ private:
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
     std::optional<Request> m_next, m_last;
+    bool m_dropsCard = false; ///< what the card made late is of a study that is closed
     std::deque<std::packaged_task<render::ProjectionImage()>> m_pictures;
     std::uint64_t m_number = 0;
     /// A frame that the card takes long for; meanwhile the processor makes them.

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <QIcon>
 #include <QSocketNotifier>
 #include <QSurfaceFormat>
 
@@ -18,6 +19,7 @@
 #include "core/task/error.h"
 #include "core/task/log.h"
 #include "ui/application.h"
+#include "ui/failure.h"
 #include "ui/graphics_card.h"
 #include "ui/main_window.h"
 #include "ui/workstation.h"
@@ -118,6 +120,8 @@ int main(int argc, char **argv) {
     QApplication::setApplicationName("pellucid");
     QApplication::setOrganizationName("pellucid");
     QApplication::setApplicationVersion(PELLUCID_VERSION);
+    QGuiApplication::setDesktopFileName("org.pellucid.Pellucid");
+    QApplication::setWindowIcon(QIcon(":/pellucid/icons/pellucid.svg"));
     std::optional<ui::EngineChoice> choice;
     if (!engine.empty())
         choice = engine == "gpu"   ? ui::EngineChoice::card
@@ -136,5 +140,11 @@ int main(int argc, char **argv) {
     } catch (const task::Error &error) {
         std::fprintf(stderr, "pellucid: %s\n", error.what());
         return int(error.code());
+    } catch (const std::bad_alloc &) {
+        std::fprintf(stderr, "pellucid: not enough memory to start\n");
+        return int(task::ErrorCode::outOfMemory);
+    } catch (...) {
+        std::fprintf(stderr, "pellucid: %s\n", qPrintable(ui::currentFailure().what));
+        return int(task::ErrorCode::internal);
     }
 }

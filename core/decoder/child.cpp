@@ -240,10 +240,12 @@ Child::Answer Child::take(const Message &message) {
     const auto body = std::as_bytes(std::span(m_body));
     if (message.kind == Message::Kind::done) {
         m_isSound = true;
-        if (message.code != 0)
+        if (message.code != 0) {
+            const std::string reason = unpackReason(body);
             throw Error(message.code == int(ErrorCode::outOfMemory) ? ErrorCode::outOfMemory
                                                                     : ErrorCode::unusable,
-                        unpackReason(body));
+                        reason.empty() ? "was decoded to nonsense" : reason);
+        }
     }
     return {message, body, m_mapped.bytes().subspan(dataOffset(message.size), message.dataBytes)};
 }

@@ -29,7 +29,7 @@ public:
     /// Begins a request. *Throws* Error{unusable} if the process has ended meanwhile.
     /// The request's `size` is that of the file.
     void ask(const Message &request, int file);
-    /// The next part of an archive.
+    /// The next part, of an archive or of samples.
     void askForNext();
     /// Waits for the answer, which is a `part` or `done`. *Throws* Error{unusable, outOfMemory}
     /// with the reason that the decoder gives, or that it crashed, hung, or asked for too much;

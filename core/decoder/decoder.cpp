@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/decoder/child.h"
+#include "core/files/user_folders.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoder {
@@ -70,15 +71,10 @@ std::uint64_t sampleCount(const InstanceHeader &h) {
     return samples;
 }
 
-fs::path ownFolder() {
-    std::error_code unknown;
-    return fs::read_symlink("/proc/self/exe", unknown).parent_path();
-}
-
 fs::path findProgram() {
     if (const char *const named = std::getenv("PELLUCID_DECODER"))
         return named;
-    const fs::path own = ownFolder();
+    const fs::path own = files::programFolder();
     std::error_code ignored;
     for (const char *const place : {".", "../libexec/pellucid", "../lib/pellucid", "../bin"})
         if (const fs::path program = own / place / programName; fs::exists(program, ignored))

@@ -290,7 +290,8 @@ NrrdLayout unpackNrrd(std::span<const std::byte> body) {
         layout.scalar > NrrdScalar::f64)
         fail();
     // Divided, not multiplied: the product of three sizes may wrap.
-    if (std::uint64_t(n.i) > mostNrrdSamples / std::uint64_t(n.j) / std::uint64_t(n.k))
+    if (std::uint64_t(n.i) >
+        std::uint64_t(volume::mostSamples) / std::uint64_t(n.j) / std::uint64_t(n.k))
         fail();
     return layout;
 }

@@ -31,9 +31,6 @@ constexpr std::size_t bytesOf(NrrdScalar scalar) {
     }
 }
 
-/// More samples do not fit any machine this runs on.
-inline constexpr std::uint64_t mostNrrdSamples = 1ULL << 36;
-
 /// What a NRRD says before its samples.
 struct NrrdLayout {
     /// In DICOM's space, whatever the file's is: a volume's lattice can be made of them.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 #include "core/decoder/decoder.h"
 #include "core/task/error.h"
@@ -160,9 +161,20 @@ NrrdHeader readNrrdHeader(const fs::path &path, const task::Progress &progress) 
 }
 
 Volume readNrrd(const fs::path &path, const task::Progress &progress) {
+    // Header and samples are read one after the other, perhaps from two files.
+    const auto stateOf = [](const fs::path &file) {
+        std::error_code unknown;
+        return std::pair(fs::last_write_time(file, unknown), fs::file_size(file, unknown));
+    };
+    const auto before = stateOf(path);
     const Nrrd nrrd = open(path, progress);
+    const fs::path &samples = nrrd.header.samplesFile;
+    const auto samplesBefore = stateOf(samples);
     try {
-        return read(nrrd, nrrd.layout.scalar, progress);
+        Volume volume = read(nrrd, nrrd.layout.scalar, progress);
+        if (stateOf(path) != before || stateOf(samples) != samplesBefore)
+            throw Error(ErrorCode::unusable, "changed while it was read");
+        return volume;
     } catch (const std::bad_alloc &) {
         throw Error(ErrorCode::outOfMemory, "not enough memory for the volume", path);
     } catch (const Error &error) {

@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 #include <tuple>
-#include <unordered_map>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -73,7 +72,7 @@ std::vector<Part> splitBy(const Frames &sorted,
                           const std::function<std::string(const PlacedFrame &)> &name,
                           const task::Progress &progress) {
     std::vector<Part> parts;
-    std::unordered_map<std::string, std::size_t> known;
+    std::map<std::string, std::size_t> known;
     for (const PlacedFrame &frame : sorted) {
         progress.check();
         const auto [it, isNew] = known.try_emplace(name(frame), parts.size());
@@ -100,27 +99,22 @@ bool separatesUnevenly(const std::vector<Part> &parts, std::size_t places) {
 
 // Nothing in the headers tells them apart: the first image of every place, then the second, ...
 std::vector<Part> splitByNumber(const Frames &sorted, const task::Progress &progress) {
-    Frames byNumber;
+    std::vector<Part> parts;
     for (auto place = sorted.begin(); place != sorted.end();) {
-        const auto end = std::adjacent_find(
+        progress.check();
+        const auto last = std::adjacent_find(
             place, sorted.end(), [](const auto &a, const auto &b) { return !samePlace(a, b); });
-        Frames here(place, end == sorted.end() ? end : end + 1);
+        Frames here(place, last == sorted.end() ? last : last + 1);
         place += std::ptrdiff_t(here.size());
         std::stable_sort(here.begin(), here.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
             return a.instanceNumber < b.instanceNumber;
         });
-        byNumber.insert(byNumber.end(), here.begin(), here.end());
+        for (std::size_t n = 0; n < here.size(); ++n) {
+            if (n == parts.size())
+                parts.push_back({fmt::format("set {}", n + 1), {}});
+            parts[n].frames.push_back(here[n]);
+        }
     }
-    int set = 0;
-    const PlacedFrame *last = nullptr;
-    std::vector<Part> parts = splitBy(
-        byNumber,
-        [&](const PlacedFrame &frame) {
-            set = last != nullptr && samePlace(*last, frame) ? set + 1 : 1;
-            last = &frame;
-            return fmt::format("set {}", set);
-        },
-        progress);
     for (Part &part : parts)
         sortByDepth(part.frames);
     return parts;
@@ -172,18 +166,30 @@ void makeImages(VolumeEntry &entry, const Frames &frames, const std::string &rea
         {}};
 }
 
+// Frames that belong together; where many do not, each is compared with those of about its own
+// row axis only.
 std::vector<Frames>
 blocksOf(const Frames &frames,
          const std::function<bool(const PlacedFrame &, const PlacedFrame &)> &same,
          const task::Progress &progress) {
+    constexpr double cellsPerUnit = 1000.0; // wider than `sameAxis` forgives
     std::vector<Frames> blocks;
+    std::map<std::tuple<int, int, long>, std::vector<std::size_t>> known;
     for (const PlacedFrame &frame : frames) {
         progress.check();
-        auto it = std::find_if(blocks.begin(), blocks.end(),
-                               [&](const Frames &b) { return same(b.front(), frame); });
-        if (it == blocks.end())
-            it = blocks.insert(blocks.end(), Frames());
-        it->push_back(frame);
+        const long cell =
+            std::lround(cellsPerUnit * frame.header.rowAxis.value_or(glm::dvec3(0.0)).x);
+        std::size_t found = blocks.size();
+        for (long near = cell - 1; near <= cell + 1; ++near)
+            if (const auto it = known.find({frame.rows, frame.columns, near}); it != known.end())
+                for (const std::size_t n : it->second)
+                    if (n < found && same(blocks[n].front(), frame))
+                        found = n;
+        if (found == blocks.size()) {
+            blocks.emplace_back();
+            known[{frame.rows, frame.columns, cell}].push_back(found);
+        }
+        blocks[found].push_back(frame);
     }
     return blocks;
 }

@@ -9,7 +9,6 @@
 #include <new>
 #include <set>
 #include <tuple>
-#include <unordered_map>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -53,7 +52,7 @@ public:
     }
 
 private:
-    std::map<fs::path, std::unordered_map<std::string, fs::path>> m_names;
+    std::map<fs::path, std::map<std::string, fs::path>> m_names;
 };
 
 class FileList {

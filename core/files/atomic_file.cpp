@@ -6,10 +6,12 @@
 #include <cstring>
 #include <fcntl.h>
 #include <string>
+#include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
+#include "core/files/descriptor.h"
 #include "core/task/error.h"
 
 namespace pellucid::files {
@@ -21,11 +23,17 @@ std::string hiddenNameFor(const std::filesystem::path &path) {
     return (path.parent_path() / ("." + path.filename().string() + ".XXXXXX")).string();
 }
 
+mode_t currentMask() {
+    const mode_t mask = umask(0);
+    umask(mask);
+    return mask;
+}
+
 // A file without a name that can be given one; -1 where there is no such thing.
 int openNameless(const std::filesystem::path &folder) {
 #ifdef O_TMPFILE
     const int descriptor =
-        open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+        open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     if (descriptor >= 0 &&
         access(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), F_OK) == 0)
         return descriptor;
@@ -55,9 +63,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : m_path(std::move(path)) {
             fail(errno);
         m_temporary = name;
         // mkstemp makes files private; a finished result has the permissions of any new file.
-        const mode_t mask = umask(0);
-        umask(mask);
-        fchmod(descriptor, 0666 & ~mask);
+        fchmod(descriptor, 0666 & ~currentMask());
     }
     m_file = fdopen(descriptor, "wb");
     if (m_file == nullptr) {
@@ -103,7 +109,27 @@ void AtomicFile::takeName() {
             return;
         }
     }
-    fail(errno);
+    // Some file systems have files without names that never get one.
+    if (errno == ENOSPC || errno == EDQUOT)
+        fail(errno);
+    m_temporary = copyUnder(hiddenNameFor(m_path));
+}
+
+// The bytes once more, in a file with a name.
+std::string AtomicFile::copyUnder(std::string name) {
+    const Descriptor copy(mkstemp(name.data()));
+    if (!copy)
+        fail(errno);
+    off_t at = 0;
+    const off_t end = lseek(fileno(m_file), 0, SEEK_END);
+    while (at < end && sendfile(copy.get(), fileno(m_file), &at, std::size_t(end - at)) > 0) {
+    }
+    if (at != end || fchmod(copy.get(), 0666 & ~currentMask()) != 0 || fsync(copy.get()) != 0) {
+        const int error = errno != 0 ? errno : EIO;
+        unlink(name.c_str());
+        fail(error);
+    }
+    return name;
 }
 
 void AtomicFile::commit() {
@@ -123,6 +149,13 @@ void AtomicFile::commit() {
 void AtomicFile::fail(int error) const {
     throw task::Error(task::ErrorCode::output,
                       std::string("cannot be written: ") + std::strerror(error), m_path);
+}
+
+void flush(const std::filesystem::path &folder) {
+    const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!opened || syncfs(opened.get()) != 0)
+        throw task::Error(task::ErrorCode::output,
+                          std::string("cannot be written: ") + std::strerror(errno), folder);
 }
 
 } // namespace pellucid::files

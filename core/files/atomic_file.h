@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace pellucid::files {
@@ -29,10 +30,14 @@ public:
 private:
     [[noreturn]] void fail(int error) const;
     void takeName();
+    std::string copyUnder(std::string name);
 
     std::filesystem::path m_path;
     std::filesystem::path m_temporary; ///< empty if it has no name
     std::FILE *m_file = nullptr;
 };
+
+/// Has everything that was written in a folder's file system on the disk. *Throws* Error{output}.
+void flush(const std::filesystem::path &folder);
 
 } // namespace pellucid::files

@@ -18,8 +18,6 @@ public:
         return *this;
     }
     int get() const { return m_fd; }
-    /// It is somebody else's to close from now on.
-    int release() { return std::exchange(m_fd, -1); }
     explicit operator bool() const { return m_fd >= 0; }
 
 private:

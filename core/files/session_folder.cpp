@@ -2,13 +2,14 @@
 #include "core/files/session_folder.h"
 
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -30,14 +31,16 @@ fs::path lockOf(const fs::path &folder) {
     return folder.string() + ".lock";
 }
 
-// The lock if nobody else holds it; -1. The system lets go of it when a program ends, however.
-int takeLock(const fs::path &lock, int flags) {
-    const int fd = ::open(lock.c_str(), O_RDWR | O_CLOEXEC | flags, 0600);
-    if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0)
-        return fd;
-    if (fd >= 0)
-        ::close(fd);
-    return -1;
+// The lock of a file if nobody else holds it. The system lets go of it when a program ends,
+// however.
+Descriptor takeLock(const fs::path &lock) {
+    Descriptor file(::open(lock.c_str(), O_RDWR | O_CLOEXEC));
+    struct stat about {};
+    // One that was removed meanwhile locks nothing.
+    if (file && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 && ::fstat(file.get(), &about) == 0 &&
+        about.st_nlink > 0)
+        return file;
+    return Descriptor();
 }
 
 } // namespace
@@ -56,12 +59,25 @@ SessionFolder::SessionFolder(const fs::path &parent) {
 void SessionFolder::make(const fs::path &parent) {
     std::error_code failed;
     fs::create_directories(parent, failed);
-    std::string name = (parent / "XXXXXX").string();
-    // Made for the user alone.
-    if (mkdtemp(name.data()) == nullptr)
-        throw task::Error(task::ErrorCode::output, std::strerror(errno), parent);
-    m_path = name;
-    m_lock = takeLock(lockOf(m_path), O_CREAT);
+    // The lock first: there is never a folder without the lock of its program.
+    for (int attempts = 0; attempts < 100; ++attempts) {
+        std::string name = (parent / "XXXXXX.lock").string();
+        const Descriptor made(::mkstemps(name.data(), int(std::string_view(".lock").size())));
+        if (!made)
+            break;
+        m_lock = takeLock(name);
+        if (!m_lock) // somebody who tidies up was faster
+            continue;
+        m_path = name.substr(0, name.rfind('.'));
+        if (::mkdir(m_path.c_str(), 0700) == 0) // for the user alone
+            return;
+        const int error = errno;
+        ::unlink(name.c_str());
+        errno = error;
+        if (error != EEXIST)
+            break;
+    }
+    throw task::Error(task::ErrorCode::output, std::strerror(errno), parent);
 }
 
 SessionFolder::~SessionFolder() {
@@ -69,8 +85,6 @@ SessionFolder::~SessionFolder() {
     fs::remove_all(m_path, failed);
     if (!failed) // else the next program tries again
         fs::remove(lockOf(m_path), ignored);
-    if (m_lock >= 0)
-        ::close(m_lock);
 }
 
 bool isInSessionFolder(const fs::path &path) {
@@ -88,23 +102,20 @@ void removeAbandonedSessionFolders(const fs::path &parent,
     std::error_code failed;
     for (fs::directory_iterator entry(parent, failed), end; !failed && entry != end;
          entry.increment(failed)) {
-        std::error_code ignored;
-        if (!entry->is_directory(ignored))
+        const fs::path &lockFile = entry->path();
+        if (lockFile.extension() != ".lock")
             continue;
-        // One that is just being made has no lock yet: it is no minute old.
-        const auto made = fs::last_write_time(entry->path(), ignored);
-        const bool isNew = fs::file_time_type::clock::now() - made < std::chrono::minutes(1);
-        const int lock = takeLock(lockOf(entry->path()), 0);
-        if (lock < 0 && (isNew || fs::exists(lockOf(entry->path()), ignored)))
+        const Descriptor lock = takeLock(lockFile);
+        if (!lock)
             continue;
+        fs::path folder = lockFile;
+        folder.replace_extension();
         if (before)
-            before(entry->path());
-        std::error_code kept;
-        fs::remove_all(entry->path(), kept);
+            before(folder);
+        std::error_code kept, ignored;
+        fs::remove_all(folder, kept);
         if (!kept)
-            fs::remove(lockOf(entry->path()), ignored);
-        if (lock >= 0)
-            ::close(lock);
+            fs::remove(lockFile, ignored);
     }
 }
 

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <functional>
 
+#include "core/files/descriptor.h"
+
 namespace pellucid::files {
 
 /// A private folder for what a running program unpacks or has not finished, gone with the object.
@@ -25,7 +27,7 @@ private:
     void make(const std::filesystem::path &parent);
 
     std::filesystem::path m_path;
-    int m_lock = -1;
+    Descriptor m_lock;
 };
 
 /// Whether a file is in a folder below the user's cache that will be gone with a program that runs.

@@ -46,4 +46,9 @@ std::optional<std::filesystem::path> userDataFolder() {
 }
 #endif
 
+std::filesystem::path programFolder() {
+    std::error_code unknown;
+    return std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
+}
+
 } // namespace pellucid::files

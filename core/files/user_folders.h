@@ -14,4 +14,7 @@ std::optional<std::filesystem::path> userCacheFolder();
 /// Windows below %APPDATA%. Made if it is not there. Empty if there is no such place.
 std::optional<std::filesystem::path> userDataFolder();
 
+/// Where the running program's file is; empty if that is not known.
+std::filesystem::path programFolder();
+
 } // namespace pellucid::files

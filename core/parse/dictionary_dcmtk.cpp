@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/parse/dictionary.h"
 
+#include <cstdlib>
+#include <filesystem>
+
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/dcmdata/dcrledrg.h>
@@ -11,12 +14,28 @@
 #include <dcmtk/dcmjpls/djdecode.h>
 #include <dcmtk/dcmjpls/djencode.h>
 
+#include "core/files/user_folders.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {
 
+namespace {
+
+// What was installed with its libraries beside it has DCMTK's dictionary there, too.
+void findDictionary() {
+    const auto own = files::programFolder();
+    std::error_code ignored;
+    for (const char *const place :
+         {"../share/pellucid/dicom.dic", "../../share/pellucid/dicom.dic"})
+        if (const auto path = own / place; std::filesystem::exists(path, ignored))
+            ::setenv("DCMDICTPATH", path.c_str(), 0);
+}
+
+} // namespace
+
 void prepareDcmtk() {
     static const bool loaded = [] {
+        findDictionary();
         // DCMTK complains on the console about every odd file; the reasons come back as values.
         OFLog::configure(OFLogger::OFF_LOG_LEVEL);
         // Attributes that passed through systems which did not know them come as UN.

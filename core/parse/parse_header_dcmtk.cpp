@@ -221,8 +221,7 @@ void dropUnreadable(DcmItem &dataset) {
         const DcmTagKey tag = element->getTag();
         const bool isPixels =
             tag == DCM_PixelData || tag == DCM_FloatPixelData || tag == DCM_DoubleFloatPixelData;
-        if (!isPixels && (Outcome::of(*element).bad() || element->getLengthField() > longestValue ||
-                          element->loadAllDataIntoMemory().bad()))
+        if (!isPixels && (Outcome::of(*element).bad() || element->getLengthField() > longestValue))
             unreadable.emplace_back(parent, element);
     }
     for (const auto &[parent, element] : unreadable)

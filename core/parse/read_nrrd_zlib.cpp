@@ -233,27 +233,42 @@ public:
     void read(std::span<std::byte> out) {
         m_stream.next_out = reinterpret_cast<Bytef *>(out.data());
         m_stream.avail_out = uInt(out.size());
-        while (m_stream.avail_out > 0) {
-            if (m_stream.avail_in == 0) {
-                const auto next = m_rest.first(std::min(m_rest.size(), largestInput));
-                m_stream.next_in =
-                    const_cast<Bytef *>(reinterpret_cast<const Bytef *>(next.data()));
-                m_stream.avail_in = uInt(next.size());
-                m_rest = m_rest.subspan(next.size());
-            }
-            const uInt before = m_stream.avail_in;
-            const int status = inflate(&m_stream, Z_NO_FLUSH);
-            if (status == Z_STREAM_END && before > 0)
-                inflateReset(&m_stream);
-            else if (status == Z_MEM_ERROR)
-                throw std::bad_alloc();
-            else if (status != Z_OK)
-                throw Error(ErrorCode::unusable, "the compressed data are damaged or truncated");
-        }
+        while (m_stream.avail_out > 0)
+            inflateMore();
+    }
+
+    // All that was wanted is there: what follows is read as far as the sum of a gzip member, which
+    // tells whether its bytes are those that were deflated. Samples beyond are left alone.
+    void checkEnd() {
+        std::byte beyond{};
+        m_stream.next_out = reinterpret_cast<Bytef *>(&beyond);
+        m_stream.avail_out = 1;
+        while (!m_isAtEnd && m_stream.avail_out > 0)
+            inflateMore();
     }
 
 private:
     static constexpr std::size_t largestInput = 1U << 30;
+
+    void inflateMore() {
+        if (m_isAtEnd)
+            inflateReset(&m_stream);
+        if (m_stream.avail_in == 0) {
+            const auto next = m_rest.first(std::min(m_rest.size(), largestInput));
+            m_stream.next_in = const_cast<Bytef *>(reinterpret_cast<const Bytef *>(next.data()));
+            m_stream.avail_in = uInt(next.size());
+            m_rest = m_rest.subspan(next.size());
+        }
+        const int status = inflate(&m_stream, Z_NO_FLUSH);
+        if (status == Z_MEM_ERROR)
+            throw std::bad_alloc();
+        // Without any input left there is no progress, which is an error, too.
+        if (status != Z_OK && status != Z_STREAM_END)
+            throw Error(ErrorCode::unusable, "the compressed data are damaged or truncated");
+        m_isAtEnd = status == Z_STREAM_END;
+    }
+
+    bool m_isAtEnd = false; ///< of a member
     std::span<const std::byte> m_rest;
     z_stream m_stream{};
 };
@@ -271,7 +286,7 @@ NrrdLayout parseNrrd(std::span<const std::byte> file) {
         if (n < 1 || n > std::numeric_limits<int>::max() / 4)
             fields.fail("NRRD size out of range");
         // Divided, not multiplied: the product of three sizes may wrap.
-        if (std::uint64_t(n) > decoder::mostNrrdSamples / count)
+        if (std::uint64_t(n) > std::uint64_t(volume::mostSamples) / count)
             fields.fail("the NRRD volume is too large");
         count *= std::uint64_t(n);
     }
@@ -309,7 +324,8 @@ NrrdLayout parseNrrd(std::span<const std::byte> file) {
 void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples,
                      const std::function<void(std::span<const std::byte>)> &take) {
     if (samples.bytesEach < 1 || samples.bytesEach > 8 ||
-        partBytes % std::size_t(samples.bytesEach) != 0)
+        partBytes % std::size_t(samples.bytesEach) != 0 ||
+        samples.bytes % std::uint64_t(samples.bytesEach) != 0)
         throw Error(ErrorCode::usage, "is asked for in a way that the decoder does not know");
     auto stored = file.subspan(samples.isBehindHeader ? readHeader(file).bytes : 0);
     if (!samples.isGzip && stored.size() < samples.bytes)
@@ -326,6 +342,8 @@ void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples
             std::memcpy(buffer.data(), stored.data() + done, buffer.size());
         if (samples.isSwapped)
             swapEach(buffer, samples.bytesEach);
+        if (inflated && done + buffer.size() == samples.bytes)
+            inflated->checkEnd();
         take(buffer);
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <nlohmann/json.hpp>
@@ -85,9 +86,13 @@ Scene sceneFromJson(const std::string &text) {
         const auto q = camera.at("orientation").get<std::array<double, 4>>();
         scene.camera.orientation = glm::dquat(q[0], q[1], q[2], q[3]);
         scene.camera.pixelMm = camera.at("pixel_mm");
-        const auto size = camera.at("size").get<std::array<int, 2>>();
-        scene.camera.width = size[0];
-        scene.camera.height = size[1];
+        // As numbers first: one that is no integer has no meaning as one; 0 is refused below.
+        const auto size = camera.at("size").get<std::array<double, 2>>();
+        const auto pixels = [](double n) {
+            return n >= 1.0 && n <= largestImageSize && n == std::floor(n) ? int(n) : 0;
+        };
+        scene.camera.width = pixels(size[0]);
+        scene.camera.height = pixels(size[1]);
         const auto pan = camera.value("pan_mm", std::array<double, 2>{0.0, 0.0});
         scene.camera.panMm = {pan[0], pan[1]};
         if (in.contains("window")) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <system_error>
 #include <thread>
 
 #ifdef __linux__
@@ -74,12 +75,17 @@ WorkerTeam::WorkerTeam(int threads) : m_threads(threads) {
     // One worker more than can work at once: which of them stays asleep depends on where the
     // caller runs.
     const std::vector<int> processors = allowedProcessors();
+    m_workers.reserve(std::size_t(m_threads)); // nothing throws between a thread and its place
     for (int n = 0; n < m_threads; ++n) {
         auto worker = std::make_unique<Worker>();
         worker->slot = n + 1;
         worker->processor =
             processors.empty() ? -1 : processors[std::size_t(n) % processors.size()];
-        worker->thread = std::thread([this, w = worker.get()] { work(*w); });
+        try {
+            worker->thread = std::thread([this, w = worker.get()] { work(*w); });
+        } catch (const std::system_error &) {
+            break; // those that there are do the work
+        }
         m_workers.push_back(std::move(worker));
     }
 }

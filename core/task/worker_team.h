@@ -18,6 +18,7 @@ namespace pellucid::task {
 class WorkerTeam {
 public:
     /// `threads`: how many may work at once, the caller included; 0: as many as oneTBB may use.
+    /// Fewer where the system has no more threads to give.
     explicit WorkerTeam(int threads = 0);
     ~WorkerTeam();
     WorkerTeam(const WorkerTeam &) = delete;

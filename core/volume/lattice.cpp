@@ -24,7 +24,6 @@ VoxelBox united(const VoxelBox &a, const VoxelBox &b) {
 namespace {
 
 // Products of sizes stay far from the end of 64 bits.
-constexpr double largestSampleCount = 68719476736.0; // 2^36
 
 bool finite(const glm::dvec3 &v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -37,7 +36,7 @@ Lattice Lattice::make(GridSize size, PatientPoint origin, const std::array<glm::
     using task::ErrorCode;
     if (size.i < 1 || size.j < 1 || size.k < 1)
         throw Error(ErrorCode::unusable, "the volume has an axis without samples");
-    if (double(size.i) * size.j * size.k > largestSampleCount)
+    if (double(size.i) * size.j * size.k > double(mostSamples))
         throw Error(ErrorCode::unusable, "the volume has more samples than any machine holds");
     if (!finite(origin.mm) || !finite(steps[0]) || !finite(steps[1]) || !finite(steps[2]))
         throw Error(ErrorCode::unusable, "the geometry is not made of finite numbers");

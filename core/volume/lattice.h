@@ -10,6 +10,9 @@
 
 namespace pellucid::volume {
 
+/// More samples do not fit any machine this runs on.
+inline constexpr std::size_t mostSamples = std::size_t(1) << 36;
+
 /// Number of samples along the three axes: columns, rows, slices.
 struct GridSize {
     int i = 0, j = 0, k = 0;

@@ -2956,6 +2956,10 @@
         <source>Removing copies</source>
         <translation>正在移除副本</translation>
     </message>
+    <message>
+        <source>Tidying up the study library</source>
+        <translation>正在整理檢查資料庫</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::StudyOpener</name>

@@ -102,7 +102,17 @@ void act(std::string_view word) {
         (void)!::write(decoder::socketDescriptor, "x", 1);
     else if (word == "empty-header")
         decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});
-    else if (word == "more-samples")
+    else if (word == "no-reason")
+        decoder::send(decoder::socketDescriptor, {Message::Kind::done, 3, 0, 0});
+    else if (word == "samples-twice" || word == "half-the-samples") {
+        const bool isTwice = word == "samples-twice";
+        decoder::send(decoder::socketDescriptor,
+                      {Message::Kind::part, 0, 0, isTwice ? 4096U : 2048U});
+        decoder::receive(decoder::socketDescriptor, decoder::Takes::descriptor); // go on
+        decoder::send(
+            decoder::socketDescriptor,
+            {isTwice ? Message::Kind::part : Message::Kind::done, 0, 0, isTwice ? 4096U : 0U});
+    } else if (word == "more-samples")
         decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 1 << 16});
     else if (word == "half-a-sample")
         decoder::send(decoder::socketDescriptor, {Message::Kind::part, 0, 0, 3});

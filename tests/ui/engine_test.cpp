@@ -274,8 +274,16 @@ private slots:
         chooseCard();
         const auto closeAndCount = [&] {
             m_bench->opener.closeSource(0);
-            QTest::qWait(300);
-            return sharedGlObjects();
+            int count = -1;
+            // The worker lets go of it a moment later.
+            const bool rests = QTest::qWaitFor(
+                [&] {
+                    QTest::qWait(100);
+                    const int former = std::exchange(count, sharedGlObjects());
+                    return former == count;
+                },
+                patienceMs);
+            return rests ? count : -1;
         };
         const int before = closeAndCount();
         QVERIFY(before > 0);

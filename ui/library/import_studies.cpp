@@ -93,6 +93,11 @@ public:
                 m_renamed.push_back(to);
         }
     }
+    /// They are on the disk, and so are their names: what refers to them may be written down.
+    void flush() const {
+        if (m_incoming)
+            files::flush(m_place.copiesFolder());
+    }
     void keep() { m_renamed.clear(); }
 
 private:
@@ -235,7 +240,7 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
             if (!isCopied(file))
                 return false;
             if (volume::isNrrdPath(file.path) &&
-                decoder::readNrrdHeader(file.path).samplesFile != file.path) {
+                decoder::readNrrdHeader(file.path, copying).samplesFile != file.path) {
                 const bool isGoing = files::isInSessionFolder(file.path);
                 result.skipped.push_back(
                     {file.path, isGoing ? "has its samples in another file; not imported"
@@ -254,16 +259,22 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
     std::erase_if(all, [](const LibrarySeries &s) { return s.files.empty(); });
     progress.check(); // from here on it is done to the end
     copies.rename();
+    copies.flush();
     library.put(all);
     copies.keep();
     progress.report(1.0);
     return result;
 }
 
-void removeAbandonedImports(Library &library, bool listIsWhole) {
+bool hasUnfinishedImports(const LibraryPlace &place) {
+    std::error_code ignored;
+    return fs::exists(incomingFolder(place), ignored);
+}
+
+void removeAbandonedImports(Library &library, LeftCopies left) {
     files::removeAbandonedSessionFolders(incomingFolder(library.place()),
                                          [&](const fs::path &folder) {
-                                             if (!listIsWhole)
+                                             if (left == LeftCopies::kept)
                                                  return;
                                              // Copies that have their names already, without a row
                                              // in the list.

@@ -29,8 +29,15 @@ struct ImportResult {
 ImportResult importStudies(const LibraryPlace &place, const Import &import,
                            const task::Progress &progress);
 
-/// Removes what a killed import left in the library's folder. Copies that had their names already
-/// go too, unless the list, which has no row of theirs, may have lost it.
-void removeAbandonedImports(Library &library, bool listIsWhole);
+/// What becomes of the copies of a killed import that had their names but no row yet: `kept` where
+/// the list may have lost the rows.
+enum class LeftCopies { removed, kept };
+
+/// Whether there is an import that has not ended; of a program that runs, or of one that was
+/// killed.
+bool hasUnfinishedImports(const LibraryPlace &place);
+/// Removes what a killed import left in the library's folder. *Throws* Error{output} if the list
+/// cannot be read: the rest is left to the next time.
+void removeAbandonedImports(Library &library, LeftCopies left);
 
 } // namespace pellucid::ui

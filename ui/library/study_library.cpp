@@ -3,6 +3,8 @@
 
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
+#include "core/task/log.h"
+#include "ui/failure.h"
 #include "ui/spoken.h"
 
 namespace pellucid::ui {
@@ -34,8 +36,14 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
         m_notices.push_back({error.path(), error.reason()});
         return;
     }
-    if (!opened.place.inMemory)
-        removeAbandonedImports(*m_library, !opened.wasDamaged);
+    if (!opened.place.inMemory && hasUnfinishedImports(opened.place))
+        start({tr("Tidying up the study library"),
+               [place = opened.place,
+                left = opened.wasDamaged ? LeftCopies::kept : LeftCopies::removed](const Job &) {
+                   Library library(place);
+                   removeAbandonedImports(library, left);
+               },
+               true});
     if (std::error_code ignored;
         opened.wasDamaged && std::filesystem::exists(opened.place.copiesFolder(), ignored))
         import({{opened.place.copiesFolder()}, ImportMode::refer});
@@ -44,8 +52,12 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
 StudyLibrary::~StudyLibrary() {
     m_jobs.join();
     for (const Work &work : m_waiting)
-        if (!work.isOptional)
-            work.run(Job());
+        try {
+            if (!work.isOptional)
+                work.run(Job());
+        } catch (...) {
+            task::log("the study library: " + currentFailure().what.toStdString());
+        }
 }
 
 void StudyLibrary::start(Work work) {

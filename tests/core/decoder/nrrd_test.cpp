@@ -13,6 +13,7 @@
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 #include "tests/support/fields.h"
+#include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pellucid {
@@ -118,6 +119,25 @@ TEST_F(Nrrd, ReadsDetachedGzipWithSpacings) {
     const Volume volume = readNrrd(folder / "d.nhdr");
     EXPECT_EQ(volume.value({2, 1, 0}), double('f'));
     EXPECT_EQ(volume.lattice().spacingMm(2), 3.0);
+}
+
+// A byte of what is stored, not deflated: only the sum at the end of the file tells.
+TEST_F(Nrrd, AFlippedByteOfCompressedSamplesIsNoticed) {
+    gzFile gz = gzopen((folder / "f.raw.gz").c_str(), "wb0"); // stored
+    gzwrite(gz, "abcdef", 6);
+    gzclose(gz);
+    const std::string header =
+        "NRRD0001\ntype: unsigned char\ndimension: 3\nsizes: 3 2 1\nencoding: gzip\n"
+        "data file: f.raw.gz\n";
+    write(folder / "f.nhdr", header);
+    EXPECT_EQ(readNrrd(folder / "f.nhdr").value({0, 0, 0}), double('a'));
+    std::string bytes = test::readText(folder / "f.raw.gz");
+    bytes[bytes.find("abcdef") + 2] = 'C';
+    write(folder / "f.raw.gz", bytes);
+    EXPECT_THROW(readNrrd(folder / "f.nhdr"), task::Error);
+    bytes.resize(bytes.size() - 4); // and without its end
+    write(folder / "f.raw.gz", bytes);
+    EXPECT_THROW(readNrrd(folder / "f.nhdr"), task::Error);
 }
 
 TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {

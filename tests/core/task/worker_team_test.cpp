@@ -3,9 +3,11 @@
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <vector>
 
 #include "core/task/worker_team.h"
+#include "tests/support/little_memory.h"
 
 namespace pellucid {
 
@@ -44,6 +46,24 @@ TEST(WorkerTeam, RunsEveryPartOnceAndPhasesInOrder) {
         }
     }
 }
+
+#ifndef PELLUCID_SANITIZED
+// A stack takes megabytes of address space: the team has those that fit, and does all the work.
+TEST(WorkerTeam, WhereThereAreFewThreadsTheWorkIsDoneByThose) {
+    std::unique_ptr<WorkerTeam> team;
+    {
+        const test::LittleMemory little(40);
+        team = std::make_unique<WorkerTeam>(64);
+    }
+    EXPECT_LT(team->slots(), 30);
+    Tally tally;
+    const WorkerTeam::Phase phase{
+        97, [](void *c, int part, int) { ++static_cast<Tally *>(c)->first[part]; }, &tally};
+    team->run({&phase, 1});
+    for (const auto &count : tally.first)
+        EXPECT_EQ(count, 1);
+}
+#endif
 
 TEST(WorkerTeam, NoTwoRunningPartsShareASlot) {
     WorkerTeam team(4);

@@ -261,23 +261,35 @@ private slots:
     // nothing else is.
     void aKilledImportIsDoneOrLeavesNothing() {
         std::mt19937 random(11);
-        int killed = 0, done = 0;
+        const auto import = [&](const LibraryPlace &at, QProcess &program) {
+            program.start(QCoreApplication::applicationFilePath(),
+                          {"--import", QString::fromStdString(at.folder.string()),
+                           QString::fromStdString((m_folder / "head").string())});
+            return program.waitForStarted();
+        };
+        QElapsedTimer clock;
+        clock.start();
+        QProcess whole;
+        QVERIFY(import(place("whole"), whole) && whole.waitForFinished());
+        const auto wholeMs = unsigned(clock.elapsed());
+        int killed = 0, done = 0, named = 0;
         for (int round = 0; round < 40; ++round) {
             const LibraryPlace at = place("killed" + std::to_string(round));
             { const Library empty(at); } // its tables are there
-            QProcess import;
-            import.start(QCoreApplication::applicationFilePath(),
-                         {"--import", QString::fromStdString(at.folder.string()),
-                          QString::fromStdString((m_folder / "head").string())});
-            QVERIFY(import.waitForStarted());
-            import.waitForFinished(int(random() % 120));
-            killed += import.state() == QProcess::Running ? 1 : 0;
-            import.kill();
-            import.waitForFinished();
+            QProcess program;
+            QVERIFY(import(at, program));
+            // The copies are made in the second half of it.
+            program.waitForFinished(int(wholeMs * (40 + random() % 70) / 100));
+            killed += program.state() == QProcess::Running ? 1 : 0;
+            program.kill();
+            program.waitForFinished();
+            std::error_code none;
+            for (const auto &entry : fs::directory_iterator(at.copiesFolder() / "incoming", none))
+                named += fs::exists(entry.path() / "names") ? 1 : 0;
             OpenedLibrary opened = openLibrary(at.folder);
             QVERIFY(!opened.wasDamaged && !opened.place.inMemory);
             Library library(opened.place);
-            removeAbandonedImports(library, true);
+            removeAbandonedImports(library, LeftCopies::removed);
             const int studies = count(library);
             done += studies;
             QCOMPARE(filesBelow(at.copiesFolder()), 20 * studies);
@@ -289,8 +301,9 @@ private slots:
                 QCOMPARE(loaded.volume.lattice().size().k, 20);
             }
         }
-        qInfo("%d of 40 imports were killed, %d were done", killed, done);
-        QVERIFY(killed > 5);
+        qInfo("%d of 40 imports were killed, %d with copies that had names; %d were done", killed,
+              named, done);
+        QVERIFY(killed > 5 && done > 0);
     }
 
     // Copies that have their names but no row yet when the program is killed.
@@ -313,7 +326,7 @@ private slots:
         names.close();
         std::ofstream(abandoned.string() + ".lock") << "";
         Library library(at);
-        removeAbandonedImports(library, true);
+        removeAbandonedImports(library, LeftCopies::removed);
         QVERIFY(!fs::exists(abandoned));
         QVERIFY(!fs::exists(orphan));
         QVERIFY(fs::exists(other));

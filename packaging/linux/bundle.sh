@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Makes a folder of an installed tree that runs by itself: libraries and Qt's plugins beside the
+# programs, wherever it lies. What belongs to the machine stays there: glibc, the display, OpenGL.
+#   bundle.sh TREE     TREE has bin, libexec, share
+set -euo pipefail
+tree=$1
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+plugins=$(/usr/lib/qt6/bin/qtpaths --query QT_INSTALL_PLUGINS)
+translations=$(/usr/lib/qt6/bin/qtpaths --query QT_INSTALL_TRANSLATIONS)
+
+# Of the machine: they must fit its kernel, its display server and its drivers, which bring their own needs along (a newer libstdc++).
+of_machine='^(linux-vdso|libstdc\+\+|libgcc_s|libz|ld-linux.*|libc|libm|libdl|librt|libpthread|libresolv|libnss_.*|libGL|libEGL|libGLX|libOpenGL|libGLdispatch|libgbm|libdrm.*|libX11|libX11-xcb|libxcb|libxcb-dri.*|libxcb-glx|libwayland-.*|libfontconfig|libfreetype|libexpat)\.so'
+
+mkdir -p "$tree/lib" "$tree/plugins"
+for plugin in platforms/libqxcb.so sqldrivers/libqsqlite.so xcbglintegrations/libqxcb-glx-integration.so \
+    xcbglintegrations/libqxcb-egl-integration.so imageformats/libqjpeg.so imageformats/libqsvg.so iconengines/libqsvgicon.so platforminputcontexts/libibusplatforminputcontextplugin.so \
+    platforminputcontexts/libcomposeplatforminputcontextplugin.so; do
+    [[ -f $plugins/$plugin ]] || continue
+    install -D -m 644 "$plugins/$plugin" "$tree/plugins/$plugin"
+done
+mkdir -p "$tree/translations"
+cp "$translations"/qtbase_zh_TW.qm "$tree/translations/" 2>/dev/null || true
+install -D -m 644 /usr/share/libdcmtk17/dicom.dic "$tree/share/pellucid/dicom.dic"
+
+programs() { find "$tree/bin" "$tree/libexec" "$tree/plugins" -type f \( -perm -u+x -o -name '*.so' \); }
+programs | while read -r program; do ldd "$program"; done | awk '$3 ~ /^\// {print $1, $3}' | sort -u |
+    while read -r name path; do
+        [[ $name =~ $of_machine ]] || cp -L "$path" "$tree/lib/$name"
+    done
+chmod 644 "$tree"/lib/*
+
+# Where each finds the rest; of the old kind, which counts for what a plugin needs, too.
+find "$tree/bin" "$tree/libexec" "$tree/lib" "$tree/plugins" -type f | while read -r file; do
+    [[ $(head -c 4 "$file") == $'\x7fELF' ]] || continue
+    up=$(realpath --relative-to="$(dirname "$file")" "$tree/lib")
+    patchelf --force-rpath --set-rpath "\$ORIGIN/$up" "$file"
+done
+for folder in bin libexec/pellucid; do
+    printf '[Paths]\nPrefix=%s\nPlugins=plugins\nTranslations=translations\n' \
+        "$(realpath --relative-to="$tree/$folder" "$tree")" >"$tree/$folder/qt.conf"
+done
+install -m 755 "$here/install.sh" "$tree/install.sh"

@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an installed tree holds that others wrote: an SPDX list (2.3, JSON) and the licences.
+
+inventory.py TREE VERSION LICENCES OUT.spdx.json
+
+Shared libraries that lie in TREE, and those that its programs are linked with, are looked up in
+Debian's package database; the copyright file of each package goes into the folder LICENCES.
+"""
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+
+def output(*command: str) -> str:
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def is_program(path: pathlib.Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(4) == b"\x7fELF"
+
+
+def package_of(path: str) -> str | None:
+    """The package that a file is of; libraries moved when /lib became a link."""
+    for candidate in (path, os.path.realpath(path), path.removeprefix("/usr")):
+        try:
+            return output("dpkg-query", "-S", candidate).split(": ")[0].split(",")[0].split(":")[0]
+        except subprocess.CalledProcessError:
+            continue
+    return None
+
+
+def licences_of(package: str) -> tuple[list[str], pathlib.Path]:
+    """The names in a machine-readable copyright file; none in one for people."""
+    copyright_file = pathlib.Path("/usr/share/doc") / package / "copyright"
+    text = copyright_file.read_text(errors="replace")
+    return sorted(set(re.findall(r"^License: *(\S+)", text, re.MULTILINE))), copyright_file
+
+
+def identifier(text: str) -> str:
+    return "SPDXRef-" + re.sub(r"[^A-Za-z0-9.-]", "-", text)
+
+
+def main() -> None:
+    tree, version, licences, out = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[4]
+    epoch = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
+    programs = [p for p in sorted(tree.rglob("*")) if p.is_file() and not p.is_symlink() and is_program(p)]
+    libraries: dict[str, str] = {}
+    for program in programs:
+        for line in output("ldd", str(program)).splitlines():
+            words = line.split()
+            if len(words) >= 3 and words[1] == "=>" and words[2].startswith("/"):
+                libraries[words[0]] = words[2]
+    # A bundled copy is of the package that it was copied from.
+    system = {name: path for name, path in libraries.items() if not path.startswith(str(tree.resolve()))}
+    for name in libraries.keys() - system.keys():
+        for folder in ("/usr/lib/x86_64-linux-gnu", "/lib/x86_64-linux-gnu", "/usr/lib", "/lib"):
+            if os.path.exists(f"{folder}/{name}"):
+                system[name] = f"{folder}/{name}"
+                break
+        else:
+            sys.exit(f"inventory: nobody knows where {name} is from")
+    by_package: dict[str, list[str]] = {}
+    for name, path in sorted(system.items()):
+        package = package_of(path)
+        if package is None:
+            sys.exit(f"inventory: {path} is of no package")
+        by_package.setdefault(package, []).append(name)
+    # Compiled in: headers without a library.
+    for header_only in ("libglm-dev", "nlohmann-json3-dev", "libcli11-dev"):
+        by_package.setdefault(header_only, [])
+
+    licences.mkdir(parents=True, exist_ok=True)
+    packages = []
+    for package, names in sorted(by_package.items()):
+        found, copyright_file = licences_of(package)
+        (licences / package).write_bytes(copyright_file.read_bytes())
+        packages.append({
+            "SPDXID": identifier(package),
+            "name": package,
+            "versionInfo": output("dpkg-query", "-W", "-f=${Version}", package),
+            "supplier": "Organization: Debian",
+            "downloadLocation": "NOASSERTION",
+            "filesAnalyzed": False,
+            "licenseConcluded": "NOASSERTION",
+            "licenseDeclared": "NOASSERTION",
+            "licenseComments": "named in its copyright file: " + ", ".join(found) if found
+                               else "see its copyright file",
+            "copyrightText": "NOASSERTION",
+            "comment": "libraries: " + ", ".join(names) if names else "compiled in",
+        })
+    own = {
+        "SPDXID": "SPDXRef-pellucid", "name": "pellucid", "versionInfo": version,
+        "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
+        "licenseConcluded": "GPL-3.0-or-later", "licenseDeclared": "GPL-3.0-or-later",
+        "copyrightText": "The Pellucid developers",
+    }
+    digest = hashlib.sha256()
+    for program in programs:
+        digest.update(program.read_bytes())
+    document = {
+        "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
+        "name": f"pellucid-{version}",
+        "documentNamespace": f"https://spdx.org/spdxdocs/pellucid-{version}-{digest.hexdigest()[:32]}",
+        "creationInfo": {"created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(epoch)),
+                         "creators": ["Tool: inventory.py"]},
+        "packages": [own, *packages],
+        "relationships": [{"spdxElementId": "SPDXRef-DOCUMENT", "relationshipType": "DESCRIBES",
+                           "relatedSpdxElement": "SPDXRef-pellucid"}]
+                         + [{"spdxElementId": "SPDXRef-pellucid", "relationshipType": "DEPENDS_ON",
+                             "relatedSpdxElement": p["SPDXID"]} for p in packages],
+    }
+    pathlib.Path(out).write_text(json.dumps(document, indent=1) + "\n")
+    print(f"inventory: {len(programs)} programs and libraries, {len(packages)} packages of others")
+
+
+if __name__ == "__main__":
+    main()
