@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/commands.h"
+#include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/wisdom.h"
 #include "core/task/error.h"
@@ -56,6 +57,7 @@ int main(int argc, char **argv) {
     std::signal(SIGPIPE, SIG_IGN);
     const cli::Context context{stopOnInterrupt().get_token()};
 
+    files::removeAbandonedSessionFolders(); // what a killed program unpacked is the patient's
     if (const auto cache = files::userCacheFolder())
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
 
