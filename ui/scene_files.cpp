@@ -2,10 +2,10 @@
 #include "ui/scene_files.h"
 
 #include <QBuffer>
-#include <QFile>
 #include <QImage>
 
 #include "core/files/atomic_file.h"
+#include "core/files/read_text.h"
 #include "core/task/error.h"
 
 namespace pellucid::ui {
@@ -18,13 +18,11 @@ using task::ErrorCode;
 } // namespace
 
 render::Scene readSceneFile(const QString &path) {
-    QFile file(path);
-    if (!file.open(QIODevice::ReadOnly))
-        throw Error(ErrorCode::unusable, file.errorString().toStdString(), path.toStdString());
+    const std::string text = files::readText(path.toStdString(), files::mostOfPreset);
     try {
-        return render::sceneFromJson(file.readAll().toStdString());
+        return render::sceneFromJson(text);
     } catch (const Error &error) {
-        throw Error(error.code(), error.reason(), path.toStdString());
+        throw Error(ErrorCode::unusable, error.reason(), path.toStdString());
     }
 }
 

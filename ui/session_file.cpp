@@ -6,12 +6,12 @@
 #include <system_error>
 #include <utility>
 
-#include <QFile>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 
 #include "core/files/atomic_file.h"
+#include "core/files/read_text.h"
 #include "core/files/user_folders.h"
 #include "core/phantom/phantom.h"
 #include "core/task/error.h"
@@ -22,6 +22,7 @@ namespace pellucid::ui {
 namespace {
 
 constexpr const char *schema = "pellucid-session/1";
+constexpr std::size_t mostOfSession = 64 << 20; // it may name each file of a study
 
 std::optional<std::filesystem::path> sessionFile() {
     const auto folder = files::userDataFolder();
@@ -168,11 +169,8 @@ std::optional<Session> SessionFile::kept() const {
     const auto path = sessionFile();
     if (!path)
         return std::nullopt;
-    QFile file(QString::fromStdString(path->string()));
-    if (!file.open(QIODevice::ReadOnly))
-        return std::nullopt;
     try {
-        return sessionFromJson(file.readAll().toStdString());
+        return sessionFromJson(files::readText(*path, mostOfSession));
     } catch (const task::Error &) {
         return std::nullopt;
     }

@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/json_text.h"
+#include "app/cli/terminal.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
 
@@ -81,20 +82,23 @@ json catalogueJson(const dicom::Catalogue &catalogue) {
 
 void printCatalogue(const dicom::Catalogue &catalogue) {
     for (const auto &p : catalogue.patients) {
-        fmt::print("Patient {} ({})\n", p.name.empty() ? "without name" : p.name, p.id);
+        fmt::print("Patient {} ({})\n", p.name.empty() ? "without name" : printable(p.name),
+                   printable(p.id));
         for (const auto &s : p.studies) {
-            fmt::print("  Study {} {}\n", s.date, s.description);
+            fmt::print("  Study {} {}\n", printable(s.date), printable(s.description));
             for (const auto &e : s.series) {
-                fmt::print("    Series {} {} {}\n", e.number, e.modality, e.description);
+                fmt::print("    Series {} {} {}\n", e.number, printable(e.modality),
+                           printable(e.description));
                 for (const auto &v : e.volumes) {
                     const volume::Lattice &l = v.geometry.lattice;
                     fmt::print("      {}{} x {} x {}, {:.3f} x {:.3f} x {:.3f} mm{}{}\n",
-                               v.label.empty() ? "" : v.label + ": ", l.size().i, l.size().j,
-                               l.size().k, l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm(),
+                               v.label.empty() ? "" : printable(v.label) + ": ", l.size().i,
+                               l.size().j, l.size().k, l.spacingMm(0), l.spacingMm(1),
+                               l.sliceDistanceMm(),
                                v.unit == volume::ValueUnit::hounsfield ? ", HU" : "",
                                v.notes.lossy ? ", lossy" : "");
                     for (const auto &w : v.notes.warnings)
-                        fmt::print("        {}\n", w);
+                        fmt::print("        {}\n", printable(w));
                 }
             }
         }
@@ -102,7 +106,7 @@ void printCatalogue(const dicom::Catalogue &catalogue) {
     if (!catalogue.skipped.empty())
         fmt::print("Not used ({}):\n", catalogue.skipped.size());
     for (const auto &s : catalogue.skipped)
-        fmt::print("  {}: {}\n", s.path.string(), s.reason);
+        fmt::print("  {}: {}\n", printable(s.path.string()), printable(s.reason));
 }
 
 } // namespace

@@ -4,9 +4,9 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 
+#include "app/cli/terminal.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
 
@@ -68,10 +68,9 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     input.labels = dicom::captureLabels(selection);
     input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
                          input.loaded.skipped.end());
-    // A slice that is left out is said even where no JSON is asked for.
-    for (const dicom::Skipped &s : input.loaded.skipped)
-        std::fprintf(stderr, "pellucid-cli: warning: %s: left out: %s\n", s.path.c_str(),
-                     s.reason.c_str());
+    // Said even where no JSON is asked for: that a slice is left out, above all.
+    for (const std::string &warning : input.loaded.volume.notes().warnings)
+        warn(warning);
     input.loadMs = watch.lapMs();
     return input;
 }

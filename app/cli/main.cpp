@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/commands.h"
+#include "app/cli/terminal.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/wisdom.h"
@@ -22,9 +23,7 @@ namespace {
 constexpr int cancelledExit = 130, usageExit = 2, memoryExit = 4, internalExit = 1;
 
 int report(const std::string &what, int code) {
-    std::string line = what;
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    std::fprintf(stderr, "pellucid-cli: %s\n", line.c_str());
+    std::fprintf(stderr, "pellucid-cli: %s\n", pellucid::cli::printable(what).c_str());
     return code;
 }
 

@@ -8,6 +8,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
 #include "core/dicom/write_series.h"
+#include "core/files/atomic_file.h"
 #include "core/phantom/phantom.h"
 #include "core/task/error.h"
 
@@ -42,6 +43,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         sampling.spacingMm = glm::dvec3(s[0], s[1], s[2]);
     }
     sampling.tiltRad = o.tiltDeg * 3.14159265358979323846 / 180.0;
+    files::requireWritable(o.folder);
     const task::Progress progress(context.stop);
     const auto volume = phantom::makePhantom(kind, phantom::phantomLattice(kind, sampling),
                                              progress.part(0.0, 0.6));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/commands.h"
+#include "app/cli/terminal.h"
 #include "core/presets/preset_library.h"
 #include "core/presets/slicer_preset.h"
 #include "core/task/error.h"
@@ -27,8 +28,7 @@ struct Options {
 PresetLibrary openLibrary() {
     PresetLibrary library = PresetLibrary::ofUser();
     for (const auto &skipped : library.skipped())
-        std::fprintf(stderr, "pellucid-cli: warning: %s: %s\n", skipped.path.c_str(),
-                     skipped.reason.c_str());
+        warn(skipped.path.string() + ": " + skipped.reason);
     return library;
 }
 
@@ -66,10 +66,9 @@ void import(const Options &o) {
         fit = fmt::format("; its opacity is met within {:.2g}", imported.largestError);
         constexpr double visible = 0.1;
         if (imported.largestError > visible)
-            std::fprintf(stderr,
-                         "pellucid-cli: warning: the opacity changes too steeply for one "
-                         "curve of %d points; classes show steps\n",
-                         o.points);
+            warn(fmt::format("the opacity changes too steeply for one curve of {} points; classes "
+                             "show steps",
+                             o.points));
     } else {
         preset = presets::readPreset(o.path);
     }

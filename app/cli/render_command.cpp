@@ -15,6 +15,7 @@
 #include "app/cli/json_text.h"
 #include "app/cli/renderer.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/terminal.h"
 #include "core/preprocess/step_cache.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
@@ -101,7 +102,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     std::vector<std::string> warnings = volume.notes().warnings;
     const auto warn = [&](const std::string &text) {
         warnings.push_back(text);
-        std::fprintf(stderr, "pellucid-cli: warning: %s\n", text.c_str());
+        cli::warn(text);
     };
     if (renderer.isReduced())
         warn(renderer.reason());

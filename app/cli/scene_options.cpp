@@ -5,15 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "app/cli/input.h"
+#include "core/files/read_text.h"
 #include "core/presets/preset_library.h"
 #include "core/task/error.h"
 
@@ -36,15 +35,11 @@ const std::map<std::string, render::Reconstruction> reconstructions{
     {"band-limited", render::Reconstruction::bandLimited}};
 
 render::Scene readScene(const fs::path &path) {
-    std::ifstream in(path);
-    if (!in)
-        throw Error(ErrorCode::unusable, "cannot be read", path);
-    std::ostringstream text;
-    text << in.rdbuf();
+    const std::string text = files::readText(path, files::mostOfPreset);
     try {
-        return render::sceneFromJson(text.str());
-    } catch (const Error &error) {
-        throw Error(error.code(), error.reason(), path);
+        return render::sceneFromJson(text);
+    } catch (const Error &error) { // of the file, not of the command line
+        throw Error(ErrorCode::unusable, error.reason(), path);
     }
 }
 

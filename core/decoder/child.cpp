@@ -67,10 +67,13 @@ std::vector<std::string> environment() {
 
 } // namespace
 
-double decodingSeconds(std::uint64_t fileBytes) {
-    // The slowest coder makes some MB a second; a share of a hospital less.
+double decodingSeconds(const Message &request) {
+    // The slowest coder makes some MB a second; a share of a hospital less. Headers are small,
+    // however large the file is.
     constexpr double bytesPerSecond = 1e6, anyFile = 20.0;
-    return anyFile + double(fileBytes) / bytesPerSecond;
+    const bool isHeader =
+        request.kind == Message::Kind::header || request.kind == Message::Kind::nrrd;
+    return anyFile + (isHeader ? 0.0 : double(request.size) / bytesPerSecond);
 }
 
 Child::Child() = default;
@@ -155,7 +158,7 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
 }
 
 void Child::ask(const Message &request, int file) {
-    allow(decodingSeconds(request.size));
+    allow(decodingSeconds(request));
     const bool isSent = send(m_socket.get(), request, file);
     m_isSound = false; // until it has answered
     if (!isSent)
@@ -163,7 +166,7 @@ void Child::ask(const Message &request, int file) {
 }
 
 void Child::askForNext() {
-    allow(decodingSeconds(0));
+    allow(decodingSeconds({Message::Kind::next, 0, 0, 0}));
     if (!send(m_socket.get(), {Message::Kind::next, 0, 0, 0}))
         failAsItEnded();
 }
@@ -272,7 +275,7 @@ void Child::failAsItEnded() {
     case SIGBUS:
         throw Error(ErrorCode::unusable, "changed while it was read");
     case SIGKILL:
-        throw Error(ErrorCode::outOfMemory, "needs more memory than there is");
+        throw Error(ErrorCode::outOfMemory, "its decoder was killed, for want of memory perhaps");
     case SIGSYS:
         throw Error(ErrorCode::unusable, "made the decoder try what no image needs");
     default:

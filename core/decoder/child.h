@@ -64,7 +64,7 @@ private:
 
 /// What a request may take. A decoder gives itself up after the first, the program it after the
 /// second. *Units*: seconds.
-double decodingSeconds(std::uint64_t fileBytes);
+double decodingSeconds(const Message &request);
 inline constexpr double patienceSeconds = 3.0;
 
 } // namespace pellucid::decoder

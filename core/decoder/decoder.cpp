@@ -134,9 +134,19 @@ std::unique_ptr<Child> Decoder::lend(const task::Progress &progress) {
         }
         opening = m_opening;
     }
-    auto child = std::make_unique<Child>(m_program, progress);
+    auto child = started(progress);
     child->opening = opening;
     return child;
+}
+
+// One that ends as it begins is no reason to end all (the system may have wanted its memory); two
+// are.
+std::unique_ptr<Child> Decoder::started(const task::Progress &progress) const {
+    try {
+        return std::make_unique<Child>(m_program, progress);
+    } catch (const Error &) {
+        return std::make_unique<Child>(m_program, progress);
+    }
 }
 
 void Decoder::takeBack(std::unique_ptr<Child> child) {
@@ -157,7 +167,7 @@ std::unique_ptr<Child> Decoder::ask(const Message &request, int file,
         child->ask(request, file);
     } catch (const Error &) {
         const std::uint64_t opening = child->opening;
-        child = std::make_unique<Child>(m_program, progress);
+        child = started(progress);
         child->opening = opening;
         child->ask(request, file);
     }
@@ -272,10 +282,11 @@ NrrdLayout Decoder::nrrd(const fs::path &path, const task::Progress &progress) {
     });
 }
 
-void Decoder::nrrdSamples(const fs::path &path, const NrrdSamples &samples,
+bool Decoder::nrrdSamples(const fs::path &path, const NrrdSamples &samples,
                           const std::function<void(std::span<const std::byte>)> &take,
                           const task::Progress &progress) {
     const OpenFile file = open(path);
+    bool hasMore = false;
     naming(path, [&] {
         const int code = samples.bytesEach | (samples.isGzip ? deflated : 0) |
                          (samples.isSwapped ? swapped : 0) |
@@ -295,12 +306,14 @@ void Decoder::nrrdSamples(const fs::path &path, const NrrdSamples &samples,
                 if (isDone)
                     return;
                 left -= bytes;
+                hasMore = (answer.message.code & goesOn) != 0;
                 take(answer.data);
                 child->askForNext();
             });
         }
         takeBack(std::move(child));
     });
+    return hasMore;
 }
 
 int Decoder::confinement() {

@@ -71,8 +71,9 @@ public:
                  const task::Progress &progress = {});
 
     NrrdLayout nrrd(const std::filesystem::path &path, const task::Progress &progress = {});
-    /// Exactly so many bytes, in parts of whole samples. The callback may throw.
-    void nrrdSamples(const std::filesystem::path &path, const NrrdSamples &samples,
+    /// Exactly so many bytes, in parts of whole samples. True if the file holds more. The callback
+    /// may throw.
+    bool nrrdSamples(const std::filesystem::path &path, const NrrdSamples &samples,
                      const std::function<void(std::span<const std::byte>)> &take,
                      const task::Progress &progress = {});
 
@@ -87,6 +88,7 @@ public:
 private:
     friend class DecodedFile;
     std::unique_ptr<Child> lend(const task::Progress &progress);
+    std::unique_ptr<Child> started(const task::Progress &progress) const;
     void takeBack(std::unique_ptr<Child> child);
     std::unique_ptr<Child> ask(const struct Message &request, int file,
                                const task::Progress &progress);

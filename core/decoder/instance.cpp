@@ -38,7 +38,16 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
         h.highBit + 1 < h.bitsStored)
         return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored,
                            h.bitsAllocated, h.highBit);
+    for (const FrameHeader &frame : h.frames)
+        if (!frame.rescale.isReadable || frame.rescale.slope == 0.0)
+            return "has a rescale slope or intercept that gives no values";
     return std::nullopt;
+}
+
+bool hasSurplusPixels(const InstanceHeader &h) {
+    const double described = double(h.rows) * h.columns * h.samplesPerPixel * h.bitsAllocated /
+                             8.0 * double(h.frames.size());
+    return double(h.pixelBytes) > described + 1.0;
 }
 
 } // namespace pellucid::decoder

@@ -24,6 +24,7 @@ inline constexpr std::size_t mostFrames = 100000; ///< of a file
 /// How stored values become values: value = slope * stored + intercept, or a modality table.
 struct Rescale {
     double slope = 1.0, intercept = 0.0;
+    bool isReadable = true; ///< false: what the header gives is no number, or rubbish
     bool operator==(const Rescale &) const = default;
 };
 
@@ -49,7 +50,8 @@ struct InstanceHeader {
     int seriesNumber = 0, instanceNumber = 0;
     bool hasPixels = false, floatPixels = false;
     int rows = 0, columns = 0, samplesPerPixel = 1;
-    int announcedFrames = 1; ///< NumberOfFrames, whether or not there is room for them
+    int announcedFrames = 1;      ///< NumberOfFrames, whether or not there is room for them
+    std::uint32_t pixelBytes = 0; ///< of uncompressed pixels, as their element says; 0: not known
     int bitsAllocated = 0, bitsStored = 0, highBit = 0;
     bool isSigned = false, lossy = false;
     std::string photometric, rescaleType;
@@ -66,6 +68,9 @@ struct DecodedImage {
     /// *Shape*: frames x rows x columns. Signed if header.isSigned.
     std::vector<std::uint16_t> samples;
 };
+
+/// Whether uncompressed pixels go on behind those that the header describes; a byte is padding.
+bool hasSurplusPixels(const InstanceHeader &header);
 
 /// Why a file's pixels cannot be part of a volume or an image set, or nothing if they can.
 std::optional<std::string> whyUnusable(const InstanceHeader &header);

@@ -130,6 +130,7 @@ template <class A> void pass(A &archive, FrameHeader &frame) {
     pass(archive, frame.sliceThicknessMm);
     pass(archive, frame.rescale.slope);
     pass(archive, frame.rescale.intercept);
+    pass(archive, frame.rescale.isReadable);
     pass(archive, frame.imageType);
     pass(archive, frame.dimensions);
 }
@@ -145,6 +146,7 @@ template <class A> void pass(A &archive, InstanceHeader &h) {
          {&h.seriesNumber, &h.instanceNumber, &h.rows, &h.columns, &h.samplesPerPixel,
           &h.announcedFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.modalityTableFirst})
         pass(archive, *number);
+    pass(archive, h.pixelBytes);
     for (bool *const flag : {&h.hasPixels, &h.floatPixels, &h.isSigned, &h.lossy})
         pass(archive, *flag);
     pass(archive, h.paddingValue);

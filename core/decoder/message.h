@@ -46,6 +46,9 @@ enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2 };
 /// the file that the data are of.
 enum ArchiveFlag : std::int32_t { announcement = 1, firstPart = 2, lastPart = 4 };
 
+/// A bit of `Message::code` of the last `part` of samples: the file holds more of them.
+inline constexpr std::int32_t goesOn = 8;
+
 /// Bits of `Message::code` of `nrrdSamples`, beside the size of a sample.
 enum NrrdFlag : std::int32_t { deflated = 16, swapped = 32, behindHeader = 64 };
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/decoder/read_nrrd.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <new>
 #include <type_traits>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/decoder/decoder.h"
 #include "core/task/error.h"
@@ -83,6 +86,8 @@ public:
         for (std::size_t at = 0; at < part.size(); at += sizeof(Stored)) {
             Stored value;
             std::memcpy(&value, part.data() + at, sizeof(Stored));
+            if constexpr (std::is_floating_point_v<Stored>)
+                notFinite += std::isfinite(float(value)) ? 0 : 1;
             m_values[m_next++] = Kept(value);
         }
     }
@@ -99,6 +104,8 @@ public:
             return made(std::move(m_values));
         }
     }
+
+    std::size_t notFinite = 0; ///< of the samples
 
 private:
     std::vector<Kept> m_values;
@@ -117,7 +124,7 @@ template <class Stored> Volume read(const Nrrd &nrrd, const task::Progress &prog
                         (sizeof(Kept) + (std::is_same_v<Kept, std::uint16_t> ? 4.0 : 0.0)));
     Values<Stored> values(count);
     std::uint64_t done = 0;
-    Decoder::ofProgram().nrrdSamples(
+    const bool hasMore = Decoder::ofProgram().nrrdSamples(
         nrrd.header.samplesFile, samples,
         [&](std::span<const std::byte> part) {
             values.add(part);
@@ -125,7 +132,13 @@ template <class Stored> Volume read(const Nrrd &nrrd, const task::Progress &prog
             progress.report(double(done) / double(samples.bytes));
         },
         progress);
-    return values.volume(nrrd.header.lattice, nrrd.header.notes);
+    VolumeNotes notes = nrrd.header.notes;
+    if (hasMore)
+        notes.warnings.emplace_back("holds more samples than its header says");
+    if (values.notFinite > 0)
+        notes.warnings.push_back(
+            fmt::format("samples that are no finite numbers: {}", values.notFinite));
+    return values.volume(nrrd.header.lattice, std::move(notes));
 }
 
 Volume read(const Nrrd &nrrd, NrrdScalar scalar, const task::Progress &progress) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "core/files/session_folder.h"
 #include "core/volume/volume.h"
 
@@ -22,6 +24,9 @@ struct Skipped {
 struct FrameReference {
     std::filesystem::path path;
     int frame = 0;
+    /// What the scan found there: another instance, or another place, is not what was meant.
+    std::string sopInstanceUid;
+    std::optional<glm::dvec3> positionMm;
     bool operator==(const FrameReference &) const = default;
 };
 

@@ -149,8 +149,11 @@ std::vector<Part> splitRepeats(const Frames &sorted, const task::Progress &progr
 VolumeEntry entryFrom(const Part &part) {
     VolumeEntry entry;
     entry.label = part.label;
-    for (const PlacedFrame &frame : part.frames)
+    for (const PlacedFrame &frame : part.frames) {
         entry.frames.push_back(frame.reference);
+        entry.frames.back().sopInstanceUid = frame.sopInstanceUid;
+        entry.frames.back().positionMm = frame.header.positionMm;
+    }
     return entry;
 }
 

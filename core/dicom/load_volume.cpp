@@ -186,8 +186,10 @@ public:
                 shorts = fitsShort(decode(path).header, m_entry.unit);
                 break;
             } catch (const Error &error) {
-                if (error.code() != ErrorCode::unusable || path == m_paths.back())
+                if (error.code() != ErrorCode::unusable)
                     throw;
+                if (path == m_paths.back())
+                    throw Error(codeWithoutAny(), error.reason(), error.path());
             }
         }
         if (shorts)
@@ -197,6 +199,12 @@ public:
     }
 
 private:
+    static bool isStillThere(const FrameReference &meant, const InstanceHeader &found) {
+        return meant.frame < int(found.frames.size()) &&
+               meant.sopInstanceUid == found.sopInstanceUid &&
+               meant.positionMm == found.frames[std::size_t(meant.frame)].positionMm;
+    }
+
     // A file that asks for too much costs itself, as one that is damaged.
     decoder::DecodedFile decode(const std::filesystem::path &path) const {
         try {
@@ -207,8 +215,13 @@ private:
         } catch (const Error &error) {
             if (error.code() != ErrorCode::outOfMemory)
                 throw;
+            m_lacksMemory = true;
             throw Error(ErrorCode::unusable, error.reason(), path);
         }
+    }
+    // Where no file is left that could be read.
+    ErrorCode codeWithoutAny() const {
+        return m_lacksMemory ? ErrorCode::outOfMemory : ErrorCode::unusable;
     }
     int m_columns() const { return m_entry.geometry.lattice.size().i; }
     int m_rows() const { return m_entry.geometry.lattice.size().j; }
@@ -240,7 +253,7 @@ private:
                 }
                 for (const std::size_t slice : frames) {
                     const int frame = m_entry.frames[slice].frame;
-                    if (frame >= int(image.header.frames.size()))
+                    if (!isStillThere(m_entry.frames[slice], image.header))
                         throw Error(ErrorCode::unusable, "changed while it was read");
                     if (!place(image, frame, m_entry.unit, samples.data() + slice * plane)) {
                         const std::lock_guard lock(guard);
@@ -336,7 +349,7 @@ private:
             files.push_back(std::move(file));
         }
         if (files.empty())
-            throw Error(ErrorCode::unusable, skipped.front().reason, skipped.front().path);
+            throw Error(codeWithoutAny(), skipped.front().reason, skipped.front().path);
         std::vector<Skipped> ignored;
         const auto entries = groupSeries(files, ignored);
         if (entries.size() != 1)
@@ -368,6 +381,7 @@ private:
     const VolumeEntry &m_entry;
     const task::Progress &m_progress;
     const LoadObserver &m_observer;
+    mutable std::atomic<bool> m_lacksMemory = false;
     std::map<std::filesystem::path, std::vector<std::size_t>> m_files;
     std::vector<std::filesystem::path> m_paths;
 };

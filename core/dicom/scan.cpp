@@ -60,6 +60,8 @@ public:
     explicit FileList(const task::Progress &progress) : m_progress(progress) {}
 
     void add(const fs::path &path) {
+        if (path.empty())
+            throw Error(ErrorCode::unusable, "an empty path leads nowhere");
         std::error_code error;
         const fs::file_status status = fs::status(path, error);
         if (!fs::exists(status))
@@ -187,6 +189,13 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     entry.notes.placed = entry.placed;
     if (!entry.placed)
         entry.notes.warnings.push_back("images only: " + entry.notPlacedReason);
+    std::set<fs::path> surplus;
+    for (const FrameReference &frame : entry.frames)
+        if (decoder::hasSurplusPixels(*headers.at(frame.path)))
+            surplus.insert(frame.path);
+    if (!surplus.empty())
+        entry.notes.warnings.push_back(
+            fmt::format("files with more pixels than their header says: {}", surplus.size()));
     entry.notes.lossy =
         std::any_of(entry.frames.begin(), entry.frames.end(),
                     [&](const FrameReference &frame) { return headers.at(frame.path)->lossy; });

@@ -5,11 +5,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <random>
 #include <string>
 #include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+
+#include <fmt/format.h>
 
 #include "core/files/descriptor.h"
 #include "core/task/error.h"
@@ -19,8 +22,8 @@ namespace pellucid::files {
 namespace {
 
 // A dot in front keeps an unfinished file out of listings and of folder scans.
-std::string hiddenNameFor(const std::filesystem::path &path) {
-    return (path.parent_path() / ("." + path.filename().string() + ".XXXXXX")).string();
+std::string hiddenNameFor(const std::filesystem::path &path, const std::string &ending = "XXXXXX") {
+    return (path.parent_path() / ("." + path.filename().string() + "." + ending)).string();
 }
 
 mode_t currentMask() {
@@ -96,14 +99,10 @@ void AtomicFile::takeName() {
     };
     if (link(m_path))
         return;
+    // From here until it is renamed a kill leaves it behind: nothing else happens in between.
+    std::random_device random;
     while (errno == EEXIST) {
-        // The name of a file that is there for a moment.
-        std::string name = hiddenNameFor(m_path);
-        const int placeholder = mkstemp(name.data());
-        if (placeholder < 0)
-            break;
-        close(placeholder);
-        unlink(name.c_str());
+        const std::string name = hiddenNameFor(m_path, fmt::format("{:08x}", random()));
         if (link(name)) {
             m_temporary = name;
             return;
@@ -137,13 +136,11 @@ void AtomicFile::commit() {
         fail(errno);
     if (m_temporary.empty())
         takeName();
-    const int closed = std::fclose(m_file);
-    m_file = nullptr;
-    if (closed != 0)
-        fail(errno);
     if (!m_temporary.empty() && std::rename(m_temporary.c_str(), m_path.c_str()) != 0)
         fail(errno);
     m_temporary.clear();
+    std::fclose(m_file); // all of it is on the disk
+    m_file = nullptr;
 }
 
 void AtomicFile::fail(int error) const {
@@ -156,6 +153,18 @@ void flush(const std::filesystem::path &folder) {
     if (!opened || syncfs(opened.get()) != 0)
         throw task::Error(task::ErrorCode::output,
                           std::string("cannot be written: ") + std::strerror(errno), folder);
+}
+
+void requireWritable(const std::filesystem::path &folder) {
+    std::error_code unknown;
+    std::filesystem::path there = std::filesystem::absolute(folder, unknown).lexically_normal();
+    while (!std::filesystem::exists(there, unknown) && there.has_relative_path())
+        there = there.parent_path();
+    if (!std::filesystem::is_directory(there, unknown))
+        throw task::Error(task::ErrorCode::output, "is no folder", there);
+    if (access(there.c_str(), W_OK | X_OK) != 0)
+        throw task::Error(task::ErrorCode::output,
+                          std::string("cannot be written: ") + std::strerror(errno), there);
 }
 
 } // namespace pellucid::files

@@ -40,4 +40,8 @@ private:
 /// Has everything that was written in a folder's file system on the disk. *Throws* Error{output}.
 void flush(const std::filesystem::path &folder);
 
+/// Looked at before long work begins: *throws* Error{output} with path and reason if nothing can be
+/// made in a folder, or the folder itself cannot.
+void requireWritable(const std::filesystem::path &folder);
+
 } // namespace pellucid::files

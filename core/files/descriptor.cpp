@@ -20,7 +20,8 @@ Descriptor openRegular(const std::filesystem::path &path) {
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     struct stat about {};
     if (!file || ::fstat(file.get(), &about) != 0)
-        throw task::Error(task::ErrorCode::unusable, std::strerror(errno), path);
+        throw task::Error(task::ErrorCode::unusable,
+                          errno == ENOENT ? "does not exist" : std::strerror(errno), path);
     if (!S_ISREG(about.st_mode))
         throw task::Error(task::ErrorCode::unusable, "is not a regular file", path);
     return file;

@@ -3,10 +3,8 @@
 
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <mutex>
 #include <span>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/files/atomic_file.h"
+#include "core/files/read_text.h"
 #include "core/fourier/page_memory.h"
 #include "core/fourier/wisdom.h"
 #include "core/task/error.h"
@@ -128,10 +127,11 @@ std::string wisdom() {
 // Takes in what a file knows. What cannot be read, a folder for instance, or is not understood is
 // ignored. Call with the planner locked.
 void readWisdom(const std::filesystem::path &path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream read;
-    read << in.rdbuf();
-    fftwf_import_wisdom_from_string(read.str().c_str());
+    constexpr std::size_t mostOfWisdom = 16 << 20;
+    try {
+        fftwf_import_wisdom_from_string(files::readText(path, mostOfWisdom).c_str());
+    } catch (const task::Error &) { // none yet, or somebody's
+    }
 }
 
 bool saveWisdom() {

@@ -59,7 +59,8 @@ bool filterCalls() {
           SCMP_SYS(gettid),        SCMP_SYS(exit),         SCMP_SYS(exit_group),
           SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday), SCMP_SYS(time),
           SCMP_SYS(getrandom),     SCMP_SYS(alarm),        SCMP_SYS(setitimer),
-          SCMP_SYS(sched_yield),   SCMP_SYS(getrlimit),    SCMP_SYS(restart_syscall)})
+          SCMP_SYS(sched_yield),   SCMP_SYS(getrlimit),    SCMP_SYS(restart_syscall),
+          SCMP_SYS(getppid)})
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
     // Memory, but none that could be run; and none that the limit does not count: private, or
     // shared of a file.

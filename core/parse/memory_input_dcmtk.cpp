@@ -25,6 +25,9 @@ std::size_t stackToUse() {
     return std::min<std::size_t>(usual, isKnown ? limit.rlim_cur : usual) / 2;
 }
 
+// An element takes a few reads; one of 100 000 frames has some dozens of elements.
+constexpr std::size_t mostReads = 24'000'000;
+
 std::uintptr_t stackPlace() {
     return reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
 }
@@ -40,6 +43,9 @@ public:
     offile_off_t avail() override { return offile_off_t(m_file.size() - m_at); }
     offile_off_t read(void *to, offile_off_t bytes) override {
         checkStack();
+        // A gigabyte of zeros is a hundred million elements, deflated to next to nothing.
+        if (++m_reads > mostReads)
+            throw task::Error(task::ErrorCode::unusable, "has more elements than any image");
         const std::size_t count = here(bytes);
         if (count > 0)
             std::memcpy(to, m_file.data() + m_at, count);
@@ -68,6 +74,7 @@ private:
 
     std::span<const std::byte> m_file;
     std::size_t m_at;
+    std::size_t m_reads = 0;
     std::size_t m_most = stackToUse();
     std::uintptr_t m_base = stackPlace(); ///< where the reading began
 };

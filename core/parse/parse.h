@@ -35,9 +35,10 @@ DirectoryFile parseDirectory(std::span<const std::byte> file);
 /// The header of a NRRD file. *Throws* Error{unusable} naming what is damaged or not supported.
 NrrdLayout parseNrrd(std::span<const std::byte> file);
 /// Samples as they are stored, in this machine's byte order, in parts of 1 MB; the last is what is
-/// left. *Throws* Error{unusable} if there are fewer, or what is deflated is damaged.
+/// left, and says whether the file goes on behind it. *Throws* Error{unusable} if there are fewer,
+/// or what is deflated is damaged.
 void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples,
-                     const std::function<void(std::span<const std::byte>)> &take);
+                     const std::function<void(std::span<const std::byte>, bool goesOn)> &take);
 
 /// A part of the data of a file in an archive.
 using TakeData = std::function<void(const ArchiveFile &file, std::span<const std::byte> data,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -51,6 +53,22 @@ std::string text(DcmItem *item, const DcmTagKey &tag) {
     return result;
 }
 
+// All of the text, or it is none: half of one, as of "2,5", is another number.
+std::optional<double> numberIn(std::string_view text) {
+    const auto isPadding = [](char c) { return c == ' ' || c == '\0'; };
+    while (!text.empty() && isPadding(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && isPadding(text.back()))
+        text.remove_suffix(1);
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-')
+        text.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool isNumber =
+        error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+    return isNumber ? std::optional(value) : std::nullopt;
+}
+
 std::vector<double> numbers(DcmItem *item, const DcmTagKey &tag, std::size_t most = 64) {
     // As text, whatever the type: DCMTK's typed getters each take one value representation only.
     std::vector<double> values;
@@ -60,18 +78,17 @@ std::vector<double> numbers(DcmItem *item, const DcmTagKey &tag, std::size_t mos
     OFString value;
     while (values.size() < most &&
            element->getOFString(value, static_cast<unsigned long>(values.size())).good()) {
-        OFBool valid = OFFalse;
-        const double parsed = OFStandard::atof(value.c_str(), &valid);
-        if (!valid)
+        const auto parsed = numberIn({value.data(), value.size()});
+        if (!parsed)
             break;
-        values.push_back(parsed);
+        values.push_back(*parsed);
     }
     return values;
 }
 
 std::optional<double> number(DcmItem *item, const DcmTagKey &tag) {
     const auto values = numbers(item, tag, 1);
-    return values.empty() || !std::isfinite(values[0]) ? std::nullopt : std::optional(values[0]);
+    return values.empty() ? std::nullopt : std::optional(values[0]);
 }
 
 int integer(DcmItem *item, const DcmTagKey &tag, int otherwise = 0) {
@@ -122,13 +139,19 @@ void readMeasures(DcmItem *item, FrameHeader &frame) {
             frame.sliceThicknessMm = *mm;
 }
 
+// What is there and cannot be used is remembered: without it the values would be others.
 void readRescale(DcmItem *item, FrameHeader &frame) {
-    if (const auto slope = number(item, DCM_RescaleSlope);
-        slope && *slope != 0.0 && std::abs(*slope) <= decoder::largestRescale)
-        frame.rescale.slope = *slope;
-    if (const auto intercept = number(item, DCM_RescaleIntercept);
-        intercept && std::abs(*intercept) <= decoder::largestRescale)
-        frame.rescale.intercept = *intercept;
+    const auto take = [&](const DcmTagKey &tag, double &into) {
+        if (item == nullptr || !item->tagExistsWithValue(tag))
+            return;
+        const auto value = number(item, tag);
+        if (value && std::abs(*value) <= decoder::largestRescale)
+            into = *value;
+        else
+            frame.rescale.isReadable = false;
+    };
+    take(DCM_RescaleSlope, frame.rescale.slope);
+    take(DCM_RescaleIntercept, frame.rescale.intercept);
 }
 
 void readDimensions(DcmItem *item, FrameHeader &frame) {
@@ -183,6 +206,16 @@ std::vector<volume::ValueWindow> readWindows(DcmItem *item) {
             windows.push_back(window);
     }
     return windows;
+}
+
+// Compressed ones say no size.
+std::uint32_t pixelBytes(DcmDataset &dataset) {
+    DcmElement *element = nullptr;
+    if (DcmXfer(dataset.getOriginalXfer()).isEncapsulated() ||
+        dataset.findAndGetElement(DCM_PixelData, element).bad())
+        return 0;
+    const Uint32 bytes = element->getLengthField();
+    return bytes == DCM_UndefinedLength ? 0 : bytes;
 }
 
 void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
@@ -270,6 +303,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     if (const auto value = number(&dataset, DCM_PixelPaddingRangeLimit))
         h.paddingLimit = int(std::clamp(*value, -65536.0, 65536.0));
     h.windows = readWindows(&dataset);
+    h.pixelBytes = pixelBytes(dataset);
     readModalityTable(dataset, h);
 
     FrameHeader shared;
@@ -289,7 +323,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     const auto count = number(&dataset, DCM_NumberOfFrames);
     const double most = std::min(double(decoder::mostFrames), double(fileBytes));
     const int frames = count && *count >= 1.0 ? int(std::min(*count, most)) : 1;
-    h.announcedFrames = count && *count >= 1.0 && *count < 1e9 ? int(*count) : 1;
+    h.announcedFrames = count && *count >= 1.0 ? int(std::min(*count, 2e9)) : 1;
     for (int n = 0; n < frames; ++n) {
         FrameHeader frame = shared;
         if (DcmItem *groups = sequenceItem(&dataset, DCM_PerFrameFunctionalGroupsSequence, n)) {

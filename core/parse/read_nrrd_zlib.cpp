@@ -69,7 +69,10 @@ Header readHeader(std::span<const std::byte> file) {
         const auto colon = line.find(':');
         if (colon == std::string::npos)
             throw Error(ErrorCode::unusable, "the NRRD header has a line without a colon");
-        header.fields[lower(trimmed(line.substr(0, colon)))] = trimmed(line.substr(colon + 1));
+        const std::string name = lower(trimmed(line.substr(0, colon)));
+        if (!header.fields.try_emplace(name, trimmed(line.substr(colon + 1))).second)
+            throw Error(ErrorCode::unusable,
+                        fmt::format("the NRRD header has '{}' twice", name.substr(0, 60)));
     }
     if (!header.hasEnd && file.size() > maxHeaderBytes)
         throw Error(ErrorCode::unusable, "the NRRD header has no end");
@@ -238,13 +241,14 @@ public:
     }
 
     // All that was wanted is there: what follows is read as far as the sum of a gzip member, which
-    // tells whether its bytes are those that were deflated. Samples beyond are left alone.
-    void checkEnd() {
+    // tells whether its bytes are those that were deflated. True if there is more instead.
+    bool goesOn() {
         std::byte beyond{};
         m_stream.next_out = reinterpret_cast<Bytef *>(&beyond);
         m_stream.avail_out = 1;
         while (!m_isAtEnd && m_stream.avail_out > 0)
             inflateMore();
+        return m_stream.avail_out == 0;
     }
 
 private:
@@ -322,7 +326,7 @@ NrrdLayout parseNrrd(std::span<const std::byte> file) {
 }
 
 void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples,
-                     const std::function<void(std::span<const std::byte>)> &take) {
+                     const std::function<void(std::span<const std::byte>, bool goesOn)> &take) {
     if (samples.bytesEach < 1 || samples.bytesEach > 8 ||
         partBytes % std::size_t(samples.bytesEach) != 0 ||
         samples.bytes % std::uint64_t(samples.bytesEach) != 0)
@@ -342,9 +346,8 @@ void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples
             std::memcpy(buffer.data(), stored.data() + done, buffer.size());
         if (samples.isSwapped)
             swapEach(buffer, samples.bytesEach);
-        if (inflated && done + buffer.size() == samples.bytes)
-            inflated->checkEnd();
-        take(buffer);
+        const bool isLast = done + buffer.size() == samples.bytes;
+        take(buffer, isLast && (inflated ? inflated->goesOn() : stored.size() > samples.bytes));
     }
 }
 

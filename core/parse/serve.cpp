@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <iconv.h>
 #include <new>
 #include <sys/mman.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "core/decoder/channel.h"
@@ -29,6 +31,47 @@ using task::ErrorCode;
 // The other side went away, or says so: there is nobody to work for.
 struct Gone {};
 
+// Ends this process where a file takes longer than anybody waits, and where the program that asked
+// has ended meanwhile: one that is killed says nothing.
+class Watch {
+public:
+    Watch() {
+        program = ::getppid();
+        struct sigaction look {};
+        look.sa_handler = [](int) {
+            if (::getppid() != program)
+                ::_exit(1);
+            secondsLeft = secondsLeft - 1;
+            if (secondsLeft > 0)
+                return;
+            ::signal(SIGALRM, SIG_DFL);
+            ::raise(SIGALRM);
+        };
+        look.sa_flags = SA_RESTART;
+        ::sigaction(SIGALRM, &look, nullptr);
+    }
+    void allow(double seconds) {
+        m_seconds = int(std::ceil(seconds));
+        goOn();
+    }
+    void goOn() {
+        secondsLeft = m_seconds;
+        tick(1);
+    }
+    // Whoever waits sees the other end go.
+    void rest() { tick(0); }
+
+private:
+    static void tick(time_t seconds) {
+        const itimerval each{{seconds, 0}, {seconds, 0}};
+        ::setitimer(ITIMER_REAL, &each, nullptr);
+    }
+
+    static inline pid_t program = 0;
+    static inline volatile std::sig_atomic_t secondsLeft = 0;
+    int m_seconds = 0;
+};
+
 class Server {
 public:
     Server(int socket, int arena) : m_socket(socket), m_arena(arena) {}
@@ -38,15 +81,13 @@ public:
         const auto request = decoder::receive(m_socket, decoder::Takes::descriptor);
         if (!request)
             return false;
-        // A file that takes longer than anybody waits ends this process.
-        m_seconds = unsigned(std::ceil(decoder::decodingSeconds(request->message.size)));
-        ::alarm(m_seconds);
+        m_watch.allow(decoder::decodingSeconds(request->message));
         try {
             orDamaged([&] { answer(*request); });
         } catch (const Error &error) {
             finish(int(error.code()), error.reason(), {});
         }
-        ::alarm(0);
+        m_watch.rest();
         return true;
     }
 
@@ -75,7 +116,9 @@ private:
             break;
         case Message::Kind::nrrdSamples:
             readNrrdSamples(file.bytes(), samplesOf(request.message),
-                            [&](std::span<const std::byte> data) { part(0, {}, data); });
+                            [&](std::span<const std::byte> data, bool goesOn) {
+                                part(goesOn ? decoder::goesOn : 0, {}, data);
+                            });
             finish(0, {}, {});
             break;
         default:
@@ -111,13 +154,13 @@ private:
 
     // Whoever is asked may take as long as it likes.
     Message ask(const Message &message) {
-        ::alarm(0);
+        m_watch.rest();
         if (!decoder::send(m_socket, message))
             throw Gone();
         const auto reply = decoder::receive(m_socket, decoder::Takes::descriptor);
         if (!reply)
             throw Gone();
-        ::alarm(m_seconds);
+        m_watch.goOn();
         return reply->message;
     }
 
@@ -151,7 +194,7 @@ private:
     int m_socket, m_arena;
     Mapping m_mapped;
     std::uint64_t m_arenaBytes = 1; // not known before the first answer; it asks
-    unsigned m_seconds = 0;
+    Watch m_watch;
 };
 
 // The character sets of DICOM (PS3.3, C.12.1.1.2) as glibc names them: their tables are libraries,

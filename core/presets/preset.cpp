@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/presets/preset.h"
 
-#include <fstream>
-#include <sstream>
 #include <system_error>
 
 #include "core/files/atomic_file.h"
+#include "core/files/read_text.h"
 #include "core/task/error.h"
 
 namespace pellucid::presets {
@@ -17,8 +16,6 @@ using classify::FieldWindow;
 using classify::Look;
 using task::Error;
 using task::ErrorCode;
-
-constexpr std::uintmax_t largestFile = 1 << 20;
 
 // Which thresholds are carried over: those given, or the usual ones of edges too, which mean value
 // units.
@@ -84,20 +81,9 @@ Preset presetOf(const std::string &name, const Look &look, const shading::Shadin
 }
 
 Preset readPreset(const fs::path &path) {
-    std::error_code failed;
-    if (!fs::is_regular_file(path, failed))
-        throw Error(ErrorCode::unusable, fs::exists(path, failed) ? "is no file" : "does not exist",
-                    path);
-    if (const auto size = fs::file_size(path, failed); failed || size > largestFile)
-        throw Error(ErrorCode::unusable,
-                    failed ? "cannot be read" : "is larger than a preset can be (1 MB)", path);
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in)
-        throw Error(ErrorCode::unusable, "cannot be read", path);
+    const std::string text = files::readText(path, files::mostOfPreset);
     try {
-        return presetFromJson(text.str());
+        return presetFromJson(text);
     } catch (const Error &error) {
         throw Error(error.code(), error.reason(), path);
     }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <system_error>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/files/read_text.h"
 #include "core/task/error.h"
 
 namespace pellucid::presets {
@@ -27,8 +27,6 @@ struct Point {
     double value, opacity;
 };
 using Points = std::vector<Point>;
-
-constexpr std::uintmax_t largestFile = 1 << 20;
 
 [[noreturn]] void refuse(const std::string &why) {
     throw Error(ErrorCode::unusable, why);
@@ -108,16 +106,8 @@ bool isSlicerPreset(const fs::path &path) {
 
 ImportedPreset importSlicerPreset(const fs::path &path, int points) {
     try {
-        std::error_code failed;
-        if (!fs::is_regular_file(path, failed))
-            refuse(fs::exists(path, failed) ? "is no file" : "does not exist");
-        if (const auto size = fs::file_size(path, failed); failed || size > largestFile)
-            refuse(failed ? "cannot be read" : "is larger than a preset can be (1 MB)");
-        std::ifstream in(path, std::ios::binary);
-        std::ostringstream text;
-        text << in.rdbuf();
-        Points curve =
-            path.extension() == ".json" ? pointsOfJson(text.str()) : pointsOfText(text.str());
+        const std::string text = files::readText(path, files::mostOfPreset);
+        Points curve = path.extension() == ".json" ? pointsOfJson(text) : pointsOfText(text);
         for (const Point &p : curve)
             if (!(std::abs(p.value) <= 1e30))
                 refuse(fmt::format("the value {:g} is out of range", p.value));

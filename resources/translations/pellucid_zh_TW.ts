@@ -690,10 +690,6 @@
         <translation>符合容差的最省做法</translation>
     </message>
     <message>
-        <source>is larger than a preset can be (1 MB)</source>
-        <translation>大於預設集的上限 (1 MB)</translation>
-    </message>
-    <message>
         <source>the DICOM data dictionary is missing</source>
         <translation>缺少 DICOM 資料字典</translation>
     </message>
@@ -1050,10 +1046,6 @@
         <translation>缺少 %1：%2</translation>
     </message>
     <message>
-        <source>is no file</source>
-        <translation>不是檔案</translation>
-    </message>
-    <message>
         <source>class &apos;%1&apos;: %2</source>
         <translation>類別「%1」：%2</translation>
     </message>
@@ -1224,6 +1216,38 @@
     <message>
         <source>the slices lie at one place</source>
         <translation>各切片位於同一位置</translation>
+    </message>
+    <message>
+        <source>is larger than such files are (%1 MB)</source>
+        <translation>大於此類檔案的大小上限（%1 MB）</translation>
+    </message>
+    <message>
+        <source>has a rescale slope or intercept that gives no values</source>
+        <translation>重新調整斜率或截距無法得出數值</translation>
+    </message>
+    <message>
+        <source>holds more samples than its header says</source>
+        <translation>樣本數多於標頭所述</translation>
+    </message>
+    <message>
+        <source>samples that are no finite numbers: %1</source>
+        <translation>非有限數值的樣本：%1</translation>
+    </message>
+    <message>
+        <source>files with more pixels than their header says: %1</source>
+        <translation>像素多於標頭所述的檔案：%1</translation>
+    </message>
+    <message>
+        <source>the NRRD header has &apos;%1&apos; twice</source>
+        <translation>NRRD 標頭中「%1」出現兩次</translation>
+    </message>
+    <message>
+        <source>has more elements than any image</source>
+        <translation>元素數量超過任何影像</translation>
+    </message>
+    <message>
+        <source>its decoder was killed, for want of memory perhaps</source>
+        <translation>其解碼程式被終止，可能是記憶體不足</translation>
     </message>
 </context>
 <context>

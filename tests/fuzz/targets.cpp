@@ -131,7 +131,7 @@ void nrrd(Bytes bytes) {
             return;
         std::size_t left = layout.size.count() * each;
         parse::readNrrdSamples(
-            bytes, {left, int(each), layout.isGzip, layout.isSwapped, true}, [&](Bytes part) {
+            bytes, {left, int(each), layout.isGzip, layout.isSwapped, true}, [&](Bytes part, bool) {
                 check(!part.empty() && part.size() <= left && part.size() % each == 0);
                 left -= part.size();
             });

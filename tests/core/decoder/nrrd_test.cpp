@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include <zlib.h>
 
@@ -84,6 +85,33 @@ TEST_F(Nrrd, ReadsEveryScalarTypeInBothByteOrders) {
     check(std::uint64_t(), "uint64");
     check(float(), "float");
     check(double(), "double");
+}
+
+TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
+    const std::string header =
+        "type: float\ndimension: 3\nsizes: 3 1 1\nendian: little\nencoding: ";
+    constexpr float none = std::numeric_limits<float>::quiet_NaN(),
+                    endless = std::numeric_limits<float>::infinity();
+    const auto three = bytesOf<float>({1.0F, none, -endless}), four = three + bytesOf<float>({2});
+    const std::vector<std::string> odd{"samples that are no finite numbers: 2"};
+    std::vector<std::string> both{"holds more samples than its header says", odd[0]};
+    const auto warnings = [&](const std::string &name) {
+        return readNrrd(folder / name).notes().warnings;
+    };
+    for (const auto &[samples, expected] : {std::pair(three, odd), std::pair(four, both)}) {
+        write(folder / "raw.nrrd", "NRRD0001\n" + header + "raw\n\n" + samples);
+        EXPECT_EQ(warnings("raw.nrrd"), expected);
+        write(folder / "samples", samples);
+        write(folder / "raw.nhdr", "NRRD0001\n" + header + "raw\ndata file: samples\n");
+        EXPECT_EQ(warnings("raw.nhdr"), expected);
+        gzFile gz = gzopen((folder / "samples.gz").c_str(), "wb");
+        gzwrite(gz, samples.data(), unsigned(samples.size()));
+        gzclose(gz);
+        write(folder / "gzip.nhdr", "NRRD0001\n" + header + "gzip\ndata file: samples.gz\n");
+        EXPECT_EQ(warnings("gzip.nhdr"), expected);
+    }
+    write(folder / "twice.nrrd", "NRRD0001\nsizes: 1 1 1\n" + header + "raw\n\n" + three);
+    EXPECT_THROW(readNrrd(folder / "twice.nrrd"), task::Error);
 }
 
 TEST_F(Nrrd, LargeUnsignedShortsBecomeFloat) {

@@ -4,6 +4,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <string_view>
 
@@ -200,6 +202,54 @@ TEST(Load, TheRescaleOfEverySliceIsItsOwn) {
             const double stored = head.value({i, size.j / 2, k});
             EXPECT_EQ(loaded.value({i, size.j / 2, k}), k == 2 ? 2.0 * stored - 1000.0 : stored);
         }
+}
+
+// Half of a number, or none, would be other values without a word.
+TEST(Load, ARescaleThatIsNoNumberCostsItsSlice) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
+    const auto modified = [&](const char *file, const std::string &change) {
+        return std::system(
+            ("dcmodify -nb -m '" + change + "' '" + (folder / file).string() + "' > /dev/null")
+                .c_str());
+    };
+    const std::vector<std::string> changes{"RescaleSlope=2,5", "RescaleSlope=0", "RescaleSlope=nan",
+                                           "RescaleIntercept=abc", "RescaleSlope=1e300"};
+    for (std::size_t n = 0; n < changes.size(); ++n)
+        ASSERT_EQ(modified(("IM000" + std::to_string(n + 1) + ".dcm").c_str(), changes[n]), 0);
+    ASSERT_EQ(modified("IM0006.dcm", "RescaleSlope=+1.0 "), 0);
+    const auto catalogue = dicom::scan({folder.path()});
+    ASSERT_EQ(catalogue.skipped.size(), changes.size());
+    for (const auto &skipped : catalogue.skipped)
+        EXPECT_EQ(skipped.reason, "has a rescale slope or intercept that gives no values");
+}
+
+TEST(Load, MorePixelsThanTheHeaderSaysAreMentioned) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
+    const auto warnings = [&] {
+        return dicom::defaultSelection(dicom::scan({folder.path()})).volume->notes.warnings;
+    };
+    const auto before = warnings();
+    // Pixel Data (7FE0,0010), OW, is the last element: a row more.
+    const fs::path path = folder / "IM0002.dcm";
+    std::string bytes = test::readText(path);
+    const std::string tag{'\xE0', '\x7F', '\x10', '\0', 'O', 'W', '\0', '\0'};
+    const auto at = bytes.find(tag) + tag.size();
+    ASSERT_LT(at, bytes.size());
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + at, 4);
+    ASSERT_EQ(at + 4 + length, bytes.size());
+    length += 66;
+    std::memcpy(bytes.data() + at, &length, 4);
+    test::writeText(path, bytes + std::string(66, '\1'));
+    auto expected = before;
+    expected.insert(expected.begin(), "files with more pixels than their header says: 1");
+    auto found = warnings();
+    std::sort(found.begin(), found.end());
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(found, expected);
+    EXPECT_TRUE(loadDefault(folder.path()).skipped.empty());
 }
 
 // How much of the files of a folder is in memory; read or not, without reading it.

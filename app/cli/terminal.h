@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace pellucid::cli {
+
+/// One line without control characters (C0, DEL, C1): names of files and patients come from
+/// outside, and a terminal obeys what it is shown.
+std::string printable(std::string text);
+
+/// A line on stderr that keeps nothing from going on.
+void warn(const std::string &what);
+
+} // namespace pellucid::cli

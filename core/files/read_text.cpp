@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/files/read_text.h"
+
+#include <cerrno>
+#include <cstring>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "core/files/descriptor.h"
+#include "core/task/error.h"
+
+namespace pellucid::files {
+
+std::string readText(const std::filesystem::path &path, std::size_t most) {
+    const Descriptor file = openRegular(path);
+    // What the file says of its size may change: what comes is counted.
+    constexpr std::size_t block = 1 << 16;
+    std::string text;
+    for (;;) {
+        const std::size_t before = text.size();
+        text.resize(before + block);
+        const ssize_t got = ::read(file.get(), text.data() + before, block);
+        if (got < 0 && errno != EINTR)
+            throw task::Error(task::ErrorCode::unusable, std::strerror(errno), path);
+        text.resize(before + std::size_t(got < 0 ? 0 : got));
+        if (got == 0)
+            return text;
+        if (text.size() > most)
+            throw task::Error(task::ErrorCode::unusable,
+                              fmt::format("is larger than such files are ({} MB)", most >> 20),
+                              path);
+    }
+}
+
+} // namespace pellucid::files
