@@ -10,10 +10,11 @@
 #include <QImage>
 #include <QPainter>
 #include <QPicture>
-#include <QTemporaryDir>
 
 #include "core/dicom/write_capture.h"
+#include "core/files/atomic_file.h"
 #include "core/files/image_files.h"
+#include "core/files/session_folder.h"
 #include "core/render/projection_volume.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
@@ -151,33 +152,26 @@ QString framePath(const QString &path, int frame) {
 }
 
 // Frames take their names when all are there: what was written before under those names stays till
-// then.
+// then. Aside, so that a kill leaves nothing beside them.
 class FrameFiles {
 public:
-    explicit FrameFiles(const QString &path)
-        : m_path(path), m_folder(QFileInfo(path).absolutePath() + "/.frames-XXXXXX") {
-        if (!m_folder.isValid())
-            throw task::Error(task::ErrorCode::output, m_folder.errorString().toStdString(),
-                              path.toStdString());
+    explicit FrameFiles(QString path) : m_path(std::move(path)) {
+        files::requireWritable(fs::path(m_path.toStdString()).parent_path());
     }
     void add(const QImage &picture, int frame) {
-        write(picture, PictureFormat::png, m_folder.filePath(QString::number(frame)), {});
+        write(picture, PictureFormat::png, QString::fromStdString(aside(frame).string()), {});
         m_count = frame + 1;
     }
     void finish() {
-        for (int n = 0; n < m_count; ++n) {
-            const QString to = framePath(m_path, n);
-            std::error_code failed;
-            fs::rename(m_folder.filePath(QString::number(n)).toStdString(), to.toStdString(),
-                       failed);
-            if (failed)
-                throw task::Error(task::ErrorCode::output, failed.message(), to.toStdString());
-        }
+        for (int n = 0; n < m_count; ++n)
+            files::moveFile(aside(n), framePath(m_path, n).toStdString());
     }
 
 private:
+    fs::path aside(int frame) const { return m_folder.path() / std::to_string(frame); }
+
     QString m_path;
-    QTemporaryDir m_folder;
+    files::SessionFolder m_folder;
     int m_count = 0;
 };
 

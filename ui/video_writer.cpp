@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/video_writer.h"
 
-#include <cstdio>
 #include <filesystem>
-#include <system_error>
 
-#include <QFileInfo>
 #include <QImage>
 #include <QProcess>
 #include <QStandardPaths>
 
+#include "core/files/atomic_file.h"
 #include "core/task/error.h"
 
 namespace pellucid::ui {
@@ -28,8 +26,8 @@ bool VideoWriter::isAvailable() {
 
 VideoWriter::VideoWriter(const QString &path, const QSize &size, int framesPerSecond)
     : m_path(path), m_encoder(std::make_unique<QProcess>()) {
-    const QFileInfo target(path);
-    m_temporary = target.absolutePath() + "/." + target.fileName() + ".part.mp4";
+    files::requireWritable(std::filesystem::path(path.toStdString()).parent_path());
+    m_unfinished = QString::fromStdString((m_folder.path() / "video.mp4").string());
     m_encoder->start("ffmpeg",
                      {"-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
                       "-s", QString("%1x%2").arg(size.width()).arg(size.height()), "-r",
@@ -37,7 +35,7 @@ VideoWriter::VideoWriter(const QString &path, const QSize &size, int framesPerSe
                       // The codec wants even sizes, players these pixels.
                       "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "16",
                       "-pix_fmt", "yuv420p", "-metadata", "comment=Not for diagnostic use",
-                      "-movflags", "+faststart", m_temporary});
+                      "-movflags", "+faststart", m_unfinished});
     if (!m_encoder->waitForStarted())
         throw task::Error(task::ErrorCode::output, "ffmpeg does not start", path.toStdString());
 }
@@ -47,8 +45,6 @@ VideoWriter::~VideoWriter() {
         m_encoder->kill();
         m_encoder->waitForFinished();
     }
-    std::error_code ignored;
-    std::filesystem::remove(m_temporary.toStdString(), ignored);
 }
 
 void VideoWriter::fail() {
@@ -86,8 +82,7 @@ void VideoWriter::finish(const task::Progress &progress) {
         progress.check();
     if (m_encoder->exitStatus() != QProcess::NormalExit || m_encoder->exitCode() != 0)
         fail();
-    if (std::rename(qPrintable(m_temporary), qPrintable(m_path)) != 0)
-        throw task::Error(task::ErrorCode::output, "cannot be written", m_path.toStdString());
+    files::moveFile(m_unfinished.toStdString(), m_path.toStdString());
 }
 
 } // namespace pellucid::ui

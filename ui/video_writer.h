@@ -6,6 +6,7 @@
 #include <QSize>
 #include <QString>
 
+#include "core/files/session_folder.h"
 #include "core/task/progress.h"
 
 class QImage;
@@ -14,7 +15,7 @@ class QProcess;
 namespace pellucid::ui {
 
 /// Writes a video (H.264 in MP4) with the program ffmpeg, where there is one. The file appears only
-/// when complete. Used on one thread, any.
+/// when complete; a kill leaves nothing beside it. Used on one thread, any.
 class VideoWriter {
 public:
     static bool isAvailable();
@@ -31,7 +32,8 @@ public:
 private:
     [[noreturn]] void fail();
 
-    QString m_path, m_temporary;
+    QString m_path, m_unfinished;
+    files::SessionFolder m_folder;
     std::unique_ptr<QProcess> m_encoder;
 };
 

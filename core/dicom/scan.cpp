@@ -18,6 +18,7 @@
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/group_series.h"
 #include "core/task/error.h"
+#include "core/task/text.h"
 #include "core/volume/nrrd.h"
 
 namespace pellucid::dicom {
@@ -27,12 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
 
 // CDs are written in capitals and mounted in lower case: an entry matches whatever its case. Each
 // folder is read once.
@@ -46,8 +41,9 @@ public:
         if (isNew)
             for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
                  entry.increment(ignored))
-                names->second.try_emplace(lower(entry->path().filename().string()), entry->path());
-        const auto it = names->second.find(lower(name));
+                names->second.try_emplace(task::lowered(entry->path().filename().string()),
+                                          entry->path());
+        const auto it = names->second.find(task::lowered(name));
         return it == names->second.end() ? folder / name : it->second;
     }
 

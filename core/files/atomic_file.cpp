@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -148,6 +149,27 @@ void AtomicFile::fail(int error) const {
                       std::string("cannot be written: ") + std::strerror(error), m_path);
 }
 
+void moveFile(const std::filesystem::path &from, const std::filesystem::path &to) {
+    if (std::rename(from.c_str(), to.c_str()) == 0)
+        return;
+    if (errno != EXDEV)
+        throw task::Error(task::ErrorCode::output,
+                          std::string("cannot be written: ") + std::strerror(errno), to);
+    const Descriptor in = openRegular(from);
+    AtomicFile out(to);
+    std::vector<std::byte> block(std::size_t(1) << 20);
+    for (ssize_t got = 1; got > 0;) {
+        got = read(in.get(), block.data(), block.size());
+        if (got < 0)
+            throw task::Error(task::ErrorCode::output,
+                              std::string("cannot be read: ") + std::strerror(errno), from);
+        out.write(std::span(block.data(), std::size_t(got)));
+    }
+    out.commit();
+    std::error_code ignored;
+    std::filesystem::remove(from, ignored);
+}
+
 void flush(const std::filesystem::path &folder) {
     const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (!opened || syncfs(opened.get()) != 0)
@@ -157,7 +179,8 @@ void flush(const std::filesystem::path &folder) {
 
 void requireWritable(const std::filesystem::path &folder) {
     std::error_code unknown;
-    std::filesystem::path there = std::filesystem::absolute(folder, unknown).lexically_normal();
+    std::filesystem::path there =
+        std::filesystem::absolute(folder.empty() ? "." : folder, unknown).lexically_normal();
     while (!std::filesystem::exists(there, unknown) && there.has_relative_path())
         there = there.parent_path();
     if (!std::filesystem::is_directory(there, unknown))

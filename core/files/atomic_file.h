@@ -37,6 +37,10 @@ private:
     std::FILE *m_file = nullptr;
 };
 
+/// Gives a finished file its place, on another file system too. *Throws* Error{output}; what was
+/// there is then untouched.
+void moveFile(const std::filesystem::path &from, const std::filesystem::path &to);
+
 /// Has everything that was written in a folder's file system on the disk. *Throws* Error{output}.
 void flush(const std::filesystem::path &folder);
 

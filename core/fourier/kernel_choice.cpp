@@ -5,6 +5,7 @@
 
 #include "core/fourier/kernel.h"
 #include "core/task/error.h"
+#include "core/task/text.h"
 
 namespace pellucid::fourier {
 
@@ -50,9 +51,7 @@ Kernel makeKernel(const KernelChoice &choice, double padding, std::span<const do
 }
 
 KernelChoice kernelFromName(const std::string &name) {
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string lower = task::lowered(name);
     for (const Named &known : names) {
         if (known.width != 0) {
             if (lower == known.name)

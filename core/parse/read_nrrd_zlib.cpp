@@ -16,6 +16,7 @@
 
 #include "core/parse/parse.h"
 #include "core/task/error.h"
+#include "core/task/text.h"
 
 namespace pellucid::parse {
 
@@ -32,12 +33,6 @@ std::string trimmed(std::string_view text) {
     if (first == text.npos)
         return {};
     return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
-}
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return text;
 }
 
 struct Header {
@@ -69,7 +64,7 @@ Header readHeader(std::span<const std::byte> file) {
         const auto colon = line.find(':');
         if (colon == std::string::npos)
             throw Error(ErrorCode::unusable, "the NRRD header has a line without a colon");
-        const std::string name = lower(trimmed(line.substr(0, colon)));
+        const std::string name = task::lowered(trimmed(line.substr(0, colon)));
         if (!header.fields.try_emplace(name, trimmed(line.substr(colon + 1))).second)
             throw Error(ErrorCode::unusable,
                         fmt::format("the NRRD header has '{}' twice", name.substr(0, 60)));
@@ -151,7 +146,7 @@ std::optional<NrrdScalar> scalarOf(const std::string &name) {
         {"uint64_t", NrrdScalar::u64},
         {"float", NrrdScalar::f32},
         {"double", NrrdScalar::f64}};
-    const auto it = names.find(lower(name));
+    const auto it = names.find(task::lowered(name));
     return it == names.end() ? std::nullopt : std::optional(it->second);
 }
 
@@ -160,7 +155,7 @@ glm::dvec3 toLps(const Fields &fields) {
     const auto space = fields.find({"space"});
     if (!space)
         return glm::dvec3(1.0);
-    const std::string name = lower(*space);
+    const std::string name = task::lowered(*space);
     if (name == "left-posterior-superior" || name == "lps")
         return glm::dvec3(1.0);
     if (name == "right-anterior-superior" || name == "ras")
@@ -301,12 +296,12 @@ NrrdLayout parseNrrd(std::span<const std::byte> file) {
     if (!scalar)
         fields.fail("NRRD type '" + typeName + "' is not supported");
     layout.scalar = *scalar;
-    const std::string encoding = lower(fields.get({"encoding"}));
+    const std::string encoding = task::lowered(fields.get({"encoding"}));
     layout.isGzip = encoding == "gzip" || encoding == "gz";
     if (!layout.isGzip && encoding != "raw")
         fields.fail("NRRD encoding '" + encoding + "' is not supported");
     if (decoder::bytesOf(*scalar) > 1) {
-        const std::string endian = lower(fields.get({"endian"}));
+        const std::string endian = task::lowered(fields.get({"endian"}));
         if (endian != "little" && endian != "big")
             fields.fail("NRRD endian '" + endian + "' is not supported");
         layout.isSwapped = (endian == "big") == (std::endian::native == std::endian::little);

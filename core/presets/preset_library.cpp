@@ -2,7 +2,6 @@
 #include "core/presets/preset_library.h"
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <system_error>
 
@@ -11,6 +10,7 @@
 #include "core/files/user_folders.h"
 #include "core/presets/built_in.h"
 #include "core/task/error.h"
+#include "core/task/text.h"
 
 namespace pellucid::presets {
 
@@ -19,12 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
 
 } // namespace
 
@@ -79,13 +73,13 @@ void PresetLibrary::read() {
         }
     }
     std::sort(m_entries.begin() + builtInCount, m_entries.end(), [](const auto &a, const auto &b) {
-        return lower(a.preset.name) < lower(b.preset.name);
+        return task::lowered(a.preset.name) < task::lowered(b.preset.name);
     });
 }
 
 const PresetEntry *PresetLibrary::find(const std::string &name) const {
     const auto found = std::find_if(m_entries.begin(), m_entries.end(), [&](const PresetEntry &e) {
-        return lower(e.preset.name) == lower(name);
+        return task::lowered(e.preset.name) == task::lowered(name);
     });
     return found == m_entries.end() ? nullptr : &*found;
 }
@@ -95,7 +89,7 @@ const PresetEntry &PresetLibrary::get(const std::string &name) const {
         return *found;
     std::string close;
     for (const PresetEntry &entry : m_entries)
-        if (lower(entry.preset.name).find(lower(name)) != std::string::npos)
+        if (task::lowered(entry.preset.name).find(task::lowered(name)) != std::string::npos)
             close += (close.empty() ? "" : ", ") + entry.preset.name;
     throw Error(ErrorCode::usage, "there is no preset '" + name + "'" +
                                       (close.empty() ? "; 'pellucid-cli preset list' names them"

@@ -9,7 +9,7 @@ plugins=$(/usr/lib/qt6/bin/qtpaths --query QT_INSTALL_PLUGINS)
 translations=$(/usr/lib/qt6/bin/qtpaths --query QT_INSTALL_TRANSLATIONS)
 
 # Of the machine: they must fit its kernel, its display server and its drivers, which bring their own needs along (a newer libstdc++).
-of_machine='^(linux-vdso|libstdc\+\+|libgcc_s|libz|ld-linux.*|libc|libm|libdl|librt|libpthread|libresolv|libnss_.*|libGL|libEGL|libGLX|libOpenGL|libGLdispatch|libgbm|libdrm.*|libX11|libX11-xcb|libxcb|libxcb-dri.*|libxcb-glx|libwayland-.*|libfontconfig|libfreetype|libexpat)\.so'
+of_machine='^(linux-vdso|libstdc\+\+|libgcc_s|libz|ld-linux.*|libc|libm|libdl|librt|libpthread|libresolv|libnss_.*|libGL|libEGL|libGLX|libGLdispatch|libgbm|libdrm.*|libX11|libX11-xcb|libxcb|libxcb-dri.*|libxcb-glx|libwayland-.*|libfontconfig|libfreetype|libexpat)\.so'
 
 mkdir -p "$tree/lib" "$tree/plugins"
 for plugin in platforms/libqxcb.so sqldrivers/libqsqlite.so xcbglintegrations/libqxcb-glx-integration.so \

@@ -24,11 +24,12 @@ finish() {
 trap finish EXIT
 
 # The packages come from where this machine's own come from.
-mirror() { apt-get indextargets --format '$(SITE)' 'Created-By: Packages' | head -1; }
+mirror() { apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 'Origin: Debian' | head -1; }
 
 # A system of its own with an ordinary user, made once and copied.
 system() { # RELEASE NAME
-    local base=$work/$1-base root=$work/$2
+    local base=$work/$1-base
+    root=$work/$2
     if [[ ! -d $base ]]; then
         debootstrap --variant=minbase --include=ca-certificates "$1" "$base.new" "$(mirror)" >"$work/debootstrap.log" 2>&1 ||
             { tail -5 "$work/debootstrap.log"; fail "no bare system"; }
@@ -37,17 +38,20 @@ system() { # RELEASE NAME
         done
         mv "$base.new" "$base"
     fi
-    rm -rf "$root"
+    umount "$root"/{proc,dev} 2>/dev/null || true
+    rm -rf --one-file-system "$root"
     cp -a "$base" "$root"
-    local folder
-    for folder in proc sys dev; do
-        mount --rbind "/$folder" "$root/$folder"
-        mount --make-rslave "$root/$folder"
-        mounted+=("$root/$folder")
+    # Devices of its own: nothing of this machine can be lost in here.
+    mount -t proc proc "$root/proc" && mounted+=("$root/proc")
+    mount -t tmpfs -o mode=755 devices "$root/dev" && mounted+=("$root/dev")
+    local device
+    for device in null:3 zero:5 full:7 random:8 urandom:9; do
+        mknod -m 666 "$root/dev/${device%:*}" c 1 "${device#*:}"
     done
+    mkdir -m 1777 "$root/dev/shm"
+    ln -s /proc/self/fd "$root/dev/fd"
     chroot "$root" useradd -m tester
     chroot "$root" apt-get update -qq
-    echo "$root"
 }
 as_root() { chroot "$root" env DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
 as_user() { chroot --userspec=tester:tester "$root" env -i HOME=/home/tester PATH=/home/tester/.local/bin:/usr/bin:/bin \
@@ -61,16 +65,32 @@ use_it() { # NAME
     as_user pellucid-cli render /home/tester/head -o /home/tester/front.png --json >"$out/$1-render.json" || fail "$1: render"
     cp "$root/home/tester/front.png" "$out/$1-front.png"
     # A screen, the program, a moment, a picture of all of it.
-    as_user sh -c 'xvfb-run -a -s "-screen 0 1600x1000x24" sh -c "
-        start=\$(date +%s%N)
-        pellucid /home/tester/head 2>/home/tester/stderr & program=\$!
-        until xwininfo -root -tree | grep -q \"Pellucid\\|pellucid\"; do
-            sleep 0.05; kill -0 \$program || exit 1; done
-        echo \$(((\$(date +%s%N) - start) / 1000000)) >/home/tester/milliseconds
-        sleep 12; import -window root /home/tester/window.png; kill \$program; wait \$program"' || {
-        cat "$root/home/tester/stderr"; fail "$1: the workstation"; }
+    cat >"$root/home/tester/look.sh" <<'TEXT'
+started() { # its window, on the screen; not one of those that nobody sees
+    xwininfo -root -tree | grep -oE '0x[0-9a-f]+ "[^"]*Pellucid.* [0-9]{4}x[0-9]{3,4}\+' | cut -d' ' -f1 |
+        xargs -r -n1 xwininfo -id | grep -q IsViewable
+}
+for run in cold warm; do
+    begin=$(date +%s%N)
+    pellucid head 2>stderr &
+    program=$!
+    until started; do
+        sleep 0.02
+        kill -0 $program || exit 1
+    done
+    echo "$run $((($(date +%s%N) - begin) / 1000000)) ms" >>milliseconds
+    sleep 12
+    import -window root window.png
+    kill $program
+    wait $program
+done
+TEXT
+    as_user sh -c 'cd; xvfb-run -a -s "-screen 0 1600x1000x24" sh ./look.sh' || {
+        cat "$root/home/tester/stderr"
+        fail "$1: the workstation"
+    }
     cp "$root/home/tester/window.png" "$out/$1-window.png"
-    say "$1: window after $(cat "$root/home/tester/milliseconds") ms, cold"
+    say "$1: window after $(paste -sd, "$root/home/tester/milliseconds")"
     # A picture of a head is neither empty nor of one grey, in the window's right half.
     local spread
     spread=$(convert "$out/$1-window.png" -gravity center -crop 60%x80%+0+0 -colorspace gray -format '%[fx:standard_deviation]' info:)
@@ -88,7 +108,7 @@ what_is_left() {
 }
 
 say "== $(basename "$deb") in a bare Debian"
-root=$(system bookworm deb)
+system bookworm deb
 apt_install xvfb xauth x11-utils imagemagick fonts-dejavu-core
 old=$work/older
 rm -rf "$old" && dpkg-deb -R "$deb" "$old"
@@ -111,7 +131,7 @@ left=$(what_is_left)
 say "removed; of it remain the user's own: $(cd "$root/home/tester" && find .local .cache .config -maxdepth 2 -name 'pellucid*' 2>/dev/null | tr '\n' ' ')"
 
 say "== $(basename "$run") on the next Debian, by an ordinary user"
-root=$(system trixie run)
+system trixie run
 # What a desktop has: a display server, OpenGL, fonts.
 apt_install xvfb xauth x11-utils imagemagick fonts-dejavu-core libgl1 libegl1 libgl1-mesa-dri libfontconfig1 libx11-xcb1 libglib2.0-0t64
 cp "$run" "$root/home/tester/pellucid.run"

@@ -66,6 +66,11 @@ def main() -> None:
                 break
         else:
             sys.exit(f"inventory: nobody knows where {name} is from")
+    # What a program loads by itself, and nothing is linked with.
+    plugins = output("/usr/lib/qt6/bin/qtpaths", "--query", "QT_INSTALL_PLUGINS").strip()
+    for program in programs:
+        if tree / "plugins" in program.parents:
+            system[program.name] = f"{plugins}/{program.relative_to(tree / 'plugins')}"
     by_package: dict[str, list[str]] = {}
     for name, path in sorted(system.items()):
         package = package_of(path)
@@ -73,6 +78,8 @@ def main() -> None:
             sys.exit(f"inventory: {path} is of no package")
         by_package.setdefault(package, []).append(name)
     # Compiled in: headers without a library.
+    if (tree / "translations").is_dir():
+        by_package.setdefault("qt6-translations-l10n", [])
     for header_only in ("libglm-dev", "nlohmann-json3-dev", "libcli11-dev"):
         by_package.setdefault(header_only, [])
 
@@ -93,7 +100,7 @@ def main() -> None:
             "licenseComments": "named in its copyright file: " + ", ".join(found) if found
                                else "see its copyright file",
             "copyrightText": "NOASSERTION",
-            "comment": "libraries: " + ", ".join(names) if names else "compiled in",
+            "comment": "libraries: " + ", ".join(names) if names else "compiled in, or data",
         })
     own = {
         "SPDXID": "SPDXRef-pellucid", "name": "pellucid", "versionInfo": version,

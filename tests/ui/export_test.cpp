@@ -10,11 +10,13 @@
 #include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSpinBox>
 #include <QStatusBar>
 #include <QTimer>
 
 #include "core/decoder/read_nrrd.h"
+#include "core/files/user_folders.h"
 #include "ui/video_writer.h"
 
 namespace pellucid {
@@ -158,9 +160,10 @@ private slots:
         find<QSpinBox>("exportFramesBox")->setValue(200);
         answerWith(QMessageBox::Yes);
         find<QPushButton>("exportWriteButton")->click();
-        const QDir folder(QString::fromStdString(m_folder.path().string()));
-        const auto unfinished = [&] {
-            return folder.entryList({".frames-*"}, QDir::Hidden | QDir::Dirs);
+        const auto unfinished = [] {
+            const auto cache = files::userCacheFolder();
+            return QDir(QString::fromStdString((*cache / "sessions").string()))
+                .entryList(QDir::Dirs | QDir::NoDotAndDotDot);
         };
         QTRY_VERIFY(!unfinished().isEmpty());
         QTest::mouseClick(find<QPushButton>("exportCancel"), Qt::LeftButton);
@@ -191,7 +194,8 @@ private slots:
         const QByteArray said = probe.readAll();
         QVERIFY(said.contains("h264") && said.contains("nb_read_frames=10"));
         QVERIFY(QDir(QString::fromStdString(m_folder.path().string()))
-                    .entryList({".*part*"}, QDir::Hidden | QDir::Files)
+                    .entryList(QDir::Hidden | QDir::Files | QDir::Dirs | QDir::NoDotAndDotDot)
+                    .filter(QRegularExpression("^\\."))
                     .isEmpty());
     }
 

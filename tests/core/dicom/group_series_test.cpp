@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -81,10 +81,9 @@ TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
         std::reverse(files.begin(), files.end());
         double fastest = 1e9;
         for (int round = 0; round < 3; ++round) {
-            const auto start = std::chrono::steady_clock::now();
+            const std::clock_t start = std::clock(); // of this process, whatever runs beside it
             const auto entries = group(files);
-            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-            fastest = std::min(fastest, took.count());
+            fastest = std::min(fastest, double(std::clock() - start));
             EXPECT_EQ(entries.size(), std::size_t(sets));
             EXPECT_EQ(entries.front().label, "set 1");
             EXPECT_EQ(entries.back().label, "set " + std::to_string(sets));
@@ -93,8 +92,8 @@ TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
         }
         return fastest;
     };
-    // Sixteen times as many take about sixteen times as long, not 256 times.
-    EXPECT_LT(seconds(8000), 64.0 * seconds(500));
+    // Sixteen times as many take 16 times as long, twice that beyond the caches; not 256 times.
+    EXPECT_LT(seconds(8000), 90.0 * seconds(500));
 }
 
 // Places that jitter by less than a slice is thick, each twice.

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Whether what is committed can be released: each line is a check, the first that fails ends it.
+# Takes about an hour on two cores; needs root for the install tests. Called by `./dev release-check`.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+check() { echo "== $*"; }
+fail() { echo "release-check: $*" >&2; exit 1; }
+
+check "nothing is uncommitted, and the changes of this version are told"
+[[ -z $(git status --porcelain) ]] || fail "there are changes that are not committed"
+version=$(sed -n 's/^project(.* VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+[[ $(sed -n 's/^## //p' CHANGELOG.md | head -1) == "$version" ]] || fail "CHANGELOG.md does not begin with $version"
+
+check "each source names its licence"
+without=$(git ls-files '*.h' '*.cpp' '*.inc' '*.glsl' '*.comp' | xargs grep -L 'SPDX-License-Identifier: GPL-3.0-or-later' || true)
+[[ -z $without ]] || fail "no licence in: $without"
+
+check "format and lint"
+./dev lint
+check "tests; translations, manual and documents are among them"
+./dev test
+
+check "packages, twice the same: here, and from a clone at another place without what was compiled before"
+./dev package
+packages=$PWD/build/package/packages
+elsewhere=$(mktemp -d)
+trap 'rm -rf "$elsewhere"' EXIT
+git clone -q . "$elsewhere/somewhere else"
+(cd "$elsewhere/somewhere else" && CCACHE_DISABLE=1 ./dev package)
+for file in "$packages"/*; do
+    cmp "$file" "$elsewhere/somewhere else/build/package/packages/$(basename "$file")" || fail "another build gives another $(basename "$file")"
+done
+
+check "programs are small and linked with nothing that they do not use"
+tree=$PWD/build/package/tree
+for program in "$tree"/bin/* "$tree"/libexec/pellucid/*; do
+    bytes=$(stat -c %s "$program")
+    ((bytes < 60 << 20)) || fail "$program has $((bytes >> 20)) MB"
+    unused=$(ldd -u "$program" | grep '^[[:space:]]/' || true)
+    [[ -z $unused ]] || fail "$program does not use: $unused"
+    echo "$(basename "$program"): $((bytes >> 10)) kB"
+done
+
+check "the licences of all that is inside"
+for list in build/package/inventory/pellucid.spdx.json build/package/bundle/share/doc/pellucid/pellucid.spdx.json; do
+    python3 - "$list" <<'PYTHON'
+import json, pathlib, sys
+place = pathlib.Path(sys.argv[1])
+names = [p["name"] for p in json.loads(place.read_text())["packages"] if p["name"] != "pellucid"]
+missing = [n for n in names if not (place.parent / "licences" / n).stat().st_size]
+print(f"{place}: {len(names)} packages of others")
+sys.exit(f"without licence: {missing}" if missing or len(names) < 10 else 0)
+PYTHON
+done
+
+check "installing, using, upgrading, removing"
+./dev install-test
+echo "release-check: $version can be released"
