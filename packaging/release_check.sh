@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
 # Whether what is committed can be released: each line is a check, the first that fails ends it.
-# Takes about an hour on two cores; needs root for the install tests. Called by `./dev release-check`.
+# Takes two hours on two cores; needs root for the install tests. Called by `./dev release-check`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 check() { echo "== $*"; }
 fail() { echo "release-check: $*" >&2; exit 1; }
 
 check "nothing is uncommitted, and the changes of this version are told"
-[[ -z $(git status --porcelain) ]] || fail "there are changes that are not committed"
+changes=$(git status --porcelain)
+[[ -z $changes ]] || fail "there are changes that are not committed"
 version=$(sed -n 's/^project(.* VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 [[ $(sed -n 's/^## //p' CHANGELOG.md | head -1) == "$version" ]] || fail "CHANGELOG.md does not begin with $version"
 
 check "each source names its licence"
-without=$(git ls-files '*.h' '*.cpp' '*.inc' '*.glsl' '*.comp' | xargs grep -L 'SPDX-License-Identifier: GPL-3.0-or-later' || true)
+mapfile -t sources < <(git ls-files '*.h' '*.cpp' '*.inc' '*.glsl' '*.comp' '*.vert' '*.frag')
+((${#sources[@]} > 300)) || fail "where are the sources?"
+without=$(grep -L 'SPDX-License-Identifier: GPL-3.0-or-later' "${sources[@]}" || true)
 [[ -z $without ]] || fail "no licence in: $without"
 
 check "format and lint"

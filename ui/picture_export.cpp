@@ -152,19 +152,19 @@ QString framePath(const QString &path, int frame) {
 }
 
 // Frames take their names when all are there: what was written before under those names stays till
-// then. Aside, so that a kill leaves nothing beside them.
+// then. A kill leaves a hidden folder that the next
+// export there removes.
 class FrameFiles {
 public:
-    explicit FrameFiles(QString path) : m_path(std::move(path)) {
-        files::requireWritable(fs::path(m_path.toStdString()).parent_path());
-    }
+    explicit FrameFiles(QString path)
+        : m_path(std::move(path)), m_folder(files::SessionFolder::beside(m_path.toStdString())) {}
     void add(const QImage &picture, int frame) {
         write(picture, PictureFormat::png, QString::fromStdString(aside(frame).string()), {});
         m_count = frame + 1;
     }
     void finish() {
         for (int n = 0; n < m_count; ++n)
-            files::moveFile(aside(n), framePath(m_path, n).toStdString());
+            files::rename(aside(n), framePath(m_path, n).toStdString());
     }
 
 private:

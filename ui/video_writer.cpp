@@ -25,8 +25,8 @@ bool VideoWriter::isAvailable() {
 }
 
 VideoWriter::VideoWriter(const QString &path, const QSize &size, int framesPerSecond)
-    : m_path(path), m_encoder(std::make_unique<QProcess>()) {
-    files::requireWritable(std::filesystem::path(path.toStdString()).parent_path());
+    : m_path(path), m_folder(files::SessionFolder::beside(path.toStdString())),
+      m_encoder(std::make_unique<QProcess>()) {
     m_unfinished = QString::fromStdString((m_folder.path() / "video.mp4").string());
     m_encoder->start("ffmpeg",
                      {"-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
@@ -82,7 +82,7 @@ void VideoWriter::finish(const task::Progress &progress) {
         progress.check();
     if (m_encoder->exitStatus() != QProcess::NormalExit || m_encoder->exitCode() != 0)
         fail();
-    files::moveFile(m_unfinished.toStdString(), m_path.toStdString());
+    files::rename(m_unfinished.toStdString(), m_path.toStdString());
 }
 
 } // namespace pellucid::ui

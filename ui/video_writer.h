@@ -15,7 +15,7 @@ class QProcess;
 namespace pellucid::ui {
 
 /// Writes a video (H.264 in MP4) with the program ffmpeg, where there is one. The file appears only
-/// when complete; a kill leaves nothing beside it. Used on one thread, any.
+/// when complete; what a kill leaves the next export there removes. Used on one thread, any.
 class VideoWriter {
 public:
     static bool isAvailable();

@@ -5,13 +5,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/cli/terminal.h"
 #include "core/volume/lattice.h"
 
 namespace pellucid::cli {
 
 /// Indented JSON; bytes of a header that are no UTF-8 are replaced instead of refused.
 inline std::string jsonText(const nlohmann::json &value) {
-    return value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+    return escapedControls(value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 inline nlohmann::json sizeJson(const volume::GridSize &size) {

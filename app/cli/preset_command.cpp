@@ -36,9 +36,9 @@ void list() {
     const PresetLibrary library = openLibrary();
     for (const PresetEntry &entry : library.entries()) {
         const auto &preset = entry.preset;
-        std::puts(fmt::format("{:<28}  {:<4}  {:<8}  {}", preset.name,
-                              preset.modality.empty() ? "any" : preset.modality,
-                              entry.isBuiltIn() ? "built in" : "own", preset.notes)
+        std::puts(printable(fmt::format("{:<28}  {:<4}  {:<8}  {}", preset.name,
+                                        preset.modality.empty() ? "any" : preset.modality,
+                                        entry.isBuiltIn() ? "built in" : "own", preset.notes))
                       .c_str());
     }
 }
@@ -49,7 +49,7 @@ void validate(const Options &o) {
                           "is a volume property of 3D Slicer; 'preset import' makes a preset of it",
                           o.path);
     const auto preset = presets::readPreset(o.path);
-    std::puts(fmt::format("{}: a preset named '{}'", o.path, preset.name).c_str());
+    std::puts(printable(fmt::format("{}: a preset named '{}'", o.path, preset.name)).c_str());
 }
 
 void exportTo(const Options &o) {
@@ -81,7 +81,7 @@ void import(const Options &o) {
             "there is a preset '" + preset.name +
                 "' already; --replace replaces it, --name gives this one another name");
     library.save(preset);
-    std::puts(fmt::format("imported '{}'{}", preset.name, fit).c_str());
+    std::puts(printable(fmt::format("imported '{}'{}", preset.name, fit)).c_str());
 }
 
 } // namespace
@@ -93,7 +93,9 @@ void addPresetCommand(CLI::App &app, const Context &) {
     c->add_subcommand("list", "One line per preset")->callback([] { list(); });
     CLI::App *show = c->add_subcommand("show", "Print a preset as JSON");
     show->add_option("NAME", o->name, "A preset of the library")->required();
-    show->callback([o] { std::puts(presets::toJson(openLibrary().get(o->name).preset).c_str()); });
+    show->callback([o] {
+        std::puts(escapedControls(presets::toJson(openLibrary().get(o->name).preset)).c_str());
+    });
     CLI::App *check = c->add_subcommand("validate", "Say whether a file is a preset");
     check->add_option("FILE", o->path, "A preset file")->required();
     check->callback([o] { validate(*o); });

@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include <fmt/format.h>
+
 namespace pellucid::cli {
 
 std::string printable(std::string text) {
@@ -15,6 +17,23 @@ std::string printable(std::string text) {
             text[n] = text[n + 1] = ' ';
     }
     return text;
+}
+
+std::string escapedControls(const std::string &json) {
+    std::string escaped;
+    for (std::size_t n = 0; n < json.size(); ++n) {
+        const auto byte = (unsigned char)(json[n]);
+        const auto next = n + 1 < json.size() ? (unsigned char)(json[n + 1]) : 0U;
+        if (byte == 0x7F) {
+            escaped += "\\u007f";
+        } else if (byte == 0xC2 && next >= 0x80 && next < 0xA0) {
+            escaped += fmt::format("\\u{:04x}", next);
+            ++n;
+        } else {
+            escaped += json[n];
+        }
+    }
+    return escaped;
 }
 
 void warn(const std::string &what) {

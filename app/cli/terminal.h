@@ -9,6 +9,9 @@ namespace pellucid::cli {
 /// outside, and a terminal obeys what it is shown.
 std::string printable(std::string text);
 
+/// JSON escapes C0 by itself; the same for DEL and C1, within strings.
+std::string escapedControls(const std::string &json);
+
 /// A line on stderr that keeps nothing from going on.
 void warn(const std::string &what);
 

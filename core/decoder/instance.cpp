@@ -39,7 +39,8 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
         return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored,
                            h.bitsAllocated, h.highBit);
     for (const FrameHeader &frame : h.frames)
-        if (!frame.rescale.isReadable || frame.rescale.slope == 0.0)
+        if (h.modalityTable.empty() &&
+            !(frame.rescale.isSlopeReadable && frame.rescale.isInterceptReadable))
             return "has a rescale slope or intercept that gives no values";
     return std::nullopt;
 }

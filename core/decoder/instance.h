@@ -24,7 +24,9 @@ inline constexpr std::size_t mostFrames = 100000; ///< of a file
 /// How stored values become values: value = slope * stored + intercept, or a modality table.
 struct Rescale {
     double slope = 1.0, intercept = 0.0;
-    bool isReadable = true; ///< false: what the header gives is no number, or rubbish
+    bool isSlopeZero = false; ///< in the header; some converters write that, and mean 1
+    /// False: what the header gives is no number, or rubbish.
+    bool isSlopeReadable = true, isInterceptReadable = true;
     bool operator==(const Rescale &) const = default;
 };
 

@@ -130,7 +130,9 @@ template <class A> void pass(A &archive, FrameHeader &frame) {
     pass(archive, frame.sliceThicknessMm);
     pass(archive, frame.rescale.slope);
     pass(archive, frame.rescale.intercept);
-    pass(archive, frame.rescale.isReadable);
+    pass(archive, frame.rescale.isSlopeZero);
+    pass(archive, frame.rescale.isSlopeReadable);
+    pass(archive, frame.rescale.isInterceptReadable);
     pass(archive, frame.imageType);
     pass(archive, frame.dimensions);
 }

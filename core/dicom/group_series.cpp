@@ -239,6 +239,30 @@ std::string missingGeometry(const FrameHeader &h) {
 
 } // namespace
 
+constexpr const char *surplus = "files with more pixels than their header says: ",
+                     *zeroSlopes = "rescale slopes of 0, taken for 1: ";
+
+std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader *> &files) {
+    std::vector<std::string> warnings;
+    const auto count = [&](const char *what, const auto &has) {
+        if (const auto n = std::count_if(files.begin(), files.end(),
+                                         [&](const InstanceHeader *h) { return has(*h); });
+            n > 0)
+            warnings.push_back(what + std::to_string(n));
+    };
+    count(surplus, decoder::hasSurplusPixels);
+    count(zeroSlopes, [](const InstanceHeader &h) {
+        return h.modalityTable.empty() &&
+               std::any_of(h.frames.begin(), h.frames.end(),
+                           [](const FrameHeader &f) { return f.rescale.isSlopeZero; });
+    });
+    return warnings;
+}
+
+bool isOfValues(const std::string &warning) {
+    return warning.starts_with(surplus) || warning.starts_with(zeroSlopes);
+}
+
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped,
                                      const task::Progress &progress) {

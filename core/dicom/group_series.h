@@ -24,4 +24,10 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped,
                                      const task::Progress &progress = {});
 
+/// What is wrong with the values of files, and how many have it: pixels beyond those that the
+/// header describes, a rescale slope of 0.
+std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader *> &files);
+/// Whether a warning is one of those.
+bool isOfValues(const std::string &warning);
+
 } // namespace pellucid::dicom

@@ -337,11 +337,15 @@ private:
                 continue;
             }
             SeriesFile file{path, decoder::Decoder::ofProgram().header(path, m_progress)};
+            if (!std::all_of(frames.begin(), frames.end(), [&](std::size_t slice) {
+                    return isStillThere(m_entry.frames[slice], file.header);
+                })) {
+                skipped.push_back({path, "changed while it was read"});
+                continue;
+            }
             std::vector<FrameHeader> kept;
             for (const std::size_t slice : frames) {
                 const int frame = m_entry.frames[slice].frame;
-                if (std::size_t(frame) >= file.header.frames.size())
-                    throw Error(ErrorCode::unusable, "changed while it was read", path);
                 kept.push_back(file.header.frames[std::size_t(frame)]);
                 originalFrame[path].push_back(frame);
             }
@@ -363,9 +367,15 @@ private:
         rest.geometry = entries[0].geometry;
         rest.placed = entries[0].placed;
         rest.notes.placed = rest.placed;
-        // What was said of the geometry with all slices no longer holds.
-        std::erase_if(rest.notes.warnings,
-                      [](const std::string &w) { return w.rfind("uneven", 0) == 0; });
+        // What was said of all slices no longer holds.
+        std::erase_if(rest.notes.warnings, [](const std::string &w) {
+            return w.starts_with("uneven") || isOfValues(w);
+        });
+        std::vector<const InstanceHeader *> headers;
+        for (const SeriesFile &file : files)
+            headers.push_back(&file.header);
+        for (const std::string &warning : warningsOfValues(headers))
+            rest.notes.warnings.push_back(warning);
         for (const Skipped &s : skipped)
             rest.notes.warnings.push_back("without " + s.path.filename().string() + ": " +
                                           s.reason);

@@ -183,15 +183,16 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     entry.notes.windows = h.windows;
     entry.notes.darkIsHigh = h.photometric == "MONOCHROME1";
     entry.notes.placed = entry.placed;
-    if (!entry.placed)
-        entry.notes.warnings.push_back("images only: " + entry.notPlacedReason);
-    std::set<fs::path> surplus;
+    std::map<fs::path, const InstanceHeader *> files;
     for (const FrameReference &frame : entry.frames)
-        if (decoder::hasSurplusPixels(*headers.at(frame.path)))
-            surplus.insert(frame.path);
-    if (!surplus.empty())
-        entry.notes.warnings.push_back(
-            fmt::format("files with more pixels than their header says: {}", surplus.size()));
+        files.emplace(frame.path, headers.at(frame.path));
+    std::vector<const InstanceHeader *> each;
+    for (const auto &[path, header] : files)
+        each.push_back(header);
+    for (const std::string &warning : warningsOfValues(each))
+        entry.notes.warnings.push_back(warning);
+    if (!entry.placed) // the last: it is what the view says
+        entry.notes.warnings.push_back("images only: " + entry.notPlacedReason);
     entry.notes.lossy =
         std::any_of(entry.frames.begin(), entry.frames.end(),
                     [&](const FrameReference &frame) { return headers.at(frame.path)->lossy; });

@@ -5,13 +5,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
-#include <random>
 #include <string>
+#include <sys/random.h>
 #include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -101,17 +100,20 @@ void AtomicFile::takeName() {
     if (link(m_path))
         return;
     // From here until it is renamed a kill leaves it behind: nothing else happens in between.
-    std::random_device random;
-    while (errno == EEXIST) {
-        const std::string name = hiddenNameFor(m_path, fmt::format("{:08x}", random()));
+    int error = errno;
+    while (error == EEXIST) {
+        std::uint32_t number = 0;
+        (void)!getrandom(&number, sizeof number, 0);
+        const std::string name = hiddenNameFor(m_path, fmt::format("{:08x}", number));
         if (link(name)) {
             m_temporary = name;
             return;
         }
+        error = errno;
     }
     // Some file systems have files without names that never get one.
-    if (errno == ENOSPC || errno == EDQUOT)
-        fail(errno);
+    if (error == ENOSPC || error == EDQUOT)
+        fail(error);
     m_temporary = copyUnder(hiddenNameFor(m_path));
 }
 
@@ -135,13 +137,15 @@ std::string AtomicFile::copyUnder(std::string name) {
 void AtomicFile::commit() {
     if (std::fflush(m_file) != 0 || fsync(fileno(m_file)) != 0)
         fail(errno);
+    // All of it is on the disk. A share may refuse to rename what is open; a file without a name
+    // is lost if it is closed.
     if (m_temporary.empty())
         takeName();
+    std::fclose(m_file);
+    m_file = nullptr;
     if (!m_temporary.empty() && std::rename(m_temporary.c_str(), m_path.c_str()) != 0)
         fail(errno);
     m_temporary.clear();
-    std::fclose(m_file); // all of it is on the disk
-    m_file = nullptr;
 }
 
 void AtomicFile::fail(int error) const {
@@ -149,25 +153,11 @@ void AtomicFile::fail(int error) const {
                       std::string("cannot be written: ") + std::strerror(error), m_path);
 }
 
-void moveFile(const std::filesystem::path &from, const std::filesystem::path &to) {
-    if (std::rename(from.c_str(), to.c_str()) == 0)
-        return;
-    if (errno != EXDEV)
+void rename(const std::filesystem::path &from, const std::filesystem::path &to) {
+    const Descriptor file(open(from.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file || fsync(file.get()) != 0 || std::rename(from.c_str(), to.c_str()) != 0)
         throw task::Error(task::ErrorCode::output,
                           std::string("cannot be written: ") + std::strerror(errno), to);
-    const Descriptor in = openRegular(from);
-    AtomicFile out(to);
-    std::vector<std::byte> block(std::size_t(1) << 20);
-    for (ssize_t got = 1; got > 0;) {
-        got = read(in.get(), block.data(), block.size());
-        if (got < 0)
-            throw task::Error(task::ErrorCode::output,
-                              std::string("cannot be read: ") + std::strerror(errno), from);
-        out.write(std::span(block.data(), std::size_t(got)));
-    }
-    out.commit();
-    std::error_code ignored;
-    std::filesystem::remove(from, ignored);
 }
 
 void flush(const std::filesystem::path &folder) {
@@ -180,7 +170,7 @@ void flush(const std::filesystem::path &folder) {
 void requireWritable(const std::filesystem::path &folder) {
     std::error_code unknown;
     std::filesystem::path there =
-        std::filesystem::absolute(folder.empty() ? "." : folder, unknown).lexically_normal();
+        std::filesystem::weakly_canonical(folder.empty() ? "." : folder, unknown);
     while (!std::filesystem::exists(there, unknown) && there.has_relative_path())
         there = there.parent_path();
     if (!std::filesystem::is_directory(there, unknown))

@@ -37,9 +37,9 @@ private:
     std::FILE *m_file = nullptr;
 };
 
-/// Gives a finished file its place, on another file system too. *Throws* Error{output}; what was
-/// there is then untouched.
-void moveFile(const std::filesystem::path &from, const std::filesystem::path &to);
+/// Gives a finished file its name, on the same file system, when its bytes are on the disk.
+/// *Throws* Error{output}; what was there is then untouched.
+void rename(const std::filesystem::path &from, const std::filesystem::path &to);
 
 /// Has everything that was written in a folder's file system on the disk. *Throws* Error{output}.
 void flush(const std::filesystem::path &folder);

@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *unfinished = ".pellucid-unfinished";
+
 std::optional<fs::path> sessionsFolder() {
     const auto cache = userCacheFolder();
     return cache ? std::optional(*cache / "sessions") : std::nullopt;
@@ -41,6 +43,14 @@ Descriptor takeLock(const fs::path &lock) {
         about.st_nlink > 0)
         return file;
     return Descriptor();
+}
+
+// Of a share without locks: nobody can take it, and nobody will tidy up there.
+Descriptor takeLockOrFile(const fs::path &lock) {
+    Descriptor taken = takeLock(lock);
+    if (!taken && (errno == ENOLCK || errno == EOPNOTSUPP || errno == ENOSYS))
+        return Descriptor(::open(lock.c_str(), O_RDWR | O_CLOEXEC));
+    return taken;
 }
 
 } // namespace
@@ -63,9 +73,11 @@ void SessionFolder::make(const fs::path &parent) {
     for (int attempts = 0; attempts < 100; ++attempts) {
         std::string name = (parent / "XXXXXX.lock").string();
         const Descriptor made(::mkstemps(name.data(), int(std::string_view(".lock").size())));
+        if (!made && errno == ENOENT && fs::create_directories(parent, failed))
+            continue; // somebody removed an empty one
         if (!made)
             break;
-        m_lock = takeLock(name);
+        m_lock = takeLockOrFile(name);
         if (!m_lock) // somebody who tidies up was faster
             continue;
         m_path = name.substr(0, name.rfind('.'));
@@ -85,6 +97,15 @@ SessionFolder::~SessionFolder() {
     fs::remove_all(m_path, failed);
     if (!failed) // else the next program tries again
         fs::remove(lockOf(m_path), ignored);
+    if (m_path.parent_path().filename() == unfinished)
+        fs::remove(m_path.parent_path(), ignored); // if it is empty
+}
+
+SessionFolder SessionFolder::beside(const fs::path &file) {
+    std::error_code unknown;
+    const fs::path parent = fs::absolute(file, unknown).parent_path() / unfinished;
+    removeAbandonedSessionFolders(parent);
+    return SessionFolder(parent);
 }
 
 bool isInSessionFolder(const fs::path &path) {

@@ -17,6 +17,10 @@ public:
     SessionFolder();
     /// Below a folder, which is made. *Throws* Error{output}.
     explicit SessionFolder(const std::filesystem::path &parent);
+    /// On the same file system as a file that is to be written: in a hidden folder next to it,
+    /// which is removed with the last one in there. What killed programs left there goes first.
+    /// *Throws* Error{output}.
+    static SessionFolder beside(const std::filesystem::path &file);
     ~SessionFolder();
     SessionFolder(const SessionFolder &) = delete;
     SessionFolder &operator=(const SessionFolder &) = delete;

@@ -50,17 +50,20 @@ bool filterCalls() {
     if (filter == nullptr)
         return false;
     int failed = 0;
-    for (const int call :
-         {SCMP_SYS(read),          SCMP_SYS(write),        SCMP_SYS(sendmsg),
-          SCMP_SYS(recvmsg),       SCMP_SYS(close),        SCMP_SYS(munmap),
-          SCMP_SYS(mremap),        SCMP_SYS(madvise),      SCMP_SYS(brk),
-          SCMP_SYS(futex),         SCMP_SYS(rt_sigreturn), SCMP_SYS(rt_sigprocmask),
-          SCMP_SYS(rt_sigaction),  SCMP_SYS(sigaltstack),  SCMP_SYS(getpid),
-          SCMP_SYS(gettid),        SCMP_SYS(exit),         SCMP_SYS(exit_group),
-          SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday), SCMP_SYS(time),
-          SCMP_SYS(getrandom),     SCMP_SYS(alarm),        SCMP_SYS(setitimer),
-          SCMP_SYS(sched_yield),   SCMP_SYS(getrlimit),    SCMP_SYS(restart_syscall),
-          SCMP_SYS(getppid)})
+    for (const int call : {SCMP_SYS(read),          SCMP_SYS(write),
+                           SCMP_SYS(sendmsg),       SCMP_SYS(recvmsg),
+                           SCMP_SYS(close),         SCMP_SYS(munmap),
+                           SCMP_SYS(mremap),        SCMP_SYS(madvise),
+                           SCMP_SYS(brk),           SCMP_SYS(futex),
+                           SCMP_SYS(rt_sigreturn),  SCMP_SYS(rt_sigprocmask),
+                           SCMP_SYS(rt_sigaction),  SCMP_SYS(sigaltstack),
+                           SCMP_SYS(getpid),        SCMP_SYS(gettid),
+                           SCMP_SYS(exit),          SCMP_SYS(exit_group),
+                           SCMP_SYS(clock_gettime), SCMP_SYS(gettimeofday),
+                           SCMP_SYS(time),          SCMP_SYS(getrandom),
+                           SCMP_SYS(setitimer),     SCMP_SYS(sched_yield),
+                           SCMP_SYS(getrlimit),     SCMP_SYS(restart_syscall),
+                           SCMP_SYS(getppid)})
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
     // Memory, but none that could be run; and none that the limit does not count: private, or
     // shared of a file.

@@ -25,8 +25,8 @@ std::size_t stackToUse() {
     return std::min<std::size_t>(usual, isKnown ? limit.rlim_cur : usual) / 2;
 }
 
-// An element takes a few reads; one of 100 000 frames has some dozens of elements.
-constexpr std::size_t mostReads = 24'000'000;
+// An element takes about five reads; 50 000 frames of 250 elements each are as many.
+constexpr std::size_t mostReads = 60'000'000;
 
 std::uintptr_t stackPlace() {
     return reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
@@ -42,10 +42,6 @@ public:
     OFBool eos() override { return m_at == m_file.size(); }
     offile_off_t avail() override { return offile_off_t(m_file.size() - m_at); }
     offile_off_t read(void *to, offile_off_t bytes) override {
-        checkStack();
-        // A gigabyte of zeros is a hundred million elements, deflated to next to nothing.
-        if (++m_reads > mostReads)
-            throw task::Error(task::ErrorCode::unusable, "has more elements than any image");
         const std::size_t count = here(bytes);
         if (count > 0)
             std::memcpy(to, m_file.data() + m_at, count);
@@ -65,6 +61,26 @@ private:
     std::size_t here(offile_off_t bytes) const {
         return std::min(m_file.size() - m_at, std::size_t(std::max<offile_off_t>(0, bytes)));
     }
+
+    std::span<const std::byte> m_file;
+    std::size_t m_at;
+};
+
+class MemoryInput : public DcmInputStream {
+public:
+    explicit MemoryInput(std::span<const std::byte> file, std::size_t at = 0)
+        : DcmInputStream(&m_producer), m_file(file), m_producer(file, at) {}
+    DcmInputStreamFactory *newFactory() const override;
+    // Through a decompressor or not: it is elements that are read here.
+    offile_off_t read(void *to, offile_off_t bytes) override {
+        checkStack();
+        // A gigabyte of zeros is a hundred million elements, deflated to next to nothing.
+        if (++m_reads > mostReads)
+            throw task::Error(task::ErrorCode::unusable, "has more elements than any image");
+        return DcmInputStream::read(to, bytes);
+    }
+
+private:
     void checkStack() const {
         const std::uintptr_t here = stackPlace();
         const std::uintptr_t used = here < m_base ? m_base - here : here - m_base;
@@ -73,20 +89,9 @@ private:
     }
 
     std::span<const std::byte> m_file;
-    std::size_t m_at;
     std::size_t m_reads = 0;
     std::size_t m_most = stackToUse();
     std::uintptr_t m_base = stackPlace(); ///< where the reading began
-};
-
-class MemoryInput : public DcmInputStream {
-public:
-    explicit MemoryInput(std::span<const std::byte> file, std::size_t at = 0)
-        : DcmInputStream(&m_producer), m_file(file), m_producer(file, at) {}
-    DcmInputStreamFactory *newFactory() const override;
-
-private:
-    std::span<const std::byte> m_file;
     MemoryProducer m_producer;
 };
 

@@ -141,17 +141,20 @@ void readMeasures(DcmItem *item, FrameHeader &frame) {
 
 // What is there and cannot be used is remembered: without it the values would be others.
 void readRescale(DcmItem *item, FrameHeader &frame) {
-    const auto take = [&](const DcmTagKey &tag, double &into) {
-        if (item == nullptr || !item->tagExistsWithValue(tag))
+    decoder::Rescale &rescale = frame.rescale;
+    const auto take = [&](const DcmTagKey &tag, double &into, bool &isReadable) {
+        if (text(item, tag).empty()) // blanked, or not there
             return;
         const auto value = number(item, tag);
-        if (value && std::abs(*value) <= decoder::largestRescale)
+        isReadable = value && std::abs(*value) <= decoder::largestRescale;
+        if (isReadable)
             into = *value;
-        else
-            frame.rescale.isReadable = false;
     };
-    take(DCM_RescaleSlope, frame.rescale.slope);
-    take(DCM_RescaleIntercept, frame.rescale.intercept);
+    double slope = rescale.isSlopeZero ? 0.0 : rescale.slope;
+    take(DCM_RescaleSlope, slope, rescale.isSlopeReadable);
+    rescale.isSlopeZero = slope == 0.0;
+    rescale.slope = rescale.isSlopeZero ? 1.0 : slope;
+    take(DCM_RescaleIntercept, rescale.intercept, rescale.isInterceptReadable);
 }
 
 void readDimensions(DcmItem *item, FrameHeader &frame) {

@@ -243,7 +243,10 @@ public:
         m_stream.avail_out = 1;
         while (!m_isAtEnd && m_stream.avail_out > 0)
             inflateMore();
-        return m_stream.avail_out == 0;
+        if (m_stream.avail_out == 0)
+            return true;
+        // Another member, or padding of whoever stored it.
+        return m_stream.avail_in > 1 && m_stream.next_in[0] == 0x1F && m_stream.next_in[1] == 0x8B;
     }
 
 private:
@@ -342,7 +345,9 @@ void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples
         if (samples.isSwapped)
             swapEach(buffer, samples.bytesEach);
         const bool isLast = done + buffer.size() == samples.bytes;
-        take(buffer, isLast && (inflated ? inflated->goesOn() : stored.size() > samples.bytes));
+        take(buffer, isLast && (inflated ? inflated->goesOn()
+                                         : stored.size() >=
+                                               samples.bytes + std::uint64_t(samples.bytesEach)));
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/parse/serve.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <csignal>
@@ -36,7 +37,6 @@ struct Gone {};
 class Watch {
 public:
     Watch() {
-        program = ::getppid();
         struct sigaction look {};
         look.sa_handler = [](int) {
             if (::getppid() != program)
@@ -51,7 +51,8 @@ public:
         ::sigaction(SIGALRM, &look, nullptr);
     }
     void allow(double seconds) {
-        m_seconds = int(std::ceil(seconds));
+        constexpr double years = 1e8; // a file of holes has any size
+        m_seconds = int(std::ceil(std::min(seconds, years)));
         goOn();
     }
     void goOn() {
@@ -67,7 +68,7 @@ private:
         ::setitimer(ITIMER_REAL, &each, nullptr);
     }
 
-    static inline pid_t program = 0;
+    static inline const pid_t program = ::getppid(); ///< before anything takes its time
     static inline volatile std::sig_atomic_t secondsLeft = 0;
     int m_seconds = 0;
 };

@@ -23,7 +23,7 @@ cp "$translations"/qtbase_zh_TW.qm "$tree/translations/" 2>/dev/null || true
 install -D -m 644 /usr/share/libdcmtk17/dicom.dic "$tree/share/pellucid/dicom.dic"
 
 programs() { find "$tree/bin" "$tree/libexec" "$tree/plugins" -type f \( -perm -u+x -o -name '*.so' \); }
-programs | while read -r program; do ldd "$program"; done | awk '$3 ~ /^\// {print $1, $3}' | sort -u |
+programs | while read -r program; do ldd "$program"; done | sed -nE 's#^\s*(\S+) => (/.*) \(0x.*#\1 \2#p' | sort -u |
     while read -r name path; do
         [[ $name =~ $of_machine ]] || cp -L "$path" "$tree/lib/$name"
     done

@@ -42,8 +42,10 @@ system() { # RELEASE NAME
     rm -rf --one-file-system "$root"
     cp -a "$base" "$root"
     # Devices of its own: nothing of this machine can be lost in here.
-    mount -t proc proc "$root/proc" && mounted+=("$root/proc")
-    mount -t tmpfs -o mode=755 devices "$root/dev" && mounted+=("$root/dev")
+    mount -t proc proc "$root/proc" || fail "nothing can be mounted here"
+    mounted+=("$root/proc")
+    mount -t tmpfs -o mode=755 devices "$root/dev" || fail "nothing can be mounted here"
+    mounted+=("$root/dev")
     local device
     for device in null:3 zero:5 full:7 random:8 urandom:9; do
         mknod -m 666 "$root/dev/${device%:*}" c 1 "${device#*:}"
@@ -74,15 +76,17 @@ for run in cold warm; do
     begin=$(date +%s%N)
     pellucid head 2>stderr &
     program=$!
+    tries=0
     until started; do
         sleep 0.02
-        kill -0 $program || exit 1
+        tries=$((tries + 1))
+        [ $tries -lt 1500 ] && kill -0 $program || exit 1
     done
     echo "$run $((($(date +%s%N) - begin) / 1000000)) ms" >>milliseconds
     sleep 12
     import -window root window.png
     kill $program
-    wait $program
+    wait $program || exit 1 # it ends as one that is closed
 done
 TEXT
     as_user sh -c 'cd; xvfb-run -a -s "-screen 0 1600x1000x24" sh ./look.sh' || {

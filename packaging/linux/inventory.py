@@ -54,9 +54,8 @@ def main() -> None:
     libraries: dict[str, str] = {}
     for program in programs:
         for line in output("ldd", str(program)).splitlines():
-            words = line.split()
-            if len(words) >= 3 and words[1] == "=>" and words[2].startswith("/"):
-                libraries[words[0]] = words[2]
+            if found := re.match(r"\s*(\S+) => (/.*) \(0x", line):
+                libraries[found[1]] = found[2]
     # A bundled copy is of the package that it was copied from.
     system = {name: path for name, path in libraries.items() if not path.startswith(str(tree.resolve()))}
     for name in libraries.keys() - system.keys():

@@ -1249,6 +1249,18 @@
         <source>its decoder was killed, for want of memory perhaps</source>
         <translation>其解碼程式被終止，可能是記憶體不足</translation>
     </message>
+    <message>
+        <source>is no folder</source>
+        <translation>不是資料夾</translation>
+    </message>
+    <message>
+        <source>an empty path leads nowhere</source>
+        <translation>空的路徑沒有指向任何位置</translation>
+    </message>
+    <message>
+        <source>rescale slopes of 0, taken for 1: %1</source>
+        <translation>重新調整斜率為 0、視為 1：%1</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>

@@ -159,8 +159,12 @@ TEST_F(Faults, AFileThatChangesWhileItIsReadIsAVolumeOrAReason) {
 TEST_F(Faults, ZerosWithoutEndAreRefusedAndTheirDecoderEndsWithTheProgram) {
     const fs::path zeros = folder / "zeros.dcm";
     writeText(zeros, readText(series("few", 2) / "IM0001.dcm").substr(0, 2000));
-    fs::resize_file(zeros, 2U << 30); // of holes
-    expectOneLine(cli("info " + quoted(zeros)), 3, "has more elements than any image");
+    fs::resize_file(zeros, 1U << 30); // of holes
+    const auto said = cli("info " + quoted(zeros));
+    expectOneLine(said, 3, "zeros.dcm: ");
+    EXPECT_TRUE(said.error.find("has more elements than any image") != std::string::npos ||
+                said.error.find("takes too long to read") != std::string::npos)
+        << said.error;
 
     // Its children, by name: one is at work for seconds.
     const auto decodersOf = [](pid_t parent) {
@@ -181,8 +185,17 @@ TEST_F(Faults, ZerosWithoutEndAreRefusedAndTheirDecoderEndsWithTheProgram) {
         ::execl(PELLUCID_CLI, PELLUCID_CLI, "info", zeros.c_str(), nullptr);
         ::_exit(9);
     }
+    const auto isAtWork = [](pid_t pid) { // half a second of its time
+        const std::string stat = readText(fs::path("/proc") / std::to_string(pid) / "stat");
+        std::istringstream fields(stat.substr(std::min(stat.size(), stat.find(')') + 1)));
+        std::string skipped;
+        for (int n = 3; n < 14; ++n)
+            fields >> skipped;
+        long ticks = 0;
+        return fields >> ticks && ticks > ::sysconf(_SC_CLK_TCK) / 2;
+    };
     std::vector<pid_t> decoders;
-    for (int n = 0; decoders.empty() && n < 3000; ++n) {
+    for (int n = 0; (decoders.empty() || !isAtWork(decoders[0])) && n < 3000; ++n) {
         std::this_thread::sleep_for(10ms);
         decoders = decodersOf(program);
     }
@@ -196,7 +209,7 @@ TEST_F(Faults, ZerosWithoutEndAreRefusedAndTheirDecoderEndsWithTheProgram) {
     };
     for (int n = 0; isThere() && n < 300; ++n)
         std::this_thread::sleep_for(10ms);
-    EXPECT_FALSE(isThere()); // a file of that size would have an hour
+    EXPECT_FALSE(isThere()); // it would go on for seconds
 }
 
 TEST_F(Faults, ScenesThatArePipesOrEndlessAreRefused) {

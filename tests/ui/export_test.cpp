@@ -16,7 +16,6 @@
 #include <QTimer>
 
 #include "core/decoder/read_nrrd.h"
-#include "core/files/user_folders.h"
 #include "ui/video_writer.h"
 
 namespace pellucid {
@@ -160,10 +159,9 @@ private slots:
         find<QSpinBox>("exportFramesBox")->setValue(200);
         answerWith(QMessageBox::Yes);
         find<QPushButton>("exportWriteButton")->click();
-        const auto unfinished = [] {
-            const auto cache = files::userCacheFolder();
-            return QDir(QString::fromStdString((*cache / "sessions").string()))
-                .entryList(QDir::Dirs | QDir::NoDotAndDotDot);
+        const QDir folder(QString::fromStdString(m_folder.path().string()));
+        const auto unfinished = [&] {
+            return folder.entryList({".*"}, QDir::Hidden | QDir::Dirs | QDir::NoDotAndDotDot);
         };
         QTRY_VERIFY(!unfinished().isEmpty());
         QTest::mouseClick(find<QPushButton>("exportCancel"), Qt::LeftButton);
