@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include <QCoreApplication>
 
@@ -27,6 +28,12 @@ Failure currentFailure() {
         return {spoken(error.reason()), QString::fromStdString(error.path().string())};
     } catch (const std::bad_alloc &) {
         return {FailureTexts::tr("not enough memory"), {}};
+    } catch (const std::system_error &error) {
+        // No thread can be had: there is no memory for its stack, or too many run.
+        if (error.code() == std::errc::resource_unavailable_try_again ||
+            error.code() == std::errc::not_enough_memory)
+            return {FailureTexts::tr("not enough memory"), {}};
+        task::log(std::string("a fault of the program: ") + error.what());
     } catch (const std::exception &error) {
         task::log(std::string("a fault of the program: ") + error.what());
     } catch (...) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.h"
+#include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "app/cli/terminal.h"
 #include "core/dicom/scan.h"
@@ -132,12 +133,8 @@ void addInfoCommand(CLI::App &app, const Context &context) {
             std::puts(jsonText(catalogueJson(catalogue)).c_str());
         else
             printCatalogue(catalogue);
-        if (catalogue.empty()) {
-            if (catalogue.skipped.size() == 1)
-                throw task::Error(task::ErrorCode::unusable, catalogue.skipped[0].reason,
-                                  catalogue.skipped[0].path);
-            throw task::Error(task::ErrorCode::unusable, "holds no usable images", paths.front());
-        }
+        if (catalogue.empty())
+            failWithoutImages(catalogue, paths.front());
     });
 }
 

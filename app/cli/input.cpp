@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/input.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <set>
+
+#include <fmt/format.h>
 
 #include "app/cli/terminal.h"
 #include "core/dicom/scan.h"
@@ -20,10 +24,46 @@ double nowMs() {
         .count();
 }
 
-} // namespace
-
 using task::Error;
 using task::ErrorCode;
+
+// Nothing that is read is written over.
+void requireOther(const std::filesystem::path &out, const dicom::Catalogue &catalogue) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(out, ignored))
+        return;
+    const auto isOut = [&](const std::filesystem::path &file) {
+        return std::filesystem::equivalent(file, out, ignored);
+    };
+    bool isRead = std::any_of(catalogue.skipped.begin(), catalogue.skipped.end(),
+                              [&](const dicom::Skipped &s) { return isOut(s.path); });
+    for (const dicom::Selection &s : dicom::selections(catalogue))
+        isRead = isRead || std::any_of(s.series->files.begin(), s.series->files.end(),
+                                       [&](const dicom::InstanceFile &f) { return isOut(f.path); });
+    if (isRead)
+        throw Error(ErrorCode::usage, "-o: is one of the files that are read", out);
+}
+
+void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &shown,
+                  bool isByDefault) {
+    constexpr std::size_t most = 20; // lines
+    std::size_t others = 0, lines = 0;
+    for (const dicom::Skipped &skipped : catalogue.skipped)
+        if (skipped.reason == "is not a DICOM file" || lines++ >= most)
+            ++others; // texts and programs lie beside images
+        else
+            warn(skipped.path.string() + ": not used: " + skipped.reason);
+    if (others > 0)
+        warn(fmt::format("files of other kinds that are not used: {}; 'info' lists them", others));
+    std::set<const dicom::Series *> series;
+    for (const dicom::Selection &s : dicom::selections(catalogue))
+        series.insert(s.series);
+    if (isByDefault && series.size() > 1)
+        warn(fmt::format("series {} of {} series, {} patients; --series chooses, 'info' lists them",
+                         shown.series->number, series.size(), catalogue.patients.size()));
+}
+
+} // namespace
 
 Stopwatch::Stopwatch() : m_last(nowMs()) {}
 
@@ -33,21 +73,29 @@ double Stopwatch::lapMs() {
     return lap;
 }
 
+[[noreturn]] void failWithoutImages(const dicom::Catalogue &catalogue,
+                                    const std::filesystem::path &path) {
+    if (catalogue.skipped.size() == 1)
+        throw Error(ErrorCode::unusable, catalogue.skipped[0].reason, catalogue.skipped[0].path);
+    std::string reason = "holds no usable images";
+    if (!catalogue.skipped.empty())
+        reason +=
+            fmt::format(" in {} files; {}: {}", catalogue.skipped.size(),
+                        catalogue.skipped[0].path.filename().string(), catalogue.skipped[0].reason);
+    throw Error(ErrorCode::unusable, reason, path);
+}
+
 Input openInput(const std::filesystem::path &path, const std::string &series,
-                const Context &context) {
+                const std::filesystem::path &out, const Context &context) {
     Stopwatch watch;
     const task::Progress progress(context.stop);
     const dicom::Catalogue catalogue = dicom::scan({path}, progress);
     Input input;
     input.skipped = catalogue.skipped;
     input.scanMs = watch.lapMs();
-    if (catalogue.empty()) {
-        // One file, one reason; a folder only says that nothing in it helps.
-        if (catalogue.skipped.size() == 1)
-            throw Error(ErrorCode::unusable, catalogue.skipped[0].reason,
-                        catalogue.skipped[0].path);
-        throw Error(ErrorCode::unusable, "holds no usable images", path);
-    }
+    if (catalogue.empty())
+        failWithoutImages(catalogue, path);
+    requireOther(out, catalogue);
     dicom::Selection selection;
     try {
         selection = series.empty() ? dicom::defaultSelection(catalogue)
@@ -69,6 +117,7 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
                          input.loaded.skipped.end());
     // Said even where no JSON is asked for: that a slice is left out, above all.
+    warnOfOthers(catalogue, selection, series.empty());
     for (const std::string &warning : input.loaded.volume.notes().warnings)
         warn(warning);
     input.loadMs = watch.lapMs();

@@ -23,9 +23,15 @@ struct Input {
 };
 
 /// Scans a path and loads one volume of it: of the series named, else the one with most voxels.
-/// *Throws* Error{unusable} naming the path.
+/// What is not used or not shown is said on stderr. *Throws* Error{unusable} naming the path;
+/// Error{usage} if `out` is one of the files that are read.
 Input openInput(const std::filesystem::path &path, const std::string &series,
-                const Context &context);
+                const std::filesystem::path &out, const Context &context);
+
+/// Why nothing of what was found can be used. *Throws* Error{unusable} naming a file and its
+/// reason.
+[[noreturn]] void failWithoutImages(const dicom::Catalogue &catalogue,
+                                    const std::filesystem::path &path);
 
 /// "LO,HI". *Throws* Error{usage}.
 classify::FieldWindow parseWindow(const std::string &text);

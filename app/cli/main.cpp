@@ -4,8 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
 #include <pthread.h>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -47,9 +49,7 @@ std::stop_source &stopOnInterrupt() {
     return source;
 }
 
-} // namespace
-
-int main(int argc, char **argv) {
+int run(int argc, char **argv) {
     using namespace pellucid;
     // A file that may not grow further is an error to report, not a reason to die.
     std::signal(SIGXFSZ, SIG_IGN);
@@ -83,6 +83,24 @@ int main(int argc, char **argv) {
         app.parse(argc, argv);
     } catch (const CLI::Success &success) {
         return app.exit(success);
+    }
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        return report("standard output cannot be written", int(task::ErrorCode::output));
+    return 0;
+}
+
+// The system has no thread, or no memory for one.
+bool isLack(const std::system_error &error) {
+    return error.code() == std::errc::resource_unavailable_try_again ||
+           error.code() == std::errc::not_enough_memory;
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    using namespace pellucid;
+    try {
+        return run(argc, argv);
     } catch (const CLI::ParseError &error) {
         return report(error.what(), usageExit);
     } catch (const task::Error &error) {
@@ -91,10 +109,10 @@ int main(int argc, char **argv) {
         return report("cancelled", cancelledExit);
     } catch (const std::bad_alloc &) {
         return report("not enough memory", memoryExit);
+    } catch (const std::system_error &error) {
+        return isLack(error) ? report("not enough memory", memoryExit)
+                             : report(std::string("internal error: ") + error.what(), internalExit);
     } catch (const std::exception &error) {
         return report(std::string("internal error: ") + error.what(), internalExit);
     }
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        return report("standard output cannot be written", int(task::ErrorCode::output));
-    return 0;
 }

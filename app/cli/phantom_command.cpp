@@ -43,6 +43,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         sampling.spacingMm = glm::dvec3(s[0], s[1], s[2]);
     }
     sampling.tiltRad = o.tiltDeg * 3.14159265358979323846 / 180.0;
+    if (o.folder.empty())
+        throw Error(ErrorCode::usage, "DIR: an empty path leads nowhere");
     files::requireWritable(o.folder);
     const task::Progress progress(context.stop);
     const auto volume = phantom::makePhantom(kind, phantom::phantomLattice(kind, sampling),

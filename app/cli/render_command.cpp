@@ -55,7 +55,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (o.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(o.threads));
 
-    const Input input = openInput(o.path, o.series, context);
+    const Input input = openInput(o.path, o.series, out, context);
     const volume::Volume &volume = input.loaded.volume;
     render::Scene scene = sceneFor(o.scene, command, volume);
     // The scene file may have brought colours.
@@ -117,7 +117,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (const auto preset = presetFor(o.scene))
         if (const std::string why = presets::mismatch(*preset, volume); !why.empty())
             warn(why);
-    if (renderer.predictedError() > scene.tolerance && scene.tolerance > 1e-9)
+    if (renderer.predictedError() > scene.tolerance)
         warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
                          renderer.predictedError()));
     if (std::all_of(fields.channels.begin(), fields.channels.end(), isEmpty))

@@ -1,22 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/terminal.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
 
 namespace pellucid::cli {
 
-std::string printable(std::string text) {
-    for (std::size_t n = 0; n < text.size(); ++n) {
-        const auto byte = (unsigned char)(text[n]);
-        const auto next = n + 1 < text.size() ? (unsigned char)(text[n + 1]) : 0U;
-        if (byte < 0x20 || byte == 0x7F)
-            text[n] = ' ';
-        else if (byte == 0xC2 && next >= 0x80 && next < 0xA0) // UTF-8 of the C1 set
-            text[n] = text[n + 1] = ' ';
+namespace {
+
+struct Letter {
+    char32_t code = 0;
+    std::size_t bytes = 0; ///< 0: no UTF-8
+};
+
+Letter letterAt(const std::string &text, std::size_t at) {
+    const auto byte = [&](std::size_t n) {
+        return at + n < text.size() ? (unsigned char)(text[at + n]) : 0U;
+    };
+    const unsigned first = byte(0);
+    const std::size_t bytes = first < 0x80                    ? 1
+                              : first >= 0xC2 && first < 0xE0 ? 2
+                              : first >= 0xE0 && first < 0xF0 ? 3
+                              : first >= 0xF0 && first < 0xF5 ? 4
+                                                              : 0;
+    char32_t code = bytes == 1 ? first : first & (0x7FU >> bytes);
+    for (std::size_t n = 1; n < bytes; ++n) {
+        if ((byte(n) & 0xC0U) != 0x80)
+            return {};
+        code = code << 6 | (byte(n) & 0x3FU);
     }
-    return text;
+    return {code, bytes};
+}
+
+// Control characters, and what ends lines or turns their direction.
+bool steers(char32_t c) {
+    return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 ||
+           (c >= 0x200E && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) ||
+           (c >= 0x2066 && c <= 0x2069);
+}
+
+} // namespace
+
+std::string printable(const std::string &text) {
+    std::string shown;
+    for (std::size_t at = 0; at < text.size();) {
+        const Letter letter = letterAt(text, at);
+        if (letter.bytes == 0)
+            shown += '?';
+        else if (steers(letter.code))
+            shown += ' ';
+        else
+            shown.append(text, at, letter.bytes);
+        at += std::max<std::size_t>(1, letter.bytes);
+    }
+    return shown;
 }
 
 std::string escapedControls(const std::string &json) {

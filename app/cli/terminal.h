@@ -5,9 +5,9 @@
 
 namespace pellucid::cli {
 
-/// One line without control characters (C0, DEL, C1): names of files and patients come from
-/// outside, and a terminal obeys what it is shown.
-std::string printable(std::string text);
+/// One line of UTF-8 without what a terminal obeys (control characters, ends of lines, changes of
+/// direction): names of files and patients come from outside.
+std::string printable(const std::string &text);
 
 /// JSON escapes C0 by itself; the same for DEL and C1, within strings.
 std::string escapedControls(const std::string &json);

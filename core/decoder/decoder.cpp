@@ -27,6 +27,15 @@ constexpr const char *programName = "pellucid-decode";
 struct OpenFile {
     Descriptor descriptor;
     std::uint64_t bytes = 0;
+    timespec written{};
+
+    // Called when it has been read: somebody may have written into it meanwhile.
+    void requireUnchanged() const {
+        struct stat about {};
+        if (::fstat(descriptor.get(), &about) != 0 || std::uint64_t(about.st_size) != bytes ||
+            about.st_mtim.tv_sec != written.tv_sec || about.st_mtim.tv_nsec != written.tv_nsec)
+            throw Error(ErrorCode::unusable, "changed while it was read");
+    }
 };
 
 OpenFile open(const fs::path &path) {
@@ -37,6 +46,7 @@ OpenFile open(const fs::path &path) {
     if (about.st_size == 0)
         throw Error(ErrorCode::unusable, "is empty", path);
     file.bytes = std::uint64_t(about.st_size);
+    file.written = about.st_mtim;
     return file;
 }
 
@@ -197,6 +207,7 @@ InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progr
         InstanceHeader header = answered(
             child, progress, [](const Child::Answer &answer) { return unpackHeader(answer.body); });
         takeBack(std::move(child));
+        file.requireUnchanged();
         return header;
     });
 }
@@ -211,6 +222,7 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
             const std::uint64_t count = sampleCount(h);
             if (whyUnusable(h) || answer.data.size() != 2 * count)
                 throw Error(ErrorCode::unusable, "was decoded to nonsense");
+            file.requireUnchanged();
             samples = {reinterpret_cast<const std::uint16_t *>(answer.data.data()), count};
             return h;
         });

@@ -47,7 +47,7 @@ struct FrameHeader {
 struct InstanceHeader {
     std::string sopClassUid, sopClassName, sopInstanceUid, transferSyntax;
     std::string patientId, patientName, birthDate, sex;
-    std::string studyUid, studyDate, studyDescription;
+    std::string studyUid, studyDate, studyDescription, frameOfReferenceUid;
     std::string seriesUid, seriesDescription, modality, bodyPart;
     int seriesNumber = 0, instanceNumber = 0;
     bool hasPixels = false, floatPixels = false;
@@ -56,6 +56,7 @@ struct InstanceHeader {
     std::uint32_t pixelBytes = 0; ///< of uncompressed pixels, as their element says; 0: not known
     int bitsAllocated = 0, bitsStored = 0, highBit = 0;
     bool isSigned = false, lossy = false;
+    bool hasDamagedPixels = false; ///< as far as their decoder noticed, who went on
     std::string photometric, rescaleType;
     std::optional<int> paddingValue, paddingLimit;
     std::vector<volume::ValueWindow> windows;

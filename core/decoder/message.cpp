@@ -142,14 +142,15 @@ template <class A> void pass(A &archive, InstanceHeader &h) {
          {&h.sopClassUid, &h.sopClassName, &h.sopInstanceUid, &h.transferSyntax, &h.patientId,
           &h.patientName, &h.birthDate, &h.sex, &h.studyUid, &h.studyDate, &h.studyDescription,
           &h.seriesUid, &h.seriesDescription, &h.modality, &h.bodyPart, &h.photometric,
-          &h.rescaleType})
+          &h.rescaleType, &h.frameOfReferenceUid})
         pass(archive, *text);
     for (int *const number :
          {&h.seriesNumber, &h.instanceNumber, &h.rows, &h.columns, &h.samplesPerPixel,
           &h.announcedFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.modalityTableFirst})
         pass(archive, *number);
     pass(archive, h.pixelBytes);
-    for (bool *const flag : {&h.hasPixels, &h.floatPixels, &h.isSigned, &h.lossy})
+    for (bool *const flag :
+         {&h.hasPixels, &h.floatPixels, &h.isSigned, &h.lossy, &h.hasDamagedPixels})
         pass(archive, *flag);
     pass(archive, h.paddingValue);
     pass(archive, h.paddingLimit);

@@ -31,6 +31,7 @@ bool isLocalizer(const std::string &imageType) {
 bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
     const FrameHeader &x = a.header, &y = b.header;
     return a.rows == b.rows && a.columns == b.columns &&
+           a.frameOfReferenceUid == b.frameOfReferenceUid && a.modality == b.modality &&
            isLocalizer(x.imageType) == isLocalizer(y.imageType) &&
            glm::distance(*x.spacingMm, *y.spacingMm) < 1e-4 && sameAxis(*x.rowAxis, *y.rowAxis) &&
            sameAxis(*x.columnAxis, *y.columnAxis);
@@ -269,9 +270,14 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
     Frames placed, unplaced;
     for (const SeriesFile &file : files)
         for (int n = 0; n < int(file.header.frames.size()); ++n) {
-            PlacedFrame frame{
-                {file.path, n},      file.header.frames[n],      file.header.rows,
-                file.header.columns, file.header.instanceNumber, file.header.sopInstanceUid};
+            PlacedFrame frame{{file.path, n},
+                              file.header.frames[n],
+                              file.header.rows,
+                              file.header.columns,
+                              file.header.instanceNumber,
+                              file.header.sopInstanceUid,
+                              file.header.frameOfReferenceUid,
+                              file.header.modality};
             (missingGeometry(frame.header).empty() ? placed : unplaced).push_back(std::move(frame));
         }
     dropCopies(placed, skipped);

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -237,6 +238,7 @@ private:
         // Set when a slice is complete, so that a preview copies no half-written one.
         std::vector<std::atomic<bool>> arrived(m_entry.frames.size());
         std::vector<std::pair<std::size_t, Skipped>> failed;
+        std::set<std::string> damaged; // and decoded all the same
         std::mutex guard;
         std::size_t done = 0;
         bool fits = true, isPreviewing = false;
@@ -250,6 +252,10 @@ private:
                     const std::lock_guard lock(guard);
                     fits = false;
                     return;
+                }
+                if (image.header.hasDamagedPixels) {
+                    const std::lock_guard lock(guard);
+                    damaged.insert(m_paths[n].filename().string());
                 }
                 for (const std::size_t slice : frames) {
                     const int frame = m_entry.frames[slice].frame;
@@ -294,8 +300,10 @@ private:
         fillMissing(samples);
         if (!m_entry.geometry.frameOffsetsMm.empty())
             samples = resampled(samples, m_entry.geometry, m_progress);
-        LoadedVolume loaded{volumeOf(std::move(samples), m_entry.geometry.lattice, m_entry.notes),
-                            {}};
+        volume::VolumeNotes notes = m_entry.notes;
+        for (const std::string &name : damaged)
+            notes.warnings.push_back("the compressed pixels are damaged: " + name);
+        LoadedVolume loaded{volumeOf(std::move(samples), m_entry.geometry.lattice, notes), {}};
         m_progress.report(1.0);
         return loaded;
     }

@@ -77,6 +77,15 @@ public:
             addFile(path);
     }
 
+    // Where a file is for people: a folder of this program's is gone when they look.
+    fs::path named(const fs::path &file) const {
+        for (const auto &[folder, archive] : m_archives)
+            if (const fs::path inside = file.lexically_relative(folder);
+                !inside.empty() && *inside.begin() != "..")
+                return archive / inside;
+        return file;
+    }
+
     std::vector<fs::path> found;
     std::vector<Skipped> skipped;
     std::vector<std::shared_ptr<const files::SessionFolder>> unpacked;
@@ -93,6 +102,7 @@ private:
         auto folder = std::make_shared<files::SessionFolder>();
         decoder::unpackArchive(decoder::Decoder::ofProgram(), path, folder->path(), m_progress);
         addFolder(folder->path());
+        m_archives[folder->path()] = path;
         unpacked.push_back(std::move(folder));
     }
 
@@ -171,6 +181,7 @@ private:
 
     const task::Progress &m_progress;
     std::set<fs::path> m_seen;
+    std::map<fs::path, fs::path> m_archives; ///< by the folders that they were unpacked to
 };
 
 using HeadersByPath = std::map<fs::path, const InstanceHeader *>;
@@ -333,6 +344,8 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
             describe(volume, headersByPath);
         studies.of(h).series.push_back(std::move(entry));
     }
+    for (Skipped &skipped : catalogue.skipped)
+        skipped.path = list.named(skipped.path);
     for (Patient &patient : catalogue.patients)
         for (Study &study : patient.studies)
             std::stable_sort(study.series.begin(), study.series.end(),

@@ -20,6 +20,8 @@ struct PlacedFrame {
     int rows = 0, columns = 0;
     int instanceNumber = 0;
     std::string sopInstanceUid;
+    /// Frames of one volume share them: positions of one space, values of one kind.
+    std::string frameOfReferenceUid, modality;
 
     /// Position along the normal of the block it belongs to, mm; one normal for the whole block,
     /// because axes that differ in their last digit would move a distant image by many slices'

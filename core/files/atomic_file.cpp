@@ -170,7 +170,7 @@ void flush(const std::filesystem::path &folder) {
 void requireWritable(const std::filesystem::path &folder) {
     std::error_code unknown;
     std::filesystem::path there =
-        std::filesystem::weakly_canonical(folder.empty() ? "." : folder, unknown);
+        std::filesystem::weakly_canonical(std::filesystem::absolute(folder, unknown), unknown);
     while (!std::filesystem::exists(there, unknown) && there.has_relative_path())
         there = there.parent_path();
     if (!std::filesystem::is_directory(there, unknown))

@@ -13,6 +13,7 @@
 
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
+#include "core/parse/decoder_warnings.h"
 #include "core/parse/dictionary.h"
 #include "core/parse/jpeg2000.h"
 #include "core/parse/memory_input.h"
@@ -99,6 +100,7 @@ void decodeJpeg2000Frames(DcmDataset &dataset, DecodedImage &image) {
     for (std::size_t frame = 0; frame + 1 < starts.size(); ++frame) {
         const auto bytes = bytesOf(*sequence, starts[frame], starts[frame + 1]);
         const Jpeg2000Image decoded = decodeJpeg2000(bytes, h.rows, h.columns);
+        image.header.hasDamagedPixels = image.header.hasDamagedPixels || decoded.isDamaged;
         // The header decides whether values are signed; where the codestream disagrees its bits are
         // the two's complement of its own precision.
         for (std::size_t n = 0; n < plane; ++n)
@@ -177,10 +179,12 @@ DecodedImage decoded(std::span<const std::byte> bytes) {
         return image;
     }
     if (transfer.isEncapsulated()) {
+        const DecoderWarnings warnings;
         const OFCondition decoded =
             dataset->chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
         if (decoded.bad())
             fail(fmt::format("{}: {}", transfer.getXferName(), decoded.text()));
+        image.header.hasDamagedPixels = warnings.sayDamaged();
         // The decoder may have widened or narrowed the samples.
         const InstanceHeader after = headerOf(*dataset, bytes.size());
         image.header.bitsAllocated = after.bitsAllocated;

@@ -14,6 +14,7 @@ struct Jpeg2000Image {
     int precision = 0;
     bool isSigned = false;
     std::vector<std::int32_t> samples;
+    bool isDamaged = false; ///< when decoded: its end is missing, or the decoder warned
 };
 
 /// Decodes a codestream or JP2 file of one component of at most 16 bits.

@@ -77,6 +77,14 @@ OPJ_BOOL seekWrite(OPJ_OFF_T to, void *user) {
     return OPJ_TRUE;
 }
 
+// The marker that ends a codestream, before what makes the length even.
+bool hasEnd(std::span<const std::byte> data) {
+    while (!data.empty() && data.back() == std::byte(0))
+        data = data.first(data.size() - 1);
+    return data.size() > 1 && data.back() == std::byte(0xD9) &&
+           data[data.size() - 2] == std::byte(0xFF);
+}
+
 } // namespace
 
 Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows,
@@ -108,14 +116,23 @@ Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows,
     if (image->numcomps != 1 || image->x1 - image->x0 != OPJ_UINT32(expectedColumns) ||
         image->y1 - image->y0 != OPJ_UINT32(expectedRows) || image->comps[0].prec > 16)
         fail("the image is not what the header says");
+    // Damaged blocks are decoded to something, and so is what has lost its end.
+    bool hasWarned = false;
+    opj_set_warning_handler(
+        codec.get(), [](const char *, void *warned) { *static_cast<bool *>(warned) = true; },
+        &hasWarned);
     if (opj_decode(codec.get(), stream.get(), image.get()) == OPJ_FALSE ||
         image->comps[0].data == nullptr || image->comps[0].w != OPJ_UINT32(expectedColumns) ||
         image->comps[0].h != OPJ_UINT32(expectedRows))
         fail("damaged or truncated");
     const opj_image_comp_t &component = image->comps[0];
-    return {expectedRows, expectedColumns, int(component.prec), component.sgnd != 0,
-            std::vector<std::int32_t>(component.data, component.data + std::size_t(expectedRows) *
-                                                                           expectedColumns)};
+    const std::size_t count = std::size_t(expectedRows) * std::size_t(expectedColumns);
+    return {expectedRows,
+            expectedColumns,
+            int(component.prec),
+            component.sgnd != 0,
+            std::vector<std::int32_t>(component.data, component.data + count),
+            hasWarned || !hasEnd(data)};
 }
 
 std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {

@@ -139,6 +139,14 @@ void readMeasures(DcmItem *item, FrameHeader &frame) {
             frame.sliceThicknessMm = *mm;
 }
 
+// Below, values would all be the same.
+constexpr double smallestRescale = 1e-30;
+
+bool isMultiple(DcmItem *item, const DcmTagKey &tag) {
+    DcmElement *element = nullptr;
+    return item->findAndGetElement(tag, element).good() && element->getVM() > 1;
+}
+
 // What is there and cannot be used is remembered: without it the values would be others.
 void readRescale(DcmItem *item, FrameHeader &frame) {
     decoder::Rescale &rescale = frame.rescale;
@@ -146,7 +154,9 @@ void readRescale(DcmItem *item, FrameHeader &frame) {
         if (text(item, tag).empty()) // blanked, or not there
             return;
         const auto value = number(item, tag);
-        isReadable = value && std::abs(*value) <= decoder::largestRescale;
+        isReadable = value && std::abs(*value) <= decoder::largestRescale &&
+                     (*value == 0.0 || std::abs(*value) >= smallestRescale) &&
+                     !isMultiple(item, tag);
         if (isReadable)
             into = *value;
     };
@@ -281,6 +291,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     h.sex = text(&dataset, DCM_PatientSex);
     h.studyUid = text(&dataset, DCM_StudyInstanceUID);
     h.studyDate = text(&dataset, DCM_StudyDate);
+    h.frameOfReferenceUid = text(&dataset, DCM_FrameOfReferenceUID);
     h.studyDescription = text(&dataset, DCM_StudyDescription);
     h.seriesUid = text(&dataset, DCM_SeriesInstanceUID);
     h.seriesDescription = text(&dataset, DCM_SeriesDescription);

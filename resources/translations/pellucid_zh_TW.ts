@@ -1261,6 +1261,14 @@
         <source>rescale slopes of 0, taken for 1: %1</source>
         <translation>重新調整斜率為 0、視為 1：%1</translation>
     </message>
+    <message>
+        <source>the compressed pixels are damaged: %1</source>
+        <translation>壓縮的像素已損壞：%1</translation>
+    </message>
+    <message>
+        <source>NRRD space units &apos;%1&apos; are not supported</source>
+        <translation>不支援 NRRD 空間單位「%1」</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>

@@ -227,16 +227,68 @@ TEST_F(Faults, ScenesThatArePipesOrEndlessAreRefused) {
     expectOneLine(render(folder / "absent.json"), 3, "does not exist");
 }
 
+// Their decoders go on, and say so on a log that nobody reads.
+TEST_F(Faults, DamagedCompressedPixelsAreMentioned) {
+    for (const auto syntax : {dicom::TransferSyntax::rle, dicom::TransferSyntax::jpegLossless,
+                              dicom::TransferSyntax::jpeg2000}) {
+        const fs::path in = folder / dicom::transferSyntaxNames().at(std::size_t(syntax));
+        dicom::writeCtSeries(in, head(8, 48), {}, syntax);
+        const auto volume = [&] {
+            return cli("volume " + quoted(in) + " -o " + quoted(folder / "v.nrrd"));
+        };
+        EXPECT_EQ(volume().error, "") << in;
+        // Zeros before the end; for all but the JPEG files, to the end.
+        const fs::path victim = in / "IM0004.dcm";
+        std::string bytes = readText(victim);
+        const std::size_t from = bytes.size() - 900;
+        const std::size_t count = syntax == dicom::TransferSyntax::jpegLossless ? 60 : 892;
+        bytes.replace(from, count, count, '\0');
+        writeText(victim, bytes);
+        const auto said = volume();
+        EXPECT_EQ(said.exitCode, 0);
+        EXPECT_NE(said.error.find("IM0004.dcm"), std::string::npos) << in << said.error;
+    }
+}
+
+// Files of a series that are not used are missing from the picture, and of two series one is shown.
+TEST_F(Faults, WhatIsNotShownIsSaidBesideThePicture) {
+    const fs::path in = series("mixed", 8);
+    fs::resize_file(in / "IM0001.dcm", 4000);
+    const auto render = [&] {
+        return cli("render " + quoted(in) + " -o " + quoted(folder / "out.png"));
+    };
+    const auto cut = render();
+    EXPECT_EQ(cut.exitCode, 0);
+    EXPECT_NE(cut.error.find("IM0001.dcm: not used: the pixels are truncated"), std::string::npos)
+        << cut.error;
+    dicom::writeCtSeries(in / "other", head(3), {.patientName = "Other", .seriesNumber = 2},
+                         dicom::TransferSyntax::explicitLittle);
+    EXPECT_NE(render().error.find("series 1 of 2 series, 2 patients"), std::string::npos);
+}
+
+TEST_F(Faults, WhatIsReadIsNotWrittenOver) {
+    const fs::path in = series("own", 3);
+    const std::string before = readText(in / "IM0001.dcm");
+    expectOneLine(cli("render " + quoted(in) + " -o " + quoted(in / "IM0001.dcm")), 2,
+                  "is one of the files that are read");
+    EXPECT_EQ(readText(in / "IM0001.dcm"), before);
+    const fs::path nrrd = folder / "v.nrrd";
+    ASSERT_EQ(cli("volume " + quoted(in) + " -o " + quoted(nrrd)).exitCode, 0);
+    expectOneLine(cli("volume " + quoted(nrrd) + " --field -o " + quoted(nrrd)), 2,
+                  "is one of the files that are read");
+}
+
 // A terminal obeys what it is shown.
 TEST_F(Faults, NamesOfFilesDoNotReachTheTerminalAsTheyAre) {
-    const fs::path name = folder / "a\x1b[2J\x07\xc2\x9b"
+    const fs::path name = folder / "a\x1b[2J\x07\x9b\xe2\x80\xae\xc2\x9b"
                                    "31m.dcm";
     writeText(name, "no image");
     const auto r = cli("info " + quoted(folder.path()));
     EXPECT_EQ(r.exitCode, 3);
     for (const std::string &text : {r.out, r.error}) {
         EXPECT_EQ(text.find_first_of("\x1b\x07"), std::string::npos);
-        EXPECT_EQ(text.find("\xc2\x9b"), std::string::npos);
+        EXPECT_EQ(text.find('\x9b'), std::string::npos);
+        EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos); // turns what follows
         EXPECT_NE(text.find("31m.dcm"), std::string::npos);
     }
 }

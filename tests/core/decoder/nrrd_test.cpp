@@ -110,6 +110,15 @@ TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
         write(folder / "gzip.nhdr", "NRRD0001\n" + header + "gzip\ndata file: samples.gz\n");
         EXPECT_EQ(warnings("gzip.nhdr"), expected);
     }
+    for (const auto &[units, isTaken] :
+         {std::pair("\"mm\" \"mm\" \"mm\"", true), std::pair("\"mm\" \"m\" \"mm\"", false)}) {
+        write(folder / "units.nrrd",
+              "NRRD0004\n" + header + "raw\nspace: LPS\nspace units: " + units + "\n\n" + three);
+        if (isTaken)
+            EXPECT_NO_THROW(readNrrd(folder / "units.nrrd"));
+        else
+            EXPECT_THROW(readNrrd(folder / "units.nrrd"), task::Error);
+    }
     write(folder / "twice.nrrd", "NRRD0001\nsizes: 1 1 1\n" + header + "raw\n\n" + three);
     EXPECT_THROW(readNrrd(folder / "twice.nrrd"), task::Error);
 }

@@ -177,6 +177,13 @@ TEST(GroupSeries, AStrayOrientationIsAVolumeOfItsOwn) {
     EXPECT_EQ(entries[0].frames.size() + entries[1].frames.size(), 4U);
 }
 
+TEST(GroupSeries, PositionsOfAnotherSpaceAndValuesOfAnotherKindAreOtherVolumes) {
+    auto files = stack({0, 2, 4, 6, 8});
+    files[1].header.frameOfReferenceUid = "1.2.3";
+    files[3].header.modality = "MR";
+    EXPECT_EQ(group(files).size(), 3U);
+}
+
 TEST(GroupSeries, OtherSizesAndLocalizersAreSplitOff) {
     auto files = stack({0, 2, 4, 6, 8});
     files[1].header.columns = 5;
