@@ -22,9 +22,14 @@ std::optional<std::filesystem::path> folderBelow(std::initializer_list<Candidate
         if (folder.empty() && value != nullptr && std::filesystem::path(value).is_absolute())
             folder = std::filesystem::path(value) / below;
     }
-    std::error_code failed;
-    if (folder.empty() || (std::filesystem::create_directories(folder, failed), failed))
+    std::error_code failed, ignored;
+    if (folder.empty())
         return std::nullopt;
+    const bool isNew = std::filesystem::create_directories(folder, failed);
+    if (failed)
+        return std::nullopt;
+    if (isNew) // names of patients are nobody else's to read
+        std::filesystem::permissions(folder, std::filesystem::perms::owner_all, ignored);
     return folder;
 }
 

@@ -15,6 +15,7 @@
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/dictionary.h"
+#include "core/parse/japanese_text.h"
 #include "core/parse/memory_input.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
@@ -250,6 +251,21 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
         header.modalityTableFirst -= 65536;
 }
 
+// DCMTK asks the system's converter for names that glibc does not have.
+void convertJapanese(DcmDataset &dataset) {
+    OFString sets;
+    dataset.findAndGetOFStringArray(DCM_SpecificCharacterSet, sets);
+    if (sets.find("IR 87") == OFString_npos && sets.find("IR 159") == OFString_npos &&
+        sets.find("IR 13") == OFString_npos)
+        return;
+    for (const DcmTagKey &tag :
+         {DCM_PatientName, DCM_PatientID, DCM_StudyDescription, DCM_SeriesDescription}) {
+        OFString value;
+        if (dataset.findAndGetOFStringArray(tag, value).good())
+            dataset.putAndInsertString(tag, utf8OfJapanese({value.data(), value.size()}).c_str());
+    }
+}
+
 } // namespace
 
 void dropUnreadable(DcmItem &dataset) {
@@ -278,7 +294,8 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     dropUnreadable(dataset);
     // Names in any character set come out as UTF-8; where conversion fails the bytes stay.
     if (dataset.tagExistsWithValue(DCM_SpecificCharacterSet))
-        (void)dataset.convertToUTF8();
+        if (dataset.convertToUTF8().bad())
+            convertJapanese(dataset);
     InstanceHeader h;
     h.sopClassUid = text(&dataset, DCM_SOPClassUID);
     h.sopInstanceUid = text(&dataset, DCM_SOPInstanceUID);

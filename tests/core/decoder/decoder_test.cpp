@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <thread>
@@ -71,6 +72,34 @@ TEST(Decoder, aMissingProgramIsNamed) {
     } catch (const task::Error &error) {
         EXPECT_EQ(error.code(), task::ErrorCode::internal);
         EXPECT_THAT(error.what(), HasSubstr("cannot be started"));
+    }
+}
+
+// Half of the old pixels and half of the new would be a picture, too.
+TEST(Decoder, aFileThatIsWrittenIntoWhileItIsReadIsRefused) {
+    const test::TemporaryFolder folder;
+    const auto lattice = volume::Lattice::centred({2048, 2048, 1}, {1, 1, 1});
+    std::vector<std::int16_t> noise(lattice.size().count());
+    std::uint32_t state = 1;
+    for (std::int16_t &value : noise)
+        value = std::int16_t((state = state * 1664525U + 1013904223U) >> 20);
+    dicom::writeCtSeries(folder.path(),
+                         volume::Volume(lattice, std::move(noise), volume::ValueUnit::hounsfield),
+                         {}, dicom::TransferSyntax::jpeg2000);
+    const fs::path path = folder / "IM0001.dcm";
+    EXPECT_NO_THROW(Decoder::ofProgram().image(path));
+    std::jthread writer([&](const std::stop_token &stop) { // as it takes most of a second
+        while (!stop.stop_requested()) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).put('\0');
+        }
+    });
+    try {
+        Decoder::ofProgram().image(path);
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.reason(), "changed while it was read");
+        EXPECT_EQ(error.path(), path);
     }
 }
 

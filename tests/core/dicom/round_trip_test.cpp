@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -229,6 +230,28 @@ TEST(Load, ARescaleThatIsNoNumberCostsItsSlice) {
     const auto loaded = loadDefault(folder.path()).volume;
     EXPECT_EQ(loaded.lattice().size().k, 3);
     EXPECT_THAT(loaded.notes().warnings, testing::Contains("rescale slopes of 0, taken for 1: 1"));
+}
+
+// The examples of PS3.5, H.3.1 and H.3.2.
+TEST(Scan, JapaneseNamesAreRead) {
+    const test::TemporaryFolder folder;
+    const std::vector<std::array<std::string, 3>> names{
+        {"\\ISO 2022 IR 87",
+         "Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B=\x1b$B$d$^$@\x1b(B^\x1b$B$?$m$&\x1b(B",
+         "Yamada^Tarou=\u5C71\u7530^\u592A\u90CE=\u3084\u307E\u3060^\u305F\u308D\u3046"},
+        {"ISO 2022 IR 13\\ISO 2022 IR 87",
+         "\xD4\xCF\xC0\xDE^\xC0\xDB\xB3=\x1b$B;3ED\x1b(J^\x1b$BB@O:\x1b(J",
+         "\uFF94\uFF8F\uFF80\uFF9E^\uFF80\uFF9B\uFF73=\u5C71\u7530^\u592A\u90CE"}};
+    for (const auto &[sets, written, read] : names) {
+        dicom::writeCtSeries(folder.path(), tiltedHead(), {.patientName = "X"},
+                             dicom::TransferSyntax::explicitLittle);
+        const std::string file = "'" + (folder / "IM0001.dcm").string() + "'";
+        const std::string change = "dcmodify -nb -i SpecificCharacterSet='" + sets +
+                                   "' -m PatientName='" + written + "' " + file + " > /dev/null";
+        ASSERT_EQ(std::system(change.c_str()), 0);
+        const auto catalogue = dicom::scan({folder / "IM0001.dcm"});
+        EXPECT_EQ(catalogue.patients.at(0).name, read);
+    }
 }
 
 TEST(Load, MorePixelsThanTheHeaderSaysAreMentioned) {
