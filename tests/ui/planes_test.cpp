@@ -80,7 +80,7 @@ private slots:
         save("oblique");
         key(Qt::Key_C, Qt::ShiftModifier);
         QVERIFY(cut().axes.areStandard());
-        QCOMPARE(changed(before, grab("coronalView")), 0.0);
+        QTRY_COMPARE_WITH_TIMEOUT(changed(before, grab("coronalView")), 0.0, patienceMs);
     }
 
     void aDistanceIsDrawnListedUndoneAndFoundAgain() {

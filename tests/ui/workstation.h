@@ -240,6 +240,7 @@ template <class Test, class Application = ui::Application> int run(int argc, cha
     QApplication::setApplicationName("pellucid-test");
     QApplication::setOrganizationName("pellucid-test");
     ui::Theme::named("dark").apply(application);
+    qputenv("QTEST_FUNCTION_TIMEOUT", "3600000"); // ctest has one of its own
     Test test;
     return QTest::qExec(&test, argc, argv);
 }
