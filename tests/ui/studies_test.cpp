@@ -332,6 +332,9 @@ private:
         for (int row = 0; row < list().rowCount(); ++row)
             if (list().index(row, 0).data() == patient) {
                 tree()->expand(list().index(row, 0));
+                // What is in a study is asked for when it is looked into.
+                (void)QTest::qWaitFor([&] { return list().rowCount(list().index(row, 0)) > 0; },
+                                      patienceMs);
                 return list().index(0, 0, list().index(row, 0));
             }
         qFatal("no study of %s", qPrintable(patient));
