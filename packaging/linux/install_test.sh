@@ -69,8 +69,8 @@ use_it() { # NAME
     # A screen, the program, a moment, a picture of all of it.
     cat >"$root/home/tester/look.sh" <<'TEXT'
 started() { # its window, on the screen; not one of those that nobody sees
-    xwininfo -root -tree | grep -oE '0x[0-9a-f]+ "[^"]*Pellucid.* [0-9]{4}x[0-9]{3,4}\+' | cut -d' ' -f1 |
-        xargs -r -n1 xwininfo -id | grep -q IsViewable
+    xwininfo -root -tree 2>/dev/null | grep -oE '0x[0-9a-f]+ "[^"]*Pellucid.* [0-9]{4}x[0-9]{3,4}\+' | cut -d' ' -f1 |
+        xargs -r -n1 xwininfo -id 2>/dev/null | grep -q IsViewable
 }
 for run in cold warm; do
     begin=$(date +%s%N)

@@ -8,7 +8,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 # What makeself writes of itself into the file: its command, by names that are the same everywhere,
 # and a size, of bytes and not of the blocks of this disk.
-ln -s "$folder" "$scratch/pellucid"
+cp -a "$folder" "$scratch/pellucid" # which is the name it unpacks to
 mkdir "$scratch/bin"
 printf '#!/bin/sh\nexec %s --apparent-size "$@"\n' "$(command -v du)" >"$scratch/bin/du"
 chmod 755 "$scratch/bin/du"
@@ -16,5 +16,5 @@ cd "$scratch"
 # gzip without a time: the same folder gives the same file.
 GZIP=-n PATH=$scratch/bin:$PATH makeself --quiet --nox11 --gzip --packaging-date "$(LC_ALL=C date -u -d "@$SOURCE_DATE_EPOCH")" \
     --tar-quietly --tar-extra "--sort=name --mtime=@$SOURCE_DATE_EPOCH --owner=0 --group=0 --numeric-owner --mode=go=rX,u+rw" \
-    pellucid/. pellucid.run "Pellucid" ./install.sh 2>/dev/null
+    pellucid pellucid.run "Pellucid" ./install.sh 2>/dev/null
 mv pellucid.run "$out"
