@@ -171,7 +171,8 @@ void writeLibrary(const fs::path &folder) {
     series.volumes.resize(2);
     series.files = {{"/a/b.dcm", "1.2.3.1"}, {"/a/c.dcm", "1.2.3.2"}};
     ui::Library({place.path()}).put({series});
-    fs::copy_file(ui::LibraryPlace{place.path()}.listFile(), folder / "list");
+    fs::copy_file(ui::LibraryPlace{place.path()}.listFile(), folder / "list",
+                  fs::copy_options::overwrite_existing); // a corpus is kept
 }
 
 void writeSlicer(const fs::path &folder) {
