@@ -29,9 +29,7 @@ Failure currentFailure() {
     } catch (const std::bad_alloc &) {
         return {FailureTexts::tr("not enough memory"), {}};
     } catch (const std::system_error &error) {
-        // No thread can be had: there is no memory for its stack, or too many run.
-        if (error.code() == std::errc::resource_unavailable_try_again ||
-            error.code() == std::errc::not_enough_memory)
+        if (task::isLackOfMemory(error))
             return {FailureTexts::tr("not enough memory"), {}};
         task::log(std::string("a fault of the program: ") + error.what());
     } catch (const std::exception &error) {

@@ -89,12 +89,6 @@ int run(int argc, char **argv) {
     return 0;
 }
 
-// The system has no thread, or no memory for one.
-bool isLack(const std::system_error &error) {
-    return error.code() == std::errc::resource_unavailable_try_again ||
-           error.code() == std::errc::not_enough_memory;
-}
-
 } // namespace
 
 int main(int argc, char **argv) {
@@ -110,8 +104,9 @@ int main(int argc, char **argv) {
     } catch (const std::bad_alloc &) {
         return report("not enough memory", memoryExit);
     } catch (const std::system_error &error) {
-        return isLack(error) ? report("not enough memory", memoryExit)
-                             : report(std::string("internal error: ") + error.what(), internalExit);
+        return task::isLackOfMemory(error)
+                   ? report("not enough memory", memoryExit)
+                   : report(std::string("internal error: ") + error.what(), internalExit);
     } catch (const std::exception &error) {
         return report(std::string("internal error: ") + error.what(), internalExit);
     }

@@ -60,17 +60,14 @@ std::string printable(const std::string &text) {
 
 std::string escapedControls(const std::string &json) {
     std::string escaped;
-    for (std::size_t n = 0; n < json.size(); ++n) {
-        const auto byte = (unsigned char)(json[n]);
-        const auto next = n + 1 < json.size() ? (unsigned char)(json[n + 1]) : 0U;
-        if (byte == 0x7F) {
-            escaped += "\\u007f";
-        } else if (byte == 0xC2 && next >= 0x80 && next < 0xA0) {
-            escaped += fmt::format("\\u{:04x}", next);
-            ++n;
-        } else {
-            escaped += json[n];
-        }
+    for (std::size_t at = 0; at < json.size();) {
+        const Letter letter = letterAt(json, at);
+        const std::size_t bytes = std::max<std::size_t>(1, letter.bytes);
+        if (letter.code >= 0x7F && steers(letter.code))
+            escaped += fmt::format("\\u{:04x}", unsigned(letter.code));
+        else
+            escaped.append(json, at, bytes);
+        at += bytes;
     }
     return escaped;
 }

@@ -9,7 +9,7 @@ namespace pellucid::cli {
 /// direction): names of files and patients come from outside.
 std::string printable(const std::string &text);
 
-/// JSON escapes C0 by itself; the same for DEL and C1, within strings.
+/// JSON escapes C0 by itself; the same for all else that steers a terminal, within strings.
 std::string escapedControls(const std::string &json);
 
 /// A line on stderr that keeps nothing from going on.

@@ -46,8 +46,8 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
 }
 
 bool hasSurplusPixels(const InstanceHeader &h) {
-    const double described = double(h.rows) * h.columns * h.samplesPerPixel * h.bitsAllocated /
-                             8.0 * double(h.frames.size());
+    const double described =
+        double(h.rows) * h.columns * h.samplesPerPixel * h.bitsAllocated / 8.0 * h.announcedFrames;
     return double(h.pixelBytes) > described + 1.0;
 }
 

@@ -72,7 +72,8 @@ struct DecodedImage {
     std::vector<std::uint16_t> samples;
 };
 
-/// Whether uncompressed pixels go on behind those that the header describes; a byte is padding.
+/// Whether uncompressed pixels go on behind those that the header describes, whichever frames of it
+/// are in use; a byte is padding.
 bool hasSurplusPixels(const InstanceHeader &header);
 
 /// Why a file's pixels cannot be part of a volume or an image set, or nothing if they can.

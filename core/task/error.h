@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace pellucid::task {
 
@@ -34,5 +35,8 @@ private:
     std::string m_reason;
     std::filesystem::path m_path;
 };
+
+/// Whether the system has no thread to give, or no memory for one.
+bool isLackOfMemory(const std::system_error &error);
 
 } // namespace pellucid::task

@@ -184,6 +184,17 @@ TEST(GroupSeries, PositionsOfAnotherSpaceAndValuesOfAnotherKindAreOtherVolumes) 
     EXPECT_EQ(group(files).size(), 3U);
 }
 
+TEST(GroupSeries, FramesThatAreNotUsedAreNoSurplus) {
+    InstanceHeader header = file("f", 0.0).header;
+    header.bitsAllocated = 16;
+    header.announcedFrames = 10; // of which one is in use
+    const auto plane = std::uint32_t(2 * header.rows * header.columns);
+    header.pixelBytes = 10 * plane;
+    EXPECT_FALSE(decoder::hasSurplusPixels(header));
+    header.pixelBytes += plane;
+    EXPECT_TRUE(decoder::hasSurplusPixels(header));
+}
+
 TEST(GroupSeries, OtherSizesAndLocalizersAreSplitOff) {
     auto files = stack({0, 2, 4, 6, 8});
     files[1].header.columns = 5;
