@@ -85,20 +85,24 @@ LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
     });
     connect(&document, &Document::sceneChanged, this, &LookPreparer::followScene);
     // Done or cancelled: what was not delivered is not there.
-    connect(&jobs, &JobRunner::finished, this, [this] {
-        if (m_underway) {
-            m_givenUp = std::exchange(m_underway, std::nullopt);
-            // Nothing follows the coarse picture: the former one is better than that.
-            if (m_full && (m_shown == EngineStage::coarse || m_shown == EngineStage::live))
-                showFull();
-            emit planChanged(PlanState::givenUp);
-        }
-        if (m_layersUnderway)
-            m_layersGivenUp = std::exchange(m_layersUnderway, std::nullopt);
-    });
+    connect(&jobs, &JobRunner::started, this, [this] { m_hasFailed = false; });
+    connect(&jobs, &JobRunner::failed, this, [this] { m_hasFailed = true; });
+    connect(&jobs, &JobRunner::finished, this, &LookPreparer::giveUp);
 }
 
 LookPreparer::~LookPreparer() = default;
+
+void LookPreparer::giveUp() {
+    if (m_underway) {
+        m_givenUp = std::exchange(m_underway, std::nullopt);
+        // Nothing follows the coarse picture: the former one is better than that.
+        if (m_full && (m_shown == EngineStage::coarse || m_shown == EngineStage::live))
+            showFull();
+        emit planChanged(m_hasFailed ? PlanState::failed : PlanState::cancelled);
+    }
+    if (m_layersUnderway)
+        m_layersGivenUp = std::exchange(m_layersUnderway, std::nullopt);
+}
 
 void LookPreparer::prepareAgain() {
     m_givenUp.reset();
@@ -154,6 +158,8 @@ void LookPreparer::stopOwnJob() {
 void LookPreparer::expect(const PreparedFor &wanted) {
     m_underway = wanted;
     m_givenUp.reset();
+    if (!m_jobs.isRunning()) // there was no thread for it
+        giveUp();
 }
 
 void LookPreparer::followScene() {
@@ -272,6 +278,8 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
         announce(volume, true, job.progress().part(0.1, 1.0));
     });
     m_layersUnderway = wanted;
+    if (!m_jobs.isRunning())
+        giveUp();
 }
 
 void LookPreparer::startPreparing(bool coarseFirst) {

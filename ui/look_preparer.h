@@ -25,9 +25,9 @@ class JobRunner;
 /// while its weights move; the sum itself, after they came to rest; or another thing altogether.
 enum class EngineStage { coarse, live, settled, full };
 
-/// Whether the engine in use is made for what the scene asks for: it is, that one is being made, or
-/// it was cancelled or failed.
-enum class PlanState { holds, underway, givenUp };
+/// Whether the engine in use is made for what the scene asks for: it is, that one is being made, it
+/// was cancelled, or it could not be made.
+enum class PlanState { holds, underway, cancelled, failed };
 
 /// What of a scene an engine is made for; the rest changes from frame to frame.
 struct PreparedFor {
@@ -75,7 +75,7 @@ public:
     const std::optional<render::PreparedEngine> &fullEngine() const { return m_full; }
     /// Shows an engine that was made before.
     void adopt(const PreparedFor &preparedFor, const render::PreparedEngine &engine);
-    /// The job that was just started makes an engine for it.
+    /// The job that was just started, if it could be, makes an engine for it.
     void expect(const PreparedFor &wanted);
     /// What makes engines within a job and hands them over, in the part of its progress beyond
     /// `from`. It needs the preparer itself only where it delivers.
@@ -92,6 +92,7 @@ private:
     void followScene();
     void settle();
     void stopOwnJob();
+    void giveUp();
     void showFull();
     void followWeights(const PreparedFor &wanted);
     void followCueAndLight(const PreparedFor &wanted);
@@ -104,6 +105,7 @@ private:
     std::shared_ptr<preprocess::StepCache> m_steps;
     QTimer m_rest;
     bool m_held = false;
+    bool m_hasFailed = false; ///< the job that ends now
     /// What was handed over last; none since the volume came.
     std::optional<EngineStage> m_shown;
     /// What the last full engine was made for, what the next one is being made for, and what was

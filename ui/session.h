@@ -9,6 +9,7 @@
 
 #include <QStringList>
 
+#include "core/task/error.h"
 #include "ui/study_opener.h"
 
 namespace pellucid::ui {
@@ -45,6 +46,8 @@ public:
     void keep(const Session &session);
     void forget();
     std::optional<Session> kept() const;
+    /// Why what was kept cannot be taken up, where something was.
+    std::optional<task::Error> fault() const;
 
 private:
     void write(std::stop_token stop);

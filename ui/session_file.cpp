@@ -29,6 +29,19 @@ std::optional<std::filesystem::path> sessionFile() {
     return folder ? std::optional(*folder / "session.json") : std::nullopt;
 }
 
+// None where nothing was kept.
+std::optional<Session> readSession() {
+    const auto path = sessionFile();
+    std::error_code unknown;
+    if (!path || !std::filesystem::exists(*path, unknown))
+        return std::nullopt;
+    try {
+        return sessionFromJson(files::readText(*path, mostOfSession));
+    } catch (const task::Error &error) {
+        throw task::Error(error.code(), error.reason(), *path);
+    }
+}
+
 QJsonArray toJson(const glm::dvec3 &v) {
     return {v.x, v.y, v.z};
 }
@@ -166,14 +179,21 @@ std::optional<Session> SessionFile::kept() const {
     const auto lock = rest();
     if (m_next)
         return m_next;
-    const auto path = sessionFile();
-    if (!path)
-        return std::nullopt;
     try {
-        return sessionFromJson(files::readText(*path, mostOfSession));
+        return readSession();
     } catch (const task::Error &) {
         return std::nullopt;
     }
+}
+
+std::optional<task::Error> SessionFile::fault() const {
+    const auto lock = rest();
+    try {
+        readSession();
+    } catch (const task::Error &error) {
+        return error;
+    }
+    return std::nullopt;
 }
 
 } // namespace pellucid::ui

@@ -8,6 +8,8 @@ Workbench::Workbench(std::optional<EngineChoice> engine)
       opener(document, jobs, preparer), phases(document, opener, jobs), measurements(document) {
     QObject::connect(&preparer, &LookPreparer::engineReady, &copier, &CardCopier::show);
     document.addProblems(library.notices());
+    if (const auto fault = session.fault())
+        document.addProblems({{fault->path(), fault->reason()}});
 }
 
 Workbench::~Workbench() {

@@ -35,6 +35,8 @@ const std::map<std::string, render::Reconstruction> reconstructions{
     {"band-limited", render::Reconstruction::bandLimited}};
 
 render::Scene readScene(const fs::path &path) {
+    if (path.empty())
+        throw Error(ErrorCode::usage, "--scene: an empty path leads nowhere");
     const std::string text = files::readText(path, files::mostOfPreset);
     try {
         return render::sceneFromJson(text);
@@ -225,7 +227,7 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
     const volume::Lattice &lattice = volume.lattice();
     const auto given = [&](const char *name) { return command.count(name) > 0; };
     render::Scene scene;
-    if (!o.scene.empty()) {
+    if (given("--scene")) {
         scene = readScene(o.scene);
     } else {
         // A large volume may have no default image; naming a size or a pixel gives it one.

@@ -38,6 +38,8 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
         h.highBit + 1 < h.bitsStored)
         return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored,
                            h.bitsAllocated, h.highBit);
+    if (h.pixelRepresentation != 0 && h.pixelRepresentation != 1)
+        return "does not say whether its values are signed";
     for (const FrameHeader &frame : h.frames)
         if (h.modalityTable.empty() &&
             !(frame.rescale.isSlopeReadable && frame.rescale.isInterceptReadable))

@@ -55,7 +55,8 @@ struct InstanceHeader {
     int announcedFrames = 1;      ///< NumberOfFrames, whether or not there is room for them
     std::uint32_t pixelBytes = 0; ///< of uncompressed pixels, as their element says; 0: not known
     int bitsAllocated = 0, bitsStored = 0, highBit = 0;
-    bool isSigned = false, lossy = false;
+    int pixelRepresentation = 0; ///< 0: unsigned, 1: signed; DICOM knows no other
+    bool lossy = false;
     bool hasDamagedPixels = false; ///< as far as their decoder noticed, who went on
     std::string photometric, rescaleType;
     std::optional<int> paddingValue, paddingLimit;
@@ -63,12 +64,14 @@ struct InstanceHeader {
     std::vector<std::uint16_t> modalityTable; ///< values, empty if there is none
     int modalityTableFirst = 0;
     std::vector<FrameHeader> frames; ///< at least one
+
+    bool isSigned() const { return pixelRepresentation == 1; }
 };
 
 /// A decoded file: stored values, high bits masked, sign extended to 16 bits.
 struct DecodedImage {
     InstanceHeader header;
-    /// *Shape*: frames x rows x columns. Signed if header.isSigned.
+    /// *Shape*: frames x rows x columns. Signed if header.isSigned().
     std::vector<std::uint16_t> samples;
 };
 
@@ -91,6 +94,7 @@ struct ArchiveFile {
     std::string name;
     std::uint64_t bytes = 0;
     bool isEncrypted = false;
+    bool isLink = false; ///< announced, never given
 };
 
 } // namespace pellucid::decoder

@@ -146,11 +146,11 @@ template <class A> void pass(A &archive, InstanceHeader &h) {
         pass(archive, *text);
     for (int *const number :
          {&h.seriesNumber, &h.instanceNumber, &h.rows, &h.columns, &h.samplesPerPixel,
-          &h.announcedFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.modalityTableFirst})
+          &h.announcedFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.pixelRepresentation,
+          &h.modalityTableFirst})
         pass(archive, *number);
     pass(archive, h.pixelBytes);
-    for (bool *const flag :
-         {&h.hasPixels, &h.floatPixels, &h.isSigned, &h.lossy, &h.hasDamagedPixels})
+    for (bool *const flag : {&h.hasPixels, &h.floatPixels, &h.lossy, &h.hasDamagedPixels})
         pass(archive, *flag);
     pass(archive, h.paddingValue);
     pass(archive, h.paddingLimit);
@@ -168,6 +168,7 @@ template <class A> void pass(A &archive, ArchiveFile &file) {
     pass(archive, file.name);
     pass(archive, file.bytes);
     pass(archive, file.isEncrypted);
+    pass(archive, file.isLink);
 }
 
 template <class A> void pass(A &archive, NrrdLayout &layout) {
@@ -181,6 +182,7 @@ template <class A> void pass(A &archive, NrrdLayout &layout) {
     layout.scalar = NrrdScalar(scalar);
     pass(archive, layout.isGzip);
     pass(archive, layout.isSwapped);
+    pass(archive, layout.isOfPatient);
     pass(archive, layout.dataFile);
 }
 

@@ -40,7 +40,9 @@ struct NrrdLayout {
     NrrdScalar scalar = NrrdScalar::u8;
     bool isGzip = false;
     bool isSwapped = false; ///< not in this machine's byte order
-    std::string dataFile;   ///< as it stands there; empty: the samples follow in the same file
+    /// The header says how its space lies in the patient; else it is taken for DICOM's.
+    bool isOfPatient = true;
+    std::string dataFile; ///< as it stands there; empty: the samples follow in the same file
 };
 
 /// Which samples of a file are wanted.

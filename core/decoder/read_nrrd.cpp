@@ -56,6 +56,9 @@ Nrrd open(const fs::path &path, const task::Progress &progress) {
         throw Error(error.code(), error.reason(), path);
     }
     nrrd.header.notes.title = path.stem().string();
+    if (!layout.isOfPatient)
+        nrrd.header.notes.warnings.emplace_back(
+            "names no space of the patient; taken for left-posterior-superior");
     nrrd.header.samplesFile = layout.dataFile.empty() ? path : detachedData(path, layout.dataFile);
     return nrrd;
 }

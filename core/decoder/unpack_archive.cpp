@@ -81,14 +81,16 @@ bool isArchive(const fs::path &path) {
     }
 }
 
-void unpackArchive(Decoder &decoder, const fs::path &path, const fs::path &folder,
-                   const task::Progress &progress, const UnpackLimits &limits) {
+std::vector<std::string> unpackArchive(Decoder &decoder, const fs::path &path,
+                                       const fs::path &folder, const task::Progress &progress,
+                                       const UnpackLimits &limits) {
     std::error_code unknown;
     const fs::space_info space = fs::space(folder, unknown);
     const std::uintmax_t most =
         unknown ? limits.bytes : std::min(limits.bytes, space.available / 2);
     std::uintmax_t announced = 0, written = 0;
     std::size_t files = 0, number = 0;
+    std::vector<std::string> links;
     fs::path to;
     std::ofstream out;
     decoder.archive(
@@ -106,6 +108,8 @@ void unpackArchive(Decoder &decoder, const fs::path &path, const fs::path &folde
             if (++files > limits.files)
                 throw Error(ErrorCode::unusable,
                             fmt::format("holds more than {} files", limits.files), path);
+            if (file.isLink)
+                links.push_back(file.name);
         },
         [&](const ArchivePart &part) {
             errno = 0;
@@ -132,6 +136,7 @@ void unpackArchive(Decoder &decoder, const fs::path &path, const fs::path &folde
                                           : 1.0);
         },
         progress);
+    return links;
 }
 
 } // namespace pellucid::decoder

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "core/task/progress.h"
 
@@ -19,12 +21,13 @@ struct UnpackLimits {
 bool isArchive(const std::filesystem::path &path);
 
 /// Writes the regular files of a ZIP archive below a folder, under their names in the archive.
-/// Names that lead out of the folder lose what leads out; links are left out.
-/// *Throws* Error{unusable} if the archive is damaged, encrypted, or announces or gives more than
-/// the limits allow (it is refused by its directory, before anything is written); Error{output};
-/// Cancelled.
-void unpackArchive(Decoder &decoder, const std::filesystem::path &archive,
-                   const std::filesystem::path &folder, const task::Progress &progress = {},
-                   const UnpackLimits &limits = {});
+/// Names that lead out of the folder lose what leads out; links are left out. *Returns* their
+/// names. *Throws* Error{unusable} if the archive is damaged, encrypted, or announces or gives more
+/// than the limits allow (it is refused by its directory, before anything is written);
+/// Error{output}; Cancelled.
+std::vector<std::string> unpackArchive(Decoder &decoder, const std::filesystem::path &archive,
+                                       const std::filesystem::path &folder,
+                                       const task::Progress &progress = {},
+                                       const UnpackLimits &limits = {});
 
 } // namespace pellucid::decoder

@@ -64,8 +64,8 @@ double rescaled(const InstanceHeader &h, int frame, int stored) {
 bool fitsShort(const InstanceHeader &h, volume::ValueUnit unit) {
     if (!h.modalityTable.empty())
         return *std::max_element(h.modalityTable.begin(), h.modalityTable.end()) <= 32767;
-    const double top = h.isSigned ? std::exp2(h.bitsStored - 1) - 1 : std::exp2(h.bitsStored) - 1;
-    const double bottom = h.isSigned ? -std::exp2(h.bitsStored - 1) : 0.0;
+    const double top = h.isSigned() ? std::exp2(h.bitsStored - 1) - 1 : std::exp2(h.bitsStored) - 1;
+    const double bottom = h.isSigned() ? -std::exp2(h.bitsStored - 1) : 0.0;
     return std::all_of(h.frames.begin(), h.frames.end(), [&](const FrameHeader &f) {
         const Rescale &r = f.rescale;
         if (r.slope != std::round(r.slope) || r.intercept != std::round(r.intercept))
@@ -86,7 +86,7 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
     if (!h.paddingValue)
         return std::nullopt;
     int value = *h.paddingValue, limit = h.paddingLimit.value_or(value);
-    if (h.isSigned) { // written as unsigned by some
+    if (h.isSigned()) { // written as unsigned by some
         value = value > 32767 ? value - 65536 : value;
         limit = limit > 32767 ? limit - 65536 : limit;
     }
@@ -108,7 +108,7 @@ bool place(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit,
     const auto padding = paddingOf(h, unit);
     for (std::size_t n = 0; n < plane; ++n) {
         const std::uint16_t code = in[n];
-        const int stored = h.isSigned ? int(std::int16_t(code)) : int(code);
+        const int stored = h.isSigned() ? int(std::int16_t(code)) : int(code);
         if (padding && padding->holds(stored)) {
             out[n] = Missing<T>::value;
             continue;

@@ -100,7 +100,9 @@ private:
 
     void addArchive(const fs::path &path) {
         auto folder = std::make_shared<files::SessionFolder>();
-        decoder::unpackArchive(decoder::Decoder::ofProgram(), path, folder->path(), m_progress);
+        for (const std::string &link : decoder::unpackArchive(decoder::Decoder::ofProgram(), path,
+                                                              folder->path(), m_progress))
+            skipped.push_back({path / fs::path(link).relative_path(), "is a link in an archive"});
         addFolder(folder->path());
         m_archives[folder->path()] = path;
         unpacked.push_back(std::move(folder));

@@ -33,8 +33,8 @@ struct SeriesLabels {
 };
 
 /// Writes a CT volume of int16 HU as one file per slice, IM0001.dcm and on, signed 16 bits, without
-/// loss. The folder is made if needed; files of those names are replaced. Either all files are
-/// written or none is left.
+/// loss. The folder is made if needed; a file of such a name that is there is an error. Either all
+/// files are written or none is left.
 /// *Throws* Error{output}, Error{usage} if the volume is not int16, Cancelled.
 void writeCtSeries(const std::filesystem::path &folder, const volume::Volume &volume,
                    const SeriesLabels &labels, TransferSyntax syntax,

@@ -201,6 +201,9 @@ void writeCtSeries(const fs::path &folder, const volume::Volume &volume, const S
     std::vector<fs::path> paths;
     for (int k = 0; k < size.k; ++k)
         paths.push_back(folder / fmt::format("IM{:04d}.dcm", k + 1));
+    for (const fs::path &path : paths)
+        if (fs::exists(fs::symlink_status(path, error)))
+            throw Error(ErrorCode::output, "is there already", path);
     std::mutex guard;
     int done = 0;
     std::vector<fs::path> written;

@@ -105,7 +105,7 @@ void decodeJpeg2000Frames(DcmDataset &dataset, DecodedImage &image) {
         // the two's complement of its own precision.
         for (std::size_t n = 0; n < plane; ++n)
             image.samples[frame * plane + n] =
-                extended(std::uint32_t(decoded.samples[n]), decoded.precision, h.isSigned);
+                extended(std::uint32_t(decoded.samples[n]), decoded.precision, h.isSigned());
     }
 }
 
@@ -119,7 +119,8 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
             fail(fmt::format("the pixels are truncated: {} of {} samples",
                              data == nullptr ? 0 : count, needed));
         for (std::size_t n = 0; n < needed; ++n)
-            image.samples[n] = extended(std::uint32_t(data[n]) >> shift, h.bitsStored, h.isSigned);
+            image.samples[n] =
+                extended(std::uint32_t(data[n]) >> shift, h.bitsStored, h.isSigned());
     };
     if (h.bitsAllocated == 8) {
         const Uint8 *data = nullptr;
@@ -136,7 +137,7 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
             fail("the pixels are truncated");
         for (std::size_t n = 0; n < needed; ++n)
             image.samples[n] = extended(std::uint32_t(words[n / 2] >> (n % 2 * 8)) >> shift,
-                                        h.bitsStored, h.isSigned);
+                                        h.bitsStored, h.isSigned());
         return;
     }
     const Uint16 *data = nullptr;
@@ -190,7 +191,7 @@ DecodedImage decoded(std::span<const std::byte> bytes) {
         image.header.bitsAllocated = after.bitsAllocated;
         image.header.bitsStored = after.bitsStored;
         image.header.highBit = after.highBit;
-        image.header.isSigned = after.isSigned;
+        image.header.pixelRepresentation = after.pixelRepresentation;
         if (after.rows != image.header.rows || after.columns != image.header.columns ||
             after.samplesPerPixel != 1 || whyUnusable(image.header))
             fail("the compressed image is not what the header says");

@@ -247,7 +247,7 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
     const std::size_t entries = descriptor[0] == 0.0 ? 65536 : std::size_t(descriptor[0]);
     header.modalityTable.assign(data, data + std::min<std::size_t>(entries, count));
     header.modalityTableFirst = int(descriptor[1]);
-    if (header.isSigned && header.modalityTableFirst > 32767)
+    if (header.isSigned() && header.modalityTableFirst > 32767)
         header.modalityTableFirst -= 65536;
 }
 
@@ -325,7 +325,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     h.bitsAllocated = integer(&dataset, DCM_BitsAllocated);
     h.bitsStored = integer(&dataset, DCM_BitsStored, h.bitsAllocated);
     h.highBit = integer(&dataset, DCM_HighBit, h.bitsStored - 1);
-    h.isSigned = integer(&dataset, DCM_PixelRepresentation) == 1;
+    h.pixelRepresentation = integer(&dataset, DCM_PixelRepresentation);
     h.lossy = text(&dataset, DCM_LossyImageCompression) == "01";
     h.photometric = text(&dataset, DCM_PhotometricInterpretation);
     h.rescaleType = text(&dataset, DCM_RescaleType);

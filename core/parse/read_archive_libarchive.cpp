@@ -44,7 +44,7 @@ ArchiveFile fileOf(struct archive_entry *entry) {
         name = archive_entry_pathname(entry);
     return {name != nullptr ? name : "",
             std::uint64_t(std::max<la_int64_t>(0, archive_entry_size(entry))),
-            archive_entry_is_encrypted(entry) != 0};
+            archive_entry_is_encrypted(entry) != 0, archive_entry_filetype(entry) == AE_IFLNK};
 }
 
 void forEachFile(struct archive *reader, const std::function<void(const ArchiveFile &)> &f) {
@@ -56,7 +56,8 @@ void forEachFile(struct archive *reader, const std::function<void(const ArchiveF
         // A warning is about names in another character set.
         if (status != ARCHIVE_OK && status != ARCHIVE_WARN)
             failReading(reader);
-        if (archive_entry_filetype(entry) == AE_IFREG)
+        const auto type = archive_entry_filetype(entry);
+        if (type == AE_IFREG || type == AE_IFLNK)
             f(fileOf(entry));
     }
 }
@@ -72,6 +73,8 @@ void readArchive(std::span<const std::byte> archive, const TakeData &take) {
     const Reader reader = open(archive);
     std::vector<std::byte> part(decoder::archivePartBytes);
     forEachFile(reader.get(), [&](const ArchiveFile &file) {
+        if (file.isLink)
+            return;
         for (bool isFirst = true, isLast = false; !isLast; isFirst = false) {
             std::size_t filled = 0;
             while (filled < part.size() && !isLast) {

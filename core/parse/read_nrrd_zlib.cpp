@@ -150,20 +150,24 @@ std::optional<NrrdScalar> scalarOf(const std::string &name) {
     return it == names.end() ? std::nullopt : std::optional(it->second);
 }
 
-// Signs that turn the header's space into LPS.
-glm::dvec3 toLps(const Fields &fields) {
+struct Space {
+    glm::dvec3 toLps{1.0}; ///< signs
+    bool isOfPatient = true;
+};
+
+Space spaceOf(const Fields &fields) {
     const auto space = fields.find({"space"});
     if (!space)
-        return glm::dvec3(1.0);
+        return {glm::dvec3(1.0), false};
     const std::string name = task::lowered(*space);
     if (name == "left-posterior-superior" || name == "lps")
-        return glm::dvec3(1.0);
+        return {};
     if (name == "right-anterior-superior" || name == "ras")
-        return {-1.0, -1.0, 1.0};
+        return {{-1.0, -1.0, 1.0}};
     if (name == "left-anterior-superior" || name == "las")
-        return {1.0, -1.0, 1.0};
+        return {{1.0, -1.0, 1.0}};
     if (name == "scanner-xyz" || name == "3d-right-handed")
-        return glm::dvec3(1.0);
+        return {glm::dvec3(1.0), false}; // of the scanner, or of nothing
     fields.fail("NRRD space '" + *space + "' is not supported");
 }
 
@@ -196,7 +200,8 @@ void parseLattice(const Fields &fields, NrrdLayout &layout) {
             at = close + 1;
         }
     std::array<glm::dvec3, 3> steps{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
-    const glm::dvec3 sign = toLps(fields);
+    const Space space = spaceOf(fields);
+    const glm::dvec3 sign = space.toLps;
     if (const auto directions = fields.find({"space directions"})) {
         const auto vectors = parseVectors(fields, *directions);
         if (vectors.size() != 3)
@@ -218,6 +223,7 @@ void parseLattice(const Fields &fields, NrrdLayout &layout) {
     (void)volume::Lattice::make(layout.size, {origin}, steps); // which says what is wrong
     layout.originMm = origin;
     layout.stepsMm = steps;
+    layout.isOfPatient = space.isOfPatient;
 }
 
 constexpr std::size_t partBytes = 1 << 20;

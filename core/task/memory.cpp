@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/task/memory.h"
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -11,14 +14,31 @@
 
 namespace pellucid::task {
 
+namespace {
+
+constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
+
+// What the process's own limit leaves; mapped counts, whether used or not.
+std::size_t mappableBytes() {
+    rlimit limit{};
+    std::size_t pages = 0;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+        !(std::ifstream("/proc/self/statm") >> pages))
+        return unknown;
+    const std::size_t mapped = pages * std::size_t(sysconf(_SC_PAGESIZE));
+    return limit.rlim_cur > mapped ? limit.rlim_cur - mapped : 0;
+}
+
+} // namespace
+
 std::size_t availableMemoryBytes() {
     std::ifstream info("/proc/meminfo");
     std::string name, unit;
     std::size_t kilobytes = 0;
     while (info >> name >> kilobytes >> unit)
         if (name == "MemAvailable:")
-            return kilobytes * 1024;
-    return std::numeric_limits<std::size_t>::max();
+            return std::min(kilobytes * 1024, mappableBytes());
+    return mappableBytes();
 }
 
 void requireMemory(double bytes) {

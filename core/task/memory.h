@@ -5,7 +5,8 @@
 
 namespace pellucid::task {
 
-/// Memory that can be had without pushing other programs out; the largest size if it is not known.
+/// Memory that can be had without pushing other programs out and within the process's limit; the
+/// largest size if it is not known.
 std::size_t availableMemoryBytes();
 
 /// Asked before memory is: systems that overcommit give what they do not have, and kill later.

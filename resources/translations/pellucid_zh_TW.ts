@@ -1269,6 +1269,26 @@
         <source>NRRD space units &apos;%1&apos; are not supported</source>
         <translation>不支援 NRRD 空間單位「%1」</translation>
     </message>
+    <message>
+        <source>is a link in an archive</source>
+        <translation>是壓縮檔中的連結</translation>
+    </message>
+    <message>
+        <source>is there already</source>
+        <translation>已經存在</translation>
+    </message>
+    <message>
+        <source>is not a session</source>
+        <translation>不是工作階段</translation>
+    </message>
+    <message>
+        <source>does not say whether its values are signed</source>
+        <translation>未說明數值是否帶正負號</translation>
+    </message>
+    <message>
+        <source>names no space of the patient; taken for left-posterior-superior</source>
+        <translation>未指明病人座標空間；視為左－後－上</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>
@@ -2577,6 +2597,10 @@
     <message>
         <source>draft</source>
         <translation>草圖</translation>
+    </message>
+    <message>
+        <source>not prepared: F5 tries again</source>
+        <translation>未能準備：按 F5 重試</translation>
     </message>
 </context>
 <context>

@@ -13,6 +13,7 @@
 #include "core/render/scene.h"
 #include "core/volume/nrrd.h"
 #include "tests/support/fields.h"
+#include "tests/support/files.h"
 #include "tests/support/test_data.h"
 
 namespace pellucid {
@@ -289,6 +290,7 @@ TEST_F(Cli, UsageErrorsNameTheOption) {
     expectOneLine(cli("phantom " + (folder / "p").string() + " --spacing 1,2"), 2, "--spacing");
     const fs::path series = phantomFolder("--kind cube --size 16x16x16");
     expectOneLine(cli("render " + quoted(series) + out + " --orientation 0,0,0,0"), 2, "zero");
+    expectOneLine(cli("render " + quoted(series) + out + " --scene ''"), 2, "--scene");
     expectOneLine(cli("render " + quoted(series) + out + " --window 5,1"), 2, "--window");
     expectOneLine(cli("render " + quoted(series) + out + " --size 10"), 2, "--size");
     expectOneLine(cli("render " + quoted(series) + out + " --memory 1000"), 4, "MB");
@@ -296,6 +298,16 @@ TEST_F(Cli, UsageErrorsNameTheOption) {
     expectOneLine(cli("render " + quoted(series) + out + " --pixel-mm 1e-5 --size 10x10"), 4,
                   "pixels");
     EXPECT_FALSE(fs::exists(folder / "o.png"));
+}
+
+TEST_F(Cli, APhantomReplacesNothing) {
+    const std::string command = "phantom " + quoted(folder / "p") + " --kind cube --size 8x8x";
+    fs::create_directory(folder / "p");
+    std::ofstream(folder / "p/IM0003.dcm") << "of somebody";
+    expectOneLine(cli(command + "4"), 1, "IM0003.dcm: is there already");
+    EXPECT_FALSE(fs::exists(folder / "p/IM0001.dcm"));
+    EXPECT_EQ(test::readText(folder / "p/IM0003.dcm"), "of somebody");
+    EXPECT_EQ(cli(command + "2").exitCode, 0);
 }
 
 TEST_F(Cli, BadInputIsOneLineAndExitCodeThree) {

@@ -75,6 +75,42 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT(next.bench().document.scene().look == edited.look, patienceMs);
     }
 
+    // Slices that could not be used are named again when the rest is taken up.
+    void whatWasRefusedIsNamedAgain() {
+        const fs::path series = m_folder / "refused";
+        fs::copy(headPath().toStdString(), series);
+        const fs::path damaged = series / "IM0080.dcm";
+        fs::resize_file(damaged, 300);
+        const auto isNamed = [&](ui::Workstation &program) {
+            const auto &problems = program.bench().document.problems();
+            return std::any_of(problems.begin(), problems.end(),
+                               [&](const dicom::Skipped &p) { return p.path == damaged; });
+        };
+        {
+            ui::Workstation program;
+            program.window().openPaths({QString::fromStdString(series.string())});
+            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+            QVERIFY(isNamed(program));
+        }
+        ui::Workstation next;
+        QVERIFY(!isNamed(next));
+        next.window().resumeSession();
+        QTRY_VERIFY_WITH_TIMEOUT(
+            next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
+        QVERIFY(isNamed(next));
+    }
+
+    void aDamagedSessionIsSaid() {
+        fs::create_directories(m_sessionFile.parent_path());
+        std::ofstream(m_sessionFile) << "{\"schema\": \"pellucid-sess";
+        ui::Workstation program;
+        QVERIFY(!program.window().findChild<QPushButton *>("resumeButton")->isVisible());
+        const auto &problems = program.bench().document.problems();
+        QCOMPARE(problems.size(), 1U);
+        QCOMPARE(problems[0].path, m_sessionFile);
+        QCOMPARE(problems[0].reason, "is not a session");
+    }
+
     void aProgramThatIsToldToEndEndsAsOneThatIsClosed() {
         QProcess program;
         start(program, {headPath()});

@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <QTreeView>
 
+#include "tests/support/little_memory.h"
 #include "ui/commands.h"
 #include "ui/kept_studies.h"
 #include "ui/panels/study_panel.h"
@@ -149,8 +150,10 @@ private slots:
         const auto engine =
             render::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
         ui::KeptStudies kept;
-        for (int source = 0; source < 3; ++source)
-            kept.keep({source, volume, {}, {}, scene, ui::PreparedFor(), engine, {}, {}, {}});
+        ui::KeptStudy study{
+            .volume = volume, .scene = scene, .preparedFor = ui::PreparedFor(), .engine = engine};
+        for (study.source = 0; study.source < 3; ++study.source)
+            kept.keep(study);
         const std::size_t one = volume.bytes() + engine.bytes;
         QCOMPARE(kept.bytes(), 3 * one);
         kept.trim(3 * one - 1);
@@ -233,7 +236,7 @@ private slots:
         QVERIFY(m_window->jobs().isRunning());
         QTest::keyClick(m_window.get(), Qt::Key_Escape);
         QVERIFY(!m_window->jobs().isRunning());
-        QCOMPARE(projection()->planState(), ui::PlanState::givenUp);
+        QCOMPARE(projection()->planState(), ui::PlanState::cancelled);
         const auto former = projection()->picture();
         QTest::keyClick(m_window.get(), Qt::Key_F5);
         QCOMPARE(projection()->planState(), ui::PlanState::underway);
@@ -249,6 +252,26 @@ private slots:
         QCOMPARE(projection()->planState(), ui::PlanState::holds);
     }
 
+#ifndef PELLUCID_SANITIZED // which reserve terabytes
+    void aPreparationThatFailsSaysSoAndIsTriedAgainByF5() {
+        open(headPath());
+        render::Scene scene = m_window->document().scene();
+        scene.tolerance = 1e-5;
+        {
+            const test::LittleMemory little(2); // too little for a thread
+            m_window->document().undoStack()->push(
+                new ui::EditScene(m_window->document(), scene, "Tolerance"));
+            QTRY_VERIFY(!m_window->jobs().isRunning());
+            QCOMPARE(projection()->planState(), ui::PlanState::failed);
+            QCOMPARE(m_window->document().problems().size(), 1U);
+        }
+        QTest::keyClick(m_window.get(), Qt::Key_F5);
+        QCOMPARE(projection()->planState(), ui::PlanState::underway);
+        settle();
+        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+    }
+#endif
+
     // Nothing follows a coarse picture whose preparation was cancelled: the former one comes back.
     void aCancelledLookLeavesTheFormerPicture() {
         m_window->openPhantom("head");
@@ -260,7 +283,7 @@ private slots:
             new ui::EditScene(m_window->document(), scene, "Bone"));
         QTRY_VERIFY_WITH_TIMEOUT(!projection()->isFinal(), patienceMs);
         QTest::keyClick(m_window.get(), Qt::Key_Escape);
-        QCOMPARE(projection()->planState(), ui::PlanState::givenUp);
+        QCOMPARE(projection()->planState(), ui::PlanState::cancelled);
         settle();
         QVERIFY(changed(former, projection()->picture()) < 0.001);
         QTest::keyClick(m_window.get(), Qt::Key_F5);

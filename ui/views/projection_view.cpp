@@ -524,12 +524,14 @@ void ProjectionView::showTexts() {
     ProjectionOverlay::Texts texts{m_lookName, m_message, {}};
     if (m_frame) {
         // The error is that of the picture, which may still be the former engine's.
-        const QString quality = m_planState == PlanState::givenUp ? tr("cancelled: F5 prepares it")
-                                : m_frameStage == EngineStage::coarse ? tr("coarse")
-                                : m_frameStage == EngineStage::live   ? tr("live")
-                                : m_planState == PlanState::underway
-                                    ? tr("error not known yet")
-                                    : tr("error %1 %").arg(100.0 * m_frameError, 0, 'f', 3);
+        const QString quality =
+            m_planState == PlanState::cancelled   ? tr("cancelled: F5 prepares it")
+            : m_planState == PlanState::failed    ? tr("not prepared: F5 tries again")
+            : m_frameStage == EngineStage::coarse ? tr("coarse")
+            : m_frameStage == EngineStage::live   ? tr("live")
+            : m_planState == PlanState::underway
+                ? tr("error not known yet")
+                : tr("error %1 %").arg(100.0 * m_frameError, 0, 'f', 3);
         texts.figures = QString("%1  %2  %3")
                             .arg(m_frame->onCard ? "GPU" : "CPU")
                             .arg(millisecondsText(m_frame->times.totalMs()))

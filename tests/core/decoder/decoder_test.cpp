@@ -201,12 +201,12 @@ TEST_F(TakenOver, aSeriesLosesOneSlice) {
 
 // What is decoded in another process is what is decoded in this one.
 TEST(Decoder, givesTheSameSamples) {
-    const test::TemporaryFolder folder;
     const auto lattice =
         phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{96, 64, 3}});
     const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
     for (const auto syntax : {dicom::TransferSyntax::explicitLittle,
                               dicom::TransferSyntax::jpeg2000, dicom::TransferSyntax::rle}) {
+        const test::TemporaryFolder folder;
         dicom::writeCtSeries(folder.path(), volume, {}, syntax);
         const fs::path path = folder / "IM0002.dcm";
         const DecodedImage here = parse::decodeImage(test::readBytes(path));
@@ -220,13 +220,13 @@ TEST(Decoder, givesTheSameSamples) {
 // What the other process costs of a series' load; cold decoders included. The figures are printed,
 // the bound leaves room for a busy machine.
 TEST(Decoder, costsLittleOfALoad) {
-    const test::TemporaryFolder folder;
     const int slices = std::getenv("PELLUCID_LONG_TESTS") != nullptr ? 300 : 40;
     const auto lattice =
         phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{512, 512, slices}});
     const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
     for (const auto syntax :
          {dicom::TransferSyntax::explicitLittle, dicom::TransferSyntax::jpegLs}) {
+        const test::TemporaryFolder folder;
         dicom::writeCtSeries(folder.path(), volume, {}, syntax);
         std::vector<fs::path> files;
         for (const auto &entry : fs::directory_iterator(folder.path()))

@@ -18,7 +18,7 @@ InstanceHeader someHeader() {
     h.seriesUid = "1.2.3";
     h.rows = 512;
     h.columns = 7;
-    h.isSigned = true;
+    h.pixelRepresentation = 1;
     h.paddingValue = -2000;
     h.windows = {{40.0, 400.0, "soft"}, {-600.0, 1500.0, ""}};
     h.modalityTable = {1, 2, 65535};
@@ -42,7 +42,7 @@ TEST(Message, headersComeThrough) {
     EXPECT_EQ(got.patientName, sent.patientName);
     EXPECT_EQ(got.seriesUid, sent.seriesUid);
     EXPECT_EQ(got.columns, 7);
-    EXPECT_TRUE(got.isSigned);
+    EXPECT_TRUE(got.isSigned());
     EXPECT_FALSE(got.lossy);
     EXPECT_EQ(got.paddingValue, sent.paddingValue);
     EXPECT_FALSE(got.paddingLimit);

@@ -89,7 +89,7 @@ TEST_F(Nrrd, ReadsEveryScalarTypeInBothByteOrders) {
 
 TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
     const std::string header =
-        "type: float\ndimension: 3\nsizes: 3 1 1\nendian: little\nencoding: ";
+        "type: float\ndimension: 3\nsizes: 3 1 1\nendian: little\nspace: LPS\nencoding: ";
     constexpr float none = std::numeric_limits<float>::quiet_NaN(),
                     endless = std::numeric_limits<float>::infinity();
     const auto three = bytesOf<float>({1.0F, none, -endless}), four = three + bytesOf<float>({2});
@@ -113,7 +113,7 @@ TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
     for (const auto &[units, isTaken] :
          {std::pair("\"mm\" \"mm\" \"mm\"", true), std::pair("\"mm\" \"m\" \"mm\"", false)}) {
         write(folder / "units.nrrd",
-              "NRRD0004\n" + header + "raw\nspace: LPS\nspace units: " + units + "\n\n" + three);
+              "NRRD0004\n" + header + "raw\nspace units: " + units + "\n\n" + three);
         if (isTaken)
             EXPECT_NO_THROW(readNrrd(folder / "units.nrrd"));
         else
@@ -121,6 +121,17 @@ TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
     }
     write(folder / "twice.nrrd", "NRRD0001\nsizes: 1 1 1\n" + header + "raw\n\n" + three);
     EXPECT_THROW(readNrrd(folder / "twice.nrrd"), task::Error);
+}
+
+TEST_F(Nrrd, ASpaceThatIsNotThePatientsIsMentioned) {
+    for (const auto &[space, isNamed] : {std::pair("", false),
+                                         {"space: scanner-xyz\n", false},
+                                         {"space: 3D-right-handed\n", false},
+                                         {"space: RAS\n", true}}) {
+        write(folder / "space.nrrd", std::string("NRRD0004\ntype: uchar\ndimension: 3\n") + space +
+                                         "sizes: 1 1 1\nencoding: raw\n\nv");
+        EXPECT_EQ(readNrrd(folder / "space.nrrd").notes().warnings.empty(), isNamed) << space;
+    }
 }
 
 TEST_F(Nrrd, LargeUnsignedShortsBecomeFloat) {

@@ -184,6 +184,19 @@ TEST(GroupSeries, PositionsOfAnotherSpaceAndValuesOfAnotherKindAreOtherVolumes) 
     EXPECT_EQ(group(files).size(), 3U);
 }
 
+TEST(GroupSeries, ValuesOfWhichNobodySaysWhetherTheyAreSignedAreRefused) {
+    InstanceHeader header = file("f", 0.0).header;
+    header.hasPixels = true;
+    header.bitsAllocated = header.bitsStored = 16;
+    header.highBit = 15;
+    for (const int representation : {0, 1, 2, 7, -1}) {
+        header.pixelRepresentation = representation;
+        EXPECT_EQ(decoder::whyUnusable(header).has_value(),
+                  representation != 0 && representation != 1)
+            << representation << decoder::whyUnusable(header).value_or("");
+    }
+}
+
 TEST(GroupSeries, FramesThatAreNotUsedAreNoSurplus) {
     InstanceHeader header = file("f", 0.0).header;
     header.bitsAllocated = 16;

@@ -111,7 +111,7 @@ TEST(TransferSyntaxes, LosslessOnesDecodeToTheSamePixels) {
     PELLUCID_NEEDS_TEST_DATA();
     const auto plain = decoded(test::testData() / "nasty_ts_ctimage/CTImage.dcm");
     ASSERT_EQ(plain.samples.size(), 512U * 512U);
-    ASSERT_TRUE(plain.header.isSigned);
+    ASSERT_TRUE(plain.header.isSigned());
     for (const char *uid :
          {"1.2.840.10008.1.2.1", "1.2.840.10008.1.2.2", "1.2.840.10008.1.2.1.99",
           "1.2.840.10008.1.2.5", "1.2.840.10008.1.2.4.57", "1.2.840.10008.1.2.4.70",
@@ -121,7 +121,7 @@ TEST(TransferSyntaxes, LosslessOnesDecodeToTheSamePixels) {
 
 double rescaledValue(const decoder::DecodedImage &image, std::size_t n) {
     const double stored =
-        image.header.isSigned ? double(std::int16_t(image.samples[n])) : double(image.samples[n]);
+        image.header.isSigned() ? double(std::int16_t(image.samples[n])) : double(image.samples[n]);
     return image.header.frames[0].rescale.slope * stored + image.header.frames[0].rescale.intercept;
 }
 

@@ -98,9 +98,9 @@ TEST(Load, ATruncatedSliceIsNamedAndTheRestIsResampledAcrossTheHole) {
 }
 
 TEST(Decode, SizesThatTheFileCannotHoldAreRefusedBeforeMemoryIsAskedFor) {
-    const test::TemporaryFolder folder;
     for (const auto syntax : {dicom::TransferSyntax::explicitLittle, dicom::TransferSyntax::rle,
                               dicom::TransferSyntax::jpeg2000, dicom::TransferSyntax::jpegLs}) {
+        const test::TemporaryFolder folder;
         dicom::writeCtSeries(folder.path(), tiltedHead(), {}, syntax);
         auto bytes = test::readBytes(folder / "IM0001.dcm");
         // Rows (0028,0010) and Columns (0028,0011), US, two bytes each, become 65535.
@@ -234,7 +234,6 @@ TEST(Load, ARescaleThatIsNoNumberCostsItsSlice) {
 
 // The examples of PS3.5, H.3.1 and H.3.2.
 TEST(Scan, JapaneseNamesAreRead) {
-    const test::TemporaryFolder folder;
     const std::vector<std::array<std::string, 3>> names{
         {"\\ISO 2022 IR 87",
          "Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B=\x1b$B$d$^$@\x1b(B^\x1b$B$?$m$&\x1b(B",
@@ -243,6 +242,7 @@ TEST(Scan, JapaneseNamesAreRead) {
          "\xD4\xCF\xC0\xDE^\xC0\xDB\xB3=\x1b$B;3ED\x1b(J^\x1b$BB@O:\x1b(J",
          "\uFF94\uFF8F\uFF80\uFF9E^\uFF80\uFF9B\uFF73=\u5C71\u7530^\u592A\u90CE"}};
     for (const auto &[sets, written, read] : names) {
+        const test::TemporaryFolder folder;
         dicom::writeCtSeries(folder.path(), tiltedHead(), {.patientName = "X"},
                              dicom::TransferSyntax::explicitLittle);
         const std::string file = "'" + (folder / "IM0001.dcm").string() + "'";
