@@ -18,6 +18,7 @@
 #include "core/fourier/wisdom.h"
 #include "core/task/error.h"
 #include "core/task/log.h"
+#include "core/task/memory.h"
 #include "ui/application.h"
 #include "ui/failure.h"
 #include "ui/graphics_card.h"
@@ -112,6 +113,14 @@ int main(int argc, char **argv) {
         return int(task::ErrorCode::noSuchDevice);
     }
 #endif
+    // Libraries map much while they begin, and some software renderers crash where they cannot.
+    constexpr std::size_t mappedToStart = std::size_t(1100) << 20;
+    if (task::mappableBytes() < mappedToStart) {
+        std::fprintf(
+            stderr, "pellucid: not enough memory to start: needs %zu MB, the limit leaves %zu MB\n",
+            mappedToStart >> 20, task::mappableBytes() >> 20);
+        return int(task::ErrorCode::outOfMemory);
+    }
     task::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
     // The engine's context shares with those of the windows: its pictures stay on the card.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);

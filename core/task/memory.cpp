@@ -16,20 +16,26 @@ namespace pellucid::task {
 
 namespace {
 
-constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
+// Of a process's limit, what stays for the small things of libraries: some of them (FFTW, Qt, Mesa)
+// end the program when they get none.
+constexpr std::size_t ofLibraries = std::size_t(192) << 20;
 
-// What the process's own limit leaves; mapped counts, whether used or not.
+std::size_t withinLimit() {
+    const std::size_t mappable = mappableBytes();
+    return mappable > ofLibraries ? mappable - ofLibraries : 0;
+}
+
+} // namespace
+
 std::size_t mappableBytes() {
     rlimit limit{};
     std::size_t pages = 0;
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
         !(std::ifstream("/proc/self/statm") >> pages))
-        return unknown;
+        return std::numeric_limits<std::size_t>::max();
     const std::size_t mapped = pages * std::size_t(sysconf(_SC_PAGESIZE));
     return limit.rlim_cur > mapped ? limit.rlim_cur - mapped : 0;
 }
-
-} // namespace
 
 std::size_t availableMemoryBytes() {
     std::ifstream info("/proc/meminfo");
@@ -37,8 +43,8 @@ std::size_t availableMemoryBytes() {
     std::size_t kilobytes = 0;
     while (info >> name >> kilobytes >> unit)
         if (name == "MemAvailable:")
-            return std::min(kilobytes * 1024, mappableBytes());
-    return mappableBytes();
+            return std::min(kilobytes * 1024, withinLimit());
+    return withinLimit();
 }
 
 void requireMemory(double bytes) {

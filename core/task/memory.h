@@ -5,8 +5,11 @@
 
 namespace pellucid::task {
 
-/// Memory that can be had without pushing other programs out and within the process's limit; the
-/// largest size if it is not known.
+/// What the process's own limit leaves it to map, used or not; the largest size without one.
+std::size_t mappableBytes();
+
+/// Memory that can be had without pushing other programs out, and within the process's limit so
+/// that libraries can go on; the largest size if it is not known.
 std::size_t availableMemoryBytes();
 
 /// Asked before memory is: systems that overcommit give what they do not have, and kill later.

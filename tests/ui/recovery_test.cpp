@@ -177,6 +177,22 @@ private slots:
     }
 
 #ifndef PELLUCID_SANITIZED // which reserve terabytes
+    // A limit that is too low to start is said, before libraries that need more crash.
+    void aLowLimitIsSaidInOneLine() {
+        for (const char *kilobytes : {"300000", "400000", "600000", "1000000"}) {
+            QProcess program;
+            program.start("/bin/sh",
+                          {"-c", "ulimit -v $0; exec \"$1\"", kilobytes, PELLUCID_WORKSTATION});
+            QVERIFY(program.waitForFinished(patienceMs));
+            QCOMPARE(program.exitStatus(), QProcess::NormalExit);
+            QCOMPARE(program.exitCode(), int(task::ErrorCode::outOfMemory));
+            const QByteArray said = program.readAllStandardError();
+            QVERIFY2(said.startsWith("pellucid: not enough memory to start") &&
+                         said.count('\n') == 1,
+                     said.constData());
+        }
+    }
+
     // From too little to enough, in steps: a study is open or a reason is given, and with memory
     // the next one opens.
     void littleMemoryIsSaidAndTheNextStudyOpens() {
@@ -197,7 +213,7 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT(document.volume() && rests(), patienceMs);
         auto *const view = program.window().findChild<ui::ProjectionView *>("projectionView");
         int opened = 0, refused = 0;
-        for (const std::size_t mb : {40, 80, 120, 160, 240, 320, 480, 640, 960, 1600}) {
+        for (const std::size_t mb : {5, 10, 40, 80, 120, 160, 240, 320, 480, 640, 960, 1600}) {
             failed.clear();
             said.clear();
             std::optional<LittleMemory> little(mb);
