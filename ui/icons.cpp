@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/icons.h"
 
+#include <QAction>
 #include <QFile>
 #include <QIconEngine>
 #include <QPainter>
@@ -48,6 +49,40 @@ QIcon themedIcon(const QString &name, const Theme &theme) {
     if (!file.open(QIODevice::ReadOnly))
         throw task::Error(task::ErrorCode::internal, "no icon " + name.toStdString());
     return QIcon(new ThemedIcon(file.readAll(), theme));
+}
+
+void giveIcons(QObject &window, const Theme &theme) {
+    const struct {
+        const char *action, *icon;
+    } icons[] = {{"openFilesAction", "open"},
+                 {"importAction", "import"},
+                 {"savePictureAction", "picture"},
+                 {"exportPictureAction", "export"},
+                 {"preferencesAction", "preferences"},
+                 {"undoAction", "undo"},
+                 {"redoAction", "redo"},
+                 {"findStudyAction", "search"},
+                 {"windowToolAction", "window"},
+                 {"panToolAction", "pan"},
+                 {"zoomToolAction", "zoom"},
+                 {"crosshairToolAction", "crosshair"},
+                 {"slabAction", "slab"},
+                 {"distanceToolAction", "distance"},
+                 {"angleToolAction", "angle"},
+                 {"ellipseToolAction", "ellipse"},
+                 {"rectangleToolAction", "rectangle"},
+                 {"cropToolAction", "crop"},
+                 {"playAction", "play"},
+                 {"onePlusThreeAction", "one-plus-three"},
+                 {"twoByTwoAction", "two-by-two"},
+                 {"linkStudiesAction", "link"},
+                 {"manualAction", "manual"}};
+    for (const auto &[action, icon] : icons) {
+        QAction *const found = window.findChild<QAction *>(action);
+        found->setIcon(themedIcon(icon, theme));
+        // Menus stay words; the same drawings beside them would be noise.
+        found->setIconVisibleInMenu(false);
+    }
 }
 
 } // namespace pellucid::ui

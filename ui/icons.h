@@ -11,4 +11,7 @@ namespace pellucid::ui {
 /// switched on, muted where it cannot be used. Sharp at any density.
 QIcon themedIcon(const QString &name, const Theme &theme);
 
+/// The commands of a window get theirs, on its tool bar alone.
+void giveIcons(QObject &window, const Theme &theme);
+
 } // namespace pellucid::ui

@@ -4,27 +4,21 @@
 #include <algorithm>
 #include <utility>
 
-#include <QAbstractSpinBox>
 #include <QAction>
-#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QComboBox>
 #include <QDir>
 #include <QDockWidget>
 #include <QFileInfo>
-#include <QKeySequenceEdit>
 #include <QLabel>
-#include <QLineEdit>
 #include <QMenuBar>
 #include <QMimeData>
-#include <QPlainTextEdit>
 #include <QScreen>
 #include <QSettings>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
-#include <QTextEdit>
 #include <QTimer>
 #include <QToolBar>
 #include <QToolButton>
@@ -35,7 +29,6 @@
 #include "ui/add_command.h"
 #include "ui/application.h"
 #include "ui/dock.h"
-#include "ui/engine_menu.h"
 #include "ui/file_menu.h"
 #include "ui/help_menu.h"
 #include "ui/icons.h"
@@ -48,11 +41,13 @@
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
 #include "ui/preferences_dialog.h"
+#include "ui/projection_keys.h"
 #include "ui/recent_paths.h"
 #include "ui/session.h"
 #include "ui/shortcuts.h"
 #include "ui/study_beside.h"
 #include "ui/tools_menu.h"
+#include "ui/view_menu.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -83,7 +78,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_bench.document, m_mpr,
                             *m_projection, m_bench.phases);
     createHelpMenu();
-    giveIcons();
+    giveIcons(*this, m_theme);
     createToolBar();
     createStatusBar();
     applyShortcuts(*this);
@@ -106,7 +101,8 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
-    qApp->installEventFilter(this);
+    connect(new ProjectionKeys(*this, *m_projection), &ProjectionKeys::comparisonRequested, this,
+            &MainWindow::compareLooks);
     showVolumeState();
     bench.document.announce(); // what is open already
     if (const auto &engine = bench.preparer.fullEngine())
@@ -272,68 +268,14 @@ void MainWindow::createEditMenu() {
 }
 
 void MainWindow::createViewMenu() {
-    QMenu *menu = menuBar()->addMenu(tr("&View"));
-    using render::StandardView;
-    const struct {
-        QString text;
-        const char *name;
-        StandardView view;
-        const char *hint;
-    } views[] = {
-        {tr("&Anterior"), "frontViewAction", StandardView::front, QT_TR_NOOP("Keypad 1")},
-        {tr("&Posterior"), "backViewAction", StandardView::back, QT_TR_NOOP("Shift+Keypad 1")},
-        {tr("&Left"), "leftViewAction", StandardView::left, QT_TR_NOOP("Keypad 3")},
-        {tr("&Right"), "rightViewAction", StandardView::right, QT_TR_NOOP("Shift+Keypad 3")},
-        {tr("&Superior"), "topViewAction", StandardView::top, QT_TR_NOOP("Keypad 7")},
-        {tr("&Inferior"), "bottomViewAction", StandardView::bottom, QT_TR_NOOP("Shift+Keypad 7")}};
-    for (const auto &v : views)
-        command(*menu, v.text + "\t" + tr(v.hint), v.name, {},
-                [this, view = v.view] { m_projection->showStandardView(view); });
-    command(*menu, tr("R&eset views") + "\t" + tr("Keypad 0"), "resetViewsAction", {}, [this] {
-        m_projection->resetView();
-        for (MprView *view : m_mpr)
-            view->resetView();
-        Cut cut = m_bench.document.cut();
-        cut.axes = {};
-        m_bench.document.setCut(cut);
-        m_bench.document.centerCrosshair();
-    });
-    QAction *about =
-        command(*menu, tr("&Orbit about the crosshair"), "orbitCrosshairAction", QKeySequence("O"),
-                [this] { m_projection->setOrbitsCrosshair(!m_projection->orbitsCrosshair()); });
-    about->setCheckable(true);
-    QAction *compare =
-        command(*menu, tr("&Compare with the look before") + "\t" + tr("hold Q"), "compareAction",
-                {}, [this] { compareLooks(!m_projection->isComparing()); });
-    compare->setCheckable(true);
-    connect(menu, &QMenu::aboutToShow, this,
-            [this, compare] { compare->setChecked(m_projection->isComparing()); });
-    m_linkAction =
-        command(*menu, tr("Lin&k the studies"), "linkStudiesAction", QKeySequence("Shift+Y"),
-                [this] { m_beside->findChild<QToolButton *>("linkButton")->toggle(); });
-    m_linkAction->setCheckable(true);
-    m_closeBesideAction = command(*menu, tr("Close the study besi&de"), "closeBesideAction",
-                                  QKeySequence("Ctrl+Shift+W"), [this] { closeBeside(); });
-    closeBeside();
-    command(*menu, tr("Prepare the projection a&gain"), "prepareAgainAction", QKeySequence("F5"),
-            [this] { m_bench.preparer.prepareAgain(); });
-    menu->addSeparator();
-    m_layouts = new QActionGroup(this);
-    const auto layout = [&](const QString &text, const char *name, PaneLayout which) {
-        QAction *action =
-            command(*menu, text, name, {}, [this, which] { m_panes->setPaneLayout(which); });
-        action->setCheckable(true);
-        action->setActionGroup(m_layouts);
-        return action;
-    };
-    layout(tr("1 + 3"), "onePlusThreeAction", PaneLayout::onePlusThree)->setChecked(true);
-    layout(tr("2 x 2"), "twoByTwoAction", PaneLayout::twoByTwo);
-    menu->addSeparator();
-    addEngineMenu(*menu->addMenu(tr("Projection &engine")), m_bench.card);
-    menu->addSeparator();
-    QAction *full = command(*menu, tr("&Full screen"), "fullScreenAction", QKeySequence("F11"),
-                            [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
-    full->setCheckable(true);
+    m_view = new ViewMenu(*menuBar()->addMenu(tr("&View")), *this,
+                          {m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
+    connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
+    connect(m_view, &ViewMenu::linkRequested, this,
+            [this] { m_beside->findChild<QToolButton *>("linkButton")->toggle(); });
+    connect(m_view, &ViewMenu::closeBesideRequested, this, &MainWindow::closeBeside);
+    connect(m_view, &ViewMenu::preparationRequested, &m_bench.preparer,
+            &LookPreparer::prepareAgain);
 }
 
 void MainWindow::createHelpMenu() {
@@ -359,7 +301,7 @@ void MainWindow::createToolBar() {
     bar->addSeparator();
     m_tools->addTo(*bar);
     bar->addSeparator();
-    bar->addActions(m_layouts->actions());
+    bar->addActions(m_view->layouts());
     bar->addSeparator();
     bar->addAction(findChild<QAction *>("savePictureAction"));
     bar->addAction(findChild<QAction *>("exportPictureAction"));
@@ -381,40 +323,6 @@ void MainWindow::createToolBar() {
         more->setIcon(themedIcon("down", m_theme));
         more->setToolTip(tr("More"));
         more->setAccessibleName(tr("More"));
-    }
-}
-
-void MainWindow::giveIcons() {
-    const struct {
-        const char *action, *icon;
-    } icons[] = {{"openFilesAction", "open"},
-                 {"importAction", "import"},
-                 {"savePictureAction", "picture"},
-                 {"exportPictureAction", "export"},
-                 {"preferencesAction", "preferences"},
-                 {"undoAction", "undo"},
-                 {"redoAction", "redo"},
-                 {"findStudyAction", "search"},
-                 {"windowToolAction", "window"},
-                 {"panToolAction", "pan"},
-                 {"zoomToolAction", "zoom"},
-                 {"crosshairToolAction", "crosshair"},
-                 {"slabAction", "slab"},
-                 {"distanceToolAction", "distance"},
-                 {"angleToolAction", "angle"},
-                 {"ellipseToolAction", "ellipse"},
-                 {"rectangleToolAction", "rectangle"},
-                 {"cropToolAction", "crop"},
-                 {"playAction", "play"},
-                 {"onePlusThreeAction", "one-plus-three"},
-                 {"twoByTwoAction", "two-by-two"},
-                 {"linkStudiesAction", "link"},
-                 {"manualAction", "manual"}};
-    for (const auto &[action, icon] : icons) {
-        QAction *const found = findChild<QAction *>(action);
-        found->setIcon(themedIcon(icon, m_theme));
-        // Menus stay words; the same drawings beside them would be noise.
-        found->setIconVisibleInMenu(false);
     }
 }
 
@@ -582,13 +490,11 @@ void MainWindow::openBeside(const StudySource &source) {
         connect(m_tools, &ToolsMenu::toolChosen, m_beside, &StudyBeside::setTool);
         connect(m_beside, &StudyBeside::closeRequested, this, &MainWindow::closeBeside,
                 Qt::QueuedConnection); // a button of what is deleted then
-        connect(m_beside, &StudyBeside::linkChanged, m_linkAction, &QAction::setChecked);
+        connect(m_beside, &StudyBeside::linkChanged, m_view, &ViewMenu::setLinked);
         connect(m_beside, &StudyBeside::readoutChanged, m_readout, &QLabel::setText);
         connect(m_beside, &StudyBeside::failed, this, &MainWindow::report);
-        m_linkAction->setChecked(true);
+        m_view->setBeside(true);
     }
-    m_linkAction->setEnabled(true);
-    m_closeBesideAction->setEnabled(true);
     showHeading();
     m_beside->open(source);
 }
@@ -596,9 +502,7 @@ void MainWindow::openBeside(const StudySource &source) {
 void MainWindow::closeBeside() {
     delete m_beside;
     m_beside = nullptr;
-    m_linkAction->setEnabled(false);
-    m_linkAction->setChecked(false);
-    m_closeBesideAction->setEnabled(false);
+    m_view->setBeside(false);
     showHeading();
 }
 
@@ -615,50 +519,6 @@ void MainWindow::keyPressEvent(QKeyEvent *event) {
         m_bench.jobs.cancel();
     else
         QMainWindow::keyPressEvent(event);
-}
-
-namespace {
-
-// Who types wants letters and digits.
-bool takesText(const QWidget *widget) {
-    return qobject_cast<const QLineEdit *>(widget) != nullptr ||
-           qobject_cast<const QAbstractSpinBox *>(widget) != nullptr ||
-           qobject_cast<const QKeySequenceEdit *>(widget) != nullptr ||
-           qobject_cast<const QTextEdit *>(widget) != nullptr ||
-           qobject_cast<const QPlainTextEdit *>(widget) != nullptr;
-}
-
-} // namespace
-
-// Keys of the projection wherever the keyboard is: lists would search for a held letter, and the
-// digits of the keypad would be those of the windows.
-bool MainWindow::eventFilter(QObject *watched, QEvent *event) {
-    const auto type = event->type();
-    const bool isKey =
-        type == QEvent::KeyPress || type == QEvent::KeyRelease || type == QEvent::ShortcutOverride;
-    auto *const widget = isKey ? qobject_cast<QWidget *>(watched) : nullptr;
-    if (widget == nullptr || widget->window() != this || takesText(widget) ||
-        qobject_cast<ProjectionView *>(widget) != nullptr || m_isForwarding)
-        return QMainWindow::eventFilter(watched, event);
-    auto *const key = static_cast<QKeyEvent *>(event);
-    if (key->key() == Qt::Key_Q && key->modifiers() == Qt::NoModifier) {
-        if (type != QEvent::ShortcutOverride && !key->isAutoRepeat())
-            compareLooks(type == QEvent::KeyPress); // side by side till it is let go
-        return type != QEvent::ShortcutOverride;
-    }
-    // Arrows have the keypad's mark on some systems, and belong to the planes.
-    const bool isView = (key->modifiers() & Qt::KeypadModifier) != 0 &&
-                        (key->key() < Qt::Key_Left || key->key() > Qt::Key_Down);
-    if (!isView)
-        return QMainWindow::eventFilter(watched, event);
-    if (type == QEvent::ShortcutOverride) {
-        event->accept();
-        return true;
-    }
-    m_isForwarding = true; // what it leaves comes by here again
-    QCoreApplication::sendEvent(m_projection, event);
-    m_isForwarding = false;
-    return true;
 }
 
 void MainWindow::changeEvent(QEvent *event) {

@@ -10,7 +10,6 @@
 #include "ui/theme.h"
 #include "ui/workbench.h"
 
-class QActionGroup;
 class QLabel;
 class QSplitter;
 class QStackedWidget;
@@ -28,6 +27,7 @@ class StartPage;
 class StudyBeside;
 class StudyPanel;
 class ToolsMenu;
+class ViewMenu;
 
 /// The workstation's window: creates the panes and docks, names the menus, connects intents. It
 /// shows what is on the bench, also what was open before it was made.
@@ -62,7 +62,6 @@ protected:
     void dropEvent(QDropEvent *event) override;
     void closeEvent(QCloseEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
-    bool eventFilter(QObject *watched, QEvent *event) override;
     void changeEvent(QEvent *event) override;
 
 private:
@@ -74,7 +73,6 @@ private:
     void createEditMenu();
     void createViewMenu();
     void createHelpMenu();
-    void giveIcons();
     void createToolBar();
     void createStatusBar();
     void showVolumeState();
@@ -97,7 +95,6 @@ private:
     Theme m_theme;
     Preferences m_preferences;
     FileMenu *m_file = nullptr;
-    bool m_isForwarding = false; ///< a key to the projection
     std::array<MprView *, 3> m_mpr{};
     ProjectionView *m_projection = nullptr;
     LookDocks *m_look = nullptr;
@@ -106,13 +103,12 @@ private:
     QSplitter *m_viewers = nullptr;
     StudyBeside *m_beside = nullptr;
     QLabel *m_heading = nullptr;
-    QAction *m_linkAction = nullptr, *m_closeBesideAction = nullptr;
     StartPage *m_start = nullptr;
     QStackedWidget *m_stack = nullptr;
     StudyPanel *m_studies = nullptr;
     MeasurementsPanel *m_measurements = nullptr;
     ToolsMenu *m_tools = nullptr;
-    QActionGroup *m_layouts = nullptr;
+    ViewMenu *m_view = nullptr;
     QMenu *m_windowMenu = nullptr;
     QLabel *m_readout = nullptr, *m_engine = nullptr;
 };

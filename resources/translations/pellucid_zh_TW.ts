@@ -2123,102 +2123,6 @@
         <translation>檢視(&amp;V)</translation>
     </message>
     <message>
-        <source>&amp;Anterior</source>
-        <translation>前方(&amp;A)</translation>
-    </message>
-    <message>
-        <source>Keypad 1</source>
-        <translation>數字鍵 1</translation>
-    </message>
-    <message>
-        <source>&amp;Posterior</source>
-        <translation>後方(&amp;P)</translation>
-    </message>
-    <message>
-        <source>Shift+Keypad 1</source>
-        <translation>Shift+數字鍵 1</translation>
-    </message>
-    <message>
-        <source>&amp;Left</source>
-        <translation>左側(&amp;L)</translation>
-    </message>
-    <message>
-        <source>Keypad 3</source>
-        <translation>數字鍵 3</translation>
-    </message>
-    <message>
-        <source>&amp;Right</source>
-        <translation>右側(&amp;R)</translation>
-    </message>
-    <message>
-        <source>Shift+Keypad 3</source>
-        <translation>Shift+數字鍵 3</translation>
-    </message>
-    <message>
-        <source>&amp;Superior</source>
-        <translation>上方(&amp;S)</translation>
-    </message>
-    <message>
-        <source>Keypad 7</source>
-        <translation>數字鍵 7</translation>
-    </message>
-    <message>
-        <source>&amp;Inferior</source>
-        <translation>下方(&amp;I)</translation>
-    </message>
-    <message>
-        <source>Shift+Keypad 7</source>
-        <translation>Shift+數字鍵 7</translation>
-    </message>
-    <message>
-        <source>R&amp;eset views</source>
-        <translation>重設檢視(&amp;E)</translation>
-    </message>
-    <message>
-        <source>Keypad 0</source>
-        <translation>數字鍵 0</translation>
-    </message>
-    <message>
-        <source>&amp;Orbit about the crosshair</source>
-        <translation>繞十字線旋轉(&amp;O)</translation>
-    </message>
-    <message>
-        <source>&amp;Compare with the look before</source>
-        <translation>與先前外觀比較(&amp;C)</translation>
-    </message>
-    <message>
-        <source>hold Q</source>
-        <translation>按住 Q</translation>
-    </message>
-    <message>
-        <source>Lin&amp;k the studies</source>
-        <translation>連結兩個檢查(&amp;K)</translation>
-    </message>
-    <message>
-        <source>Close the study besi&amp;de</source>
-        <translation>關閉並排的檢查(&amp;D)</translation>
-    </message>
-    <message>
-        <source>Prepare the projection a&amp;gain</source>
-        <translation>重新準備投影(&amp;G)</translation>
-    </message>
-    <message>
-        <source>1 + 3</source>
-        <translation>1 + 3</translation>
-    </message>
-    <message>
-        <source>2 x 2</source>
-        <translation>2 x 2</translation>
-    </message>
-    <message>
-        <source>Projection &amp;engine</source>
-        <translation>投影引擎(&amp;E)</translation>
-    </message>
-    <message>
-        <source>&amp;Full screen</source>
-        <translation>全螢幕(&amp;F)</translation>
-    </message>
-    <message>
         <source>W&amp;indow</source>
         <translation>視窗(&amp;I)</translation>
     </message>
@@ -3391,6 +3295,105 @@
     <message>
         <source>HU</source>
         <translation>HU</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::ViewMenu</name>
+    <message>
+        <source>&amp;Orbit about the crosshair</source>
+        <translation>繞十字線旋轉(&amp;O)</translation>
+    </message>
+    <message>
+        <source>&amp;Compare with the look before</source>
+        <translation>與先前外觀比較(&amp;C)</translation>
+    </message>
+    <message>
+        <source>hold Q</source>
+        <translation>按住 Q</translation>
+    </message>
+    <message>
+        <source>Prepare the projection a&amp;gain</source>
+        <translation>重新準備投影(&amp;G)</translation>
+    </message>
+    <message>
+        <source>Projection &amp;engine</source>
+        <translation>投影引擎(&amp;E)</translation>
+    </message>
+    <message>
+        <source>&amp;Full screen</source>
+        <translation>全螢幕(&amp;F)</translation>
+    </message>
+    <message>
+        <source>&amp;Anterior</source>
+        <translation>前方(&amp;A)</translation>
+    </message>
+    <message>
+        <source>Keypad 1</source>
+        <translation>數字鍵 1</translation>
+    </message>
+    <message>
+        <source>&amp;Posterior</source>
+        <translation>後方(&amp;P)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 1</source>
+        <translation>Shift+數字鍵 1</translation>
+    </message>
+    <message>
+        <source>&amp;Left</source>
+        <translation>左側(&amp;L)</translation>
+    </message>
+    <message>
+        <source>Keypad 3</source>
+        <translation>數字鍵 3</translation>
+    </message>
+    <message>
+        <source>&amp;Right</source>
+        <translation>右側(&amp;R)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 3</source>
+        <translation>Shift+數字鍵 3</translation>
+    </message>
+    <message>
+        <source>&amp;Superior</source>
+        <translation>上方(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Keypad 7</source>
+        <translation>數字鍵 7</translation>
+    </message>
+    <message>
+        <source>&amp;Inferior</source>
+        <translation>下方(&amp;I)</translation>
+    </message>
+    <message>
+        <source>Shift+Keypad 7</source>
+        <translation>Shift+數字鍵 7</translation>
+    </message>
+    <message>
+        <source>R&amp;eset views</source>
+        <translation>重設檢視(&amp;E)</translation>
+    </message>
+    <message>
+        <source>Keypad 0</source>
+        <translation>數字鍵 0</translation>
+    </message>
+    <message>
+        <source>Lin&amp;k the studies</source>
+        <translation>連結兩個檢查(&amp;K)</translation>
+    </message>
+    <message>
+        <source>Close the study besi&amp;de</source>
+        <translation>關閉並排的檢查(&amp;D)</translation>
+    </message>
+    <message>
+        <source>1 + 3</source>
+        <translation>1 + 3</translation>
+    </message>
+    <message>
+        <source>2 x 2</source>
+        <translation>2 x 2</translation>
     </message>
 </context>
 </TS>
