@@ -2,6 +2,9 @@
 #include "ui/document.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
 
 namespace pellucid::ui {
 
@@ -51,10 +54,11 @@ void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
     if (problems.empty())
         return;
     // The same folder opened again has the same ones.
+    std::set<std::pair<std::string, std::string>> known;
+    for (const dicom::Skipped &problem : m_problems)
+        known.emplace(problem.path.native(), problem.reason);
     for (const dicom::Skipped &problem : problems)
-        if (std::none_of(m_problems.begin(), m_problems.end(), [&](const dicom::Skipped &known) {
-                return known.path == problem.path && known.reason == problem.reason;
-            }))
+        if (known.emplace(problem.path.native(), problem.reason).second)
             m_problems.push_back(problem);
     emit problemsChanged();
 }

@@ -418,7 +418,7 @@ void MainWindow::showStart() {
 
 void MainWindow::resumeSession() {
     if (const auto session = m_bench.session.kept())
-        resume(*session, m_bench.opener);
+        resume(*session, m_bench.opener, m_bench.document);
 }
 
 void MainWindow::setPreferences(const Preferences &preferences) {

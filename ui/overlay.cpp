@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/render/camera.h"
+#include "ui/spoken.h"
 #include "ui/theme.h"
 
 namespace pellucid::ui {
@@ -20,6 +21,23 @@ OverlayColors filmColors(const QString &planeRole) {
     return {light.color(planeRole), light.color("warning"), light.color("text"),
             light.color("text"),    light.color("raised"),  light.color("accent"),
             light.color("warning"), light.color("accent")};
+}
+
+namespace {
+
+struct OverlayTexts {
+    Q_DECLARE_TR_FUNCTIONS(OverlayTexts)
+};
+
+} // namespace
+
+QStringList warningLines(const volume::VolumeNotes &notes, Names names) {
+    QStringList lines;
+    for (const std::string &warning : notes.warnings)
+        lines << spoken(warning);
+    if (names == Names::hidden && !lines.isEmpty())
+        return {OverlayTexts::tr("With warnings: the study's list says which")};
+    return lines;
 }
 
 OverlayColors overlayColors(const QString &planeRole) {

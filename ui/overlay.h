@@ -5,8 +5,11 @@
 #include <QRect>
 #include <QRegion>
 #include <QString>
+#include <QStringList>
 
 #include <glm/mat3x3.hpp>
+
+#include "core/volume/volume.h"
 
 class QPainter;
 
@@ -22,6 +25,12 @@ OverlayColors overlayColors(const QString &planeRole);
 
 /// The light theme's, for pictures that are shown as film, dark on light.
 OverlayColors filmColors(const QString &planeRole);
+
+/// Whether texts may name somebody: files and looks carry names that people gave them.
+enum class Names { shown, hidden };
+
+/// The warnings of a volume, one for each line: hidden names leave that there are some.
+QStringList warningLines(const volume::VolumeNotes &notes, Names names);
 
 /// Letters at the middle of the four sides for an image with these axes (LPS).
 void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,

@@ -13,8 +13,8 @@
 
 #include "core/dicom/write_capture.h"
 #include "core/files/atomic_file.h"
+#include "core/files/file_set.h"
 #include "core/files/image_files.h"
-#include "core/files/session_folder.h"
 #include "core/render/projection_volume.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
@@ -128,9 +128,10 @@ PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const D
     labels.derivation = "Reformatted plane";
     if (what.isDeidentified)
         labels = dicom::deidentified(labels);
+    const Names names = what.isDeidentified ? Names::hidden : Names::shown;
     return [make = view.pictureMaker(what.scale), what, path, ratio, labels,
             isGrey = !document.tint(), over = recorded(what.isAnnotated, [&](QPainter &painter) {
-                                           view.paintOver(painter);
+                                           view.paintOver(painter, names);
                                        })](const task::Progress &progress) {
         QImage picture = make();
         progress.report(0.3);
@@ -151,30 +152,6 @@ QString framePath(const QString &path, int frame) {
     return QString("%1_%2.png").arg(stem).arg(frame, 4, 10, QChar('0'));
 }
 
-// Frames take their names when all are there: what was written before under those names stays till
-// then. A kill leaves a hidden folder that the next
-// export there removes.
-class FrameFiles {
-public:
-    explicit FrameFiles(QString path)
-        : m_path(std::move(path)), m_folder(files::SessionFolder::beside(m_path.toStdString())) {}
-    void add(const QImage &picture, int frame) {
-        write(picture, PictureFormat::png, QString::fromStdString(aside(frame).string()), {});
-        m_count = frame + 1;
-    }
-    void finish() {
-        for (int n = 0; n < m_count; ++n)
-            files::rename(aside(n), framePath(m_path, n).toStdString());
-    }
-
-private:
-    fs::path aside(int frame) const { return m_folder.path() / std::to_string(frame); }
-
-    QString m_path;
-    files::SessionFolder m_folder;
-    int m_count = 0;
-};
-
 PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
                                const Document &document, const QString &path) {
     ProjectionView &view = *panes.projection;
@@ -183,12 +160,13 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
     const double ratio = view.devicePixelRatioF() * what.scale;
     Turn turn;
     const int count = what.isTurn() ? what.frameCount : 1;
+    const Names names = what.isDeidentified ? Names::hidden : Names::shown;
     for (int n = 0; n < count; ++n) {
         const double degrees = 360.0 * n / count;
         turn.cameras.push_back(view.turnedAroundPatient(scene.camera, degrees));
         turn.over.push_back(recorded(what.isAnnotated && what.isPicture(), [&](QPainter &painter) {
-            view.paintAnnotations(painter,
-                                  view.turnedAroundPatient(document.scene().camera, degrees));
+            view.paintAnnotations(
+                painter, view.turnedAroundPatient(document.scene().camera, degrees), names);
         }));
     }
     dicom::CaptureLabels labels =
@@ -228,9 +206,12 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
                 file, render::projectionVolume(render(scene.camera), scene.camera, lattice));
             break;
         case PictureFormat::frames: {
-            FrameFiles files(path);
-            everyFrame([&](const QImage &frame, int n) { files.add(frame, n); });
-            files.finish();
+            files::FileSet frames(file);
+            everyFrame([&](const QImage &frame, int n) {
+                const fs::path aside = frames.aside(framePath(path, n).toStdString());
+                write(frame, PictureFormat::png, QString::fromStdString(aside.string()), {});
+            });
+            frames.commit();
             break;
         }
         case PictureFormat::video: {

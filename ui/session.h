@@ -17,9 +17,11 @@ namespace pellucid::ui {
 /// What was open, so that it can be taken up again: where it comes from and how it was looked at.
 /// Names of patients are not kept, paths are.
 struct Session {
-    QStringList files; ///< of the series
-    QString phantom;   ///< or its name
-    QString key;       ///< a digest of the source's
+    QStringList files; ///< of the series, or the archive that they are in
+    /// What of the same folders could not be used: it is said again, and not looked at again.
+    std::vector<dicom::Skipped> leftOut;
+    QString phantom; ///< or its name
+    QString key;     ///< a digest of the source's
     Continuity shown;
     /// The program that kept it has ended as programs should.
     bool hasEnded = false;
@@ -29,8 +31,7 @@ struct Session {
 std::string toJson(const Session &session);
 Session sessionFromJson(const std::string &text);
 
-/// The session as it is; none while nothing is open, or where what is open is gone with the
-/// program.
+/// The session as it is; none while nothing is open.
 std::optional<Session> currentSession(const Document &document);
 
 /// The user's file of it, written a moment after each change and when the program ends: one that is
@@ -62,6 +63,6 @@ private:
 };
 
 /// Opens it, as it was looked at. Files that are gone are among the problems.
-void resume(const Session &session, StudyOpener &opener);
+void resume(const Session &session, StudyOpener &opener, Document &document);
 
 } // namespace pellucid::ui

@@ -71,10 +71,15 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
 
 QJsonObject objectOf(const Session &s) {
     const mpr::ResliceOptions &cut = s.shown.cut.options;
+    QJsonArray leftOut;
+    for (const dicom::Skipped &skipped : s.leftOut)
+        leftOut << QJsonObject{{"path", QString::fromStdString(skipped.path.string())},
+                               {"reason", QString::fromStdString(skipped.reason)}};
     return {
         {"schema", schema},
         {"ended", s.hasEnded},
         {"files", QJsonArray::fromStringList(s.files)},
+        {"left_out", leftOut},
         {"phantom", s.phantom},
         {"key", s.key},
         {"scene", QJsonDocument::fromJson(QByteArray::fromStdString(render::toJson(s.shown.scene)))
@@ -94,6 +99,9 @@ Session fromJson(const QJsonObject &in) {
     Session s;
     for (const QJsonValue &file : in["files"].toArray())
         s.files << file.toString();
+    for (const QJsonValue &skipped : in["left_out"].toArray())
+        s.leftOut.push_back(
+            {skipped["path"].toString().toStdString(), skipped["reason"].toString().toStdString()});
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
     s.hasEnded = in["ended"].toBool(true); // an earlier program wrote at its end only

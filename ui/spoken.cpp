@@ -162,6 +162,8 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "is no folder"),
     QT_TRANSLATE_NOOP("Reasons", "the compressed pixels are damaged: %1"),
     QT_TRANSLATE_NOOP("Reasons", "NRRD space units '%1' are not supported"),
+    QT_TRANSLATE_NOOP("Reasons", "NRRD units '%1' are not supported"),
+    QT_TRANSLATE_NOOP("Reasons", "files whose compressed pixels are damaged: %1"),
     QT_TRANSLATE_NOOP("Reasons", "an empty path leads nowhere"),
     QT_TRANSLATE_NOOP("Reasons", "rescale slopes of 0, taken for 1: %1"),
     QT_TRANSLATE_NOOP("Reasons", "temporal position %1"),

@@ -105,7 +105,8 @@ void StudyOpener::openPaths(const QStringList &paths) {
             openSource(wantedOf(indices, indices[defaultSource(*catalogue)]));
         });
     });
-    m_preparer.setHeld(true);
+    if (m_jobs.isRunning()) // there may have been no thread for it
+        m_preparer.setHeld(true);
 }
 
 int StudyOpener::wantedOf(const std::vector<int> &indices, int usual) const {

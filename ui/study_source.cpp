@@ -83,10 +83,16 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
         source.volume = volumeFacts(s);
         for (const dicom::InstanceFile &file : s.series->files)
             source.files << QString::fromStdString(file.path.string());
+        if (!s.series->files.empty())
+            if (const auto archive = catalogue->archiveOf(s.series->files.front().path))
+                source.archive = QString::fromStdString(archive->string());
         // The catalogue is kept alive by whoever may load from it.
         source.load = [catalogue, entry = s.volume](const task::Progress &progress,
                                                     const dicom::LoadObserver &observer) {
-            return dicom::loadVolume(*entry, progress, observer);
+            dicom::LoadedVolume loaded = dicom::loadVolume(*entry, progress, observer);
+            for (dicom::Skipped &skipped : loaded.skipped)
+                skipped.path = catalogue->named(skipped.path);
+            return loaded;
         };
         source.makeThumbnail = [catalogue, entry = s.volume] { return makeThumbnail(*entry); };
         sources.push_back(std::move(source));

@@ -6,11 +6,16 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <optional>
 #include <set>
+#include <sys/stat.h>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/cli/terminal.h"
+#include "core/decoder/read_nrrd.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
 
@@ -27,40 +32,74 @@ double nowMs() {
 using task::Error;
 using task::ErrorCode;
 
+using FileId = std::pair<dev_t, ino_t>; // whatever the path
+
+std::optional<FileId> idOf(const std::filesystem::path &path) {
+    struct stat about {};
+    if (::stat(path.c_str(), &about) != 0)
+        return std::nullopt;
+    return FileId(about.st_dev, about.st_ino);
+}
+
 // Nothing that is read is written over.
-void requireOther(const std::filesystem::path &out, const dicom::Catalogue &catalogue) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(out, ignored))
+void requireOther(const std::vector<std::filesystem::path> &outs, const std::filesystem::path &path,
+                  const dicom::Catalogue &catalogue) {
+    std::map<FileId, const std::filesystem::path *> there;
+    for (const auto &out : outs)
+        if (const auto id = idOf(out))
+            there.emplace(*id, &out);
+    if (there.empty())
         return;
-    const auto isOut = [&](const std::filesystem::path &file) {
-        return std::filesystem::equivalent(file, out, ignored);
+    const auto check = [&](const std::filesystem::path &file) {
+        if (const auto id = idOf(file); id && there.contains(*id))
+            throw Error(ErrorCode::usage, "-o: is one of the files that are read", *there.at(*id));
     };
-    bool isRead = std::any_of(catalogue.skipped.begin(), catalogue.skipped.end(),
-                              [&](const dicom::Skipped &s) { return isOut(s.path); });
-    for (const dicom::Selection &s : dicom::selections(catalogue))
-        isRead = isRead || std::any_of(s.series->files.begin(), s.series->files.end(),
-                                       [&](const dicom::InstanceFile &f) { return isOut(f.path); });
-    if (isRead)
-        throw Error(ErrorCode::usage, "-o: is one of the files that are read", out);
+    check(path);
+    for (const dicom::Skipped &s : catalogue.skipped)
+        check(s.path);
+    for (const dicom::Selection &s : dicom::selections(catalogue)) {
+        for (const dicom::InstanceFile &file : s.series->files)
+            check(file.path);
+        if (!s.volume->nrrd.empty())
+            check(decoder::readNrrdHeader(s.volume->nrrd).samplesFile);
+    }
+}
+
+std::size_t filesOf(const dicom::VolumeEntry &volume) {
+    std::set<std::filesystem::path> files;
+    for (const dicom::FrameReference &frame : volume.frames)
+        files.insert(frame.path);
+    return files.size();
 }
 
 void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &shown,
                   bool isByDefault) {
     constexpr std::size_t most = 20; // lines
-    std::size_t others = 0, lines = 0;
+    std::size_t others = 0, more = 0, lines = 0;
     for (const dicom::Skipped &skipped : catalogue.skipped)
-        if (skipped.reason == "is not a DICOM file" || lines++ >= most)
+        if (skipped.reason == "is not a DICOM file")
             ++others; // texts and programs lie beside images
+        else if (lines++ >= most)
+            ++more;
         else
             warn(skipped.path.string() + ": not used: " + skipped.reason);
+    if (more > 0)
+        warn(fmt::format("more files that are not used: {}; 'info' lists them", more));
     if (others > 0)
         warn(fmt::format("files of other kinds that are not used: {}; 'info' lists them", others));
     std::set<const dicom::Series *> series;
     for (const dicom::Selection &s : dicom::selections(catalogue))
         series.insert(s.series);
     if (isByDefault && series.size() > 1)
-        warn(fmt::format("series {} of {} series, {} patients; --series chooses, 'info' lists them",
-                         shown.series->number, series.size(), catalogue.patients.size()));
+        warn(fmt::format("series {} ({}) of {} series, {} patients; --series chooses, 'info' lists "
+                         "them",
+                         shown.series->number, shown.series->uid, series.size(),
+                         catalogue.patients.size()));
+    if (shown.series->volumes.size() > 1)
+        warn(fmt::format("volume '{}' of {} volumes of the series, of {} of its {} files; 'info' "
+                         "lists them",
+                         shown.volume->label, shown.series->volumes.size(), filesOf(*shown.volume),
+                         shown.series->files.size()));
 }
 
 } // namespace
@@ -86,7 +125,7 @@ double Stopwatch::lapMs() {
 }
 
 Input openInput(const std::filesystem::path &path, const std::string &series,
-                const std::filesystem::path &out, const Context &context) {
+                const std::vector<std::filesystem::path> &outs, const Context &context) {
     Stopwatch watch;
     const task::Progress progress(context.stop);
     const dicom::Catalogue catalogue = dicom::scan({path}, progress);
@@ -95,7 +134,7 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     input.scanMs = watch.lapMs();
     if (catalogue.empty())
         failWithoutImages(catalogue, path);
-    requireOther(out, catalogue);
+    requireOther(outs, path, catalogue);
     dicom::Selection selection;
     try {
         selection = series.empty() ? dicom::defaultSelection(catalogue)
@@ -114,6 +153,8 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     input.seriesUid = selection.series->uid;
     input.seriesDescription = selection.series->description;
     input.labels = dicom::captureLabels(selection);
+    for (dicom::Skipped &skipped : input.loaded.skipped)
+        skipped.path = catalogue.named(skipped.path);
     input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
                          input.loaded.skipped.end());
     // Said even where no JSON is asked for: that a slice is left out, above all.

@@ -24,9 +24,9 @@ struct Input {
 
 /// Scans a path and loads one volume of it: of the series named, else the one with most voxels.
 /// What is not used or not shown is said on stderr. *Throws* Error{unusable} naming the path;
-/// Error{usage} if `out` is one of the files that are read.
+/// Error{usage} if one of `outs` is one of the files that are read.
 Input openInput(const std::filesystem::path &path, const std::string &series,
-                const std::filesystem::path &out, const Context &context);
+                const std::vector<std::filesystem::path> &outs, const Context &context);
 
 /// Why nothing of what was found can be used. *Throws* Error{unusable} naming a file and its
 /// reason.

@@ -16,6 +16,7 @@
 #include "app/cli/renderer.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/terminal.h"
+#include "core/files/file_set.h"
 #include "core/preprocess/step_cache.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
@@ -55,7 +56,13 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (o.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(o.threads));
 
-    const Input input = openInput(o.path, o.series, out, context);
+    std::vector<fs::path> outs{out};
+    if (o.turntable) {
+        outs.clear();
+        for (int frame = 0; frame < o.frames; ++frame)
+            outs.push_back(framePath(out, frame));
+    }
+    const Input input = openInput(o.path, o.series, outs, context);
     const volume::Volume &volume = input.loaded.volume;
     render::Scene scene = sceneFor(o.scene, command, volume);
     // The scene file may have brought colours.
@@ -134,6 +141,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         o.isDeidentified ? dicom::deidentified(input.labels) : input.labels;
     if (!o.isDeidentified)
         labels.seriesUid = dicom::newSeriesUid(); // one for all frames
+    std::optional<files::FileSet> turn;
+    if (o.turntable)
+        turn.emplace(outs.front());
     for (int frame = 0; frame < frames; ++frame) {
         task::Progress(context.stop).check();
         render::Scene turned = scene;
@@ -144,10 +154,12 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         task::Progress(context.stop).check();
         watch.lapMs();
         labels.instanceNumber = frame + 1;
-        writeImage(o.frames > 0 ? framePath(out, frame) : out, image, turned, volume.lattice(),
-                   labels);
+        const fs::path &file = outs[std::size_t(frame)];
+        writeImage(turn ? turn->aside(file) : file, image, turned, volume.lattice(), labels);
         writeMs += watch.lapMs();
     }
+    if (turn)
+        turn->commit();
     if (!o.json)
         return;
     json skipped = json::array();

@@ -31,7 +31,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     std::optional<classify::FieldWindow> window;
     if (command.count("--window") > 0)
         window = parseWindow(o.window);
-    const Input input = openInput(o.path, o.series, o.out, context);
+    const Input input = openInput(o.path, o.series, {o.out}, context);
     const volume::Volume &volume = input.loaded.volume;
     const auto encoding = o.gzip ? volume::NrrdEncoding::gzip : volume::NrrdEncoding::raw;
     if (!o.field && !tissue) {

@@ -27,13 +27,13 @@ constexpr const char *programName = "pellucid-decode";
 struct OpenFile {
     Descriptor descriptor;
     std::uint64_t bytes = 0;
-    timespec written{};
+    timespec changed{}; ///< of content or place; nobody can set it back, as with its date
 
     // Called when it has been read: somebody may have written into it meanwhile.
     void requireUnchanged() const {
         struct stat about {};
         if (::fstat(descriptor.get(), &about) != 0 || std::uint64_t(about.st_size) != bytes ||
-            about.st_mtim.tv_sec != written.tv_sec || about.st_mtim.tv_nsec != written.tv_nsec)
+            about.st_ctim.tv_sec != changed.tv_sec || about.st_ctim.tv_nsec != changed.tv_nsec)
             throw Error(ErrorCode::unusable, "changed while it was read");
     }
 };
@@ -46,7 +46,7 @@ OpenFile open(const fs::path &path) {
     if (about.st_size == 0)
         throw Error(ErrorCode::unusable, "is empty", path);
     file.bytes = std::uint64_t(about.st_size);
-    file.written = about.st_mtim;
+    file.changed = about.st_ctim;
     return file;
 }
 

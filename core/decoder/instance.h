@@ -55,7 +55,7 @@ struct InstanceHeader {
     int announcedFrames = 1;      ///< NumberOfFrames, whether or not there is room for them
     std::uint32_t pixelBytes = 0; ///< of uncompressed pixels, as their element says; 0: not known
     int bitsAllocated = 0, bitsStored = 0, highBit = 0;
-    int pixelRepresentation = 0; ///< 0: unsigned, 1: signed; DICOM knows no other
+    int pixelRepresentation = 0; ///< 0: unsigned, 1: signed, -1: not said
     bool lossy = false;
     bool hasDamagedPixels = false; ///< as far as their decoder noticed, who went on
     std::string photometric, rescaleType;

@@ -2,6 +2,7 @@
 #include "core/dicom/catalogue.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "core/task/error.h"
@@ -19,6 +20,31 @@ const Selection &largest(const std::vector<Selection> &candidates) {
 }
 
 } // namespace
+
+namespace {
+
+// Nothing where the file is not below the folder.
+std::optional<std::filesystem::path> below(const std::filesystem::path &folder,
+                                           const std::filesystem::path &file) {
+    const std::filesystem::path inside = file.lexically_relative(folder);
+    return inside.empty() || *inside.begin() == ".." ? std::nullopt : std::optional(inside);
+}
+
+} // namespace
+
+std::filesystem::path Catalogue::named(const std::filesystem::path &file) const {
+    for (const Unpacked &u : unpacked)
+        if (const auto inside = below(u.folder->path(), file))
+            return u.archive / *inside;
+    return file;
+}
+
+std::optional<std::filesystem::path> Catalogue::archiveOf(const std::filesystem::path &file) const {
+    for (const Unpacked &u : unpacked)
+        if (below(u.folder->path(), file))
+            return u.archive;
+    return std::nullopt;
+}
 
 std::vector<Selection> selections(const Catalogue &catalogue) {
     std::vector<Selection> all;
@@ -47,6 +73,14 @@ Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUi
         if ((", " + known + ",").find(", " + number + ",") == std::string::npos)
             known += (known.empty() ? "" : ", ") + number;
     }
+    std::set<const Series *> series;
+    std::string uids;
+    for (const Selection &s : matching)
+        if (series.insert(s.series).second)
+            uids += (uids.empty() ? "" : ", ") + s.series->uid;
+    if (series.size() > 1)
+        throw task::Error(task::ErrorCode::unusable,
+                          "several series are '" + numberOrUid + "'; by UID: " + uids);
     if (matching.empty())
         throw task::Error(task::ErrorCode::unusable,
                           "no series '" + numberOrUid + "'; there are " + known);

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include "core/files/session_folder.h"
 #include "core/volume/volume.h"
 
@@ -24,9 +22,8 @@ struct Skipped {
 struct FrameReference {
     std::filesystem::path path;
     int frame = 0;
-    /// What the scan found there: another instance, or another place, is not what was meant.
-    std::string sopInstanceUid;
-    std::optional<glm::dvec3> positionMm;
+    /// Of what the scan found there, as `digestOf` says: anything else is not what was meant.
+    std::size_t digest = 0;
     bool operator==(const FrameReference &) const = default;
 };
 
@@ -75,12 +72,22 @@ struct Patient {
     std::vector<Study> studies;
 };
 
+/// An archive, and where its files are as long as somebody may load from them.
+struct Unpacked {
+    std::shared_ptr<const files::SessionFolder> folder;
+    std::filesystem::path archive;
+};
+
 /// What a scan found.
 struct Catalogue {
     std::vector<Patient> patients;
     std::vector<Skipped> skipped;
     /// What archives were unpacked to; it is there as long as somebody may load from it.
-    std::vector<std::shared_ptr<const files::SessionFolder>> unpacked;
+    std::vector<Unpacked> unpacked;
+    /// Where a file is for people: what archives were unpacked to is gone when they look.
+    std::filesystem::path named(const std::filesystem::path &file) const;
+    /// The archive that a file is in, or nothing.
+    std::optional<std::filesystem::path> archiveOf(const std::filesystem::path &file) const;
 
     bool empty() const { return patients.empty(); }
 };
@@ -100,7 +107,8 @@ std::vector<Selection> selections(const Catalogue &catalogue);
 /// *Throws* Error{unusable} if there is none.
 Selection defaultSelection(const Catalogue &catalogue);
 
-/// A series by its number or UID, its largest volume. *Throws* Error{unusable}.
+/// A series by its number or UID, its largest volume. *Throws* Error{unusable}, also where several
+/// series have the number.
 Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid);
 
 } // namespace pellucid::dicom

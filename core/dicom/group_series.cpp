@@ -152,8 +152,8 @@ VolumeEntry entryFrom(const Part &part) {
     entry.label = part.label;
     for (const PlacedFrame &frame : part.frames) {
         entry.frames.push_back(frame.reference);
-        entry.frames.back().sopInstanceUid = frame.sopInstanceUid;
-        entry.frames.back().positionMm = frame.header.positionMm;
+        entry.frames.back().digest =
+            digestOf(frame.sopInstanceUid, frame.frameOfReferenceUid, frame.modality, frame.header);
     }
     return entry;
 }
@@ -240,6 +240,21 @@ std::string missingGeometry(const FrameHeader &h) {
 
 } // namespace
 
+std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
+                     const std::string &modality, const FrameHeader &frame) {
+    std::string all = sopInstanceUid + '\n' + frameOfReferenceUid + '\n' + modality;
+    const auto add = [&](const auto &values) {
+        all += values ? '+' : '-';
+        if (values)
+            all.append(reinterpret_cast<const char *>(&*values), sizeof(*values));
+    };
+    add(frame.positionMm);
+    add(frame.rowAxis);
+    add(frame.columnAxis);
+    add(frame.spacingMm);
+    return std::hash<std::string>()(all);
+}
+
 constexpr const char *surplus = "files with more pixels than their header says: ",
                      *zeroSlopes = "rescale slopes of 0, taken for 1: ";
 
@@ -270,14 +285,15 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
     Frames placed, unplaced;
     for (const SeriesFile &file : files)
         for (int n = 0; n < int(file.header.frames.size()); ++n) {
-            PlacedFrame frame{{file.path, n},
-                              file.header.frames[n],
-                              file.header.rows,
-                              file.header.columns,
-                              file.header.instanceNumber,
-                              file.header.sopInstanceUid,
-                              file.header.frameOfReferenceUid,
-                              file.header.modality};
+            PlacedFrame frame;
+            frame.reference = {file.path, n};
+            frame.header = file.header.frames[std::size_t(n)];
+            frame.rows = file.header.rows;
+            frame.columns = file.header.columns;
+            frame.instanceNumber = file.header.instanceNumber;
+            frame.sopInstanceUid = file.header.sopInstanceUid;
+            frame.frameOfReferenceUid = file.header.frameOfReferenceUid;
+            frame.modality = file.header.modality;
             (missingGeometry(frame.header).empty() ? placed : unplaced).push_back(std::move(frame));
         }
     dropCopies(placed, skipped);

@@ -15,7 +15,8 @@ struct SeriesFile {
     InstanceHeader header;
 };
 
-/// Splits one series into volumes: by size, orientation, pixel spacing and localizer first; where
+/// Splits one series into volumes: by size, orientation, pixel spacing, localizer, frame of
+/// reference and modality first; where
 /// positions then still repeat, by the first attribute that tells them apart (temporal position,
 /// acquisition, echo, b-value, ...), at last by the order of the files. Copies of the same instance
 /// are dropped and listed. Frames without position or orientation become sets of images with the
@@ -23,6 +24,11 @@ struct SeriesFile {
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped,
                                      const task::Progress &progress = {});
+
+/// What identifies a frame's image, its place and its kind of values: frames of other digests are
+/// other images, whatever their file is named.
+std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
+                     const std::string &modality, const FrameHeader &frame);
 
 /// What is wrong with the values of files, and how many have it: pixels beyond those that the
 /// header describes, a rescale slope of 0.

@@ -202,8 +202,8 @@ public:
 private:
     static bool isStillThere(const FrameReference &meant, const InstanceHeader &found) {
         return meant.frame < int(found.frames.size()) &&
-               meant.sopInstanceUid == found.sopInstanceUid &&
-               meant.positionMm == found.frames[std::size_t(meant.frame)].positionMm;
+               meant.digest == digestOf(found.sopInstanceUid, found.frameOfReferenceUid,
+                                        found.modality, found.frames[std::size_t(meant.frame)]);
     }
 
     // A file that asks for too much costs itself, as one that is damaged.
@@ -301,8 +301,13 @@ private:
         if (!m_entry.geometry.frameOffsetsMm.empty())
             samples = resampled(samples, m_entry.geometry, m_progress);
         volume::VolumeNotes notes = m_entry.notes;
+        constexpr std::size_t mostNamed = 5;
         for (const std::string &name : damaged)
-            notes.warnings.push_back("the compressed pixels are damaged: " + name);
+            if (notes.warnings.size() < m_entry.notes.warnings.size() + mostNamed)
+                notes.warnings.push_back("the compressed pixels are damaged: " + name);
+        if (damaged.size() > mostNamed)
+            notes.warnings.push_back(
+                fmt::format("files whose compressed pixels are damaged: {}", damaged.size()));
         LoadedVolume loaded{volumeOf(std::move(samples), m_entry.geometry.lattice, notes), {}};
         m_progress.report(1.0);
         return loaded;

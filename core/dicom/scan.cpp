@@ -18,6 +18,7 @@
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/group_series.h"
 #include "core/task/error.h"
+#include "core/task/memory.h"
 #include "core/task/text.h"
 #include "core/volume/nrrd.h"
 
@@ -77,18 +78,9 @@ public:
             addFile(path);
     }
 
-    // Where a file is for people: a folder of this program's is gone when they look.
-    fs::path named(const fs::path &file) const {
-        for (const auto &[folder, archive] : m_archives)
-            if (const fs::path inside = file.lexically_relative(folder);
-                !inside.empty() && *inside.begin() != "..")
-                return archive / inside;
-        return file;
-    }
-
     std::vector<fs::path> found;
     std::vector<Skipped> skipped;
-    std::vector<std::shared_ptr<const files::SessionFolder>> unpacked;
+    std::vector<Unpacked> unpacked;
 
 private:
     void addFile(const fs::path &path) {
@@ -104,8 +96,7 @@ private:
                                                               folder->path(), m_progress))
             skipped.push_back({path / fs::path(link).relative_path(), "is a link in an archive"});
         addFolder(folder->path());
-        m_archives[folder->path()] = path;
-        unpacked.push_back(std::move(folder));
+        unpacked.push_back({std::move(folder), path});
     }
 
     // What is no DICOM file at all is said when it is read.
@@ -183,8 +174,20 @@ private:
 
     const task::Progress &m_progress;
     std::set<fs::path> m_seen;
-    std::map<fs::path, fs::path> m_archives; ///< by the folders that they were unpacked to
 };
+
+// What the frames of a file take while they are sorted into volumes: as they were read, as they are
+// sorted, and as they are referred to; each with its texts and its path.
+std::size_t bytesToGroup(const InstanceHeader &header) {
+    constexpr std::size_t copies = 5, pathBytes = 256;
+    std::size_t bytes = 0;
+    for (const decoder::FrameHeader &frame : header.frames) {
+        bytes += sizeof(PlacedFrame) + pathBytes + frame.imageType.capacity();
+        for (const auto &[name, value] : frame.dimensions)
+            bytes += 64 + name.capacity() + value.capacity();
+    }
+    return copies * bytes;
+}
 
 using HeadersByPath = std::map<fs::path, const InstanceHeader *>;
 
@@ -277,6 +280,10 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
         }
     }
 
+    // A small file may announce very many frames: all of them are held until they are grouped.
+    constexpr std::size_t ofUsualSeries = std::size_t(32) << 20;
+    const std::size_t mostHeld = std::max(task::availableMemoryBytes() / 2, ofUsualSeries);
+    std::atomic<std::size_t> held = 0;
     std::vector<InstanceHeader> headers(list.found.size());
     std::vector<std::optional<decoder::NrrdHeader>> nrrds(list.found.size());
     std::vector<std::string> reasons(list.found.size());
@@ -288,9 +295,14 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
             if (volume::isNrrdPath(list.found[n])) {
                 nrrds[n] = decoder::readNrrdHeader(list.found[n], progress);
             } else {
-                headers[n] = decoder::Decoder::ofProgram().header(list.found[n], progress);
-                if (const auto reason = decoder::whyUnusable(headers[n]))
+                InstanceHeader header =
+                    decoder::Decoder::ofProgram().header(list.found[n], progress);
+                if (const auto reason = decoder::whyUnusable(header))
                     reasons[n] = *reason;
+                else if ((held += bytesToGroup(header)) > mostHeld)
+                    reasons[n] = "needs more memory than there is";
+                else
+                    headers[n] = std::move(header);
             }
         } catch (const Error &error) {
             if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
@@ -347,7 +359,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
         studies.of(h).series.push_back(std::move(entry));
     }
     for (Skipped &skipped : catalogue.skipped)
-        skipped.path = list.named(skipped.path);
+        skipped.path = catalogue.named(skipped.path);
     for (Patient &patient : catalogue.patients)
         for (Study &study : patient.studies)
             std::stable_sort(study.series.begin(), study.series.end(),

@@ -47,6 +47,16 @@ std::vector<std::uint8_t> samples(std::span<const std::uint8_t> rgba, bool grey)
     return out;
 }
 
+// By its code (PS3.16, CID 7050).
+void putProfile(DcmDataset &d) {
+    DcmItem *code = nullptr;
+    if (d.findOrCreateSequenceItem(DCM_DeidentificationMethodCodeSequence, code).bad())
+        return;
+    code->putAndInsertString(DCM_CodeValue, "113100");
+    code->putAndInsertString(DCM_CodingSchemeDesignator, "DCM");
+    code->putAndInsertString(DCM_CodeMeaning, "Basic Application Confidentiality Profile");
+}
+
 } // namespace
 
 CaptureLabels captureLabels(const Selection &s) {
@@ -96,16 +106,20 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     if (labels.isDeidentified) {
         put(d, DCM_PatientIdentityRemoved, "YES");
         put(d, DCM_DeidentificationMethod, "Attributes of patient and study removed by Pellucid");
+        putProfile(d);
+        put(d, DCM_LongitudinalTemporalInformationModified, "REMOVED");
+    } else {
+        put(d, DCM_StudyDescription, labels.studyDescription);
+        put(d, DCM_SeriesDescription, labels.seriesDescription);
+        put(d, DCM_DerivationDescription, labels.derivation);
+        put(d, DCM_ImageComments, "Not for diagnostic use");
     }
     put(d, DCM_AccessionNumber, "");
     put(d, DCM_Modality, "OT");
     put(d, DCM_ConversionType, "WSD");
     put(d, DCM_Manufacturer, "Pellucid");
     put(d, DCM_ReferringPhysicianName, "");
-    put(d, DCM_StudyDescription, labels.studyDescription);
-    put(d, DCM_SeriesDescription, labels.seriesDescription);
     put(d, DCM_SecondaryCaptureDeviceManufacturer, "Pellucid");
-    put(d, DCM_DerivationDescription, labels.derivation);
     put(d, DCM_PatientName, labels.patientName);
     put(d, DCM_PatientID, labels.patientId);
     put(d, DCM_PatientBirthDate, labels.birthDate);
@@ -117,7 +131,6 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     put(d, DCM_SeriesNumber, std::to_string(labels.seriesNumber));
     put(d, DCM_InstanceNumber, std::to_string(labels.instanceNumber));
     put(d, DCM_PatientOrientation, labels.patientOrientation);
-    put(d, DCM_ImageComments, "Not for diagnostic use");
     put(d, DCM_BurnedInAnnotation, "NO");
     if (labels.pixelMm > 0.0)
         put(d, DCM_PixelSpacing, decimals({labels.pixelMm, labels.pixelMm}));

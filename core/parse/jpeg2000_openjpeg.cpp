@@ -77,7 +77,8 @@ OPJ_BOOL seekWrite(OPJ_OFF_T to, void *user) {
     return OPJ_TRUE;
 }
 
-// The marker that ends a codestream, before what makes the length even.
+// The marker that ends a codestream, before what makes the length even. Of a codestream in a JP2
+// file nothing is said: boxes may follow.
 bool hasEnd(std::span<const std::byte> data) {
     while (!data.empty() && data.back() == std::byte(0))
         data = data.first(data.size() - 1);
@@ -132,7 +133,7 @@ Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows,
             int(component.prec),
             component.sgnd != 0,
             std::vector<std::int32_t>(component.data, component.data + count),
-            hasWarned || !hasEnd(data)};
+            hasWarned || (codestream && !hasEnd(data))};
 }
 
 std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {

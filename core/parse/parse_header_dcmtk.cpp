@@ -12,10 +12,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/decoder/decoder.h"
+#include "core/parse/character_sets.h"
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/dictionary.h"
-#include "core/parse/japanese_text.h"
 #include "core/parse/memory_input.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
@@ -31,27 +31,32 @@ using task::ErrorCode;
 constexpr Uint32 longestValue = 2 * 65536;
 constexpr std::size_t longestText = 1024; // bytes; DICOM's longest texts have 10240 letters
 
-std::string text(DcmItem *item, const DcmTagKey &tag) {
+// Long values are shown nowhere, and a line is a line.
+std::string oneLine(std::string text) {
+    if (text.size() > longestText) {
+        std::size_t end = longestText;
+        while (end > 0 && (text[end] & 0xC0) == 0x80) // not within a letter
+            --end;
+        text.resize(end);
+    }
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return (unsigned char)(c) < 0x20 || c == 0x7F; },
+        ' ');
+    while (!text.empty() && text.back() == ' ')
+        text.pop_back();
+    return text;
+}
+
+// `sets`: of a text that may have letters beyond ASCII.
+std::string text(DcmItem *item, const DcmTagKey &tag, const CharacterSets *sets = nullptr) {
     OFString value;
     if (item == nullptr || item->findAndGetOFStringArray(tag, value).bad())
         return {};
     const auto first = value.find_first_not_of(" \0");
     if (first == OFString_npos)
         return {};
-    std::string result(value.c_str() + first);
-    // Long values are shown nowhere, and a line is a line.
-    if (result.size() > longestText) {
-        std::size_t end = longestText;
-        while (end > 0 && (result[end] & 0xC0) == 0x80) // not within a letter
-            --end;
-        result.resize(end);
-    }
-    std::replace_if(
-        result.begin(), result.end(), [](char c) { return (unsigned char)(c) < 0x20 || c == 0x7F; },
-        ' ');
-    while (!result.empty() && result.back() == ' ')
-        result.pop_back();
-    return result;
+    const std::string written(value.c_str() + first);
+    return oneLine(sets != nullptr ? sets->utf8(written, tag == DCM_PatientName) : written);
 }
 
 // All of the text, or it is none: half of one, as of "2,5", is another number.
@@ -205,13 +210,14 @@ void readFunctionalGroups(DcmItem *groups, FrameHeader &frame) {
             frame.dimensions["echo"] = value;
 }
 
-std::vector<volume::ValueWindow> readWindows(DcmItem *item) {
+std::vector<volume::ValueWindow> readWindows(DcmItem *item, const CharacterSets &sets) {
     const auto centers = numbers(item, DCM_WindowCenter), widths = numbers(item, DCM_WindowWidth);
     std::vector<volume::ValueWindow> windows;
     for (std::size_t n = 0; n < std::min(centers.size(), widths.size()); ++n) {
         OFString name;
         item->findAndGetOFString(DCM_WindowCenterWidthExplanation, name, n);
-        const volume::ValueWindow window{centers[n], widths[n], name.c_str()};
+        const volume::ValueWindow window{centers[n], widths[n],
+                                         oneLine(sets.utf8(name.c_str(), false))};
         const bool known = std::any_of(windows.begin(), windows.end(), [&](const auto &w) {
             return w.center == window.center && w.width == window.width;
         });
@@ -251,21 +257,6 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
         header.modalityTableFirst -= 65536;
 }
 
-// DCMTK asks the system's converter for names that glibc does not have.
-void convertJapanese(DcmDataset &dataset) {
-    OFString sets;
-    dataset.findAndGetOFStringArray(DCM_SpecificCharacterSet, sets);
-    if (sets.find("IR 87") == OFString_npos && sets.find("IR 159") == OFString_npos &&
-        sets.find("IR 13") == OFString_npos)
-        return;
-    for (const DcmTagKey &tag :
-         {DCM_PatientName, DCM_PatientID, DCM_StudyDescription, DCM_SeriesDescription}) {
-        OFString value;
-        if (dataset.findAndGetOFStringArray(tag, value).good())
-            dataset.putAndInsertString(tag, utf8OfJapanese({value.data(), value.size()}).c_str());
-    }
-}
-
 } // namespace
 
 void dropUnreadable(DcmItem &dataset) {
@@ -292,26 +283,23 @@ void dropUnreadable(DcmItem &dataset) {
 
 InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     dropUnreadable(dataset);
-    // Names in any character set come out as UTF-8; where conversion fails the bytes stay.
-    if (dataset.tagExistsWithValue(DCM_SpecificCharacterSet))
-        if (dataset.convertToUTF8().bad())
-            convertJapanese(dataset);
+    const CharacterSets sets(dataset);
     InstanceHeader h;
     h.sopClassUid = text(&dataset, DCM_SOPClassUID);
     h.sopInstanceUid = text(&dataset, DCM_SOPInstanceUID);
     const char *const name = dcmFindNameOfUID(h.sopClassUid.c_str());
     h.sopClassName = name != nullptr ? name : h.sopClassUid;
     h.transferSyntax = DcmXfer(dataset.getOriginalXfer()).getXferName();
-    h.patientId = text(&dataset, DCM_PatientID);
-    h.patientName = text(&dataset, DCM_PatientName);
+    h.patientId = text(&dataset, DCM_PatientID, &sets);
+    h.patientName = text(&dataset, DCM_PatientName, &sets);
     h.birthDate = text(&dataset, DCM_PatientBirthDate);
     h.sex = text(&dataset, DCM_PatientSex);
     h.studyUid = text(&dataset, DCM_StudyInstanceUID);
     h.studyDate = text(&dataset, DCM_StudyDate);
     h.frameOfReferenceUid = text(&dataset, DCM_FrameOfReferenceUID);
-    h.studyDescription = text(&dataset, DCM_StudyDescription);
+    h.studyDescription = text(&dataset, DCM_StudyDescription, &sets);
     h.seriesUid = text(&dataset, DCM_SeriesInstanceUID);
-    h.seriesDescription = text(&dataset, DCM_SeriesDescription);
+    h.seriesDescription = text(&dataset, DCM_SeriesDescription, &sets);
     h.modality = text(&dataset, DCM_Modality);
     h.bodyPart = text(&dataset, DCM_BodyPartExamined);
     h.seriesNumber = integer(&dataset, DCM_SeriesNumber);
@@ -325,7 +313,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     h.bitsAllocated = integer(&dataset, DCM_BitsAllocated);
     h.bitsStored = integer(&dataset, DCM_BitsStored, h.bitsAllocated);
     h.highBit = integer(&dataset, DCM_HighBit, h.bitsStored - 1);
-    h.pixelRepresentation = integer(&dataset, DCM_PixelRepresentation);
+    h.pixelRepresentation = integer(&dataset, DCM_PixelRepresentation, -1);
     h.lossy = text(&dataset, DCM_LossyImageCompression) == "01";
     h.photometric = text(&dataset, DCM_PhotometricInterpretation);
     h.rescaleType = text(&dataset, DCM_RescaleType);
@@ -333,7 +321,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
         h.paddingValue = int(std::clamp(*value, -65536.0, 65536.0));
     if (const auto value = number(&dataset, DCM_PixelPaddingRangeLimit))
         h.paddingLimit = int(std::clamp(*value, -65536.0, 65536.0));
-    h.windows = readWindows(&dataset);
+    h.windows = readWindows(&dataset, sets);
     h.pixelBytes = pixelBytes(dataset);
     readModalityTable(dataset, h);
 
@@ -349,7 +337,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
         readFunctionalGroups(sharedGroups, shared);
         if (h.windows.empty())
             if (DcmItem *lut = sequenceItem(sharedGroups, DCM_FrameVOILUTSequence))
-                h.windows = readWindows(lut);
+                h.windows = readWindows(lut, sets);
     }
     const auto count = number(&dataset, DCM_NumberOfFrames);
     const double most = std::min(double(decoder::mostFrames), double(fileBytes));
@@ -361,7 +349,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
             readFunctionalGroups(groups, frame);
             if (n == 0 && h.windows.empty())
                 if (DcmItem *lut = sequenceItem(groups, DCM_FrameVOILUTSequence))
-                    h.windows = readWindows(lut);
+                    h.windows = readWindows(lut, sets);
         } else if (frames > 1) {
             // A multi-frame image without groups of its own repeats one position: it says nothing.
             frame.positionMm.reset();

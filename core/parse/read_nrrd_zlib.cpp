@@ -186,19 +186,21 @@ std::vector<glm::dvec3> parseVectors(const Fields &fields, const std::string &te
     return vectors;
 }
 
+// "mm" "mm" "mm", or nothing of an axis; micrometres or metres would be another patient.
+void requireMillimetres(const Fields &fields, const std::string &name, std::string units) {
+    std::replace(units.begin(), units.end(), '"', ' ');
+    std::istringstream each(units);
+    for (std::string unit; each >> unit;)
+        if (const std::string lowered = task::lowered(unit);
+            lowered != "mm" && lowered != "millimeter" && lowered != "millimeters" &&
+            lowered != "millimetre" && lowered != "millimetres")
+            fields.fail("NRRD " + name + " '" + unit.substr(0, 20) + "' are not supported");
+}
+
 void parseLattice(const Fields &fields, NrrdLayout &layout) {
-    // "mm" "mm" "mm", or nothing; micrometres or metres would be another patient.
-    if (const auto units = fields.find({"space units"}))
-        for (std::size_t at = 0, n = 0; n < 3; ++n) {
-            const auto open = units->find('"', at), close = units->find('"', open + 1);
-            if (open == units->npos || close == units->npos)
-                break;
-            const std::string unit = trimmed(units->substr(open + 1, close - open - 1));
-            if (!unit.empty() && task::lowered(unit) != "mm" &&
-                task::lowered(unit) != "millimeter" && task::lowered(unit) != "millimeters")
-                fields.fail("NRRD space units '" + unit.substr(0, 20) + "' are not supported");
-            at = close + 1;
-        }
+    for (const char *const name : {"space units", "units"})
+        if (const auto units = fields.find({name}))
+            requireMillimetres(fields, name, *units);
     std::array<glm::dvec3, 3> steps{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
     const Space space = spaceOf(fields);
     const glm::dvec3 sign = space.toLps;

@@ -376,6 +376,13 @@
     </message>
 </context>
 <context>
+    <name>OverlayTexts</name>
+    <message>
+        <source>With warnings: the study&apos;s list says which</source>
+        <translation>有警告：見檢查清單</translation>
+    </message>
+</context>
+<context>
     <name>PictureExportTexts</name>
     <message>
         <source>No study is open</source>
@@ -1288,6 +1295,14 @@
     <message>
         <source>names no space of the patient; taken for left-posterior-superior</source>
         <translation>未指明病人座標空間；視為左－後－上</translation>
+    </message>
+    <message>
+        <source>NRRD units &apos;%1&apos; are not supported</source>
+        <translation>不支援 NRRD 單位「%1」</translation>
+    </message>
+    <message>
+        <source>files whose compressed pixels are damaged: %1</source>
+        <translation>壓縮像素損壞的檔案：%1</translation>
     </message>
 </context>
 <context>

@@ -124,7 +124,11 @@ private slots:
         const ui::StudyFacts study = m_window->document().sources().at(0).study;
         for (const QString &of : {study.patientName, study.patientId, study.uid, study.date})
             QVERIFY2(of.isEmpty() || !said.contains("[" + of + "]"), qPrintable(of));
-        QVERIFY(said.contains("(0012,0062) CS [YES]"));
+        // PS3.15, E.1 and table E.1-1.
+        for (const char *there : {"(0012,0062) CS [YES]", "[113100]", "(0028,0303) CS [REMOVED]"})
+            QVERIFY2(said.contains(there), there);
+        for (const char *gone : {"(0008,1030)", "(0008,103e)", "(0008,2111)", "(0020,4000)"})
+            QVERIFY2(!said.contains(gone), gone);
         QCOMPARE(m_window->document().sources().size(), std::size_t(1));
     }
 

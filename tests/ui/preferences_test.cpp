@@ -95,8 +95,7 @@ private slots:
         QVERIFY(find<QLabel>("shortcutConflict")->text().contains("Window"));
         QVERIFY(find<QAction>("windowToolAction")->shortcut().isEmpty());
         find<QDialog>("preferencesDialog")->close();
-        window_().activateWindow();
-        QVERIFY(QTest::qWaitForWindowActive(&window_()));
+        QVERIFY(test::activate(window_()));
         QTest::keyClick(&window_(), Qt::Key_W);
         QVERIFY(find<QAction>("cropToolAction")->isChecked());
         begin();
@@ -287,8 +286,7 @@ private:
         QTRY_VERIFY_WITH_TIMEOUT(window_().isVisible() && window_().windowHandle()->isExposed(),
                                  patienceMs);
         window_().resize(1600, 1000);
-        window_().activateWindow();
-        QTRY_VERIFY_WITH_TIMEOUT(window_().isActiveWindow(), patienceMs);
+        QVERIFY(test::activate(window_()));
     }
     void grabAs(const QString &name) {
         if (const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS"); !folder.isEmpty())

@@ -100,6 +100,26 @@ private slots:
         QVERIFY(isNamed(next));
     }
 
+    // What an archive was unpacked to is gone; the archive is opened again.
+    void whatWasOpenOfAnArchiveIsTakenUp() {
+        const fs::path zip = m_folder / "session.zip";
+        QProcess packer;
+        packer.start("python3",
+                     {"-m", "zipfile", "-c", QString::fromStdString(zip.string()), headPath()});
+        QVERIFY(packer.waitForFinished(patienceMs) && packer.exitCode() == 0);
+        {
+            ui::Workstation program;
+            program.window().openPaths({QString::fromStdString(zip.string())});
+            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+            QCOMPARE(kept().files, QStringList{QString::fromStdString(zip.string())});
+        }
+        ui::Workstation next;
+        next.window().resumeSession();
+        QTRY_VERIFY_WITH_TIMEOUT(
+            next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
+        QCOMPARE(next.bench().document.volume()->lattice().size().k, 80);
+    }
+
     void aDamagedSessionIsSaid() {
         fs::create_directories(m_sessionFile.parent_path());
         std::ofstream(m_sessionFile) << "{\"schema\": \"pellucid-sess";

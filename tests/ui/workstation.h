@@ -38,6 +38,18 @@ inline QString testData() {
     return qEnvironmentVariable("PELLUCID_TEST_DATA");
 }
 
+// Asked for till it is granted: a window that is not on the screen yet, or that another program's
+// takes the keyboard from, is not active by being asked once.
+inline bool activate(QWidget &window) {
+    return QTest::qWaitFor(
+        [&] {
+            if (!window.isActiveWindow())
+                window.activateWindow();
+            return window.isActiveWindow();
+        },
+        patienceMs);
+}
+
 inline void drop(QWidget &window, const QList<QUrl> &urls) {
     QMimeData data;
     data.setUrls(urls);

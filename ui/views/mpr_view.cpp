@@ -180,13 +180,13 @@ void MprView::paintEvent(QPaintEvent *) {
         painter.drawImage(QPoint(0, 0), m_image);
         painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
         paintHandles(painter);
-        paintAnnotations(painter, MeasureTool::Marks::withSelection);
+        paintAnnotations(painter, MeasureTool::Marks::withSelection, Names::shown);
     } else if (m_document.volume()) {
         painter.setPen(colors.muted);
         painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
                          tr("Images only: no volume to cut"));
     } else {
-        paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation);
+        paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, Names::shown);
     }
     painter.fillRect(QRect(0, 0, width(), 3), colors.plane);
     if (hasFocus()) {
@@ -207,9 +207,9 @@ void MprView::paintHandles(QPainter &painter) const {
     painter.restore();
 }
 
-void MprView::paintAnnotations(QPainter &painter, MeasureTool::Marks marks) const {
+void MprView::paintAnnotations(QPainter &painter, MeasureTool::Marks marks, Names names) const {
     m_measure.paint(painter, measurePane(), overlayColors(colorRole(m_orientation)), marks);
-    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation);
+    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, names);
 }
 
 std::function<QImage()> MprView::pictureMaker(int scale) const {
@@ -225,8 +225,8 @@ std::function<QImage()> MprView::pictureMaker(int scale) const {
     };
 }
 
-void MprView::paintOver(QPainter &painter) const {
-    paintAnnotations(painter, MeasureTool::Marks::plain);
+void MprView::paintOver(QPainter &painter, Names names) const {
+    paintAnnotations(painter, MeasureTool::Marks::plain, names);
     const OverlayColors colors = overlayColors(colorRole(m_orientation));
     const int line = painter.fontMetrics().height() + 3;
     drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,

@@ -10,6 +10,7 @@
 
 #include "core/mpr/plane.h"
 #include "ui/commands.h"
+#include "ui/overlay.h"
 #include "ui/tools.h"
 #include "ui/views/crop_tool.h"
 #include "ui/views/crosshair.h"
@@ -40,7 +41,7 @@ public:
     /// Makes what is shown, of as many pixels for one of the pane's, a side; on any thread.
     std::function<QImage()> pictureMaker(int scale) const;
     /// What stands over it where it is exported. *Units*: logical pixels.
-    void paintOver(QPainter &painter) const;
+    void paintOver(QPainter &painter, Names names) const;
 
     /// What of the plane the pane shows.
     struct View {
@@ -77,7 +78,7 @@ private:
     void refresh();
     void updateImage();
     void paintHandles(QPainter &painter) const;
-    void paintAnnotations(QPainter &painter, MeasureTool::Marks marks) const;
+    void paintAnnotations(QPainter &painter, MeasureTool::Marks marks, Names names) const;
     void drag(const QPoint &delta, const QPoint &to);
     void moveCrosshair(const QPoint &to);
     void turnTo(const QPoint &to);

@@ -12,7 +12,6 @@
 #include "core/render/camera.h"
 #include "ui/document.h"
 #include "ui/overlay.h"
-#include "ui/spoken.h"
 #include "ui/views/crosshair.h"
 
 namespace pellucid::ui {
@@ -66,7 +65,7 @@ QString valueText(const volume::Volume &volume, volume::PatientPoint at,
 }
 
 void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
-                     const Document &document, mpr::Orientation orientation) {
+                     const Document &document, mpr::Orientation orientation, Names names) {
     const OverlayColors colors = overlayColors(colorRole(orientation));
     const QRect inner = area.adjusted(8, 8, -8, -8);
     const Cut &cut = document.cut();
@@ -102,9 +101,9 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
     if (notes.hasSpacing)
         drawScaleBar(painter, QPoint(10, area.bottom() - 9), mapping.pixelsPerMm(),
                      std::min(110, area.width() / 2 - 74), colors);
-    if (!notes.warnings.empty())
+    if (const QStringList warnings = warningLines(notes, names); !warnings.isEmpty())
         drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
-                 painter.fontMetrics().elidedText(spoken(notes.warnings.front()), Qt::ElideRight,
+                 painter.fontMetrics().elidedText(warnings.front(), Qt::ElideRight,
                                                   area.width() / 2 - 16),
                  colors.warning);
     if (notes.lossy)

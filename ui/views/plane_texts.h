@@ -4,6 +4,7 @@
 #include <QString>
 
 #include "core/mpr/reslice.h"
+#include "ui/overlay.h"
 #include "ui/views/pane_mapping.h"
 
 class QPainter;
@@ -22,6 +23,6 @@ QString valueText(const volume::Volume &volume, volume::PatientPoint at,
 
 /// What stands over a plane: name, position, slab, the patient's letters, scale and warnings.
 void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
-                     const Document &document, mpr::Orientation orientation);
+                     const Document &document, mpr::Orientation orientation, Names names);
 
 } // namespace pellucid::ui

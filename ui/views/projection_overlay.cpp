@@ -8,7 +8,6 @@
 
 #include "ui/document.h"
 #include "ui/overlay.h"
-#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -47,11 +46,11 @@ OverlayColors ProjectionOverlay::colors() const {
 
 void ProjectionOverlay::paintEvent(QPaintEvent *) {
     QPainter painter(this);
-    paint(painter, m_mapping, MeasureTool::Marks::withSelection);
+    paint(painter, m_mapping, MeasureTool::Marks::withSelection, Names::shown);
 }
 
 void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping,
-                              MeasureTool::Marks marks) const {
+                              MeasureTool::Marks marks, Names names) const {
     const OverlayColors colors = this->colors();
     if (!m_comparison.isNull()) {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
@@ -85,12 +84,13 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping,
              QCoreApplication::translate("ProjectionView", "Not for diagnostic use"), colors.muted);
     if (!m_document.volume())
         return;
-    drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, m_texts.lookName, colors.text);
+    if (names == Names::shown)
+        drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, m_texts.lookName, colors.text);
     // Warnings of the geometry stay on the image.
     QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
-    for (const std::string &w : m_document.volume()->notes().warnings) {
+    for (const QString &w : warningLines(m_document.volume()->notes(), names)) {
         drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
-                 painter.fontMetrics().elidedText(spoken(w), Qt::ElideRight, warning.width()),
+                 painter.fontMetrics().elidedText(w, Qt::ElideRight, warning.width()),
                  colors.warning);
         warning.translate(0, line);
     }

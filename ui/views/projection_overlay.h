@@ -4,6 +4,7 @@
 #include <QImage>
 #include <QWidget>
 
+#include "ui/overlay.h"
 #include "ui/views/measure_tool.h"
 
 namespace pellucid::ui {
@@ -28,7 +29,8 @@ public:
     /// left.
     void setComparison(const QImage &picture, const QString &name);
     /// Over any picture of the pane's size.
-    void paint(QPainter &painter, const PaneMapping &mapping, MeasureTool::Marks marks) const;
+    void paint(QPainter &painter, const PaneMapping &mapping, MeasureTool::Marks marks,
+               Names names) const;
 
 protected:
     void paintEvent(QPaintEvent *event) override;

@@ -353,8 +353,9 @@ std::function<render::ProjectionImage(const render::Camera &)> ProjectionView::p
     };
 }
 
-void ProjectionView::paintAnnotations(QPainter &painter, const render::Camera &camera) const {
-    m_overlay->paint(painter, mapping(camera), MeasureTool::Marks::plain);
+void ProjectionView::paintAnnotations(QPainter &painter, const render::Camera &camera,
+                                      Names names) const {
+    m_overlay->paint(painter, mapping(camera), MeasureTool::Marks::plain, names);
 }
 
 render::Camera ProjectionView::turnedAroundPatient(const render::Camera &camera,

@@ -10,6 +10,7 @@
 
 #include "ui/commands.h"
 #include "ui/look_preparer.h"
+#include "ui/overlay.h"
 #include "ui/render_worker.h"
 #include "ui/shown_engine.h"
 #include "ui/tools.h"
@@ -73,7 +74,7 @@ public:
     /// thread as long as the view is there. It *throws* as the engine.
     std::function<render::ProjectionImage(const render::Camera &)> pictureRenderer();
     /// What stands over the picture of a camera of the pane's size. *Units*: logical pixels.
-    void paintAnnotations(QPainter &painter, const render::Camera &camera) const;
+    void paintAnnotations(QPainter &painter, const render::Camera &camera, Names names) const;
     /// As the cine turns it.
     render::Camera turnedAroundPatient(const render::Camera &camera, double degrees) const;
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }

@@ -119,6 +119,13 @@ TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
         else
             EXPECT_THROW(readNrrd(folder / "units.nrrd"), task::Error);
     }
+    write(folder / "axes.nrrd",
+          "NRRD0004\n" + header + "raw\nunits: \"mm\" \"\" \"mm\"\n\n" + three);
+    EXPECT_NO_THROW(readNrrd(folder / "axes.nrrd"));
+    for (const char *units : {"units: \"um\" \"um\" \"um\"", "space units: m m m"}) {
+        write(folder / "axes.nrrd", "NRRD0004\n" + header + "raw\n" + units + "\n\n" + three);
+        EXPECT_THROW(readNrrd(folder / "axes.nrrd"), task::Error) << units;
+    }
     write(folder / "twice.nrrd", "NRRD0001\nsizes: 1 1 1\n" + header + "raw\n\n" + three);
     EXPECT_THROW(readNrrd(folder / "twice.nrrd"), task::Error);
 }

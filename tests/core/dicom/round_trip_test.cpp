@@ -254,6 +254,103 @@ TEST(Scan, JapaneseNamesAreRead) {
     }
 }
 
+// As PS3.3, C.12.1.1.2 names them; a text that is damaged keeps no other from being read.
+TEST(Scan, NamesOfManyCharacterSetsAreRead) {
+    const std::vector<std::array<std::string, 3>> names{
+        {"ISO_IR 100",
+         "M\xFC"
+         "ller",
+         "M\u00FCller"},
+        {"ISO_IR 101", "Wa\xB3\xEAsa", "Wa\u0142\u0119sa"},
+        {"ISO_IR 144", "\xBB\xEEpce", "\u041B\u044Epce"},
+        {"ISO_IR 126", "\xC4\xE9\xEF", "\u0394\u03B9\u03BF"},
+        {"ISO_IR 127", "\xE2\xC8", "\u0642\u0628"},
+        {"ISO_IR 138", "\xF9\xF8", "\u05E9\u05E8"},
+        {"ISO_IR 148",
+         "\xC7"
+         "elik",
+         "\u00C7elik"},
+        {"ISO_IR 166", "\xCA\xC1", "\u0E2A\u0E21"},
+        {"ISO_IR 203", "\xBCuvre^\xA4", "\u0152uvre^\u20AC"},
+        {"ISO_IR 192", "\xE5\xB1\xB1^\xC3\xA9", "\u5C71^\u00E9"},
+        {"GB18030", "Wang^\xD0\xA1\xB6\xAB", "Wang^\u5C0F\u4E1C"},
+        {"GBK", "\xD0\xA1", "\u5C0F"},
+        {"\\ISO 2022 IR 149", "Hong=\x1b$)C\xFB\xF3", "Hong=\u6D2A"},
+        {"ISO 2022 IR 13\\ISO 2022 IR 87", "\x1b$B-!;3\x1b(J", "?\u5C71"}};
+    for (const auto &[sets, written, read] : names) {
+        const test::TemporaryFolder folder;
+        dicom::writeCtSeries(folder.path(), tiltedHead(), {.patientName = "X"},
+                             dicom::TransferSyntax::explicitLittle);
+        const std::string file = "'" + (folder / "IM0001.dcm").string() + "'";
+        const std::string change = "dcmodify -nb -i SpecificCharacterSet='" + sets +
+                                   "' -i InstitutionName='\xFF' -m PatientName='" + written + "' " +
+                                   file + " > /dev/null";
+        ASSERT_EQ(std::system(change.c_str()), 0);
+        const auto catalogue = dicom::scan({folder / "IM0001.dcm"});
+        EXPECT_EQ(catalogue.patients.at(0).name, read) << sets;
+    }
+}
+
+TEST(Scan, WhetherValuesAreSignedIsNotGuessed) {
+    for (const char *change : {"-ea PixelRepresentation", "-m PixelRepresentation=2"}) {
+        const test::TemporaryFolder folder;
+        dicom::writeCtSeries(folder.path(), tiltedHead(), {},
+                             dicom::TransferSyntax::explicitLittle);
+        const std::string file = "'" + (folder / "IM0003.dcm").string() + "'";
+        ASSERT_EQ(
+            std::system(
+                ("dcmodify -nb " + std::string(change) + " " + file + " > /dev/null").c_str()),
+            0);
+        const auto catalogue = dicom::scan({folder.path()});
+        ASSERT_EQ(catalogue.skipped.size(), 1U) << change;
+        EXPECT_EQ(catalogue.skipped[0].reason, "does not say whether its values are signed");
+    }
+}
+
+// Through the file, the decoder and the grouping.
+TEST(Scan, AnotherSpaceIsAnotherVolume) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
+    const std::string files = "'" + (folder / "IM0001.dcm").string() + "' '" +
+                              (folder / "IM0002.dcm").string() + "' '" +
+                              (folder / "IM0003.dcm").string() + "'";
+    ASSERT_EQ(std::system(
+                  ("dcmodify -nb -m FrameOfReferenceUID=1.2.3 " + files + " > /dev/null").c_str()),
+              0);
+    const auto all = dicom::selections(dicom::scan({folder.path()}));
+    EXPECT_EQ(all.size(), 2U);
+}
+
+// An index that leads out of its folder, in words or by a link.
+TEST(Scan, ADirectoryLeadsNowhereElse) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder / "disc/D", tiltedHead(), {.patientName = "X", .patientId = "1"},
+                         dicom::TransferSyntax::explicitLittle);
+    for (int n = 1; n <= 7; ++n) // as a disc names them
+        fs::rename(folder / ("disc/D/IM000" + std::to_string(n) + ".dcm"),
+                   folder / ("disc/D/IM" + std::to_string(n)));
+    const std::string disc = "'" + (folder / "disc").string() + "'";
+    ASSERT_EQ(std::system(("cd " + disc + " && dcmmkdir -Pgp +r D > /dev/null 2>&1").c_str()), 0);
+    const fs::path index = folder / "disc/DICOMDIR";
+    EXPECT_EQ(dicom::selections(dicom::scan({index})).size(), 1U);
+    const auto bytes = test::readText(index);
+    const auto at = bytes.find("D\\IM3");
+    ASSERT_NE(at, std::string::npos);
+    fs::copy_file(folder / "disc/D/IM3", folder / "secret");
+    for (const char *name : {"..\\..", "../..", "D/IM3"}) {
+        std::string changed = bytes;
+        changed.replace(at, 5, name);
+        test::writeText(index, changed);
+        EXPECT_THROW(dicom::scan({index}), task::Error) << name;
+    }
+    test::writeText(index, bytes);
+    fs::remove(folder / "disc/D/IM3");
+    fs::create_symlink(folder / "secret", folder / "disc/D/IM3");
+    const auto catalogue = dicom::scan({index});
+    ASSERT_EQ(catalogue.skipped.size(), 1U);
+    EXPECT_EQ(catalogue.skipped[0].reason, "lists a file outside its folder");
+}
+
 TEST(Load, MorePixelsThanTheHeaderSaysAreMentioned) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/files/session_folder.h"
+
+namespace pellucid::files {
+
+/// Files of one folder that belong together, as the frames of a turn: they take their names when
+/// all are there. What was written before under those names stays till then; of files that are
+/// given up none is left, and a kill leaves a hidden folder that the next set there removes.
+class FileSet {
+public:
+    /// `file`: one of them. *Throws* Error{output}.
+    explicit FileSet(const std::filesystem::path &file);
+    /// Where to write meanwhile what will have that name. *Shape*: with its extension.
+    std::filesystem::path aside(const std::filesystem::path &file);
+    /// *Throws* Error{output}: what has its name by then keeps it.
+    void commit();
+
+private:
+    SessionFolder m_folder;
+    std::vector<std::filesystem::path> m_files;
+};
+
+} // namespace pellucid::files
