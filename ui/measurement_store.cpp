@@ -3,9 +3,10 @@
 
 #include <utility>
 
-#include <QFile>
+#include <QScopedValueRollback>
 
 #include "core/files/atomic_file.h"
+#include "core/files/read_text.h"
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 #include "ui/document.h"
@@ -18,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int restMs = 400;
+constexpr std::size_t mostOfMeasurements = 64 << 20; // far more than anybody draws
 
 void write(const fs::path &path, const std::string &text) {
     files::AtomicFile file(path);
@@ -57,12 +59,10 @@ void MeasurementStore::load() {
     std::error_code ignored;
     if (!path || !fs::exists(*path, ignored))
         return;
-    QFile in(QString::fromStdString(path->string()));
-    m_isLoading = true;
+    const QScopedValueRollback loading(m_isLoading, true);
     try {
-        if (!in.open(QIODevice::ReadOnly))
-            throw task::Error(task::ErrorCode::unusable, in.errorString().toStdString());
-        m_document.setMeasurements(measure::measurementsFromJson(in.readAll().toStdString()));
+        m_document.setMeasurements(
+            measure::measurementsFromJson(files::readText(*path, mostOfMeasurements)));
     } catch (const task::Error &error) {
         // What cannot be read is kept under another name: the next save would write over it.
         std::string kept = path->string() + ".unreadable";
@@ -76,7 +76,6 @@ void MeasurementStore::load() {
             tr("The measurements of this study cannot be read: %1").arg(spoken(error.reason())),
             QString::fromStdString(kept));
     }
-    m_isLoading = false;
 }
 
 void MeasurementStore::rememberToWrite() {

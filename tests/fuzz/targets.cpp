@@ -188,7 +188,9 @@ void library(Bytes bytes) {
         for (const auto &study : list.find("a", ui::StudyOrder::newestFirst, 0, 50).studies)
             for (const auto &volume : list.volumes(study.libraryId))
                 list.files(volume.libraryId);
-        list.removeCopies(list.remove(1));
+        const auto copies = list.copiesOf(1);
+        list.remove(1);
+        list.removeCopies(copies);
     });
 }
 

@@ -44,6 +44,15 @@ std::string digest(const QString &text) {
         .toStdString();
 }
 
+// Of copies that are not on the list, or will not be: the next program looks for them, should this
+// one be killed.
+void writeNames(const fs::path &folder, const std::vector<fs::path> &copies) {
+    files::AtomicFile names(namesFile(folder));
+    for (const fs::path &path : copies)
+        names.write(path.string() + "\n");
+    names.commit();
+}
+
 // Copies go to a folder of their own and take their names when all are there. Which these are is
 // written down before: those of an import that is killed then are found by the next program.
 class Copies {
@@ -77,10 +86,10 @@ public:
     void rename() {
         if (!m_incoming)
             return;
-        files::AtomicFile names(namesFile(m_incoming->path()));
+        std::vector<fs::path> names;
         for (const auto &[from, to] : m_copies)
-            names.write(to.string() + "\n");
-        names.commit();
+            names.push_back(to);
+        writeNames(m_incoming->path(), names);
         for (const auto &[from, to] : m_copies) {
             std::error_code failed, ignored;
             fs::create_directories(to.parent_path(), failed);
@@ -264,6 +273,23 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
     copies.keep();
     progress.report(1.0);
     return result;
+}
+
+Removal removeStudy(Library &library, qint64 study) {
+    Removal removal;
+    removal.copies = library.copiesOf(study);
+    if (!removal.copies.empty()) {
+        const fs::path parent = incomingFolder(library.place());
+        removal.names = std::shared_ptr<const files::SessionFolder>(
+            new files::SessionFolder(parent), [parent](const files::SessionFolder *folder) {
+                delete folder;
+                std::error_code ignored;
+                fs::remove(parent, ignored); // when it was the last
+            });
+        writeNames(removal.names->path(), removal.copies);
+    }
+    library.remove(study);
+    return removal;
 }
 
 bool hasUnfinishedImports(const LibraryPlace &place) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
+#include "core/files/session_folder.h"
 #include "core/task/progress.h"
 #include "ui/library/library.h"
 
@@ -28,6 +30,16 @@ struct ImportResult {
 /// Error{output} if it cannot be written, Cancelled.
 ImportResult importStudies(const LibraryPlace &place, const Import &import,
                            const task::Progress &progress);
+
+/// The copies of a study that is off the list, to be removed by `Library::removeCopies`. Their
+/// names are written down as long as it lives: those of a program that is killed before are found
+/// by the next one.
+struct Removal {
+    std::vector<std::filesystem::path> copies;
+    std::shared_ptr<const files::SessionFolder> names;
+};
+/// Takes a study off the list. *Throws* Error{output}.
+Removal removeStudy(Library &library, qint64 study);
 
 /// What becomes of the copies of a killed import that had their names but no row yet: `kept` where
 /// the list may have lost the rows.

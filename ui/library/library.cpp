@@ -344,7 +344,7 @@ void Library::put(const std::vector<LibrarySeries> &series) {
     putting.commit();
 }
 
-std::vector<fs::path> Library::remove(qint64 study) {
+std::vector<fs::path> Library::copiesOf(qint64 study) const {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
     ListQuery rows(list, "SELECT path FROM instances WHERE series IN (SELECT id FROM series WHERE "
                          "study = ?)");
@@ -354,8 +354,12 @@ std::vector<fs::path> Library::remove(qint64 study) {
     while (rows.next())
         if (const std::string path = rows.text(0).toStdString(); path.starts_with(copies))
             own.emplace_back(path);
-    ListQuery(list, "DELETE FROM studies WHERE id = ?").bind(study).run();
     return own;
+}
+
+void Library::remove(qint64 study) {
+    const QSqlDatabase list = QSqlDatabase::database(m_connection);
+    ListQuery(list, "DELETE FROM studies WHERE id = ?").bind(study).run();
 }
 
 void Library::removeCopies(const std::vector<fs::path> &copies) {

@@ -79,9 +79,11 @@ public:
 
     /// Adds series, in place of those that are there already, all of them or none.
     void put(const std::vector<LibrarySeries> &series);
-    /// The copies that the study had of its own, for `removeCopies`: files without a row are
-    /// litter, a row without files is a broken promise.
-    std::vector<std::filesystem::path> remove(qint64 study);
+    /// The files of a study that are the library's own.
+    std::vector<std::filesystem::path> copiesOf(qint64 study) const;
+    /// Takes a study off the list; its copies first have their names written down, as `removeStudy`
+    /// does: files without a row are litter, a row without files is a broken promise.
+    void remove(qint64 study);
     /// Removes copies unless a study has come to use them meanwhile.
     void removeCopies(const std::vector<std::filesystem::path> &copies);
 

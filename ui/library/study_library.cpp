@@ -113,12 +113,12 @@ void StudyLibrary::import(const Import &import) {
 }
 
 void StudyLibrary::remove(const StudyFacts &study) {
-    const auto copies = attempt([&](Library &l) { return l.remove(study.libraryId); });
+    const auto removal = attempt([&](Library &l) { return removeStudy(l, study.libraryId); });
     emit changed();
-    if (!copies.empty()) // to the end: nobody would find them again
+    if (!removal.copies.empty())
         start({tr("Removing copies"),
-               [copies, place = m_library->place()](const Job &) {
-                   Library(place).removeCopies(copies);
+               [removal, place = m_library->place()](const Job &) {
+                   Library(place).removeCopies(removal.copies);
                },
                false});
 }

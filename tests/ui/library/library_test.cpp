@@ -138,7 +138,7 @@ private slots:
         QCOMPARE(count(library), 1);
         QCOMPARE(library.volumes(study.libraryId).size(), std::size_t(1));
         QCOMPARE(library.volumes(study.libraryId)[0].files, 2);
-        library.removeCopies(library.remove(study.libraryId));
+        library.removeCopies(removeStudy(library, study.libraryId).copies);
         QCOMPARE(count(library), 0);
     }
 
@@ -202,7 +202,7 @@ private slots:
             const auto loaded = librarySource(study, v, library.files(v.libraryId)).load({}, {});
             QCOMPARE(loaded.volume.lattice().size().k, 20);
             QVERIFY(loaded.skipped.empty());
-            library.removeCopies(library.remove(study.libraryId));
+            library.removeCopies(removeStudy(library, study.libraryId).copies);
             QCOMPARE(filesBelow(at.copiesFolder()), 0);
             QCOMPARE(filesBelow(m_folder / "head"), 20);
         }
@@ -239,7 +239,7 @@ private slots:
         Library library(at);
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
         QVERIFY(library.volumes(study.libraryId).at(0).isCopied);
-        library.removeCopies(library.remove(study.libraryId));
+        library.removeCopies(removeStudy(library, study.libraryId).copies);
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
     }
 
@@ -259,6 +259,21 @@ private slots:
 
     // Whenever an import is killed: the study is there with all its files, or not at all, and
     // nothing else is.
+    // Off the list, and killed before its copies were removed.
+    void aKilledRemovalLeavesNothing() {
+        const LibraryPlace at = place("removal");
+        importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
+        QCOMPARE(filesBelow(at.copiesFolder()), 20);
+        QCOMPARE(QProcess::execute(QCoreApplication::applicationFilePath(),
+                                   {"--remove", QString::fromStdString(at.folder.string())}),
+                 0);
+        Library library(openLibrary(at.folder).place);
+        QCOMPARE(count(library), 0);
+        QCOMPARE(filesBelow(at.copiesFolder()), 22); // their names, and a lock
+        removeAbandonedImports(library, LeftCopies::removed);
+        QCOMPARE(filesBelow(at.copiesFolder()), 0);
+    }
+
     void aKilledImportIsDoneOrLeavesNothing() {
         std::mt19937 random(11);
         const auto import = [&](const LibraryPlace &at, QProcess &program) {
@@ -457,12 +472,18 @@ private:
 
 } // namespace pellucid
 
-// The test itself, or, to be killed: --import LIBRARY PATH.
+// The test itself, or, to be killed: --import LIBRARY PATH, --remove LIBRARY.
 int main(int argc, char **argv) {
     QCoreApplication application(argc, argv);
     if (argc == 4 && std::string_view(argv[1]) == "--import") {
         pellucid::ui::importStudies({argv[2]}, {{argv[3]}, pellucid::ui::ImportMode::copy}, {});
         return 0;
+    }
+    if (argc == 3 && std::string_view(argv[1]) == "--remove") {
+        pellucid::ui::Library library({argv[2]});
+        const auto study = library.find("", pellucid::ui::StudyOrder::byName, 0, 1).studies.at(0);
+        const auto removal = pellucid::ui::removeStudy(library, study.libraryId);
+        std::_Exit(removal.copies.empty() ? 1 : 0);
     }
     pellucid::LibraryTest test;
     return QTest::qExec(&test, argc, argv);
