@@ -38,7 +38,7 @@ bool limitResources() {
 #ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes, and write reports
     holds = limit(RLIMIT_FSIZE, 0) && holds;
     // What is its own: neither files nor the arena, which its parent fills, count.
-    holds = limit(RLIMIT_DATA, task::availableMemoryBytes()) && holds;
+    holds = limit(RLIMIT_DATA, task::freeMemoryBytes()) && holds;
     ::prctl(PR_SET_DUMPABLE, 0); // no debugger but root's
 #endif
     return holds;

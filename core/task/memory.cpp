@@ -14,19 +14,6 @@
 
 namespace pellucid::task {
 
-namespace {
-
-// Of a process's limit, what stays for the small things of libraries: some of them (FFTW, Qt, Mesa)
-// end the program when they get none.
-constexpr std::size_t ofLibraries = std::size_t(192) << 20;
-
-std::size_t withinLimit() {
-    const std::size_t mappable = mappableBytes();
-    return mappable > ofLibraries ? mappable - ofLibraries : 0;
-}
-
-} // namespace
-
 std::size_t mappableBytes() {
     rlimit limit{};
     std::size_t pages = 0;
@@ -37,14 +24,21 @@ std::size_t mappableBytes() {
     return limit.rlim_cur > mapped ? limit.rlim_cur - mapped : 0;
 }
 
-std::size_t availableMemoryBytes() {
+std::size_t freeMemoryBytes() {
     std::ifstream info("/proc/meminfo");
     std::string name, unit;
     std::size_t kilobytes = 0;
     while (info >> name >> kilobytes >> unit)
         if (name == "MemAvailable:")
-            return std::min(kilobytes * 1024, withinLimit());
-    return withinLimit();
+            return std::min(kilobytes * 1024, mappableBytes());
+    return mappableBytes();
+}
+
+std::size_t availableMemoryBytes() {
+    // Some libraries (FFTW, Qt, Mesa) end the program when they get nothing for their small things.
+    constexpr std::size_t ofLibraries = std::size_t(192) << 20;
+    const std::size_t mappable = mappableBytes();
+    return std::min(freeMemoryBytes(), mappable > ofLibraries ? mappable - ofLibraries : 0);
 }
 
 void requireMemory(double bytes) {

@@ -258,23 +258,37 @@ private slots:
 
     // No name, no number of a patient in what the program keeps for itself.
     void nothingThatIsKeptNamesThePatient() {
+        const fs::path patient = m_folder / "patient";
+        fs::copy(headPath().toStdString(), patient);
+        QStringList change{"-nb",
+                           "-i",
+                           "PatientID=SecretNumber",
+                           "-i",
+                           "PatientBirthDate=19010203",
+                           "-i",
+                           "StudyDescription=SecretStudy"};
+        for (const auto &file : fs::directory_iterator(patient))
+            change << QString::fromStdString(file.path().string());
+        QCOMPARE(QProcess::execute("dcmodify", change), 0);
+        fs::resize_file(patient / "IM0080.dcm", 3000); // which the log may mention
+        const QString path = QString::fromStdString(patient.string());
         {
             ui::Workstation program;
-            program.window().openPaths({headPath()});
+            program.window().openPaths({path});
             ui::Document &document = program.bench().document;
             QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
             QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
             QVERIFY(!program.window().windowTitle().contains("Secret"));
         }
         QProcess program;
-        start(program, {headPath()});
+        start(program, {path});
         QTRY_VERIFY_WITH_TIMEOUT(
             fs::exists(m_folder / "cache" / "pellucid" / "log" / "pellucid.log"), patienceMs);
         QTest::qWait(1500);
         program.terminate();
         QVERIFY(program.waitForFinished(patienceMs));
         int looked = 0;
-        for (const char *const place : {"data", "cache"})
+        for (const char *const place : {"data", "cache", "config"})
             for (const auto &entry : fs::recursive_directory_iterator(m_folder / place)) {
                 QVERIFY2(entry.path().string().find("Secret") == std::string::npos,
                          entry.path().c_str());
@@ -282,8 +296,9 @@ private slots:
                     entry.path().string().find("library.sqlite") != std::string::npos)
                     continue; // the library is what the user keeps
                 ++looked;
-                QVERIFY2(readText(entry.path()).find("Secret") == std::string::npos,
-                         entry.path().c_str());
+                const std::string kept = readText(entry.path());
+                for (const char *of : {"Secret", "19010203"})
+                    QVERIFY2(kept.find(of) == std::string::npos, entry.path().c_str());
             }
         QVERIFY(looked > 2);
     }
