@@ -31,12 +31,16 @@ Letter letterAt(const std::string &text, std::size_t at) {
             return {};
         code = code << 6 | (byte(n) & 0x3FU);
     }
+    // Longer than needed, half of a pair, or beyond the last.
+    constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+    if (code < least[bytes] || (code >= 0xD800 && code < 0xE000) || code > 0x10FFFF)
+        return {};
     return {code, bytes};
 }
 
 // Control characters, and what ends lines or turns their direction.
 bool steers(char32_t c) {
-    return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 ||
+    return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 || c == 0x061C ||
            (c >= 0x200E && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) ||
            (c >= 0x2066 && c <= 0x2069);
 }

@@ -323,7 +323,7 @@ TEST_F(Faults, ManyFramesOfSmallFilesAreNotHeldBeyondTheMemory) {
 
 // A terminal obeys what it is shown.
 TEST_F(Faults, NamesOfFilesDoNotReachTheTerminalAsTheyAre) {
-    const fs::path name = folder / "a\x1b[2J\x07\x9b\xe2\x80\xae\xc2\x9b"
+    const fs::path name = folder / "a\x1b[2J\x07\x9b\xe2\x80\xae\xd8\x9c\xe0\x82\x9b\xc2\x9b"
                                    "31m.dcm";
     writeText(name, "no image");
     const auto r = cli("info " + quoted(folder.path()));
@@ -332,6 +332,7 @@ TEST_F(Faults, NamesOfFilesDoNotReachTheTerminalAsTheyAre) {
         EXPECT_EQ(text.find_first_of("\x1b\x07"), std::string::npos);
         EXPECT_EQ(text.find('\x9b'), std::string::npos);
         EXPECT_EQ(text.find("\xe2\x80\xae"), std::string::npos); // turns what follows
+        EXPECT_EQ(text.find("\xd8\x9c"), std::string::npos);
         EXPECT_NE(text.find("31m.dcm"), std::string::npos);
     }
 }

@@ -129,8 +129,19 @@ private slots:
         QVERIFY(changed(both, grab("projectionView")) > 0.05);
     }
 
+    // One after the other they would be shown as if at one place.
+    void stacksOfOtherSpacesAreNoPhases() {
+        writePhases("spaces", false);
+        open(QString::fromStdString((m_folder / "spaces").string()));
+        const auto &sources = m_window->document().sources();
+        QCOMPARE(std::count_if(sources.begin(), sources.end(),
+                               [](const auto &s) { return s.volume.size.k == 40; }),
+                 3);
+        QVERIFY(!find<QWidget>("phaseBar")->isVisible());
+    }
+
     void phasesAreChosenAndPlayedWithLookViewAndBrightnessKept() {
-        writePhases();
+        writePhases("phases", true);
         open(QString::fromStdString((m_folder / "phases").string()));
         QVERIFY(find<QWidget>("phaseBar")->isVisible());
         QVERIFY(find<QLabel>("phaseLabel")->text().startsWith("Phase 1 of 3"));
@@ -176,7 +187,8 @@ private slots:
 
 private:
     // One series with three temporal positions, its bone denser each time.
-    void writePhases() {
+    // In the folder, each phase with a space of its own or all in one.
+    void writePhases(const char *name, bool isOneSpace) {
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{48, 48, 40}});
         const volume::Volume head = phantom::makePhantom(phantom::Kind::head, lattice);
@@ -187,17 +199,20 @@ private:
                     samples.push_back(
                         std::int16_t(value > 300 ? value + 250 * (phase - 1) : value));
             });
-            const auto folder = m_folder / "phases" / std::to_string(phase);
+            const auto folder = m_folder / name / std::to_string(phase);
             dicom::writeCtSeries(folder,
                                  volume::Volume(lattice, samples, volume::ValueUnit::hounsfield),
                                  {.patientName = "Phases"}, dicom::TransferSyntax::explicitLittle);
-            QStringList arguments{"-nb",
-                                  "-m",
-                                  "StudyInstanceUID=1.2.276.0.1",
-                                  "-m",
-                                  "SeriesInstanceUID=1.2.276.0.2",
-                                  "-i",
-                                  QString("TemporalPositionIdentifier=%1").arg(phase)};
+            QStringList arguments{
+                "-nb",
+                "-m",
+                "StudyInstanceUID=1.2.276.0.1",
+                "-m",
+                "SeriesInstanceUID=1.2.276.0.2",
+                "-m",
+                QString("FrameOfReferenceUID=1.2.276.0.3.%1").arg(isOneSpace ? 1 : phase),
+                "-i",
+                QString("TemporalPositionIdentifier=%1").arg(phase)};
             for (const auto &file : std::filesystem::directory_iterator(folder))
                 arguments << QString::fromStdString(file.path().string());
             QCOMPARE(QProcess::execute("dcmodify", arguments), 0);
