@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/overlay.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,13 +17,6 @@
 
 namespace pellucid::ui {
 
-OverlayColors filmColors(const QString &planeRole) {
-    static const Theme light = Theme::named("light");
-    return {light.color(planeRole), light.color("warning"), light.color("text"),
-            light.color("text"),    light.color("raised"),  light.color("accent"),
-            light.color("warning"), light.color("accent")};
-}
-
 namespace {
 
 struct OverlayTexts {
@@ -31,13 +25,20 @@ struct OverlayTexts {
 
 } // namespace
 
-QStringList warningLines(const volume::VolumeNotes &notes, Names names) {
-    QStringList lines;
-    for (const std::string &warning : notes.warnings)
-        lines << spoken(warning);
-    if (names == Names::hidden && !lines.isEmpty())
+QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::size_t most) {
+    if (names == Names::hidden && !notes.warnings.empty())
         return {OverlayTexts::tr("With warnings: the study's list says which")};
+    QStringList lines;
+    for (std::size_t n = 0; n < std::min(most, notes.warnings.size()); ++n)
+        lines << spoken(notes.warnings[n]);
     return lines;
+}
+
+OverlayColors filmColors(const QString &planeRole) {
+    static const Theme light = Theme::named("light");
+    return {light.color(planeRole), light.color("warning"), light.color("text"),
+            light.color("text"),    light.color("raised"),  light.color("accent"),
+            light.color("warning"), light.color("accent")};
 }
 
 OverlayColors overlayColors(const QString &planeRole) {

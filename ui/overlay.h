@@ -29,8 +29,8 @@ OverlayColors filmColors(const QString &planeRole);
 /// Whether texts may name somebody: files and looks carry names that people gave them.
 enum class Names { shown, hidden };
 
-/// The warnings of a volume, one for each line: hidden names leave that there are some.
-QStringList warningLines(const volume::VolumeNotes &notes, Names names);
+/// The first warnings of a volume, one for each line: hidden names leave that there are some.
+QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::size_t most);
 
 /// Letters at the middle of the four sides for an image with these axes (LPS).
 void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,

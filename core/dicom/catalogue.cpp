@@ -19,10 +19,6 @@ const Selection &largest(const std::vector<Selection> &candidates) {
                              });
 }
 
-} // namespace
-
-namespace {
-
 // Nothing where the file is not below the folder.
 std::optional<std::filesystem::path> below(const std::filesystem::path &folder,
                                            const std::filesystem::path &file) {

@@ -285,6 +285,8 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
     Frames placed, unplaced;
     for (const SeriesFile &file : files)
         for (int n = 0; n < int(file.header.frames.size()); ++n) {
+            // Not as one aggregate: where a copy finds no memory, GCC 12 destroys the members of
+            // an inner one twice.
             PlacedFrame frame;
             frame.reference = {file.path, n};
             frame.header = file.header.frames[std::size_t(n)];

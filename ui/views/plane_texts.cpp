@@ -101,7 +101,7 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
     if (notes.hasSpacing)
         drawScaleBar(painter, QPoint(10, area.bottom() - 9), mapping.pixelsPerMm(),
                      std::min(110, area.width() / 2 - 74), colors);
-    if (const QStringList warnings = warningLines(notes, names); !warnings.isEmpty())
+    if (const QStringList warnings = warningLines(notes, names, 1); !warnings.isEmpty())
         drawText(painter, inner.adjusted(0, 0, 0, -16), Qt::AlignRight | Qt::AlignBottom,
                  painter.fontMetrics().elidedText(warnings.front(), Qt::ElideRight,
                                                   area.width() / 2 - 16),

@@ -88,7 +88,8 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping,
         drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, m_texts.lookName, colors.text);
     // Warnings of the geometry stay on the image.
     QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
-    for (const QString &w : warningLines(m_document.volume()->notes(), names)) {
+    const volume::VolumeNotes &notes = m_document.volume()->notes();
+    for (const QString &w : warningLines(notes, names, notes.warnings.size())) {
         drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
                  painter.fontMetrics().elidedText(w, Qt::ElideRight, warning.width()),
                  colors.warning);

@@ -35,6 +35,14 @@ volume::Volume tiltedHead() {
                                                       .tiltRad = 0.3}));
 }
 
+// As `dcmodify` does.
+bool modify(const std::string &changes, const std::vector<fs::path> &files) {
+    std::string command = "dcmodify -nb " + changes;
+    for (const fs::path &file : files)
+        command += " '" + file.string() + "'";
+    return std::system((command + " > /dev/null").c_str()) == 0;
+}
+
 dicom::LoadedVolume loadDefault(const fs::path &path) {
     const auto catalogue = dicom::scan({path});
     return dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
@@ -241,29 +249,8 @@ TEST(Load, ARescaleThatIsNoNumberCostsItsSlice) {
     EXPECT_THAT(loaded.notes().warnings, testing::Contains("rescale slopes of 0, taken for 1: 1"));
 }
 
-// The examples of PS3.5, H.3.1 and H.3.2.
-TEST(Scan, JapaneseNamesAreRead) {
-    const std::vector<std::array<std::string, 3>> names{
-        {"\\ISO 2022 IR 87",
-         "Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B=\x1b$B$d$^$@\x1b(B^\x1b$B$?$m$&\x1b(B",
-         "Yamada^Tarou=\u5C71\u7530^\u592A\u90CE=\u3084\u307E\u3060^\u305F\u308D\u3046"},
-        {"ISO 2022 IR 13\\ISO 2022 IR 87",
-         "\xD4\xCF\xC0\xDE^\xC0\xDB\xB3=\x1b$B;3ED\x1b(J^\x1b$BB@O:\x1b(J",
-         "\uFF94\uFF8F\uFF80\uFF9E^\uFF80\uFF9B\uFF73=\u5C71\u7530^\u592A\u90CE"}};
-    for (const auto &[sets, written, read] : names) {
-        const test::TemporaryFolder folder;
-        dicom::writeCtSeries(folder.path(), tiltedHead(), {.patientName = "X"},
-                             dicom::TransferSyntax::explicitLittle);
-        const std::string file = "'" + (folder / "IM0001.dcm").string() + "'";
-        const std::string change = "dcmodify -nb -i SpecificCharacterSet='" + sets +
-                                   "' -m PatientName='" + written + "' " + file + " > /dev/null";
-        ASSERT_EQ(std::system(change.c_str()), 0);
-        const auto catalogue = dicom::scan({folder / "IM0001.dcm"});
-        EXPECT_EQ(catalogue.patients.at(0).name, read);
-    }
-}
-
-// As PS3.3, C.12.1.1.2 names them; a text that is damaged keeps no other from being read.
+// As PS3.3, C.12.1.1.2 names them, with the examples of PS3.5, H.3.1 and H.3.2; a text that is
+// damaged keeps no other from being read.
 TEST(Scan, NamesOfManyCharacterSetsAreRead) {
     const std::vector<std::array<std::string, 3>> names{
         {"ISO_IR 100",
@@ -285,16 +272,20 @@ TEST(Scan, NamesOfManyCharacterSetsAreRead) {
         {"GB18030", "Wang^\xD0\xA1\xB6\xAB", "Wang^\u5C0F\u4E1C"},
         {"GBK", "\xD0\xA1", "\u5C0F"},
         {"\\ISO 2022 IR 149", "Hong=\x1b$)C\xFB\xF3", "Hong=\u6D2A"},
-        {"ISO 2022 IR 13\\ISO 2022 IR 87", "\x1b$B-!;3\x1b(J", "?\u5C71"}};
+        {"ISO 2022 IR 13\\ISO 2022 IR 87", "\x1b$B-!;3\x1b(J", "?\u5C71"},
+        {"\\ISO 2022 IR 87",
+         "Yamada^Tarou=\x1b$B;3ED\x1b(B^\x1b$BB@O:\x1b(B=\x1b$B$d$^$@\x1b(B^\x1b$B$?$m$&\x1b(B",
+         "Yamada^Tarou=\u5C71\u7530^\u592A\u90CE=\u3084\u307E\u3060^\u305F\u308D\u3046"},
+        {"ISO 2022 IR 13\\ISO 2022 IR 87",
+         "\xD4\xCF\xC0\xDE^\xC0\xDB\xB3=\x1b$B;3ED\x1b(J^\x1b$BB@O:\x1b(J",
+         "\uFF94\uFF8F\uFF80\uFF9E^\uFF80\uFF9B\uFF73=\u5C71\u7530^\u592A\u90CE"}};
     for (const auto &[sets, written, read] : names) {
         const test::TemporaryFolder folder;
         dicom::writeCtSeries(folder.path(), tiltedHead(), {.patientName = "X"},
                              dicom::TransferSyntax::explicitLittle);
-        const std::string file = "'" + (folder / "IM0001.dcm").string() + "'";
-        const std::string change = "dcmodify -nb -i SpecificCharacterSet='" + sets +
-                                   "' -i InstitutionName='\xFF' -m PatientName='" + written + "' " +
-                                   file + " > /dev/null";
-        ASSERT_EQ(std::system(change.c_str()), 0);
+        ASSERT_TRUE(modify("-i SpecificCharacterSet='" + sets +
+                               "' -i InstitutionName='\xFF' -m PatientName='" + written + "'",
+                           {folder / "IM0001.dcm"}));
         const auto catalogue = dicom::scan({folder / "IM0001.dcm"});
         EXPECT_EQ(catalogue.patients.at(0).name, read) << sets;
     }
@@ -305,11 +296,7 @@ TEST(Scan, WhetherValuesAreSignedIsNotGuessed) {
         const test::TemporaryFolder folder;
         dicom::writeCtSeries(folder.path(), tiltedHead(), {},
                              dicom::TransferSyntax::explicitLittle);
-        const std::string file = "'" + (folder / "IM0003.dcm").string() + "'";
-        ASSERT_EQ(
-            std::system(
-                ("dcmodify -nb " + std::string(change) + " " + file + " > /dev/null").c_str()),
-            0);
+        ASSERT_TRUE(modify(change, {folder / "IM0003.dcm"}));
         const auto catalogue = dicom::scan({folder.path()});
         ASSERT_EQ(catalogue.skipped.size(), 1U) << change;
         EXPECT_EQ(catalogue.skipped[0].reason, "does not say whether its values are signed");
@@ -320,12 +307,8 @@ TEST(Scan, WhetherValuesAreSignedIsNotGuessed) {
 TEST(Scan, AnotherSpaceIsAnotherVolume) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
-    const std::string files = "'" + (folder / "IM0001.dcm").string() + "' '" +
-                              (folder / "IM0002.dcm").string() + "' '" +
-                              (folder / "IM0003.dcm").string() + "'";
-    ASSERT_EQ(std::system(
-                  ("dcmodify -nb -m FrameOfReferenceUID=1.2.3 " + files + " > /dev/null").c_str()),
-              0);
+    ASSERT_TRUE(modify("-m FrameOfReferenceUID=1.2.3",
+                       {folder / "IM0001.dcm", folder / "IM0002.dcm", folder / "IM0003.dcm"}));
     const auto all = dicom::selections(dicom::scan({folder.path()}));
     EXPECT_EQ(all.size(), 2U);
 }
