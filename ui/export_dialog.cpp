@@ -21,6 +21,7 @@
 #include "ui/document.h"
 #include "ui/job_runner.h"
 #include "ui/panels/job_strip.h"
+#include "ui/recent_paths.h"
 #include "ui/spoken.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
@@ -199,7 +200,9 @@ void ExportDialog::write() {
                     capture =
                         std::make_shared<const dicom::Catalogue>(dicom::scan({path.toStdString()}));
                 job.deliver([this, path, capture] {
-                    QSettings().setValue(folderKey, QFileInfo(path).absolutePath());
+                    const QString folder = QFileInfo(path).absolutePath();
+                    if (mayBeKept(folder, m_document))
+                        QSettings().setValue(folderKey, folder);
                     emit written(path);
                     if (capture)
                         emit captured(capture);

@@ -2,6 +2,7 @@
 #include "ui/job_runner.h"
 
 #include <chrono>
+#include <new>
 
 #include "ui/failure.h"
 
@@ -59,36 +60,56 @@ void JobRunner::launch(quint64 generation, Work work) {
     auto over = std::make_shared<std::atomic<bool>>(false);
     m_threads.push_back(
         {over, std::jthread([this, generation, over, work = std::move(work)](std::stop_token stop) {
-             Failure failure;
+             std::exception_ptr failure;
              try {
                  Job job;
                  job.m_runner = this;
                  job.m_generation = generation;
                  // A report per file would flood the queue; thirty a second look smooth.
                  auto last = std::make_shared<std::atomic<std::chrono::steady_clock::rep>>(0);
-                 job.m_progress =
-                     task::Progress(std::move(stop), [this, generation, last](double fraction) {
-                         const auto now = std::chrono::steady_clock::now().time_since_epoch();
-                         auto before = last->load();
-                         if (now - std::chrono::steady_clock::duration(before) <
-                                 std::chrono::milliseconds(33) ||
-                             !last->compare_exchange_strong(before, now.count()))
-                             return;
-                         post(generation, [this, fraction] { emit progressed(fraction); });
-                     });
+                 job.m_progress = task::Progress(stop, [this, generation, last](double fraction) {
+                     const auto now = std::chrono::steady_clock::now().time_since_epoch();
+                     auto before = last->load();
+                     if (now - std::chrono::steady_clock::duration(before) <
+                             std::chrono::milliseconds(33) ||
+                         !last->compare_exchange_strong(before, now.count()))
+                         return;
+                     post(generation, [this, fraction] { emit progressed(fraction); });
+                 });
                  work(job);
              } catch (const task::Cancelled &) {
              } catch (...) {
-                 failure = currentFailure();
+                 failure = std::current_exception();
              }
-             post(generation, [this, failure] {
-                 m_running = false;
-                 if (!failure.what.isEmpty())
-                     emit failed(failure.what, failure.path);
-                 emit finished();
-             });
+             finish(generation, failure, stop);
              over->store(true);
          })});
+}
+
+// The last word of the thread that worked. Work that failed for want of memory may have left none
+// for it; others give some back.
+void JobRunner::finish(quint64 generation, const std::exception_ptr &failure,
+                       const std::stop_token &stop) noexcept {
+    while (!stop.stop_requested()) {
+        try {
+            post(generation, [this, failure] {
+                m_running = false;
+                Failure said;
+                try {
+                    if (failure)
+                        std::rethrow_exception(failure);
+                } catch (...) {
+                    said = currentFailure();
+                }
+                if (!said.what.isEmpty())
+                    emit failed(said.what, said.path);
+                emit finished();
+            });
+            return;
+        } catch (const std::bad_alloc &) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    }
 }
 
 void JobRunner::join() {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -64,6 +66,8 @@ private:
     };
     void post(quint64 generation, std::function<void()> onUiThread);
     void launch(quint64 generation, Work work);
+    void finish(quint64 generation, const std::exception_ptr &failure,
+                const std::stop_token &stop) noexcept;
     void joinFinished();
 
     quint64 m_generation = 0;

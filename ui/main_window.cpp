@@ -96,7 +96,10 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
     connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
             &ProjectionView::setMessage);
-    connect(&m_bench.opener, &StudyOpener::pathsOpened, this, &MainWindow::remember);
+    connect(&m_bench.opener, &StudyOpener::pathsOpened, this, [this](QStringList paths) {
+        erase_if(paths, [&](const QString &path) { return !mayBeKept(path, m_bench.document); });
+        remember(paths);
+    });
     connect(&m_bench.document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
@@ -404,7 +407,7 @@ void MainWindow::showStart() {
     for (const QString &entry : remembers ? recentPaths() : QStringList()) {
         const auto study = recentStudy(entry, m_bench.library);
         if (study)
-            recent.push_back({m_preferences.showsPatientInTitle
+            recent.push_back({m_preferences.showsPatient
                                   ? patientText(*study) + ", " + studyText(*study)
                                   : studyText(*study),
                               entry});
@@ -430,7 +433,7 @@ void MainWindow::setPreferences(const Preferences &preferences) {
 // A name only where its owner asked for it.
 void MainWindow::showTitle() {
     const int open = m_bench.document.currentSource();
-    setWindowTitle(m_preferences.showsPatientInTitle && open >= 0
+    setWindowTitle(m_preferences.showsPatient && open >= 0
                        ? patientText(m_bench.document.sources()[std::size_t(open)].study) +
                              " - Pellucid"
                        : QString("Pellucid"));

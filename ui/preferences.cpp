@@ -17,8 +17,7 @@ Preferences Preferences::load() {
         ToolBarStyle(std::clamp(settings.value("toolBar", int(usual.toolBar)).toInt(), 0, 2));
     p.remembersStudies = settings.value("remembersStudies", usual.remembersStudies).toBool();
     p.resumesAtStart = settings.value("resumesAtStart", usual.resumesAtStart).toBool();
-    p.showsPatientInTitle =
-        settings.value("showsPatientInTitle", usual.showsPatientInTitle).toBool();
+    p.showsPatient = settings.value("showsPatientInTitle", usual.showsPatient).toBool();
     return p;
 }
 
@@ -29,7 +28,7 @@ void Preferences::save() const {
     settings.setValue("toolBar", int(toolBar));
     settings.setValue("remembersStudies", remembersStudies);
     settings.setValue("resumesAtStart", resumesAtStart);
-    settings.setValue("showsPatientInTitle", showsPatientInTitle);
+    settings.setValue("showsPatientInTitle", showsPatient);
 }
 
 } // namespace pellucid::ui

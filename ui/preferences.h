@@ -18,7 +18,7 @@ struct Preferences {
     /// The start begins with what was open last; else it offers it.
     bool resumesAtStart = false;
     /// Off by default: titles are seen by others, and by other programs.
-    bool showsPatientInTitle = false;
+    bool showsPatient = false;
 
     bool operator==(const Preferences &) const = default;
 

@@ -95,8 +95,10 @@ QWidget *PreferencesDialog::makeGeneral() {
                       tr("Otherwise the first page offers it"), now.resumesAtStart);
     m_resumes->setEnabled(now.remembersStudies);
     m_title =
-        check("patientTitleBox", tr("Patient's name in the window title"),
-              tr("Titles are seen in task bars and by other programs"), now.showsPatientInTitle);
+        check("patientTitleBox", tr("Patients' names in the window title and among recent studies"),
+              tr("Titles are seen in task bars and by other programs. Otherwise paths that name "
+                 "a patient are not remembered either"),
+              now.showsPatient);
     auto *page = new QWidget;
     auto *form = new QFormLayout(page);
     form->setVerticalSpacing(10);
@@ -122,7 +124,7 @@ void PreferencesDialog::change() {
     now.toolBar = ToolBarStyle(m_toolBar->currentData().toInt());
     now.remembersStudies = m_remembers->isChecked();
     now.resumesAtStart = m_resumes->isChecked();
-    now.showsPatientInTitle = m_title->isChecked();
+    now.showsPatient = m_title->isChecked();
     m_resumes->setEnabled(now.remembersStudies);
     now.save();
     emit changed(now);

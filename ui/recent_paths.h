@@ -9,6 +9,7 @@
 
 namespace pellucid::ui {
 
+class Document;
 class StudyLibrary;
 
 /// What was opened last, newest first, from the user's settings: paths, and studies of the library
@@ -17,6 +18,12 @@ QStringList recentPaths();
 /// A study of the library as such an entry; the study that an entry means, if it is one and there.
 QString recentEntry(const StudyFacts &study);
 std::optional<StudyFacts> recentStudy(const QString &entry, StudyLibrary &library);
+/// Whether a path holds a name, the number or the birth date of the patient, as folders of a disc
+/// often do; words of two letters are in too many.
+bool namesPatient(const QString &path, const StudyFacts &study);
+/// Whether the settings may keep a path: if studies are remembered, and it names no patient of the
+/// document, or names are chosen to be shown.
+bool mayBeKept(const QString &path, const Document &document);
 /// Puts paths in front; the oldest beyond eight go.
 void addRecentPaths(const QStringList &paths);
 void forgetRecentPaths();

@@ -264,6 +264,16 @@ void addNrrd(Catalogue &catalogue, const fs::path &path, const decoder::NrrdHead
     catalogue.patients.back().studies[0].series.push_back(std::move(series));
 }
 
+// Files that hold the samples of a NRRD header are no images by themselves, and nobody's loss.
+std::set<fs::path> samplesOf(const std::vector<std::optional<decoder::NrrdHeader>> &nrrds) {
+    std::set<fs::path> samples;
+    std::error_code unknown;
+    for (const auto &nrrd : nrrds)
+        if (nrrd)
+            samples.insert(fs::weakly_canonical(nrrd->samplesFile, unknown));
+    return samples;
+}
+
 } // namespace
 
 Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress) {
@@ -325,7 +335,12 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
              std::vector<SeriesFile>>
         series;
     std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
+    const std::set<fs::path> samples = samplesOf(nrrds);
+    std::error_code unknown;
     for (std::size_t n = 0; n < list.found.size(); ++n) {
+        if (!samples.empty() && reasons[n] == "is not a DICOM file" &&
+            samples.contains(fs::weakly_canonical(list.found[n], unknown)))
+            continue;
         if (!reasons[n].empty()) {
             catalogue.skipped.push_back({list.found[n], reasons[n]});
             continue;

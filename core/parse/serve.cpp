@@ -3,20 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <csignal>
 #include <cstring>
 #include <iconv.h>
 #include <new>
 #include <sys/mman.h>
-#include <sys/time.h>
-#include <unistd.h>
 
 #include "core/decoder/channel.h"
 #include "core/decoder/child.h"
 #include "core/parse/damage.h"
 #include "core/parse/dictionary.h"
 #include "core/parse/parse.h"
+#include "core/parse/watch.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {
@@ -31,47 +28,6 @@ using task::ErrorCode;
 
 // The other side went away, or says so: there is nobody to work for.
 struct Gone {};
-
-// Ends this process where a file takes longer than anybody waits, and where the program that asked
-// has ended meanwhile: one that is killed says nothing.
-class Watch {
-public:
-    Watch() {
-        struct sigaction look {};
-        look.sa_handler = [](int) {
-            if (::getppid() != program)
-                ::_exit(1);
-            secondsLeft = secondsLeft - 1;
-            if (secondsLeft > 0)
-                return;
-            ::signal(SIGALRM, SIG_DFL);
-            ::raise(SIGALRM);
-        };
-        look.sa_flags = SA_RESTART;
-        ::sigaction(SIGALRM, &look, nullptr);
-    }
-    void allow(double seconds) {
-        constexpr double years = 1e8; // a file of holes has any size
-        m_seconds = int(std::ceil(std::min(seconds, years)));
-        goOn();
-    }
-    void goOn() {
-        secondsLeft = m_seconds;
-        tick(1);
-    }
-    // Whoever waits sees the other end go.
-    void rest() { tick(0); }
-
-private:
-    static void tick(time_t seconds) {
-        const itimerval each{{seconds, 0}, {seconds, 0}};
-        ::setitimer(ITIMER_REAL, &each, nullptr);
-    }
-
-    static inline const pid_t program = ::getppid(); ///< before anything takes its time
-    static inline volatile std::sig_atomic_t secondsLeft = 0;
-    int m_seconds = 0;
-};
 
 class Server {
 public:

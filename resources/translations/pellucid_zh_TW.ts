@@ -2301,12 +2301,12 @@
         <translation>否則由起始頁提供</translation>
     </message>
     <message>
-        <source>Patient&apos;s name in the window title</source>
-        <translation>在視窗標題顯示病患姓名</translation>
+        <source>Patients&apos; names in the window title and among recent studies</source>
+        <translation>在視窗標題與最近檢查中顯示病患姓名</translation>
     </message>
     <message>
-        <source>Titles are seen in task bars and by other programs</source>
-        <translation>標題會出現在工作列並可被其他程式看見</translation>
+        <source>Titles are seen in task bars and by other programs. Otherwise paths that name a patient are not remembered either</source>
+        <translation>標題會出現在工作列並可被其他程式看見。未勾選時，含有病患資料的路徑也不會被記住</translation>
     </message>
     <message>
         <source>Language</source>
@@ -2946,6 +2946,10 @@
     <message>
         <source>Tidying up the study library</source>
         <translation>正在整理檢查資料庫</translation>
+    </message>
+    <message>
+        <source>the folder of your data cannot be written; studies are listed for this run only, and nothing is kept</source>
+        <translation>您的資料夾無法寫入；檢查僅於本次執行列出，不會保存任何內容</translation>
     </message>
 </context>
 <context>

@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "core/decoder/channel.h"
+#include "core/decoder/child.h"
 #include "core/parse/serve.h"
+#include "core/parse/watch.h"
 
 namespace {
 
@@ -43,7 +45,12 @@ void act(std::string_view word) {
     else if (word == "hang")
         for (;;)
             ::alarm(0);
-    else if (word == "silence")
+    else if (word == "dawdle") { // under the clock of its own
+        parse::Watch watch;
+        watch.allow(decoder::decodingSeconds({Message::Kind::header, 0, 0, 0}));
+        for (;;)
+            ::getppid();
+    } else if (word == "silence")
         ::_exit(0);
     else if (word == "open-file")
         finish(outcome(::open("/etc/passwd", O_RDONLY)));

@@ -18,6 +18,7 @@
 #include <QTreeWidget>
 #include <QUndoView>
 
+#include "ui/recent_paths.h"
 #include "ui/shortcuts.h"
 #include "ui/workstation.h"
 
@@ -175,6 +176,32 @@ private slots:
         QVERIFY(!find<QWidget>("resumeButton")->isVisible());
         QVERIFY(QSettings().value("recentPaths").toStringList().isEmpty());
         QVERIFY(!std::filesystem::exists(m_folder / "data" / "pellucid" / "session.json"));
+    }
+
+    void aPathThatNamesThePatientIsNotAmongTheRecentOnes() {
+        ui::StudyFacts study;
+        study.patientName = QString::fromUtf8("M\u00FCller^J\u00F6rg=\u738B^\u5C0F");
+        study.patientId = "A-4711";
+        study.birthDate = "19500607";
+        for (const char *of : {"/cd/MULLER_J", "/cd/a-4711/1", "/cd/1950-06-07", "/cd/19500607",
+                               "/cd/\u738B\u5148\u751F"})
+            QVERIFY2(ui::namesPatient(QString::fromUtf8(of), study), of);
+        for (const char *of : {"/cd/head", "/home/jo/4711", "/cd/1950", ""})
+            QVERIFY2(!ui::namesPatient(QString::fromUtf8(of), study), of);
+        QVERIFY(!ui::namesPatient("/cd", {}));
+
+        const auto named = m_folder / "of_SECRET";
+        std::filesystem::copy(headPath().toStdString(), named);
+        const auto isKept = [] {
+            return !QSettings().value("recentPaths").toStringList().filter("SECRET").isEmpty();
+        };
+        openIn(QString::fromStdString(named.string()));
+        QVERIFY(!isKept());
+        openDialog();
+        find<QCheckBox>("patientTitleBox")->click();
+        find<QDialog>("preferencesDialog")->close();
+        openIn(QString::fromStdString(named.string()));
+        QVERIFY(isKept());
     }
 
     void theTitleNamesThePatientOnlyWhereThatIsChosen() {

@@ -16,6 +16,7 @@
 #include "core/task/error.h"
 #include "tests/support/files.h"
 #include "tests/support/little_memory.h"
+#include "tests/support/read_only_folder.h"
 #include "ui/session.h"
 #include "ui/workstation.h"
 
@@ -129,6 +130,24 @@ private slots:
         QCOMPARE(problems.size(), 1U);
         QCOMPARE(problems[0].path, m_sessionFile);
         QCOMPARE(problems[0].reason, "is not a session");
+    }
+
+    // A home on a share that is gone, or of a guest.
+    void aHomeThatCannotBeWrittenIsSaid() {
+        const QByteArray before = qgetenv("XDG_DATA_HOME");
+        fs::create_directory(m_folder / "locked");
+        const ReadOnlyFolder locked(m_folder / "locked");
+        qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "locked/data").string()));
+        {
+            ui::Workstation program;
+            const auto &problems = program.bench().document.problems();
+            QCOMPARE(problems.size(), 1U);
+            QVERIFY(QString::fromStdString(problems[0].reason).contains("cannot be written"));
+            program.window().openPaths({headPath()});
+            QTRY_VERIFY_WITH_TIMEOUT(program.bench().document.volume(), patienceMs);
+        }
+        qputenv("XDG_DATA_HOME", before);
+        QVERIFY(fs::is_empty(m_folder / "locked"));
     }
 
     void aProgramThatIsToldToEndEndsAsOneThatIsClosed() {

@@ -108,6 +108,26 @@ fs::path freeName(const LibraryPlace &place) {
     }
 }
 
+// The damaged list stays under a free name, and a new one takes its place when it is whole: whoever
+// is killed meanwhile finds the damaged one.
+fs::path replaceList(const LibraryPlace &place, const std::vector<LibrarySeries> &saved) {
+    const LibraryPlace aside{place.folder / "rebuilt"};
+    fs::remove_all(aside.folder);
+    fs::create_directories(aside.folder);
+    Library(aside).put(saved);
+    const fs::path list = place.listFile(), kept = freeName(place);
+    std::error_code failed;
+    fs::create_hard_link(list, kept, failed);
+    if (failed) // not every file system has them
+        fs::copy_file(list, kept);
+    // What the damaged one had left undone is not the new one's.
+    fs::path undone = list, keptUndone = kept;
+    fs::rename(undone += "-journal", keptUndone += "-journal", failed);
+    fs::rename(aside.listFile(), list);
+    fs::remove_all(aside.folder, failed);
+    return kept;
+}
+
 } // namespace
 
 OpenedLibrary openLibrary(const fs::path &folder) {
@@ -140,10 +160,8 @@ OpenedLibrary openLibrary(const fs::path &folder) {
         }
         opened.wasDamaged = true;
     }
-    const fs::path kept = freeName(opened.place);
     try {
-        fs::rename(list, kept);
-        Library(opened.place).put(saved);
+        const fs::path kept = replaceList(opened.place, saved);
         opened.notices.push_back(
             {kept,
              LibraryTexts::tr("the study library was damaged: %1 series were read, %2 lost; the "

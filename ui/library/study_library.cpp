@@ -22,12 +22,17 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
             start(next);
         },
         Qt::QueuedConnection);
-    const auto data = files::userDataFolder();
     OpenedLibrary opened;
-    if (data)
+    if (const auto data = files::userDataFolder()) {
         opened = openLibrary(*data / "library");
-    else
+    } else {
         opened.place.inMemory = true;
+        opened.notices.push_back(
+            {{},
+             tr("the folder of your data cannot be written; studies are listed for this run only, "
+                "and nothing is kept")
+                 .toStdString()});
+    }
     m_notices = opened.notices;
     try {
         m_library = std::make_unique<Library>(opened.place);

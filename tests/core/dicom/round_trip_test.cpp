@@ -304,6 +304,20 @@ TEST(Scan, WhetherValuesAreSignedIsNotGuessed) {
 }
 
 // Through the file, the decoder and the grouping.
+TEST(Scan, SamplesOfAVolumeFileAreNobodysLoss) {
+    const test::TemporaryFolder folder;
+    test::writeText(folder / "head.nhdr",
+                    "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n"
+                    "space: left-posterior-superior\n"
+                    "space directions: (1,0,0) (0,1,0) (0,0,1)\ndata file: head.raw\n");
+    test::writeText(folder / "head.raw", std::string(64, 'a'));
+    test::writeText(folder / "other.raw", std::string(64, 'a'));
+    const auto catalogue = dicom::scan({folder.path()});
+    ASSERT_EQ(catalogue.skipped.size(), 1U);
+    EXPECT_EQ(catalogue.skipped[0].path, folder / "other.raw");
+    EXPECT_EQ(dicom::selections(catalogue).size(), 1U);
+}
+
 TEST(Scan, AnotherSpaceIsAnotherVolume) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);

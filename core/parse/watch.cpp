@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parse/watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <sys/time.h>
+#include <unistd.h>
+
+namespace pellucid::parse {
+
+namespace {
+
+const pid_t program = ::getppid();
+volatile std::sig_atomic_t secondsLeft = 0;
+
+void tick(time_t seconds) {
+    const itimerval each{{seconds, 0}, {seconds, 0}};
+    ::setitimer(ITIMER_REAL, &each, nullptr);
+}
+
+} // namespace
+
+Watch::Watch() {
+    struct sigaction look {};
+    look.sa_handler = [](int) {
+        if (::getppid() != program)
+            ::_exit(1);
+        secondsLeft = secondsLeft - 1;
+        if (secondsLeft > 0)
+            return;
+        ::signal(SIGALRM, SIG_DFL);
+        ::raise(SIGALRM);
+    };
+    look.sa_flags = SA_RESTART;
+    ::sigaction(SIGALRM, &look, nullptr);
+}
+
+void Watch::allow(double seconds) {
+    constexpr double years = 1e8; // a file of holes has any size
+    m_seconds = int(std::ceil(std::min(seconds, years)));
+    goOn();
+}
+
+void Watch::goOn() {
+    secondsLeft = m_seconds;
+    tick(1);
+}
+
+void Watch::rest() {
+    tick(0);
+}
+
+} // namespace pellucid::parse
