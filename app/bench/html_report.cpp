@@ -120,7 +120,7 @@ std::vector<std::string> errorPlots(const std::filesystem::path &folder, const s
         script += fmt::format("set output '{}.svg'\nset title \"{}: {}\"\n", base, suite, field);
         std::string plot;
         for (const auto &[family, points] : families) {
-            save(folder / (base + "_" + family + ".dat"), points);
+            save(folder / fmt::format("{}_{}.dat", base, family), points);
             plot += fmt::format("'{0}_{1}.dat' title '{1}' pt 7 ps 0.5, ", base, family);
         }
         script += "plot " + plot +

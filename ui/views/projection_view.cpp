@@ -59,16 +59,10 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         m_measure.cancel();
         m_comparison.forget();
         setComparing(false);
-        if (m_holdsTone) {
-            m_holdsTone = !m_document.volume(); // closing the former phase comes before
-            m_isPhase = true;
+        if (m_tone.outlivesVolume(m_document.volume().has_value()))
             return;
-        }
-        m_isPhase = false;
         m_frame.reset();
         m_drawnShading = {};
-        m_automaticTone.reset();
-        m_retakesTone = true;
         m_message = m_document.volume() ? tr("Preparing the projection") : QString();
         m_canvas->setImage({});
         m_zoom = 1.0;
@@ -85,16 +79,7 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
          {&Document::measurementsChanged, &Document::selectedMeasurementChanged})
         connect(&document, changed, this, [this] { m_overlay->update(); });
     connect(&document, &Document::sceneChanged, this, [this] {
-        // Another number of lights or kind of cue has a brightness of its own; what the hand drags
-        // keeps it.
-        const shading::Shading &shading = m_document.scene().shading;
-        if (shading.lights.size() != m_drawnShading.lights.size() ||
-            shading.cue.kind != m_drawnShading.cue.kind)
-            m_retakesTone = true;
-        // Phases share a brightness as long as they share a look.
-        if (m_isPhase && m_document.scene().look != m_drawnLook)
-            m_isPhase = false;
-        m_drawnLook = m_document.scene().look;
+        m_tone.follow(m_document.scene().look, m_document.scene().shading, m_drawnShading);
         updateTone();
         requestFrame(false);
     });
@@ -114,7 +99,7 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     // after the coarse one, has a brightness of its own.
     const bool sameFields = stage == EngineStage::live || stage == EngineStage::settled;
     if (!sameFields) {
-        m_retakesTone = m_retakesTone || !m_isPhase;
+        m_tone.beginFields();
         m_fullFrameMs = 0.0;
     }
     // Frames of the weights of a moment ago are shown: the hand may be faster than they are.
@@ -154,12 +139,12 @@ void ProjectionView::setLookName(const QString &name) {
 }
 
 void ProjectionView::holdTone() {
-    m_holdsTone = m_frame != nullptr;
+    if (m_frame)
+        m_tone.hold();
 }
 
 void ProjectionView::retakeTone() {
-    m_isPhase = false;
-    m_retakesTone = true;
+    m_tone.retake();
     requestFrame(false);
 }
 
@@ -267,7 +252,7 @@ void ProjectionView::requestFrame(bool moving) {
         compared = {before->engine, before->image, before->shading};
     m_requested =
         m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
-                         {.draft = draft, .finestPixelMm = finest}, m_retakesTone, compared);
+                         {.draft = draft, .finestPixelMm = finest}, m_tone.isWanted(), compared);
     if (moving)
         m_rest.start();
 }
@@ -277,7 +262,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
         frame->generation != m_generation) // of a volume that was closed, or the coarse one's
         return;
     // Asked for before the brightness was to be taken anew: the next one tells it.
-    if (m_retakesTone && !frame->automaticTone)
+    if (m_tone.isWanted() && !frame->automaticTone)
         return;
     m_frame = frame;
     m_frameError = m_predictedError;
@@ -285,10 +270,8 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     m_pending = m_rest.isActive() || frame->number != m_requested;
     if (!frame->draft)
         m_fullFrameMs = frame->times.totalMs();
-    // The automatic range is taken once: brightness that follows the view would flicker.
-    if (m_retakesTone)
-        m_automaticTone = frame->automaticTone;
-    m_retakesTone = false;
+    if (m_tone.isWanted())
+        m_tone.take(*frame->automaticTone);
     if (frame->onCard)
         m_canvas->setPicture(frame->onCard);
     else
@@ -309,13 +292,8 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     showComparison();
 }
 
-// With both ends: what the user fixed, and for the rest the brightness that was taken.
 render::Tone ProjectionView::shownTone() const {
-    render::Tone tone = m_document.scene().tone;
-    const render::ToneRange range = m_automaticTone.value_or(render::ToneRange());
-    tone.low = tone.low.value_or(range.low);
-    tone.high = tone.high.value_or(range.high);
-    return tone;
+    return m_tone.completed(m_document.scene().tone);
 }
 
 void ProjectionView::updateTone() {
@@ -464,7 +442,7 @@ void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {
 
 void ProjectionView::windowBy(const QPoint &delta) {
     render::Scene scene = m_document.scene();
-    const render::ToneRange automatic = m_automaticTone.value_or(render::ToneRange());
+    const render::ToneRange &automatic = m_tone.range();
     const render::Tone shown = shownTone();
     const double low = *shown.low, high = *shown.high;
     const double perPixel = (automatic.high - automatic.low) / 300.0;

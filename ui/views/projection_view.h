@@ -14,6 +14,7 @@
 #include "ui/render_worker.h"
 #include "ui/shown_engine.h"
 #include "ui/tools.h"
+#include "ui/views/automatic_tone.h"
 #include "ui/views/look_comparison.h"
 #include "ui/views/measure_tool.h"
 #include "ui/views/projection_canvas.h"
@@ -134,12 +135,7 @@ private:
     std::shared_ptr<const RenderedFrame> m_frame;
     double m_frameError = 0.0;
     EngineStage m_frameStage = EngineStage::coarse;
-    std::optional<render::ToneRange> m_automaticTone;
-    /// The next frame tells the brightness anew; what is shown keeps its own till then.
-    bool m_retakesTone = true;
-    /// Another phase comes; one has come, and its look.
-    bool m_holdsTone = false, m_isPhase = false;
-    classify::Look m_drawnLook;
+    AutomaticTone m_tone;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last frame that was asked for
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
