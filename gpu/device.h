@@ -44,7 +44,7 @@ public:
     const Program &program(const std::string &file, const Defines &defines = {});
 
 private:
-    void live(std::stop_token stop);
+    void live(const std::stop_token &stop);
 
     std::unique_ptr<Context> m_context;
     Capabilities m_capabilities;

@@ -12,7 +12,7 @@
 namespace pellucid::gpu {
 
 Device::Device(std::unique_ptr<Context> context) : m_context(std::move(context)) {
-    m_thread = std::jthread([this](std::stop_token stop) { live(stop); });
+    m_thread = std::jthread([this](const std::stop_token &stop) { live(stop); });
     const auto begin = [this] {
         m_context->makeCurrent();
         m_capabilities = currentCapabilities();
@@ -82,7 +82,7 @@ void Device::post(std::function<void()> work) {
     m_wake.notify_one();
 }
 
-void Device::live(std::stop_token stop) {
+void Device::live(const std::stop_token &stop) {
     for (;;) {
         std::function<void()> work;
         {

@@ -132,7 +132,8 @@ SpectrumTextures::Pages SpectrumTextures::uploadAll(const render::EngineSpectra:
             });
     for (int n = 0; n < count; ++n) {
         const task::Progress part = progress.part(double(n) / count, double(n + 1) / count);
-        const auto [page, firstPlane] = m_layout.placeOf(std::size_t(n));
+        const std::array<int, 2> place = m_layout.placeOf(std::size_t(n));
+        const int page = place[0], firstPlane = place[1];
         for (int slab = 0; slab < m_layout.slabs; ++slab)
             for (int plane = 0; plane < m_layout.planes; plane += atOnce) {
                 part.check();

@@ -6,6 +6,11 @@
 #include <string>
 #include <utility>
 
+#include <QFileInfo>
+
+#include "core/files/file_ids.h"
+#include "core/task/error.h"
+
 namespace pellucid::ui {
 
 namespace {
@@ -61,6 +66,16 @@ void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
         if (known.emplace(problem.path.native(), problem.reason).second)
             m_problems.push_back(problem);
     emit problemsChanged();
+}
+
+void Document::requireOther(const std::vector<std::filesystem::path> &targets) const {
+    const files::FileIds there(targets);
+    for (const StudySource &source : m_sources)
+        for (const QString &file : source.files + source.lasting)
+            if (there.find(file.toStdString()))
+                throw task::Error(task::ErrorCode::usage, tr("%1 is a file of an open study")
+                                                              .arg(QFileInfo(file).fileName())
+                                                              .toStdString());
 }
 
 void Document::clearProblems() {
@@ -131,7 +146,10 @@ void Document::setCamera(const render::Camera &camera) {
 }
 
 void Document::setScene(const render::Scene &scene) {
+    const bool isOtherCamera = m_scene.camera != scene.camera;
     m_scene = scene;
+    if (isOtherCamera)
+        emit cameraChanged();
     emit sceneChanged();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -67,6 +68,10 @@ public:
     const classify::FieldWindow &defaultFieldWindow() const { return m_fieldWindow; }
     const volume::ValueWindow &initialWindow() const { return m_initialWindow; }
     void closeVolume();
+
+    /// Nothing that is open is written over: *throws* Error{usage} if one of the paths leads to a
+    /// file of a study.
+    void requireOther(const std::vector<std::filesystem::path> &targets) const;
 
     const render::Scene &scene() const { return m_scene; }
     /// Looking: not undoable.

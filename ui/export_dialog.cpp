@@ -5,20 +5,19 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QSettings>
 #include <QSpinBox>
 #include <QStyle>
 
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
 #include "ui/document.h"
+#include "ui/file_dialogs.h"
 #include "ui/job_runner.h"
 #include "ui/panels/job_strip.h"
 #include "ui/recent_paths.h"
@@ -29,8 +28,6 @@
 namespace pellucid::ui {
 
 namespace {
-
-constexpr const char *folderKey = "exportFolder";
 
 QComboBox *box(const char *name, const QStringList &entries) {
     auto *box = new QComboBox;
@@ -70,8 +67,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_frames->setToolTip(tr("Pictures of one turn around the patient"));
     m_path->setObjectName("exportPathEdit");
     m_path->setMinimumWidth(360);
-    m_path->setText(
-        QDir(QSettings().value(folderKey, QDir::homePath()).toString()).filePath("projection.png"));
+    m_path->setText(QDir(exportFolder()).filePath("projection.png"));
     m_said->setObjectName("exportSaidLabel");
     m_said->setWordWrap(true);
     auto *other = new QPushButton(tr("Browse..."));
@@ -157,8 +153,7 @@ void ExportDialog::showChosen() {
 
 void ExportDialog::browse() {
     const QString suffix = suffixOf(chosen().format);
-    const QString path =
-        QFileDialog::getSaveFileName(this, tr("Export picture"), m_path->text(), "*" + suffix);
+    const QString path = askWhereToWrite(this, tr("Export picture"), m_path->text(), "*" + suffix);
     if (path.isEmpty())
         return;
     m_path->setText(path);
@@ -200,9 +195,7 @@ void ExportDialog::write() {
                     capture =
                         std::make_shared<const dicom::Catalogue>(dicom::scan({path.toStdString()}));
                 job.deliver([this, path, capture] {
-                    const QString folder = QFileInfo(path).absolutePath();
-                    if (mayBeKept(folder, m_document))
-                        QSettings().setValue(folderKey, folder);
+                    setExportFolder(QFileInfo(path).absolutePath(), m_document);
                     emit written(path);
                     if (capture)
                         emit captured(capture);

@@ -2,7 +2,6 @@
 #include "ui/file_menu.h"
 
 #include <QAction>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMenu>
 
@@ -10,6 +9,7 @@
 #include "ui/add_command.h"
 #include "ui/commands.h"
 #include "ui/export_dialog.h"
+#include "ui/file_dialogs.h"
 #include "ui/import_dialog.h"
 #include "ui/scene_files.h"
 #include "ui/spoken.h"
@@ -63,11 +63,11 @@ void FileMenu::attempt(const std::function<void()> &what) {
 }
 
 void FileMenu::chooseFiles() {
-    emit pathsChosen(QFileDialog::getOpenFileNames(&m_window, tr("Open files")));
+    emit pathsChosen(askForFiles(&m_window, tr("Open files")));
 }
 
 void FileMenu::chooseFolder() {
-    const QString folder = QFileDialog::getExistingDirectory(&m_window, tr("Open folder"));
+    const QString folder = askForFolder(&m_window, tr("Open folder"));
     if (!folder.isEmpty())
         emit pathsChosen({folder});
 }
@@ -90,10 +90,11 @@ void FileMenu::savePicture() {
             emit said(tr("There is no projection to save yet"));
             return;
         }
-        const QString path = QFileDialog::getSaveFileName(
-            &m_window, tr("Save picture"), "projection.png", tr("PNG image (*.png)"));
+        const QString path = askWhereToWrite(&m_window, tr("Save picture"), "projection.png",
+                                             tr("PNG image (*.png)"));
         if (path.isEmpty())
             return;
+        m_bench.document.requireOther({path.toStdString()});
         writePictureFile(path, picture);
         sayWritten(path);
     });
@@ -120,11 +121,12 @@ void FileMenu::exportMeasurements() {
         emit said(tr("There are no measurements to export yet"));
         return;
     }
-    const QString path = QFileDialog::getSaveFileName(&m_window, tr("Export measurements"),
-                                                      "measurements.csv", tr("Table (*.csv)"));
+    const QString path = askWhereToWrite(&m_window, tr("Export measurements"), "measurements.csv",
+                                         tr("Table (*.csv)"));
     if (path.isEmpty())
         return;
     attempt([&] {
+        m_bench.document.requireOther({path.toStdString()});
         m_bench.measurements.exportTable(path);
         sayWritten(path);
     });
@@ -135,19 +137,19 @@ void FileMenu::saveScene() {
         emit said(tr("There is no projection of this scene yet"));
         return;
     }
-    const QString path = QFileDialog::getSaveFileName(&m_window, tr("Save scene"), "scene.json",
-                                                      tr("Scene (*.json)"));
+    const QString path =
+        askWhereToWrite(&m_window, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
     attempt([&] {
+        m_bench.document.requireOther({path.toStdString()});
         writeSceneFile(path, m_panes.projection->sceneOfPicture());
         sayWritten(path);
     });
 }
 
 void FileMenu::openScene() {
-    const QString path =
-        QFileDialog::getOpenFileName(&m_window, tr("Open scene"), {}, tr("Scene (*.json)"));
+    const QString path = askForFile(&m_window, tr("Open scene"), tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
     attempt([&] {

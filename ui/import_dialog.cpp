@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/import_dialog.h"
+#include "ui/file_dialogs.h"
 
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -42,9 +42,9 @@ ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
     auto *folder = new QPushButton(tr("Add f&older..."));
     folder->setObjectName("importFolderButton");
     connect(files, &QPushButton::clicked, this,
-            [this] { add(QFileDialog::getOpenFileNames(this, tr("Files to import"))); });
+            [this] { add(askForFiles(this, tr("Files to import"))); });
     connect(folder, &QPushButton::clicked, this, [this] {
-        const QString chosen = QFileDialog::getExistingDirectory(this, tr("Folder to import"));
+        const QString chosen = askForFolder(this, tr("Folder to import"));
         if (!chosen.isEmpty())
             add({chosen});
     });

@@ -59,7 +59,8 @@ void JobRunner::start(const QString &title, Work work) {
 void JobRunner::launch(quint64 generation, Work work) {
     auto over = std::make_shared<std::atomic<bool>>(false);
     m_threads.push_back(
-        {over, std::jthread([this, generation, over, work = std::move(work)](std::stop_token stop) {
+        {over, std::jthread([this, generation, over,
+                             work = std::move(work)](const std::stop_token &stop) {
              std::exception_ptr failure;
              try {
                  Job job;
@@ -86,6 +87,22 @@ void JobRunner::launch(quint64 generation, Work work) {
          })});
 }
 
+// Whatever comes of saying it: who waits for the end is told.
+void JobRunner::say(const std::exception_ptr &failure) {
+    if (!failure)
+        return;
+    try {
+        Failure said;
+        try {
+            std::rethrow_exception(failure);
+        } catch (...) {
+            said = currentFailure();
+        }
+        emit failed(said.what, said.path);
+    } catch (const std::exception &) { // there is no memory for the words either
+    }
+}
+
 // The last word of the thread that worked. Work that failed for want of memory may have left none
 // for it; others give some back.
 void JobRunner::finish(quint64 generation, const std::exception_ptr &failure,
@@ -94,15 +111,7 @@ void JobRunner::finish(quint64 generation, const std::exception_ptr &failure,
         try {
             post(generation, [this, failure] {
                 m_running = false;
-                Failure said;
-                try {
-                    if (failure)
-                        std::rethrow_exception(failure);
-                } catch (...) {
-                    said = currentFailure();
-                }
-                if (!said.what.isEmpty())
-                    emit failed(said.what, said.path);
+                say(failure);
                 emit finished();
             });
             return;

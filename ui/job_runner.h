@@ -68,6 +68,7 @@ private:
     void launch(quint64 generation, Work work);
     void finish(quint64 generation, const std::exception_ptr &failure,
                 const std::stop_token &stop) noexcept;
+    void say(const std::exception_ptr &failure);
     void joinFinished();
 
     quint64 m_generation = 0;

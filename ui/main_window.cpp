@@ -97,7 +97,12 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
             &ProjectionView::setMessage);
     connect(&m_bench.opener, &StudyOpener::pathsOpened, this, [this](QStringList paths) {
-        erase_if(paths, [&](const QString &path) { return !mayBeKept(path, m_bench.document); });
+        erase_if(paths, [&](const QString &path) {
+            const bool isKept = mayBeKept(path, m_bench.document);
+            if (!isKept) // from when it was allowed
+                forgetRecentPath(path);
+            return !isKept;
+        });
         remember(paths);
     });
     connect(&m_bench.document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);

@@ -27,7 +27,7 @@ struct OverlayTexts {
 
 QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::size_t most) {
     if (names == Names::hidden && !notes.warnings.empty())
-        return {OverlayTexts::tr("With warnings: the study's list says which")};
+        return {OverlayTexts::tr("Warnings are left out")};
     QStringList lines;
     for (std::size_t n = 0; n < std::min(most, notes.warnings.size()); ++n)
         lines << spoken(notes.warnings[n]);

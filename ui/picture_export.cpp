@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include <QCoreApplication>
-#include <QFileInfo>
 #include <QImage>
 #include <QPainter>
 #include <QPicture>
@@ -224,6 +223,16 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
     };
 }
 
+// All files that an export gives.
+std::vector<fs::path> targets(const PictureExport &what, const QString &path) {
+    std::vector<fs::path> files;
+    for (int n = 0; n < (what.format == PictureFormat::frames ? what.frameCount : 0); ++n)
+        files.emplace_back(framePath(path, n).toStdString());
+    if (files.empty())
+        files.emplace_back(path.toStdString());
+    return files;
+}
+
 } // namespace
 
 QWidget *Panes::of(Pane pane) const {
@@ -279,6 +288,7 @@ PictureWriter pictureWriter(const PictureExport &what, const Panes &panes, const
                             const QString &path) {
     if (const QString why = obstacle(what, panes, document); !why.isEmpty())
         throw task::Error(task::ErrorCode::usage, why.toStdString());
+    document.requireOther(targets(what, path));
     return what.pane == Pane::projection ? projectionWriter(what, panes, document, path)
                                          : planeWriter(what, panes, document, path);
 }

@@ -62,7 +62,7 @@ QString obstacle(const PictureExport &what, const Panes &panes, const Document &
 /// Writes a picture of a pane as it is now; run it on any thread. The file appears only when
 /// complete; of frames that are cancelled none is left. It *throws* task::Error, task::Cancelled.
 using PictureWriter = std::function<void(const task::Progress &)>;
-/// *Throws* Error{usage} with the obstacle.
+/// *Throws* Error{usage} with the obstacle, also where a file of an open study would be replaced.
 PictureWriter pictureWriter(const PictureExport &what, const Panes &panes, const Document &document,
                             const QString &path);
 

@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds cardPatience(150);
 } // namespace
 
 RenderWorker::RenderWorker(QObject *parent)
-    : QObject(parent), m_thread([this](std::stop_token stop) { run(stop); }) {
+    : QObject(parent), m_thread([this](const std::stop_token &stop) { run(stop); }) {
     qRegisterMetaType<std::shared_ptr<const RenderedFrame>>();
     qRegisterMetaType<std::shared_ptr<gpu::FramePasses>>();
 }
@@ -72,7 +72,7 @@ RenderWorker::picture(std::shared_ptr<render::ProjectionEngine> engine,
     return m_pictures.back().get_future();
 }
 
-void RenderWorker::run(std::stop_token stop) {
+void RenderWorker::run(const std::stop_token &stop) {
     for (;;) {
         std::optional<Request> request;
         bool dropsCard = false;

@@ -98,7 +98,7 @@ private:
         QString refusal;
         bool isLost = false;
     };
-    void run(std::stop_token stop);
+    void run(const std::stop_token &stop);
     void makeFrame(const Request &request);
     std::shared_ptr<RenderedFrame> frameFor(const Request &request) const;
     void renderInto(RenderedFrame &frame, const Request &request);

@@ -10,22 +10,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What could not be used of the folders that the files of a session are in, or of its archive.
-// Texts and programs lie beside images, and are nobody's loss.
+// What could not be used of the folders that the files of a session are in. What is opened again is
+// looked at again; texts and programs lie beside images, and are nobody's loss.
 std::vector<dicom::Skipped> leftOutOf(const StudySource &source,
                                       const std::vector<dicom::Skipped> &problems) {
     constexpr std::size_t most = 1000;
-    const std::string archive = source.archive.toStdString() + "/";
-    std::set<fs::path> folders;
-    for (const QString &file : source.files)
+    std::set<fs::path> folders, opened;
+    for (const QString &file : source.lasting) {
+        opened.insert(file.toStdString());
         folders.insert(fs::path(file.toStdString()).parent_path());
-    std::vector<dicom::Skipped> left;
-    for (const dicom::Skipped &problem : problems) {
-        const bool isOfIt = source.archive.isEmpty() ? folders.contains(problem.path.parent_path())
-                                                     : problem.path.native().starts_with(archive);
-        if (isOfIt && problem.reason != "is not a DICOM file" && left.size() < most)
-            left.push_back(problem);
     }
+    std::vector<dicom::Skipped> left;
+    for (const dicom::Skipped &problem : problems)
+        if (folders.contains(problem.path.parent_path()) && !opened.contains(problem.path) &&
+            problem.reason != "is not a DICOM file" && left.size() < most)
+            left.push_back(problem);
     return left;
 }
 
@@ -37,7 +36,7 @@ std::optional<Session> currentSession(const Document &document) {
         return std::nullopt;
     const StudySource &source = document.sources()[std::size_t(open)];
     Session session;
-    session.files = source.archive.isEmpty() ? source.files : QStringList{source.archive};
+    session.files = source.lasting;
     session.leftOut = leftOutOf(source, document.problems());
     session.phantom = source.phantom;
     session.key = source.digest();

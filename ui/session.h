@@ -17,8 +17,8 @@ namespace pellucid::ui {
 /// What was open, so that it can be taken up again: where it comes from and how it was looked at.
 /// Names of patients are not kept, paths are.
 struct Session {
-    QStringList files; ///< of the series, or the archive that they are in
-    /// What of the same folders could not be used: it is said again, and not looked at again.
+    QStringList files; ///< of the series, or the archives that they are in
+    /// What else of the same folders could not be used: it is said again, and not looked at again.
     std::vector<dicom::Skipped> leftOut;
     QString phantom; ///< or its name
     QString key;     ///< a digest of the source's
@@ -51,7 +51,7 @@ public:
     std::optional<task::Error> fault() const;
 
 private:
-    void write(std::stop_token stop);
+    void write(const std::stop_token &stop);
     /// A moment when nothing is being written; what was not begun may be dropped then.
     std::unique_lock<std::mutex> rest() const;
 

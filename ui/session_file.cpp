@@ -97,9 +97,9 @@ Session fromJson(const QJsonObject &in) {
     if (in["schema"].toString() != schema)
         throw task::Error(task::ErrorCode::unusable, "is not a session");
     Session s;
-    for (const QJsonValue &file : in["files"].toArray())
+    for (const QJsonValue file : in["files"].toArray())
         s.files << file.toString();
-    for (const QJsonValue &skipped : in["left_out"].toArray())
+    for (const QJsonValue skipped : in["left_out"].toArray())
         s.leftOut.push_back(
             {skipped["path"].toString().toStdString(), skipped["reason"].toString().toStdString()});
     s.phantom = in["phantom"].toString();
@@ -133,14 +133,14 @@ Session sessionFromJson(const std::string &text) {
     return fromJson(QJsonDocument::fromJson(QByteArray::fromStdString(text)).object());
 }
 
-SessionFile::SessionFile() : m_thread([this](std::stop_token stop) { write(std::move(stop)); }) {}
+SessionFile::SessionFile() : m_thread([this](const std::stop_token &stop) { write(stop); }) {}
 
 SessionFile::~SessionFile() {
     m_thread.request_stop();
     m_thread.join();
 }
 
-void SessionFile::write(std::stop_token stop) {
+void SessionFile::write(const std::stop_token &stop) {
     std::unique_lock lock(m_mutex);
     while (m_changed.wait(lock, stop, [this] { return m_next.has_value(); })) {
         const Session session = *std::exchange(m_next, std::nullopt);

@@ -83,16 +83,25 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
         source.volume = volumeFacts(s);
         for (const dicom::InstanceFile &file : s.series->files)
             source.files << QString::fromStdString(file.path.string());
-        if (!s.series->files.empty())
-            if (const auto archive = catalogue->archiveOf(s.series->files.front().path))
-                source.archive = QString::fromStdString(archive->string());
+        for (const dicom::InstanceFile &file : s.series->files) {
+            const auto archive = catalogue->archiveOf(file.path);
+            const auto lasting = QString::fromStdString(archive.value_or(file.path).string());
+            if (source.lasting.isEmpty() || source.lasting.back() != lasting)
+                source.lasting << lasting;
+        }
+        source.lasting.removeDuplicates();
+        source.volume.file = QString::fromStdString(catalogue->named(s.volume->nrrd).string());
         // The catalogue is kept alive by whoever may load from it.
         source.load = [catalogue, entry = s.volume](const task::Progress &progress,
                                                     const dicom::LoadObserver &observer) {
-            dicom::LoadedVolume loaded = dicom::loadVolume(*entry, progress, observer);
-            for (dicom::Skipped &skipped : loaded.skipped)
-                skipped.path = catalogue->named(skipped.path);
-            return loaded;
+            try {
+                dicom::LoadedVolume loaded = dicom::loadVolume(*entry, progress, observer);
+                for (dicom::Skipped &skipped : loaded.skipped)
+                    skipped.path = catalogue->named(skipped.path);
+                return loaded;
+            } catch (const task::Error &error) {
+                throw task::Error(error.code(), error.reason(), catalogue->named(error.path()));
+            }
         };
         source.makeThumbnail = [catalogue, entry = s.volume] { return makeThumbnail(*entry); };
         sources.push_back(std::move(source));
@@ -116,6 +125,7 @@ StudySource librarySource(const StudyFacts &study, const VolumeFacts &volume,
     source.volume = volume;
     for (const dicom::InstanceFile &file : files)
         source.files << QString::fromStdString(file.path.string());
+    source.lasting = source.files;
     source.load = [volume, files](const task::Progress &progress,
                                   const dicom::LoadObserver &observer) {
         return loadFromLibrary(volume, files, progress, observer);

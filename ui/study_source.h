@@ -20,7 +20,8 @@ struct StudySource {
     /// Of its series; a phantom has a name instead.
     QStringList files;
     QString phantom;
-    QString archive; ///< that its files were unpacked from
+    /// Where they are when the program has ended, too: of an archive, the archive.
+    QStringList lasting;
     /// Thread-safe; see dicom::loadVolume.
     std::function<dicom::LoadedVolume(const task::Progress &, const dicom::LoadObserver &)> load;
     /// Thread-safe; for volumes whose facts have none.

@@ -107,6 +107,8 @@ void Workstation::follow(const Preferences &preferences) {
         m_bench.session.forget();
         forgetRecentPaths();
     }
+    if (before.showsPatient && !preferences.showsPatient)
+        forgetPaths();
     if (preferences.language != before.language)
         speak(preferences.language);
     if (preferences.language != before.language || preferences.theme != before.theme ||

@@ -6,17 +6,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <optional>
 #include <set>
-#include <sys/stat.h>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/cli/terminal.h"
 #include "core/decoder/read_nrrd.h"
 #include "core/dicom/scan.h"
+#include "core/files/file_ids.h"
 #include "core/task/error.h"
 
 namespace pellucid::cli {
@@ -32,27 +29,13 @@ double nowMs() {
 using task::Error;
 using task::ErrorCode;
 
-using FileId = std::pair<dev_t, ino_t>; // whatever the path
-
-std::optional<FileId> idOf(const std::filesystem::path &path) {
-    struct stat about {};
-    if (::stat(path.c_str(), &about) != 0)
-        return std::nullopt;
-    return FileId(about.st_dev, about.st_ino);
-}
-
 // Nothing that is read is written over.
 void requireOther(const std::vector<std::filesystem::path> &outs, const std::filesystem::path &path,
                   const dicom::Catalogue &catalogue) {
-    std::map<FileId, const std::filesystem::path *> there;
-    for (const auto &out : outs)
-        if (const auto id = idOf(out))
-            there.emplace(*id, &out);
-    if (there.empty())
-        return;
+    const files::FileIds there(outs);
     const auto check = [&](const std::filesystem::path &file) {
-        if (const auto id = idOf(file); id && there.contains(*id))
-            throw Error(ErrorCode::usage, "-o: is one of the files that are read", *there.at(*id));
+        if (const auto out = there.find(file))
+            throw Error(ErrorCode::usage, "-o: is one of the files that are read", *out);
     };
     check(path);
     for (const dicom::Skipped &s : catalogue.skipped)
@@ -145,7 +128,12 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     if (!selection.volume->placed)
         throw Error(ErrorCode::unusable,
                     "holds images but no volume: " + selection.volume->notPlacedReason, path);
-    input.loaded = dicom::loadVolume(*selection.volume, progress);
+    try {
+        input.loaded = dicom::loadVolume(*selection.volume, progress);
+    } catch (const Error &error) { // what an archive was unpacked to is gone when they look
+        throw Error(error.code(), error.reason(),
+                    error.path().empty() ? path : catalogue.named(error.path()));
+    }
     if (!input.loaded.volume.notes().placed)
         throw Error(ErrorCode::unusable,
                     "holds images but no volume: " + input.loaded.volume.notes().warnings.back(),

@@ -60,15 +60,20 @@ Selection defaultSelection(const Catalogue &catalogue) {
 }
 
 Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid) {
-    std::vector<Selection> matching;
+    std::vector<Selection> matching, byUid;
     std::string known;
     for (const Selection &s : selections(catalogue)) {
-        if (s.series->uid == numberOrUid || std::to_string(s.series->number) == numberOrUid)
+        if (s.series->uid == numberOrUid)
+            byUid.push_back(s);
+        if (std::to_string(s.series->number) == numberOrUid)
             matching.push_back(s);
         const std::string number = std::to_string(s.series->number);
         if ((", " + known + ",").find(", " + number + ",") == std::string::npos)
             known += (known.empty() ? "" : ", ") + number;
     }
+    // There is no other word for it, even where it is said of two patients.
+    if (!byUid.empty())
+        return largest(byUid);
     std::set<const Series *> series;
     std::string uids;
     for (const Selection &s : matching)

@@ -107,7 +107,7 @@ std::vector<Selection> selections(const Catalogue &catalogue);
 /// *Throws* Error{unusable} if there is none.
 Selection defaultSelection(const Catalogue &catalogue);
 
-/// A series by its number or UID, its largest volume. *Throws* Error{unusable}, also where several
+/// A series by its UID or number, its largest volume. *Throws* Error{unusable}, also where several
 /// series have the number.
 Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid);
 

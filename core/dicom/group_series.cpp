@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -209,23 +210,21 @@ std::string orientationName(const VolumeEntry &entry) {
                                                         : "sagittal";
 }
 
-// Stacks that nothing has told apart yet: the three of a localizer, slices of different angles.
-void tellApart(std::vector<VolumeEntry> &entries) {
-    const auto labelAlike = [&](const auto &label) {
-        std::map<std::string, std::vector<VolumeEntry *>> alike;
-        for (VolumeEntry &entry : entries)
-            alike[entry.label].push_back(&entry);
-        for (auto &[former, same] : alike)
-            for (std::size_t n = 0; same.size() > 1 && n < same.size(); ++n)
-                same[n]->label = label(*same[n], n + 1);
-    };
-    labelAlike([](const VolumeEntry &entry, std::size_t) {
-        const std::string name = orientationName(entry);
-        return entry.label.empty() ? name : entry.label + ", " + name;
-    });
-    labelAlike([](const VolumeEntry &entry, std::size_t number) {
-        return fmt::format("{} {}", entry.label, number);
-    });
+// Stacks of several directions, spaces or kinds of values, as the three of a localizer, say which
+// they are; phases of one stack say the same.
+void nameStacks(std::vector<std::vector<VolumeEntry>> &stacks) {
+    if (stacks.size() < 2)
+        return;
+    std::map<std::string, int> count, number;
+    for (const auto &stack : stacks)
+        ++count[orientationName(stack.front())];
+    for (auto &stack : stacks) {
+        std::string name = orientationName(stack.front());
+        if (count[name] > 1)
+            name += fmt::format(" {}", ++number[name]);
+        for (VolumeEntry &entry : stack)
+            entry.label = entry.label.empty() ? name : entry.label + ", " + name;
+    }
 }
 
 std::string missingGeometry(const FrameHeader &h) {
@@ -301,8 +300,9 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
     dropCopies(placed, skipped);
     dropCopies(unplaced, skipped);
 
-    std::vector<VolumeEntry> entries;
+    std::vector<std::vector<VolumeEntry>> stacks;
     for (Frames &block : blocksOf(placed, sameBlock, progress)) {
+        std::vector<VolumeEntry> &entries = stacks.emplace_back();
         sortByDepth(block);
         const std::vector<Part> parts =
             placesRepeat(block) ? splitRepeats(block, progress) : std::vector<Part>{{"", block}};
@@ -330,9 +330,12 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                          });
         VolumeEntry entry = entryFrom({"", block});
         makeImages(entry, block, missingGeometry(block.front().header));
-        entries.push_back(std::move(entry));
+        stacks.emplace_back().push_back(std::move(entry));
     }
-    tellApart(entries);
+    nameStacks(stacks);
+    std::vector<VolumeEntry> entries;
+    for (auto &stack : stacks)
+        std::move(stack.begin(), stack.end(), std::back_inserter(entries));
     return entries;
 }
 

@@ -26,7 +26,7 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      const task::Progress &progress = {});
 
 /// What identifies a frame's image, its place and its kind of values: frames of other digests are
-/// other images, whatever their file is named.
+/// other images, whatever their file is named. A hash against mix-ups: who forges can forge it.
 std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
                      const std::string &modality, const FrameHeader &frame);
 

@@ -302,12 +302,17 @@ private:
             samples = resampled(samples, m_entry.geometry, m_progress);
         volume::VolumeNotes notes = m_entry.notes;
         constexpr std::size_t mostNamed = 5;
+        std::vector<std::string> ofDamage;
         for (const std::string &name : damaged)
-            if (notes.warnings.size() < m_entry.notes.warnings.size() + mostNamed)
-                notes.warnings.push_back("the compressed pixels are damaged: " + name);
+            if (ofDamage.size() < mostNamed)
+                ofDamage.push_back("the compressed pixels are damaged: " + name);
         if (damaged.size() > mostNamed)
-            notes.warnings.push_back(
+            ofDamage.push_back(
                 fmt::format("files whose compressed pixels are damaged: {}", damaged.size()));
+        // Why images are no volume stays the last.
+        notes.warnings.insert(notes.warnings.end() -
+                                  (m_entry.placed || notes.warnings.empty() ? 0 : 1),
+                              ofDamage.begin(), ofDamage.end());
         LoadedVolume loaded{volumeOf(std::move(samples), m_entry.geometry.lattice, notes), {}};
         m_progress.report(1.0);
         return loaded;

@@ -30,6 +30,13 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
+// The same for every path to a file, as far as the system tells.
+fs::path resolved(const fs::path &path) {
+    std::error_code unknown;
+    const fs::path canonical = fs::weakly_canonical(path, unknown);
+    return unknown ? path : canonical;
+}
+
 // CDs are written in capitals and mounted in lower case: an entry matches whatever its case. Each
 // folder is read once.
 class CaselessFolders {
@@ -84,9 +91,7 @@ public:
 
 private:
     void addFile(const fs::path &path) {
-        std::error_code error;
-        const fs::path canonical = fs::weakly_canonical(path, error);
-        if (m_seen.insert(error ? path : canonical).second)
+        if (m_seen.insert(resolved(path)).second)
             found.push_back(path);
     }
 
@@ -267,12 +272,29 @@ void addNrrd(Catalogue &catalogue, const fs::path &path, const decoder::NrrdHead
 // Files that hold the samples of a NRRD header are no images by themselves, and nobody's loss.
 std::set<fs::path> samplesOf(const std::vector<std::optional<decoder::NrrdHeader>> &nrrds) {
     std::set<fs::path> samples;
-    std::error_code unknown;
     for (const auto &nrrd : nrrds)
         if (nrrd)
-            samples.insert(fs::weakly_canonical(nrrd->samplesFile, unknown));
+            samples.insert(resolved(nrrd->samplesFile));
     return samples;
 }
+
+// What headers take that are held until all of them are grouped. One that is refused takes nothing
+// from the others.
+class HeldMemory {
+public:
+    explicit HeldMemory(std::size_t most) : m_most(most) {}
+    bool take(std::size_t bytes) {
+        std::size_t held = m_held;
+        while (bytes <= m_most - held)
+            if (m_held.compare_exchange_weak(held, held + bytes))
+                return true;
+        return false;
+    }
+
+private:
+    const std::size_t m_most;
+    std::atomic<std::size_t> m_held = 0;
+};
 
 } // namespace
 
@@ -292,8 +314,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
 
     // A small file may announce very many frames: all of them are held until they are grouped.
     constexpr std::size_t ofUsualSeries = std::size_t(32) << 20;
-    const std::size_t mostHeld = std::max(task::availableMemoryBytes() / 2, ofUsualSeries);
-    std::atomic<std::size_t> held = 0;
+    HeldMemory held(std::max(task::availableMemoryBytes() / 2, ofUsualSeries));
     std::vector<InstanceHeader> headers(list.found.size());
     std::vector<std::optional<decoder::NrrdHeader>> nrrds(list.found.size());
     std::vector<std::string> reasons(list.found.size());
@@ -309,7 +330,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
                     decoder::Decoder::ofProgram().header(list.found[n], progress);
                 if (const auto reason = decoder::whyUnusable(header))
                     reasons[n] = *reason;
-                else if ((held += bytesToGroup(header)) > mostHeld)
+                else if (!held.take(bytesToGroup(header)))
                     reasons[n] = "needs more memory than there is";
                 else
                     headers[n] = std::move(header);
@@ -336,12 +357,10 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
         series;
     std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
     const std::set<fs::path> samples = samplesOf(nrrds);
-    std::error_code unknown;
     for (std::size_t n = 0; n < list.found.size(); ++n) {
-        if (!samples.empty() && reasons[n] == "is not a DICOM file" &&
-            samples.contains(fs::weakly_canonical(list.found[n], unknown)))
-            continue;
         if (!reasons[n].empty()) {
+            if (!samples.empty() && samples.contains(resolved(list.found[n])))
+                continue;
             catalogue.skipped.push_back({list.found[n], reasons[n]});
             continue;
         }

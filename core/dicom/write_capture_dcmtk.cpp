@@ -12,6 +12,7 @@
 
 #include "core/dicom/write_dataset.h"
 #include "core/parse/dictionary.h"
+#include "core/task/error.h"
 
 namespace pellucid::dicom {
 
@@ -51,10 +52,10 @@ std::vector<std::uint8_t> samples(std::span<const std::uint8_t> rgba, bool grey)
 void putProfile(DcmDataset &d) {
     DcmItem *code = nullptr;
     if (d.findOrCreateSequenceItem(DCM_DeidentificationMethodCodeSequence, code).bad())
-        return;
-    code->putAndInsertString(DCM_CodeValue, "113100");
-    code->putAndInsertString(DCM_CodingSchemeDesignator, "DCM");
-    code->putAndInsertString(DCM_CodeMeaning, "Basic Application Confidentiality Profile");
+        throw task::Error(task::ErrorCode::internal, "the code of the profile cannot be written");
+    put(*code, DCM_CodeValue, "113100");
+    put(*code, DCM_CodingSchemeDesignator, "DCM");
+    put(*code, DCM_CodeMeaning, "Basic Application Confidentiality Profile");
 }
 
 } // namespace

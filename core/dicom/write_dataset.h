@@ -5,8 +5,8 @@
 #include <initializer_list>
 #include <string>
 
-class DcmDataset;
 class DcmFileFormat;
+class DcmItem;
 class DcmTagKey;
 
 namespace pellucid::dicom {
@@ -22,7 +22,7 @@ std::string newUid(UidKind kind);
 std::string randomUid();
 
 /// *Throws* Error{internal} if the attribute does not take the value.
-void put(DcmDataset &dataset, const DcmTagKey &tag, const std::string &value);
+void put(DcmItem &dataset, const DcmTagKey &tag, const std::string &value);
 
 /// Writes a file in a transfer syntax (DCMTK's E_TransferSyntax) that its pixels already have; it
 /// appears only when complete. *Throws* Error{output}, when the disk is full too.

@@ -55,7 +55,7 @@ std::string randomUid() {
     return "2.25." + digits;
 }
 
-void put(DcmDataset &dataset, const DcmTagKey &tag, const std::string &value) {
+void put(DcmItem &dataset, const DcmTagKey &tag, const std::string &value) {
     if (dataset.putAndInsertOFStringArray(tag, value.c_str()).bad())
         throw Error(ErrorCode::internal, fmt::format("attribute ({:04x},{:04x}) cannot be set",
                                                      tag.getGroup(), tag.getElement()));

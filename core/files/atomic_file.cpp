@@ -48,16 +48,20 @@ int openNameless(const std::filesystem::path &folder) {
 
 } // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : m_path(std::move(path)) {
-    // Through a link to what it points at; and no device, pipe or folder becomes a file.
+std::filesystem::path targetOf(const std::filesystem::path &path) {
+    std::filesystem::path meant = path;
     std::error_code unknown;
-    if (std::filesystem::is_symlink(m_path, unknown))
-        if (const auto target = std::filesystem::weakly_canonical(m_path, unknown); !unknown)
-            m_path = target;
-    if (std::filesystem::exists(m_path, unknown) &&
-        !std::filesystem::is_regular_file(m_path, unknown) &&
-        !std::filesystem::is_directory(m_path, unknown))
-        throw task::Error(task::ErrorCode::output, "is no regular file", m_path);
+    if (std::filesystem::is_symlink(path, unknown))
+        if (const auto target = std::filesystem::weakly_canonical(path, unknown); !unknown)
+            meant = target;
+    if (std::filesystem::exists(meant, unknown) &&
+        !std::filesystem::is_regular_file(meant, unknown) &&
+        !std::filesystem::is_directory(meant, unknown))
+        throw task::Error(task::ErrorCode::output, "is no regular file", meant);
+    return meant;
+}
+
+AtomicFile::AtomicFile(const std::filesystem::path &path) : m_path(targetOf(path)) {
     int descriptor = openNameless(m_path.parent_path());
     if (descriptor < 0) {
         std::string name = hiddenNameFor(m_path);

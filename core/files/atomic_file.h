@@ -10,13 +10,17 @@
 
 namespace pellucid::files {
 
+/// The file that is meant where something is written: through a link, what it points at. *Throws*
+/// Error{output} where a device or a pipe would become a file.
+std::filesystem::path targetOf(const std::filesystem::path &path);
+
 /// A file that appears under its name only when it is complete: until `commit` has flushed it to
 /// the disk its bytes are in a file without a name, which is gone with a program that is killed; on
 /// file systems without such files, in a hidden one in the same folder.
 class AtomicFile {
 public:
     /// *Throws* Error{output} if the folder cannot be written.
-    explicit AtomicFile(std::filesystem::path path);
+    explicit AtomicFile(const std::filesystem::path &path);
     ~AtomicFile();
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &operator=(const AtomicFile &) = delete;

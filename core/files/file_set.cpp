@@ -18,26 +18,37 @@ fs::path nameAside(std::size_t number, const fs::path &file) {
 }
 
 // A folder that is not there is not made: its name may be a slip.
-const fs::path &inFolder(const fs::path &file) {
+SessionFolder folderFor(const fs::path &file) {
     std::error_code failed;
     if (!fs::is_directory(file.parent_path().empty() ? "." : file.parent_path(), failed))
         throw task::Error(task::ErrorCode::output, failed ? failed.message() : "is not in a folder",
                           file);
-    return file;
+    try {
+        return SessionFolder::beside(file);
+    } catch (const task::Error &error) {
+        throw task::Error(error.code(), "cannot be written: " + error.reason(), file);
+    }
 }
 
 } // namespace
 
-FileSet::FileSet(const fs::path &file) : m_folder(SessionFolder::beside(inFolder(file))) {}
+FileSet::FileSet(const fs::path &file) : m_folder(folderFor(file)) {}
 
 fs::path FileSet::aside(const fs::path &file) {
-    m_files.push_back(file);
+    m_files.push_back(targetOf(file));
     return m_folder.path() / nameAside(m_files.size() - 1, file);
 }
 
 void FileSet::commit() {
-    for (std::size_t n = 0; n < m_files.size(); ++n)
-        files::rename(m_folder.path() / nameAside(n, m_files[n]), m_files[n]);
+    // All bytes are on the disk before the first name is given: that takes a moment only.
+    flush(m_folder.path());
+    for (std::size_t n = 0; n < m_files.size(); ++n) {
+        std::error_code failed;
+        fs::rename(m_folder.path() / nameAside(n, m_files[n]), m_files[n], failed);
+        if (failed)
+            throw task::Error(task::ErrorCode::output, "cannot be written: " + failed.message(),
+                              m_files[n]);
+    }
 }
 
 } // namespace pellucid::files

@@ -62,7 +62,7 @@ SessionFolder::SessionFolder() {
     make(*sessions);
 }
 
-SessionFolder::SessionFolder(const fs::path &parent) {
+SessionFolder::SessionFolder(const fs::path &parent, Parent then) : m_parent(then) {
     make(parent);
 }
 
@@ -93,11 +93,13 @@ void SessionFolder::make(const fs::path &parent) {
 }
 
 SessionFolder::~SessionFolder() {
+    if (m_isLeft)
+        return;
     std::error_code failed, ignored;
     fs::remove_all(m_path, failed);
     if (!failed) // else the next program tries again
         fs::remove(lockOf(m_path), ignored);
-    if (m_path.parent_path().filename() == unfinished)
+    if (m_parent == Parent::goes)
         fs::remove(m_path.parent_path(), ignored); // if it is empty
 }
 
@@ -105,7 +107,7 @@ SessionFolder SessionFolder::beside(const fs::path &file) {
     std::error_code unknown;
     const fs::path parent = fs::absolute(file, unknown).parent_path() / unfinished;
     removeAbandonedSessionFolders(parent);
-    return SessionFolder(parent);
+    return SessionFolder(parent, Parent::goes);
 }
 
 bool isInSessionFolder(const fs::path &path) {

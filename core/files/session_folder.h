@@ -15,8 +15,10 @@ class SessionFolder {
 public:
     /// Below the user's cache. *Throws* Error{output} if there is no place for it.
     SessionFolder();
-    /// Below a folder, which is made. *Throws* Error{output}.
-    explicit SessionFolder(const std::filesystem::path &parent);
+    /// Below a folder, which is made; one that `goes` is removed with the last one in there.
+    /// *Throws* Error{output}.
+    enum class Parent { stays, goes };
+    explicit SessionFolder(const std::filesystem::path &parent, Parent then = Parent::stays);
     /// On the same file system as a file that is to be written: in a hidden folder next to it,
     /// which is removed with the last one in there. What killed programs left there goes first.
     /// *Throws* Error{output}.
@@ -26,12 +28,17 @@ public:
     SessionFolder &operator=(const SessionFolder &) = delete;
 
     const std::filesystem::path &path() const { return m_path; }
+    /// What is in it is for the next program that removes abandoned folders, unless it is taken
+    /// back.
+    void setLeft(bool isLeft) { m_isLeft = isLeft; }
 
 private:
     void make(const std::filesystem::path &parent);
 
     std::filesystem::path m_path;
     Descriptor m_lock;
+    Parent m_parent = Parent::stays;
+    bool m_isLeft = false;
 };
 
 /// Whether a file is in a folder below the user's cache that will be gone with a program that runs.

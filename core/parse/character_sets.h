@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 
 class DcmItem;
@@ -20,14 +21,15 @@ public:
     CharacterSets &operator=(const CharacterSets &) = delete;
 
     /// *Shape*: `isName`: a person's, in which ^ and = begin a new part. A text that is not what
-    /// the character sets say stays as it is; Japanese and Latin 9 get question marks for what is
-    /// none.
+    /// the character sets say stays as it is; those of iso2022.h get question marks for what is no
+    /// letter.
     std::string utf8(const std::string &text, bool isName) const;
 
 private:
-    // Of DCMTK; or of what DCMTK asks the system for by names that glibc does not have.
-    enum class Way { none, dcmtk, japanese, latin9 };
+    enum class Way { none, dcmtk, iso2022 };
     Way m_way = Way::none;
+    std::set<std::string> m_terms;
+    std::string m_first; ///< of them
     std::unique_ptr<DcmSpecificCharacterSet> m_dcmtk;
 };
 

@@ -11,7 +11,7 @@ namespace pellucid::parse {
 
 namespace {
 
-const pid_t program = ::getppid();
+const pid_t program = ::getppid(); // before anything takes its time
 volatile std::sig_atomic_t secondsLeft = 0;
 
 void tick(time_t seconds) {

@@ -4,8 +4,7 @@
 namespace pellucid::parse {
 
 /// Ends this process where a request takes longer than anybody waits, and where the program that
-/// asked has ended meanwhile: one that is killed says nothing. One for a process, made before
-/// anything takes its time.
+/// asked has ended meanwhile: one that is killed says nothing. One for a process.
 class Watch {
 public:
     Watch();

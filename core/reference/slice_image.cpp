@@ -54,7 +54,8 @@ double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
 
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
                                const render::Camera &camera, const render::ImageDefinition &image) {
-    const auto [columns, rows] = sliceSize(lattice, camera, image);
+    const SliceSize size = sliceSize(lattice, camera, image);
+    const int columns = size.columns, rows = size.rows;
     const double du = 1.0 / (columns * camera.pixelMm), dv = 1.0 / (rows * camera.pixelMm);
     const double limit = 0.5 / camera.pixelMm;
     const glm::dmat3 axes = camera.axes();

@@ -117,6 +117,18 @@
         <source>the study library was damaged: %1 series were read, %2 lost; the old file is kept under this name</source>
         <translation>檢查資料庫已損壞：讀回 %1 個序列，遺失 %2 個；舊檔案以此名稱保留</translation>
     </message>
+    <message>
+        <source>is damaged, and a new one cannot be written: %1</source>
+        <translation>已損毀，且無法寫入新的清單：%1</translation>
+    </message>
+    <message>
+        <source>the study library was empty; its own copies are listed again</source>
+        <translation>檢查資料庫是空的；其自有的副本將重新列出</translation>
+    </message>
+    <message>
+        <source>the study library was damaged and nothing of it could be read; the old file is kept under this name</source>
+        <translation>檢查資料庫已損毀，且無法讀取任何內容；舊檔以此名稱保留</translation>
+    </message>
 </context>
 <context>
     <name>MeasureToolTexts</name>
@@ -378,8 +390,8 @@
 <context>
     <name>OverlayTexts</name>
     <message>
-        <source>With warnings: the study&apos;s list says which</source>
-        <translation>有警告：見檢查清單</translation>
+        <source>Warnings are left out</source>
+        <translation>已略去警告</translation>
     </message>
 </context>
 <context>
@@ -1621,6 +1633,13 @@
     <message>
         <source>Weight by depth, far at the left, near at the right; drag its values</source>
         <translation>深度權重：左為遠，右為近；拖曳其數值</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::Document</name>
+    <message>
+        <source>%1 is a file of an open study</source>
+        <translation>%1 是已開啟檢查的檔案</translation>
     </message>
 </context>
 <context>

@@ -27,6 +27,7 @@
 #include "core/volume/nrrd.h"
 #include "tests/cli/cli.h"
 #include "tests/support/files.h"
+#include "tests/support/little_memory.h"
 #include "tests/support/read_only_folder.h"
 
 namespace pellucid {
@@ -302,6 +303,28 @@ TEST_F(Faults, ASeriesOfSeveralPatientsIsAskedForByItsUid) {
     expectOneLine(cli("render " + quoted(both) + out + " --series 2"), 3, "by UID: ");
     EXPECT_FALSE(fs::exists(folder / "o.png"));
 }
+
+#ifndef PELLUCID_SANITIZED // which reserve terabytes
+// One file that asks for more than there is costs itself.
+TEST_F(Faults, AFileThatAnnouncesTooMuchCostsNoOther) {
+    const fs::path in = series("both", 12, 256), huge = folder / "both/A.dcm";
+    std::string type = "ORIGINAL";
+    while (type.size() < 700)
+        type += "\\\\ABCDEFGHIJKLMNOP";
+    fs::copy_file(in / "IM0001.dcm", huge);
+    ASSERT_EQ(
+        run("dcmodify -nb -gin -m Rows=1 -m Columns=1 -i NumberOfFrames=65000 -i ImageType=\"" +
+            type + "\" " + quoted(huge))
+            .exitCode,
+        0);
+    const test::LittleMemory little(700);
+    const auto catalogue = dicom::scan({in});
+    ASSERT_EQ(catalogue.skipped.size(), 1U);
+    EXPECT_EQ(catalogue.skipped[0].path, huge);
+    EXPECT_EQ(catalogue.skipped[0].reason, "needs more memory than there is");
+    EXPECT_EQ(dicom::defaultSelection(catalogue).volume->frames.size(), 12U);
+}
+#endif
 
 // A few kilobytes that announce a hundred thousand frames each.
 TEST_F(Faults, ManyFramesOfSmallFilesAreNotHeldBeyondTheMemory) {

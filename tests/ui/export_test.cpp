@@ -16,6 +16,7 @@
 #include <QTimer>
 
 #include "core/decoder/read_nrrd.h"
+#include "tests/support/files.h"
 #include "ui/video_writer.h"
 
 namespace pellucid {
@@ -144,6 +145,27 @@ private slots:
         finish();
         QCOMPARE(QImage(path).size(), 2 * first.size());
         QVERIFY(m_window->statusBar()->currentMessage().contains("out.png"));
+    }
+
+    void noFileOfAnOpenStudyIsWrittenOver() {
+        const fs::path series = m_folder / "kept";
+        fs::copy(headPath().toStdString(), series);
+        open(QString::fromStdString(series.string()));
+        const fs::path slice = series / "IM0003.dcm", link = m_folder / "other name.dcm";
+        fs::create_hard_link(slice, link);
+        const std::string before = readText(slice);
+        for (const fs::path &path : {slice, link}) {
+            dialogFor("Projection", 4, 1, false);
+            find<QLineEdit>("exportPathEdit")->setText(QString::fromStdString(path.string()));
+            answerWith(QMessageBox::Yes);
+            find<QPushButton>("exportWriteButton")->click();
+            QCOMPARE(find<QLabel>("exportSaidLabel")->text(),
+                     QString("IM0003.dcm is a file of an open study"));
+            QVERIFY(readText(slice) == before);
+            find<QDialog>("exportDialog")->close();
+            QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+        }
+        fs::remove(link);
     }
 
     void aTurnIsWrittenAsFramesAndCancelledWithoutATrace() {

@@ -13,6 +13,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenuBar>
+#include <QPointer>
 #include <QPushButton>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -183,12 +184,27 @@ private slots:
         study.patientName = QString::fromUtf8("M\u00FCller^J\u00F6rg=\u738B^\u5C0F");
         study.patientId = "A-4711";
         study.birthDate = "19500607";
-        for (const char *of : {"/cd/MULLER_J", "/cd/a-4711/1", "/cd/1950-06-07", "/cd/19500607",
-                               "/cd/\u738B\u5148\u751F"})
+        study.uid = "1.2";
+        for (const char *of :
+             {"/cd/MULLER_J", "/cd/MullerJorg", "/cd/x jorg", "/cd/a-4711/1", "/cd/A_4711_2",
+              "/cd/1950-06-07", "/cd/07.06.1950", "/cd/CT19500607", "/cd/\u738B\u5C0F\u5148\u751F"})
             QVERIFY2(ui::namesPatient(QString::fromUtf8(of), study), of);
-        for (const char *of : {"/cd/head", "/home/jo/4711", "/cd/1950", ""})
+        for (const char *of : {"/cd/head", "/home/jo/4711", "/cd/1950", "/cd/fjorgen/j", "",
+                               "/cd/\u738B\u5148\u751F"})
             QVERIFY2(!ui::namesPatient(QString::fromUtf8(of), study), of);
         QVERIFY(!ui::namesPatient("/cd", {}));
+        study.patientName = QString::fromUtf8(
+            "Xu^Ann=\uC774^\uC601"); // of Hangul, each letter three in Unicode's D
+        QVERIFY(ui::namesPatient("/cd/xu-li", study));
+        QVERIFY(ui::namesPatient(QString::fromUtf8("/cd/\uC774\uC601"), study));
+        QVERIFY(!ui::namesPatient("/cd/anna", study));
+        study.patientId = "001";
+        QVERIFY(ui::namesPatient("/cd/001/a", study));
+        QVERIFY(!ui::namesPatient("/cd/IM0001", study));
+        study.patientName = "Home";
+        QVERIFY(!ui::namesPatient(QDir::homePath() + "/scans", study));
+        const ui::StudySource phantom = ui::phantomSource("head");
+        QVERIFY(!ui::namesPatient("/phantoms", phantom.study));
 
         const auto named = m_folder / "of_SECRET";
         std::filesystem::copy(headPath().toStdString(), named);
@@ -202,6 +218,9 @@ private slots:
         find<QDialog>("preferencesDialog")->close();
         openIn(QString::fromStdString(named.string()));
         QVERIFY(isKept());
+        openDialog();
+        find<QCheckBox>("patientTitleBox")->click(); // chosen no more
+        QVERIFY(!isKept());
     }
 
     void theTitleNamesThePatientOnlyWhereThatIsChosen() {
@@ -300,10 +319,13 @@ private:
     void choose(const char *box, const QString &value) {
         openDialog();
         auto *choice = find<QComboBox>(box);
+        const bool isOther = choice->currentData().toString() != value;
+        const QPointer<QWidget> former = &window_();
         choice->setCurrentIndex(choice->findData(value));
         emit choice->activated(choice->currentIndex());
-        // The window may be made anew for it; the dialog stays, with what was chosen.
-        QTest::qWait(100);
+        // The window is made anew for it; the dialog stays, with what was chosen.
+        if (isOther)
+            QTRY_VERIFY_WITH_TIMEOUT(!former, patienceMs);
         auto *dialog = window_().findChild<QDialog *>("preferencesDialog");
         QVERIFY(dialog != nullptr && dialog->isVisible());
         QCOMPARE(dialog->findChild<QComboBox *>(box)->currentData().toString(), value);

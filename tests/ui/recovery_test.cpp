@@ -11,6 +11,9 @@
 #include <QJsonObject>
 #include <QProcess>
 #include <QPushButton>
+#include <QScopeGuard>
+
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/files/session_folder.h"
 #include "core/task/error.h"
@@ -101,24 +104,88 @@ private slots:
         QVERIFY(isNamed(next));
     }
 
-    // What an archive was unpacked to is gone; the archive is opened again.
-    void whatWasOpenOfAnArchiveIsTakenUp() {
-        const fs::path zip = m_folder / "session.zip";
-        QProcess packer;
-        packer.start("python3",
-                     {"-m", "zipfile", "-c", QString::fromStdString(zip.string()), headPath()});
-        QVERIFY(packer.waitForFinished(patienceMs) && packer.exitCode() == 0);
+    // A slice that was missing and is there again is no problem any more.
+    void whatIsThereAgainIsNotNamedAgain() {
+        const fs::path series = m_folder / "away";
+        fs::copy(headPath().toStdString(), series);
         {
             ui::Workstation program;
-            program.window().openPaths({QString::fromStdString(zip.string())});
+            program.window().openPaths({QString::fromStdString(series.string())});
             QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            QCOMPARE(kept().files, QStringList{QString::fromStdString(zip.string())});
+            program.bench().document.addProblems({{series / "IM0005.dcm", "is not there any more"},
+                                                  {series / "IM0099.dcm", "is empty"}});
+        }
+        QCOMPARE(kept().leftOut.size(), 1U);
+        QCOMPARE(kept().leftOut[0].path, series / "IM0099.dcm");
+    }
+
+    // Letters, cube and scale are those of the picture that comes back.
+    void whatIsTakenUpHasItsLetters() {
+        const auto turned = [](ui::Document &document) {
+            render::Camera camera = document.scene().camera;
+            camera.orientation =
+                glm::normalize(glm::dquat(0.9, 0.1, 0.3, 0.0)) * camera.orientation;
+            return camera;
+        };
+        {
+            ui::Workstation program;
+            program.window().openPaths({headPath()});
+            ui::Document &document = program.bench().document;
+            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
+            document.setCamera(turned(document));
+            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
         }
         ui::Workstation next;
         next.window().resumeSession();
-        QTRY_VERIFY_WITH_TIMEOUT(
-            next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
-        QCOMPARE(next.bench().document.volume()->lattice().size().k, 80);
+        ui::Document &document = next.bench().document;
+        auto *pane = next.window().findChild<ui::ProjectionView *>();
+        const auto rests = [&] { return document.volume() && pane->showsWhatIsAskedFor(); };
+        QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs);
+        auto *overlay = pane->findChild<QWidget *>("projectionOverlay");
+        const QImage shown = overlay->grab().toImage();
+        // As it is after another view.
+        const render::Camera camera = document.scene().camera;
+        document.setCamera(turned(document));
+        const QImage other = overlay->grab().toImage();
+        document.setCamera(camera);
+        QVERIFY(changed(overlay->grab().toImage(), other) > 0.0);
+        QVERIFY(changed(overlay->grab().toImage(), shown) == 0.0);
+    }
+
+    // What archives were unpacked to is gone; they are opened again, all that a series is of.
+    void whatWasOpenOfAnArchiveIsTakenUp() {
+        QStringList halves;
+        for (const char *const half : {"IM000", "IM00[1-8]"}) {
+            const QString zip = QString::fromStdString((m_folder / "half").string()) +
+                                QString::number(halves.size());
+            QCOMPARE(QProcess::execute(
+                         "bash", {"-c", QString("cd '%1' && python3 -m zipfile -c '%2.zip' %3*")
+                                            .arg(headPath(), zip, half)}),
+                     0);
+            halves << zip + ".zip";
+        }
+        classify::Look look;
+        {
+            ui::Workstation program;
+            program.window().openPaths(halves);
+            ui::Document &document = program.bench().document;
+            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
+            render::Scene scene = document.scene();
+            scene.look.transferFunction.weights = {0.0, 0.25, 1.0};
+            look = scene.look;
+            document.setScene(scene);
+            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        }
+        QStringList opened = kept().files;
+        opened.sort();
+        halves.sort();
+        QCOMPARE(opened, halves);
+        ui::Workstation next;
+        next.window().resumeSession();
+        ui::Document &document = next.bench().document;
+        QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
+        QCOMPARE(document.volume()->lattice().size().k, 80);
+        QVERIFY(document.scene().look == look);
     }
 
     void aDamagedSessionIsSaid() {
@@ -134,9 +201,10 @@ private slots:
 
     // A home on a share that is gone, or of a guest.
     void aHomeThatCannotBeWrittenIsSaid() {
-        const QByteArray before = qgetenv("XDG_DATA_HOME");
         fs::create_directory(m_folder / "locked");
         const ReadOnlyFolder locked(m_folder / "locked");
+        const auto restore =
+            qScopeGuard([before = qgetenv("XDG_DATA_HOME")] { qputenv("XDG_DATA_HOME", before); });
         qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "locked/data").string()));
         {
             ui::Workstation program;
@@ -146,7 +214,6 @@ private slots:
             program.window().openPaths({headPath()});
             QTRY_VERIFY_WITH_TIMEOUT(program.bench().document.volume(), patienceMs);
         }
-        qputenv("XDG_DATA_HOME", before);
         QVERIFY(fs::is_empty(m_folder / "locked"));
     }
 

@@ -27,10 +27,6 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-fs::path incomingFolder(const LibraryPlace &place) {
-    return place.copiesFolder() / "incoming";
-}
-
 // In the folder of copies that have not all arrived: a line for each name that they will have.
 fs::path namesFile(const fs::path &incoming) {
     return incoming / "names";
@@ -62,8 +58,6 @@ public:
         std::error_code ignored;
         for (const fs::path &path : m_renamed)
             fs::remove(path, ignored);
-        m_incoming.reset();
-        fs::remove(incomingFolder(m_place), ignored); // when it was the last
     }
     Copies(const Copies &) = delete;
     Copies &operator=(const Copies &) = delete;
@@ -71,7 +65,7 @@ public:
     /// Where the copy will be.
     fs::path add(const fs::path &from, const std::string &series, const std::string &instance) {
         if (!m_incoming)
-            m_incoming.emplace(incomingFolder(m_place));
+            m_incoming.emplace(m_place.incomingFolder(), files::SessionFolder::Parent::goes);
         const fs::path incoming = m_incoming->path() / std::to_string(m_copies.size());
         std::error_code failed;
         fs::copy_file(from, incoming, fs::copy_options::overwrite_existing, failed);
@@ -279,26 +273,42 @@ Removal removeStudy(Library &library, qint64 study) {
     Removal removal;
     removal.copies = library.copiesOf(study);
     if (!removal.copies.empty()) {
-        const fs::path parent = incomingFolder(library.place());
-        removal.names = std::shared_ptr<const files::SessionFolder>(
-            new files::SessionFolder(parent), [parent](const files::SessionFolder *folder) {
-                delete folder;
-                std::error_code ignored;
-                fs::remove(parent, ignored); // when it was the last
-            });
+        removal.names = std::make_shared<files::SessionFolder>(library.place().incomingFolder(),
+                                                               files::SessionFolder::Parent::goes);
         writeNames(removal.names->path(), removal.copies);
     }
     library.remove(study);
+    if (removal.names)
+        removal.names->setLeft(true);
     return removal;
+}
+
+void finish(const Removal &removal, Library &library) {
+    library.removeCopies(removal.copies);
+    if (removal.names)
+        removal.names->setLeft(false);
+}
+
+ImportResult relistCopies(const LibraryPlace &place, const task::Progress &progress) {
+    ImportResult result;
+    try {
+        result = importStudies(place, {{place.copiesFolder()}, ImportMode::refer}, progress);
+    } catch (const Error &error) {
+        if (error.code() != ErrorCode::unusable) // there are none
+            throw;
+    }
+    std::error_code ignored;
+    fs::remove(place.rebuiltMark(), ignored);
+    return result;
 }
 
 bool hasUnfinishedImports(const LibraryPlace &place) {
     std::error_code ignored;
-    return fs::exists(incomingFolder(place), ignored);
+    return fs::exists(place.incomingFolder(), ignored);
 }
 
 void removeAbandonedImports(Library &library, LeftCopies left) {
-    files::removeAbandonedSessionFolders(incomingFolder(library.place()),
+    files::removeAbandonedSessionFolders(library.place().incomingFolder(),
                                          [&](const fs::path &folder) {
                                              if (left == LeftCopies::kept)
                                                  return;

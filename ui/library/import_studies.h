@@ -31,15 +31,22 @@ struct ImportResult {
 ImportResult importStudies(const LibraryPlace &place, const Import &import,
                            const task::Progress &progress);
 
-/// The copies of a study that is off the list, to be removed by `Library::removeCopies`. Their
-/// names are written down as long as it lives: those of a program that is killed before are found
-/// by the next one.
+/// The copies of a study that is off the list, to be removed by `finish`. Their names are written
+/// down till then: those that are still there when the program ends, however, are found by the next
+/// one.
 struct Removal {
     std::vector<std::filesystem::path> copies;
-    std::shared_ptr<const files::SessionFolder> names;
+    std::shared_ptr<files::SessionFolder> names;
 };
 /// Takes a study off the list. *Throws* Error{output}.
 Removal removeStudy(Library &library, qint64 study);
+/// Removes the copies. *Throws* Error{output} if the list cannot be read: the next program tries
+/// again.
+void finish(const Removal &removal, Library &library);
+
+/// Lists the library's own copies whose rows a damaged list has lost; what is listed stays as it
+/// is. *Throws* Error{output}, Cancelled: the next program tries again.
+ImportResult relistCopies(const LibraryPlace &place, const task::Progress &progress);
 
 /// What becomes of the copies of a killed import that had their names but no row yet: `kept` where
 /// the list may have lost the rows.

@@ -49,8 +49,8 @@ constexpr const char *schema[] = {
     "tilt_deg REAL NOT NULL, placed INTEGER NOT NULL, warnings TEXT NOT NULL, "
     "file TEXT NOT NULL, thumbnail BLOB)",
     "CREATE INDEX volumes_by_series ON volumes (series)",
-    "CREATE TABLE instances (series INTEGER NOT NULL REFERENCES series ON DELETE CASCADE, "
-    "instance TEXT NOT NULL, path TEXT NOT NULL, PRIMARY KEY (series, instance)) WITHOUT ROWID"};
+    ("CREATE TABLE instances (series INTEGER NOT NULL REFERENCES series ON DELETE CASCADE, "
+     "instance TEXT NOT NULL, path TEXT NOT NULL, PRIMARY KEY (series, instance)) WITHOUT ROWID")};
 
 // SQLite takes no empty value for "text without letters" where there is no string at all.
 QVariant said(const QString &text) {

@@ -20,6 +20,10 @@ struct LibraryPlace {
 
     std::filesystem::path listFile() const { return folder / "library.sqlite"; }
     std::filesystem::path copiesFolder() const { return folder / "files"; }
+    /// Where copies are that have not all arrived.
+    std::filesystem::path incomingFolder() const { return copiesFolder() / "incoming"; }
+    /// There from a rebuild of the list until its copies have been looked for.
+    std::filesystem::path rebuiltMark() const { return folder / "rebuilt"; }
 };
 
 enum class StudyOrder { newestFirst, byName, lastAddedFirst };
@@ -41,8 +45,11 @@ struct OpenedLibrary {
     LibraryPlace place;
     /// One line each: the list was damaged, cannot be written, ...
     std::vector<dicom::Skipped> notices;
-    /// Copies may be missing from a list that was rebuilt.
     bool wasDamaged = false;
+    /// Copies may be missing from a list that was rebuilt, now or by a program that was killed.
+    bool mayLackCopies = false;
+    /// What could be read of a damaged list whose place cannot be written: for the one in memory.
+    std::vector<LibrarySeries> readable;
 };
 
 /// Finds a library below a folder, or makes it. A list that is damaged is kept under another name
@@ -87,8 +94,10 @@ public:
     /// Removes copies unless a study has come to use them meanwhile.
     void removeCopies(const std::vector<std::filesystem::path> &copies);
 
+    /// The name that Qt knows its connection by.
+    const QString &connection() const { return m_connection; }
+
 private:
-    friend OpenedLibrary openLibrary(const std::filesystem::path &folder);
     LibraryPlace m_place;
     QString m_connection;
 };

@@ -44,7 +44,7 @@ bool ListQuery::next() {
     return false;
 }
 
-ListTransaction::ListTransaction(QSqlDatabase list) : m_list(std::move(list)) {
+ListTransaction::ListTransaction(const QSqlDatabase &list) : m_list(list) {
     ListQuery(m_list, "BEGIN IMMEDIATE").run();
 }
 

@@ -42,7 +42,7 @@ private:
 /// All of it or nothing.
 class ListTransaction {
 public:
-    explicit ListTransaction(QSqlDatabase list);
+    explicit ListTransaction(const QSqlDatabase &list);
     ~ListTransaction();
     ListTransaction(const ListTransaction &) = delete;
     ListTransaction &operator=(const ListTransaction &) = delete;

@@ -2,12 +2,17 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 
 #include <QCoreApplication>
 #include <QDate>
+#include <QRegularExpression>
 
+#include "core/files/atomic_file.h"
+#include "core/files/file_lock.h"
+#include "core/files/session_folder.h"
 #include "core/task/error.h"
 #include "core/task/log.h"
 #include "ui/library/library.h"
@@ -23,6 +28,13 @@ using task::Error;
 struct LibraryTexts {
     Q_DECLARE_TR_FUNCTIONS(LibraryTexts)
 };
+
+// Whether a row is what a scan wrote and not the noise of a disk.
+bool isPlausible(const LibrarySeries &s) {
+    static const QRegularExpression uid("^[0-9.]{0,64}$"), date("^[0-9]{0,8}$");
+    return uid.match(s.study.uid).hasMatch() && date.match(s.study.date).hasMatch() &&
+           uid.match(s.volumes.front().seriesUid).hasMatch();
+}
 
 // Rows are asked for one by one, by their numbers: each way down the tree of pages that is whole
 // still leads to its rows, whatever is broken beside it.
@@ -84,7 +96,7 @@ std::vector<LibrarySeries> readWhatIsThere(const QSqlDatabase &list, int &lost) 
     });
     std::vector<LibrarySeries> all;
     for (auto &[id, s] : series)
-        if (!s.files.empty() && described.contains(id))
+        if (!s.files.empty() && described.contains(id) && isPlausible(s))
             all.push_back(std::move(s));
         else
             ++lost;
@@ -108,24 +120,84 @@ fs::path freeName(const LibraryPlace &place) {
     }
 }
 
+struct Found {
+    enum class State { sound, damaged, unusable } state;
+    std::string reason; ///< of one that is unusable
+    std::vector<LibrarySeries> saved;
+    int lost = 0;        ///< of those that are still in the list
+    bool isRead = false; ///< false: how many there were is not known
+};
+
+Found lookAt(const LibraryPlace &place) {
+    Found found{Found::State::damaged, {}, {}, 0, false};
+    bool isOpen = false;
+    try {
+        const Library library(place);
+        const auto connection = QSqlDatabase::database(library.connection());
+        if (isSound(connection)) {
+            found.state = Found::State::sound;
+            return found;
+        }
+        isOpen = true;
+        found.saved = readWhatIsThere(connection, found.lost);
+        found.isRead = !found.saved.empty() || found.lost > 0;
+    } catch (const Error &error) {
+        // Not a list at all is damage; a folder or a version that forbids writing is not.
+        std::error_code unknown;
+        const bool isThere = fs::exists(place.listFile(), unknown);
+        const bool isList = error.reason().find("not a database") == std::string::npos &&
+                            error.reason().find("malformed") == std::string::npos;
+        if (!isOpen && (!isThere || isList)) {
+            found.state = Found::State::unusable;
+            found.reason = error.reason();
+        }
+    }
+    return found;
+}
+
 // The damaged list stays under a free name, and a new one takes its place when it is whole: whoever
 // is killed meanwhile finds the damaged one.
 fs::path replaceList(const LibraryPlace &place, const std::vector<LibrarySeries> &saved) {
-    const LibraryPlace aside{place.folder / "rebuilt"};
-    fs::remove_all(aside.folder);
-    fs::create_directories(aside.folder);
-    Library(aside).put(saved);
     const fs::path list = place.listFile(), kept = freeName(place);
-    std::error_code failed;
-    fs::create_hard_link(list, kept, failed);
-    if (failed) // not every file system has them
-        fs::copy_file(list, kept);
-    // What the damaged one had left undone is not the new one's.
-    fs::path undone = list, keptUndone = kept;
-    fs::rename(undone += "-journal", keptUndone += "-journal", failed);
-    fs::rename(aside.listFile(), list);
-    fs::remove_all(aside.folder, failed);
+    try {
+        const auto aside = files::SessionFolder::beside(list);
+        const LibraryPlace rebuilt{aside.path()};
+        Library(rebuilt).put(saved);
+        std::error_code failed;
+        fs::create_hard_link(list, kept, failed);
+        if (failed) // not every file system has them
+            fs::copy_file(list, kept);
+        // What the damaged one had left undone is not the new one's.
+        fs::path undone = list, keptUndone = kept;
+        fs::rename(undone += "-journal", keptUndone += "-journal", failed);
+        files::AtomicFile mark(place.rebuiltMark());
+        mark.commit();
+        files::rename(rebuilt.listFile(), list);
+    } catch (const fs::filesystem_error &error) {
+        throw Error(task::ErrorCode::output, error.code().message(), list);
+    }
     return kept;
+}
+
+// Copies without a list, as after a power cut.
+bool isLost(const LibraryPlace &place) {
+    std::error_code none, failed;
+    const auto bytes = fs::file_size(place.listFile(), none);
+    if (!none && bytes > 0)
+        return false;
+    for (fs::directory_iterator entry(place.copiesFolder(), failed), end; !failed && entry != end;
+         entry.increment(failed))
+        if (entry->path() != place.incomingFolder())
+            return true;
+    return false;
+}
+
+OpenedLibrary forThisRun(OpenedLibrary opened, const std::string &reason) {
+    opened.place.inMemory = true;
+    opened.notices.push_back(
+        {opened.place.listFile(),
+         reason + LibraryTexts::tr("; studies are listed for this run only").toStdString()});
+    return opened;
 }
 
 } // namespace
@@ -135,45 +207,46 @@ OpenedLibrary openLibrary(const fs::path &folder) {
     opened.place.folder = folder;
     std::error_code failed;
     fs::create_directories(folder, failed);
-    const auto list = opened.place.listFile();
-    std::vector<LibrarySeries> saved;
-    int lost = 0;
-    try {
-        const Library library(opened.place);
-        const auto connection = QSqlDatabase::database(library.m_connection);
-        if (isSound(connection))
-            return opened;
-        opened.wasDamaged = true;
-        saved = readWhatIsThere(connection, lost);
-    } catch (const Error &error) {
-        // Not a list at all is damage; a folder or a version that forbids writing is not.
-        const bool isThere = fs::exists(list, failed);
-        const bool isList = error.reason().find("not a database") == std::string::npos &&
-                            error.reason().find("malformed") == std::string::npos;
-        if (!opened.wasDamaged && (!isThere || isList)) {
-            opened.place.inMemory = true;
-            opened.notices.push_back(
-                {list,
-                 error.reason() +
-                     LibraryTexts::tr("; studies are listed for this run only").toStdString()});
-            return opened;
-        }
-        opened.wasDamaged = true;
-    }
-    try {
-        const fs::path kept = replaceList(opened.place, saved);
+    if (isLost(opened.place)) {
+        files::AtomicFile(opened.place.rebuiltMark()).commit();
         opened.notices.push_back(
-            {kept,
-             LibraryTexts::tr("the study library was damaged: %1 series were read, %2 lost; the "
-                              "old file is kept under this name")
-                 .arg(saved.size())
-                 .arg(lost)
+            {opened.place.listFile(),
+             LibraryTexts::tr("the study library was empty; its own copies are listed again")
                  .toStdString()});
-    } catch (const std::exception &error) {
-        opened.place.inMemory = true;
-        opened.notices.push_back({list, error.what()});
     }
-    task::log("the study library was damaged and has been rebuilt");
+    Found found = lookAt(opened.place);
+    std::optional<files::FileLock> lock;
+    if (found.state == Found::State::damaged) {
+        // Another program may be mending it, or have mended it by then.
+        lock.emplace(folder / "library.lock");
+        found = lookAt(opened.place);
+    }
+    if (found.state == Found::State::unusable)
+        return forThisRun(std::move(opened), found.reason);
+    if (found.state == Found::State::damaged) {
+        opened.wasDamaged = true;
+        try {
+            const fs::path kept = replaceList(opened.place, found.saved);
+            const QString said =
+                found.isRead
+                    ? LibraryTexts::tr("the study library was damaged: %1 series were read, %2 "
+                                       "lost; the old file is kept under this name")
+                          .arg(found.saved.size())
+                          .arg(found.lost)
+                    : LibraryTexts::tr("the study library was damaged and nothing of it could be "
+                                       "read; the old file is kept under this name");
+            opened.notices.push_back({kept, said.toStdString()});
+            task::log("the study library was damaged and has been rebuilt");
+        } catch (const Error &error) {
+            task::log("the study library is damaged and cannot be rebuilt");
+            opened.readable = std::move(found.saved);
+            return forThisRun(std::move(opened),
+                              LibraryTexts::tr("is damaged, and a new one cannot be written: %1")
+                                  .arg(QString::fromStdString(error.reason()))
+                                  .toStdString());
+        }
+    }
+    opened.mayLackCopies = fs::exists(opened.place.rebuiltMark(), failed);
     return opened;
 }
 

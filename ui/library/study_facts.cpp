@@ -19,6 +19,10 @@ QString text(const std::string &utf8) {
 
 } // namespace
 
+bool StudyFacts::hasPatient() const {
+    return !uid.isEmpty() || (patientId != "phantoms" && patientId != "files");
+}
+
 QString VolumeFacts::key() const {
     return seriesUid + "\n" + label + "\n" +
            QString("%1 %2 %3 %4 %5 %6")

@@ -23,6 +23,8 @@ struct StudyFacts {
     /// What tells patients and studies apart; never the names alone, which may be equal.
     QString patientKey() const { return patientId + "\n" + patientName; }
     QString key() const { return patientKey() + "\n" + uid; }
+    /// False: a phantom's, or of volume files, which tell of nobody.
+    bool hasPatient() const;
 };
 
 /// What a list of studies says of a volume.

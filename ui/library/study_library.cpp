@@ -36,6 +36,8 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
     m_notices = opened.notices;
     try {
         m_library = std::make_unique<Library>(opened.place);
+        if (!opened.readable.empty())
+            m_library->put(opened.readable);
     } catch (const task::Error &error) {
         // Even memory may be refused; the program goes on without a library.
         m_notices.push_back({error.path(), error.reason()});
@@ -44,14 +46,15 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
     if (!opened.place.inMemory && hasUnfinishedImports(opened.place))
         start({tr("Tidying up the study library"),
                [place = opened.place,
-                left = opened.wasDamaged ? LeftCopies::kept : LeftCopies::removed](const Job &) {
+                left = opened.mayLackCopies ? LeftCopies::kept : LeftCopies::removed](const Job &) {
                    Library library(place);
                    removeAbandonedImports(library, left);
                },
                true});
-    if (std::error_code ignored;
-        opened.wasDamaged && std::filesystem::exists(opened.place.copiesFolder(), ignored))
-        import({{opened.place.copiesFolder()}, ImportMode::refer});
+    if (opened.mayLackCopies)
+        importBy([place = opened.place](const task::Progress &progress) {
+            return relistCopies(place, progress);
+        });
 }
 
 StudyLibrary::~StudyLibrary() {
@@ -104,11 +107,16 @@ std::vector<dicom::InstanceFile> StudyLibrary::files(const VolumeFacts &volume) 
 }
 
 void StudyLibrary::import(const Import &import) {
-    if (!m_library)
-        return;
+    if (m_library)
+        importBy([import, place = m_library->place()](const task::Progress &progress) {
+            return importStudies(place, import, progress);
+        });
+}
+
+void StudyLibrary::importBy(std::function<ImportResult(const task::Progress &)> work) {
     start({tr("Importing"),
-           [this, import, place = m_library->place()](const Job &job) {
-               const ImportResult result = importStudies(place, import, job.progress());
+           [this, work = std::move(work)](const Job &job) {
+               const ImportResult result = work(job.progress());
                job.deliver([this, result] {
                    emit changed();
                    emit imported(result);
@@ -123,7 +131,8 @@ void StudyLibrary::remove(const StudyFacts &study) {
     if (!removal.copies.empty())
         start({tr("Removing copies"),
                [removal, place = m_library->place()](const Job &) {
-                   Library(place).removeCopies(removal.copies);
+                   Library library(place);
+                   finish(removal, library);
                },
                false});
 }

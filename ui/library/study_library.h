@@ -50,6 +50,7 @@ private:
         bool isOptional; ///< what is left when the program ends is not done
     };
     void start(Work work);
+    void importBy(std::function<ImportResult(const task::Progress &)> work);
 
     std::unique_ptr<Library> m_library;
     JobRunner m_jobs;

@@ -19,7 +19,7 @@ constexpr std::size_t mostVoxelsRead = std::size_t(64) << 20;
 
 QImage makeThumbnail(const volume::Volume &volume) {
     const volume::Lattice &lattice = volume.lattice();
-    const auto [columns, rows, slices] = lattice.size();
+    const int columns = lattice.size().i, rows = lattice.size().j, slices = lattice.size().k;
     const volume::ValueWindow window = initialWindow(volume);
     const double low = window.center - 0.5 * window.width;
     QImage picture(columns, rows, QImage::Format_Grayscale8);

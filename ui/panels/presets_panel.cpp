@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QKeyEvent>
@@ -19,6 +18,7 @@
 #include "core/task/error.h"
 #include "ui/commands.h"
 #include "ui/document.h"
+#include "ui/file_dialogs.h"
 #include "ui/look_previewer.h"
 #include "ui/spoken.h"
 #include "ui/theme.h"
@@ -258,8 +258,8 @@ void PresetsPanel::remove(const QString &name) {
 }
 
 void PresetsPanel::importPreset() {
-    const QString path = QFileDialog::getOpenFileName(
-        this, tr("Import preset"), {}, tr("Presets, 3D Slicer properties (*.json *.vp)"));
+    const QString path =
+        askForFile(this, tr("Import preset"), tr("Presets, 3D Slicer properties (*.json *.vp)"));
     if (path.isEmpty())
         return;
     attempt([&] {
@@ -298,11 +298,14 @@ void PresetsPanel::exportPreset() {
                               : presets::presetOf(name.toStdString(), m_document.scene().look,
                                                   m_document.scene().shading,
                                                   m_document.fieldWindow(), *m_document.volume());
-    const QString path = QFileDialog::getSaveFileName(this, tr("Export preset"), name + ".json",
-                                                      tr("Preset (*.json)"));
+    const QString path =
+        askWhereToWrite(this, tr("Export preset"), name + ".json", tr("Preset (*.json)"));
     if (path.isEmpty())
         return;
-    attempt([&] { presets::writePreset(path.toStdString(), exported); });
+    attempt([&] {
+        m_document.requireOther({path.toStdString()});
+        presets::writePreset(path.toStdString(), exported);
+    });
 }
 
 void PresetsPanel::showMenu(const QPoint &at) {

@@ -14,6 +14,7 @@ namespace pellucid::ui {
 ProjectionOverlay::ProjectionOverlay(const Document &document, const MeasureTool &measure,
                                      QWidget *parent)
     : QWidget(parent), m_document(document), m_measure(measure) {
+    setObjectName("projectionOverlay");
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setAttribute(Qt::WA_NoSystemBackground);
 }

@@ -67,6 +67,21 @@ TEST(GroupSeries, EveryVolumeOfASeriesHasALabelOfItsOwn) {
     EXPECT_EQ(entries[3].label, "axial 2");
 }
 
+// Phases of one stack share its name; a stack of another space is none of them.
+TEST(GroupSeries, PhasesOfOneStackSayThatTheyAre) {
+    auto files = stack({0, 2, 4, 0, 2, 4, 0, 2, 4});
+    for (int n = 0; n < 9; ++n) {
+        files[n].header.frames[0].dimensions["temporal position"] = n < 3 ? "1" : "2";
+        files[n].header.frameOfReferenceUid = n < 6 ? "1.2" : "1.3";
+    }
+    std::vector<std::string> labels;
+    for (const dicom::VolumeEntry &entry : group(files))
+        labels.push_back(entry.label);
+    std::sort(labels.begin(), labels.end());
+    EXPECT_EQ(labels, (std::vector<std::string>{"axial 2", "temporal position 1, axial 1",
+                                                "temporal position 2, axial 1"}));
+}
+
 // Thousands of images at a handful of places, as of a long perfusion without any times.
 TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
     constexpr int places = 3;

@@ -2,6 +2,7 @@
 // What the world does to the study library: programs are killed, discs are full or fail, files go.
 #include <QtTest>
 
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <random>
@@ -21,6 +22,8 @@ using namespace test;
 using namespace ui;
 
 namespace {
+
+constexpr int patienceMs = 240000; // sanitized, beside others
 
 // A stretch in the middle is overwritten, as a failing disk does.
 void damage(const fs::path &file) {
@@ -80,7 +83,7 @@ private slots:
         QElapsedTimer clock;
         clock.start();
         QProcess whole;
-        QVERIFY(import(place("whole"), whole) && whole.waitForFinished());
+        QVERIFY(import(place("whole"), whole) && whole.waitForFinished(patienceMs));
         const auto wholeMs = unsigned(clock.elapsed());
         int killed = 0, done = 0, named = 0;
         for (int round = 0; round < 40; ++round) {
@@ -268,7 +271,7 @@ private slots:
         QElapsedTimer clock;
         clock.start();
         QProcess whole;
-        QVERIFY(begin(whole) && whole.waitForFinished());
+        QVERIFY(begin(whole) && whole.waitForFinished(patienceMs));
         const auto wholeMs = unsigned(clock.elapsed());
         const int readable = count(Library(at));
         QVERIFY(readable > 300);
@@ -284,11 +287,68 @@ private slots:
             const OpenedLibrary opened = openLibrary(at.folder);
             QVERIFY(!opened.place.inMemory);
             QCOMPARE(count(Library(opened.place)), readable);
-            QVERIFY(!fs::exists(at.folder / "rebuilt"));
+            QVERIFY(opened.mayLackCopies); // till they are looked for
         }
         qInfo("%d of 25 rebuilds were killed; %d of 1500 studies were read each time", killed,
               readable);
         QVERIFY(killed > 5);
+    }
+
+    // As a program that was killed before it had looked for them leaves it.
+    void copiesWithoutRowsAreListedAfterARebuild() {
+        const LibraryPlace at = place("relisted");
+        importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
+        Library(at).remove(Library(at).find("", StudyOrder::byName, 0, 1).studies.at(0).libraryId);
+        std::ofstream(at.rebuiltMark()) << "";
+        OpenedLibrary opened = openLibrary(at.folder);
+        QVERIFY(opened.mayLackCopies && !opened.wasDamaged);
+        QCOMPARE(relistCopies(at, {}).files, 20);
+        QCOMPARE(count(Library(at)), 1);
+        QVERIFY(!openLibrary(at.folder).mayLackCopies);
+    }
+
+    // As after a power cut, or by a hand that tidied up.
+    void copiesWithoutAListAreListedAgain() {
+        const LibraryPlace at = place("listless");
+        importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
+        for (const bool isThere : {true, false}) {
+            if (isThere)
+                fs::resize_file(at.listFile(), 0);
+            else
+                fs::remove(at.listFile());
+            const OpenedLibrary opened = openLibrary(at.folder);
+            QVERIFY(opened.mayLackCopies);
+            QCOMPARE(opened.notices.size(), std::size_t(1));
+            relistCopies(at, {});
+            QCOMPARE(count(Library(at)), 1);
+        }
+    }
+
+    // The list is gone from them, the removal of the copies fails: the next program does it.
+    void aRemovalThatFailsIsTakenUpAgain() {
+        const LibraryPlace at = place("failed removal");
+        importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
+        Library library(at);
+        removeStudy(library, library.find("", StudyOrder::byName, 0, 1).studies.at(0).libraryId);
+        QCOMPARE(filesBelow(at.copiesFolder()), 22); // their names, and a lock
+        removeAbandonedImports(library, LeftCopies::removed);
+        QCOMPARE(filesBelow(at.copiesFolder()), 0);
+    }
+
+    void twoProgramsRebuildOneListOnce() {
+        const LibraryPlace at = place("two");
+        Library(at).put(many(1500, 20));
+        damage(at.listFile());
+        std::array<QProcess, 2> programs;
+        for (QProcess &program : programs)
+            program.start(QCoreApplication::applicationFilePath(),
+                          {"--open", QString::fromStdString(at.folder.string())});
+        for (QProcess &program : programs)
+            QVERIFY(program.waitForFinished(patienceMs));
+        // Whoever came second found it whole.
+        QCOMPARE(programs[0].exitCode() + programs[1].exitCode(), 1);
+        QVERIFY(count(Library(at)) > 300);
+        QVERIFY(!openLibrary(at.folder).wasDamaged);
     }
 
     void aReadOnlyFolderIsReadAndKeepsWhatItHas() {
@@ -303,6 +363,19 @@ private slots:
         QVERIFY_EXCEPTION_THROWN(importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {}),
                                  task::Error);
         QCOMPARE(count(library), 3);
+        // A damaged one is read, and stays as it is.
+        {
+            const LibraryPlace broken = place("read-only-damaged");
+            Library(broken).put(many(400, 20));
+            damage(broken.listFile());
+            const ReadOnlyFolder lockedAsWell(broken.folder);
+            const OpenedLibrary read = openLibrary(broken.folder);
+            QVERIFY(read.place.inMemory && read.wasDamaged);
+            QVERIFY(read.readable.size() > 100);
+            const QString said = QString::fromStdString(read.notices.at(0).reason);
+            QVERIFY2(said.contains("cannot be written") && said.contains("this run only"),
+                     qPrintable(said));
+        }
         // One that could not be made is for this run.
         const OpenedLibrary run = openLibrary(empty.folder);
         QVERIFY(run.place.inMemory);

@@ -79,7 +79,7 @@ private slots:
         QCOMPARE(count(library), 1);
         QCOMPARE(library.volumes(study.libraryId).size(), std::size_t(1));
         QCOMPARE(library.volumes(study.libraryId)[0].files, 2);
-        library.removeCopies(removeStudy(library, study.libraryId).copies);
+        finish(removeStudy(library, study.libraryId), library);
         QCOMPARE(count(library), 0);
     }
 
@@ -143,7 +143,7 @@ private slots:
             const auto loaded = librarySource(study, v, library.files(v.libraryId)).load({}, {});
             QCOMPARE(loaded.volume.lattice().size().k, 20);
             QVERIFY(loaded.skipped.empty());
-            library.removeCopies(removeStudy(library, study.libraryId).copies);
+            finish(removeStudy(library, study.libraryId), library);
             QCOMPARE(filesBelow(at.copiesFolder()), 0);
             QCOMPARE(filesBelow(m_folder / "head"), 20);
         }
@@ -180,7 +180,7 @@ private slots:
         Library library(at);
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
         QVERIFY(library.volumes(study.libraryId).at(0).isCopied);
-        library.removeCopies(removeStudy(library, study.libraryId).copies);
+        finish(removeStudy(library, study.libraryId), library);
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
     }
 };

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "core/files/descriptor.h"
+
+namespace pellucid::files {
+
+/// Held by one program at a time, as long as the object is there; others wait for it. Where a file
+/// cannot be locked (a share without locks, a folder that cannot be written) nobody is kept out.
+class FileLock {
+public:
+    explicit FileLock(const std::filesystem::path &file);
+
+private:
+    Descriptor m_file;
+};
+
+} // namespace pellucid::files

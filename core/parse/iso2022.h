@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace pellucid::parse {
+
+/// Whether a text of these character sets (the terms of SpecificCharacterSet) is converted here:
+/// Japanese (ISO 2022 IR 13, 87, 159) and Latin 9 (203), which DCMTK leaves to an iconv that need
+/// not know them; others of one byte beside them, too.
+bool isOfIso2022(const std::set<std::string> &terms);
+
+/// As UTF-8; what is no letter becomes a question mark. *Source*: PS3.5, 6.1.2.5 and annex H.
+/// `first`: the first term, whose letters need no designation; or empty.
+std::string utf8OfIso2022(std::string_view text, const std::set<std::string> &terms,
+                          const std::string &first);
+
+} // namespace pellucid::parse

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parse/iso2022.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <initializer_list>
+
+#include <iconv.h>
+
+namespace pellucid::parse {
+
+namespace {
+
+// What bytes from 0x80 are of, beside letters of ASCII.
+enum class High { none, katakana, table };
+
+struct Set {
+    std::string_view number; ///< "100" of ISO_IR 100 and ISO 2022 IR 100
+    char designation;        ///< behind ESC -
+    const char *name;        ///< for iconv
+};
+constexpr std::array sets{
+    Set{"100", 'A', "ISO-8859-1"},  Set{"101", 'B', "ISO-8859-2"}, Set{"109", 'C', "ISO-8859-3"},
+    Set{"110", 'D', "ISO-8859-4"},  Set{"144", 'L', "ISO-8859-5"}, Set{"127", 'G', "ISO-8859-6"},
+    Set{"126", 'F', "ISO-8859-7"},  Set{"138", 'H', "ISO-8859-8"}, Set{"148", 'M', "ISO-8859-9"},
+    Set{"203", 'b', "ISO-8859-15"}, Set{"166", 'T', "TIS-620"}};
+
+// What letters of two bytes are of, until the next designation.
+enum class Designated { single, jis0208, jis0212 };
+
+struct Escape {
+    std::string_view bytes;
+    Designated designated;
+};
+constexpr std::array escapes{
+    Escape{"\x1b(B", Designated::single}, Escape{"\x1b(J", Designated::single},
+    Escape{"\x1b$B", Designated::jis0208}, Escape{"\x1b$@", Designated::jis0208},
+    Escape{"\x1b$(D", Designated::jis0212}};
+
+// What is no letter becomes a question mark, and the next ones are read. `width`: bytes of a
+// letter.
+std::string converted(std::string bytes, const char *from, std::size_t width) {
+    const iconv_t converter = ::iconv_open("UTF-8", from);
+    if (reinterpret_cast<std::intptr_t>(converter) == -1)
+        return "?";
+    std::string out(4 * bytes.size() + 8, '\0');
+    char *in = bytes.data(), *to = out.data();
+    std::size_t left = bytes.size(), room = out.size();
+    while (::iconv(converter, &in, &left, &to, &room) == std::size_t(-1) && room > 0) {
+        *to++ = '?';
+        --room;
+        if (errno != EILSEQ || left < width)
+            break;
+        in += width;
+        left -= width;
+    }
+    ::iconv_close(converter);
+    out.resize(out.size() - room);
+    return out;
+}
+
+// Katakana of half width (JIS X 0201) lie in one row, here and in Unicode from U+FF61.
+std::string katakana(unsigned char byte) {
+    if (byte < 0xA1 || byte > 0xDF)
+        return "?";
+    const unsigned code = 0xFF61U + byte - 0xA1U;
+    return {char(0xE0 | code >> 12), char(0x80 | (code >> 6 & 0x3F)), char(0x80 | (code & 0x3F))};
+}
+
+bool hasTerm(const std::set<std::string> &terms, std::string_view number) {
+    return terms.contains("ISO_IR " + std::string(number)) ||
+           terms.contains("ISO 2022 IR " + std::string(number));
+}
+
+// What a text that is being read has designated.
+class Reader {
+public:
+    Reader(const std::set<std::string> &terms, const std::string &first) {
+        for (const Set &set : sets)
+            if (hasTerm({first}, set.number))
+                setHigh(High::table, set.name);
+        // Writers leave the designation of katakana out.
+        if (m_high == High::none && hasTerm(terms, "13"))
+            setHigh(High::katakana, nullptr);
+        m_initial = m_high;
+        m_initialTable = m_table;
+    }
+
+    // Of bytes up to the next designation: one of two may look like a delimiter.
+    std::string read(const std::string &part) {
+        if (m_designated == Designated::jis0208)
+            return converted("\x1b$B" + part + "\x1b(B", "ISO-2022-JP-2", 2);
+        if (m_designated == Designated::jis0212)
+            return converted("\x1b$(D" + part + "\x1b(B", "ISO-2022-JP-2", 2);
+        std::string out;
+        for (std::size_t at = 0; at < part.size();) {
+            if (part[at] == '^' || part[at] == '=') // each part of a name begins anew
+                setHigh(m_initial, m_initialTable);
+            const std::size_t end = std::min(part.find_first_of("^=", at + 1), part.size());
+            out += readSingle(part.substr(at, end - at));
+            at = end;
+        }
+        return out;
+    }
+
+    // The length of the designation that a text begins with; 0: it begins with none.
+    std::size_t designate(std::string_view text) {
+        for (const Escape &escape : escapes)
+            if (text.starts_with(escape.bytes)) {
+                m_designated = escape.designated;
+                return escape.bytes.size();
+            }
+        if (text.starts_with("\x1b)I")) {
+            setHigh(High::katakana, nullptr);
+            return 3;
+        }
+        for (const Set &set : sets)
+            if (text.starts_with("\x1b-") && text.size() > 2 && text[2] == set.designation) {
+                setHigh(High::table, set.name);
+                return 3;
+            }
+        return 0;
+    }
+
+private:
+    std::string readSingle(const std::string &bytes) const {
+        if (m_high == High::table)
+            return converted(bytes, m_table, 1);
+        std::string out;
+        for (const char c : bytes) {
+            const auto byte = (unsigned char)(c);
+            if (byte < 0x80)
+                out += c;
+            else
+                out += m_high == High::katakana ? katakana(byte) : "?";
+        }
+        return out;
+    }
+    void setHigh(High high, const char *table) {
+        m_high = high;
+        m_table = table;
+    }
+
+    Designated m_designated = Designated::single;
+    High m_high = High::none, m_initial = High::none;
+    const char *m_table = nullptr, *m_initialTable = nullptr;
+};
+
+} // namespace
+
+bool isOfIso2022(const std::set<std::string> &terms) {
+    const auto numbers = {"13", "87", "159", "203"};
+    return std::any_of(numbers.begin(), numbers.end(),
+                       [&](const char *number) { return hasTerm(terms, number); });
+}
+
+std::string utf8OfIso2022(std::string_view text, const std::set<std::string> &terms,
+                          const std::string &first) {
+    Reader reader(terms, first);
+    std::string out;
+    while (!text.empty()) {
+        if (const std::size_t length = reader.designate(text); length > 0) {
+            text.remove_prefix(length);
+            continue;
+        }
+        const std::string part(text.substr(0, text.find('\x1b', 1)));
+        text.remove_prefix(part.size());
+        out += reader.read(part);
+    }
+    return out;
+}
+
+} // namespace pellucid::parse
