@@ -148,9 +148,9 @@ void Document::setCamera(const render::Camera &camera) {
 void Document::setScene(const render::Scene &scene) {
     const bool isOtherCamera = m_scene.camera != scene.camera;
     m_scene = scene;
+    emit sceneChanged();
     if (isOtherCamera)
         emit cameraChanged();
-    emit sceneChanged();
 }
 
 int Document::selectedClass() const {

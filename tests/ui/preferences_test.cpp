@@ -8,6 +8,7 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDockWidget>
+#include <QFileDialog>
 #include <QKeySequenceEdit>
 #include <QLabel>
 #include <QLineEdit>
@@ -221,6 +222,34 @@ private slots:
         openDialog();
         find<QCheckBox>("patientTitleBox")->click(); // chosen no more
         QVERIFY(!isKept());
+    }
+
+    // Qt's dialogs write down where they have been.
+    void fileDialogsLeaveNoTrace() {
+        const auto named = m_folder / "dialog_of_SECRET";
+        std::filesystem::copy(headPath().toStdString(), named);
+        const QString path = QString::fromStdString(named.string());
+        const auto choose = [&] {
+            QTimer::singleShot(100, this, [path] {
+                auto *dialog = qobject_cast<QFileDialog *>(QApplication::activeModalWidget());
+                QVERIFY(dialog != nullptr);
+                dialog->setDirectory(path);
+                dialog->findChild<QLineEdit *>("fileNameEdit")->setText(path);
+                QMetaObject::invokeMethod(dialog, "accept");
+            });
+        };
+        const auto trace = [] {
+            const QSettings ofQt(QSettings::UserScope, "QtProject");
+            return ofQt.value("FileDialog/lastVisited").toString() +
+                   ofQt.value("FileDialog/history").toStringList().join(" ");
+        };
+        choose();
+        find<QAction>("openFolderAction")->trigger();
+        settleIn();
+        QVERIFY2(!trace().contains("SECRET"), qPrintable(trace()));
+        choose();
+        QFileDialog::getExistingDirectory(); // as without care
+        QVERIFY(trace().contains("SECRET"));
     }
 
     void theTitleNamesThePatientOnlyWhereThatIsChosen() {
