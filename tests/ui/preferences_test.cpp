@@ -3,6 +3,8 @@
 // the program has ended.
 #include "tests/ui/workstation.h"
 
+#include <array>
+
 #include <QAccessible>
 #include <QCheckBox>
 #include <QComboBox>
@@ -16,6 +18,7 @@
 #include <QMenuBar>
 #include <QPointer>
 #include <QPushButton>
+#include <QScopeGuard>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <QUndoView>
@@ -238,18 +241,27 @@ private slots:
                 QMetaObject::invokeMethod(dialog, "accept");
             });
         };
-        const auto trace = [] {
+        static constexpr std::array keys{"FileDialog/lastVisited", "FileDialog/history"};
+        const auto values = [] {
             const QSettings ofQt(QSettings::UserScope, "QtProject");
-            return ofQt.value("FileDialog/lastVisited").toString() +
-                   ofQt.value("FileDialog/history").toStringList().join(" ");
+            return std::array{ofQt.value(keys[0]), ofQt.value(keys[1])};
         };
+        const auto trace = [&] {
+            return values()[0].toString() + values()[1].toStringList().join(" ");
+        };
+        // The file is the user's, who runs this.
+        const auto restore = qScopeGuard([before = values()] {
+            QSettings ofQt(QSettings::UserScope, "QtProject");
+            for (std::size_t n = 0; n < keys.size(); ++n)
+                before[n].isValid() ? ofQt.setValue(keys[n], before[n]) : ofQt.remove(keys[n]);
+        });
         choose();
         find<QAction>("openFolderAction")->trigger();
         settleIn();
-        QVERIFY2(!trace().contains("SECRET"), qPrintable(trace()));
+        QVERIFY2(!trace().contains(path), qPrintable(trace()));
         choose();
         QFileDialog::getExistingDirectory(); // as without care
-        QVERIFY(trace().contains("SECRET"));
+        QVERIFY(trace().contains(path));
     }
 
     void theTitleNamesThePatientOnlyWhereThatIsChosen() {
