@@ -192,7 +192,7 @@ private slots:
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
         const VolumeFacts v = library.volumes(study.libraryId)[0];
         const auto files = library.files(v.libraryId);
-        fs::remove(files[0].path);
+        fs::remove(folder / "IM0001.dcm"); // the end of the stack
         const auto loaded = librarySource(study, v, files).load({}, {});
         QCOMPARE(loaded.volume.lattice().size().k, 19);
         QCOMPARE(loaded.skipped.at(0).reason, std::string("is not there any more"));
