@@ -321,6 +321,8 @@ void removeAbandonedImports(Library &library, LeftCopies left) {
                                                      copies.emplace_back(name);
                                              library.removeCopies(copies);
                                          });
+    std::error_code ignored;
+    fs::remove(library.place().incomingFolder(), ignored); // when it was the last
 }
 
 } // namespace pellucid::ui

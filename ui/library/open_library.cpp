@@ -29,11 +29,13 @@ struct LibraryTexts {
     Q_DECLARE_TR_FUNCTIONS(LibraryTexts)
 };
 
-// Whether a row is what a scan wrote and not the noise of a disk.
+// Whether a row is what a scan wrote and not the noise of a disk. Not all that scans find is by the
+// letter of the standard, but it can be printed.
 bool isPlausible(const LibrarySeries &s) {
-    static const QRegularExpression uid("^[0-9.]{0,64}$"), date("^[0-9]{0,8}$");
-    return uid.match(s.study.uid).hasMatch() && date.match(s.study.date).hasMatch() &&
-           uid.match(s.volumes.front().seriesUid).hasMatch();
+    static const QRegularExpression printable("^[ -~]{0,64}$");
+    const auto texts = {s.study.uid, s.study.date, s.volumes.front().seriesUid};
+    return std::all_of(texts.begin(), texts.end(),
+                       [](const QString &text) { return printable.match(text).hasMatch(); });
 }
 
 // Rows are asked for one by one, by their numbers: each way down the tree of pages that is whole
@@ -208,11 +210,15 @@ OpenedLibrary openLibrary(const fs::path &folder) {
     std::error_code failed;
     fs::create_directories(folder, failed);
     if (isLost(opened.place)) {
-        files::AtomicFile(opened.place.rebuiltMark()).commit();
-        opened.notices.push_back(
-            {opened.place.listFile(),
-             LibraryTexts::tr("the study library was empty; its own copies are listed again")
-                 .toStdString()});
+        try {
+            files::AtomicFile(opened.place.rebuiltMark()).commit();
+            opened.notices.push_back(
+                {opened.place.listFile(),
+                 LibraryTexts::tr("the study library was empty; its own copies are listed again")
+                     .toStdString()});
+        } catch (const Error &) {
+            // Nor will a list be made there, which is said.
+        }
     }
     Found found = lookAt(opened.place);
     std::optional<files::FileLock> lock;

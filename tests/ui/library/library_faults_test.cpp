@@ -376,6 +376,14 @@ private slots:
             QVERIFY2(said.contains("cannot be written") && said.contains("this run only"),
                      qPrintable(said));
         }
+        // Copies whose list is gone are no reason not to begin.
+        {
+            const LibraryPlace listless = place("read-only-listless");
+            importStudies(listless, {{m_folder / "head"}, ImportMode::copy}, {});
+            fs::remove(listless.listFile());
+            const ReadOnlyFolder lockedAsWell(listless.folder);
+            QVERIFY(openLibrary(listless.folder).place.inMemory);
+        }
         // One that could not be made is for this run.
         const OpenedLibrary run = openLibrary(empty.folder);
         QVERIFY(run.place.inMemory);
