@@ -70,6 +70,8 @@ void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
 
 void Document::requireOther(const std::vector<std::filesystem::path> &targets) const {
     const files::FileIds there(targets);
+    if (there.isEmpty())
+        return;
     for (const StudySource &source : m_sources)
         for (const QString &file : source.files + source.lasting)
             if (there.find(file.toStdString()))

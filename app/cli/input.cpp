@@ -33,6 +33,8 @@ using task::ErrorCode;
 void requireOther(const std::vector<std::filesystem::path> &outs, const std::filesystem::path &path,
                   const dicom::Catalogue &catalogue) {
     const files::FileIds there(outs);
+    if (there.isEmpty())
+        return;
     const auto check = [&](const std::filesystem::path &file) {
         if (const auto out = there.find(file))
             throw Error(ErrorCode::usage, "-o: is one of the files that are read", *out);

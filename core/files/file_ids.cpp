@@ -23,8 +23,6 @@ FileIds::FileIds(const std::vector<std::filesystem::path> &files) {
 }
 
 std::optional<std::filesystem::path> FileIds::find(const std::filesystem::path &path) const {
-    if (m_files.empty())
-        return std::nullopt;
     const auto id = idOf(path);
     const auto it = id ? m_files.find(*id) : m_files.end();
     return it == m_files.end() ? std::nullopt : std::optional(it->second);

@@ -16,6 +16,7 @@ class FileIds {
 public:
     /// Those that are there.
     explicit FileIds(const std::vector<std::filesystem::path> &files);
+    bool isEmpty() const { return m_files.empty(); }
     /// The one of them that a path leads to.
     std::optional<std::filesystem::path> find(const std::filesystem::path &path) const;
 
