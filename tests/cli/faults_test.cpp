@@ -1,75 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the world does to a program: kills it, fills its disk, changes its files, gives it no
-// memory. Each time it is done or it is not, nothing is half done, and one line says why.
+// What the world does to a program: kills it, changes its files, locks its folders. Each time it is
+// done or it is not, nothing is half done, and one line says why.
 #include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <functional>
-#include <iostream>
-#include <map>
 #include <random>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
-#include "core/decoder/decoder.h"
-#include "core/decoder/unpack_archive.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
-#include "core/dicom/write_series.h"
-#include "core/phantom/phantom.h"
-#include "core/preprocess/step_cache.h"
 #include "core/presets/preset.h"
-#include "core/presets/preset_library.h"
-#include "core/render/prepared_engine.h"
 #include "core/task/error.h"
-#include "core/volume/nrrd.h"
-#include "tests/cli/cli.h"
+#include "tests/cli/faults.h"
 #include "tests/support/files.h"
-#include "tests/support/little_memory.h"
 #include "tests/support/read_only_folder.h"
 
 namespace pellucid {
 
-using namespace test;
 using namespace std::chrono_literals;
 
 namespace {
 
-volume::Volume head(int slices, int side = 64) {
-    return phantom::makePhantom(
-        phantom::Kind::head,
-        phantom::phantomLattice(phantom::Kind::head,
-                                {.size = volume::GridSize{side, side, slices}}));
-}
-
-class Faults : public Cli {
-protected:
-    fs::path series(const std::string &name, int slices, int side = 64) {
-        dicom::writeCtSeries(folder / name, head(slices, side), {},
-                             dicom::TransferSyntax::explicitLittle);
-        return folder / name;
-    }
-    // Runs it in a child of its own and kills that after a while. True: it was killed in the
-    // middle.
-    template <class F> static bool killedAfter(std::chrono::microseconds time, F &&work) {
-        const pid_t child = ::fork();
-        if (child == 0) {
-            try {
-                work();
-            } catch (...) {
-                ::_exit(9);
-            }
-            ::_exit(0);
+// Runs it in a child of its own and kills that after a while. True: it was killed in the
+// middle.
+template <class F> bool killedAfter(std::chrono::microseconds time, F &&work) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        try {
+            work();
+        } catch (...) {
+            ::_exit(9);
         }
-        std::this_thread::sleep_for(time);
-        ::kill(child, SIGKILL);
-        int status = 0;
-        ::waitpid(child, &status, 0);
-        return WIFSIGNALED(status);
+        ::_exit(0);
     }
-};
+    std::this_thread::sleep_for(time);
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFSIGNALED(status);
+}
 
 } // namespace
 
@@ -304,53 +276,6 @@ TEST_F(Faults, ASeriesOfSeveralPatientsIsAskedForByItsUid) {
     EXPECT_FALSE(fs::exists(folder / "o.png"));
 }
 
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
-// One file that asks for more than there is costs itself.
-TEST_F(Faults, AFileThatAnnouncesTooMuchCostsNoOther) {
-    const fs::path in = series("both", 12, 256), huge = folder / "both/A.dcm";
-    std::string type = "ORIGINAL";
-    while (type.size() < 700)
-        type += "\\\\ABCDEFGHIJKLMNOP";
-    fs::copy_file(in / "IM0001.dcm", huge);
-    ASSERT_EQ(
-        run("dcmodify -nb -gin -m Rows=1 -m Columns=1 -i NumberOfFrames=65000 -i ImageType=\"" +
-            type + "\" " + quoted(huge))
-            .exitCode,
-        0);
-    const test::LittleMemory little(700);
-    const auto catalogue = dicom::scan({in});
-    ASSERT_EQ(catalogue.skipped.size(), 1U);
-    EXPECT_EQ(catalogue.skipped[0].path, huge);
-    EXPECT_EQ(catalogue.skipped[0].reason, "needs more memory than there is");
-    EXPECT_EQ(dicom::defaultSelection(catalogue).volume->frames.size(), 12U);
-}
-#endif
-
-// A few kilobytes that announce a hundred thousand frames each.
-TEST_F(Faults, ManyFramesOfSmallFilesAreNotHeldBeyondTheMemory) {
-    const fs::path in = series("frames", 1, 256);
-    std::string type = "ORIGINAL";
-    while (type.size() < 400)
-        type += "\\\\ABCDEFGHIJKLMNOP";
-    ASSERT_EQ(
-        std::system(("dcmodify -nb -m Rows=1 -m Columns=1 -i NumberOfFrames=65000 -i ImageType=\"" +
-                     type + "\" " + quoted(in / "IM0001.dcm") + " > /dev/null")
-                        .c_str()),
-        0);
-    for (int n = 2; n < 24; ++n) {
-        const fs::path copy = in / ("IM" + std::to_string(n) + ".dcm");
-        fs::copy_file(in / "IM0001.dcm", copy);
-        ASSERT_EQ(std::system(("dcmodify -nb -gin " + quoted(copy) + " > /dev/null").c_str()), 0);
-    }
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
-    for (const char *limit : {"ulimit -v 1500000;", "ulimit -v 3000000;"}) {
-        const auto r = cli("info " + quoted(in), limit);
-        EXPECT_TRUE(r.exitCode == 0 || r.exitCode == 3 || r.exitCode == 4) << r.exitCode << r.error;
-        EXPECT_NE((r.out + r.error).find("memory"), std::string::npos) << r.error;
-    }
-#endif
-}
-
 // A terminal obeys what it is shown.
 TEST_F(Faults, NamesOfFilesDoNotReachTheTerminalAsTheyAre) {
     const fs::path name = folder / "a\x1b[2J\x07\x9b\xe2\x80\xae\xd8\x9c\xe0\x82\x9b\xc2\x9b"
@@ -397,81 +322,6 @@ TEST_F(Faults, AFolderOfTwentyThousandFilesWithLoopsPipesAndDevicesIsReadToItsEn
     EXPECT_EQ(catalogue.skipped.size(), 20004U);
 }
 
-// Whenever work is asked to stop, it stops soon, and leaves nothing. (The window does not wait for
-// it: see cancelGivesTheProgramBackAtOnce.)
-TEST_F(Faults, CancellingIsPossibleAtEveryStage) {
-    const fs::path in = series("head", 160, 256), out = folder / "out.nrrd";
-    const fs::path archive = folder / "head.zip", unpacked = folder / "unpacked";
-    ASSERT_EQ(
-        run("cd " + quoted(folder.path()) + " && python3 -m zipfile -c head.zip head").exitCode, 0);
-    const auto catalogue = dicom::scan({in});
-    const dicom::VolumeEntry &entry = *dicom::defaultSelection(catalogue).volume;
-    const volume::Volume volume = dicom::loadVolume(entry).volume;
-    const classify::FieldWindow window{-900.0, 2000.0};
-    const classify::Look tissues =
-        presets::lookFor(presets::PresetLibrary({}).get("Bone over soft tissue").preset, window);
-    const classify::ShownFields fields{{classify::densityField(volume, window)}, {}};
-    render::Scene scene;
-    scene.tolerance = 1e-4;
-    using Stage = std::function<void(const task::Progress &)>;
-    const std::map<std::string, Stage> stages{
-        {"unpacking",
-         [&](const task::Progress &progress) {
-             fs::create_directories(unpacked);
-             decoder::unpackArchive(decoder::Decoder::ofProgram(), archive, unpacked, progress);
-         }},
-        {"headers", [&](const task::Progress &progress) { dicom::scan({in}, progress); }},
-        {"pixels", [&](const task::Progress &progress) { dicom::loadVolume(entry, progress); }},
-        {"classes",
-         [&](const task::Progress &progress) {
-             preprocess::StepCache steps(0);
-             classify::shownFields(volume, window, tissues, &steps, progress);
-         }},
-        {"spectra",
-         [&](const task::Progress &progress) {
-             render::prepareEngine(scene, fields, {}, progress);
-         }},
-        {"writing", [&](const task::Progress &progress) {
-             volume::writeNrrd(out, volume, volume::NrrdEncoding::gzip, progress);
-         }}};
-    using Clock = std::chrono::steady_clock;
-    const auto secondsSince = [](Clock::time_point start) {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    };
-    for (const auto &[name, stage] : stages) {
-        stage({}); // plans of transforms are made once
-        const auto start = Clock::now();
-        stage({});
-        const double whole = secondsSince(start);
-        double slowest = 0.0;
-        int cancelled = 0;
-        constexpr int steps = 8;
-        for (int n = 0; n < steps; ++n) {
-            fs::remove(out);
-            fs::remove_all(unpacked);
-            std::stop_source stop;
-            Clock::time_point asked;
-            std::jthread later([&] {
-                std::this_thread::sleep_for(std::chrono::duration<double>(whole * n / steps));
-                asked = Clock::now();
-                stop.request_stop();
-            });
-            try {
-                stage(task::Progress(stop.get_token()));
-            } catch (const task::Cancelled &) {
-                later.join();
-                slowest = std::max(slowest, secondsSince(asked));
-                ++cancelled;
-                EXPECT_FALSE(fs::exists(out));
-            }
-        }
-        std::cout << name << ": " << 1e3 * whole << " ms, cancelled " << cancelled
-                  << " times, at most " << 1e3 * slowest << " ms after it was asked to\n";
-        EXPECT_GE(cancelled, steps / 2) << name;
-        EXPECT_LT(slowest, 0.25 + 0.3 * whole) << name; // a part of it at most, on a busy machine
-    }
-}
-
 // Nothing is written, nothing that is there is harmed.
 TEST_F(Faults, AReadOnlyFolderIsLeftAsItIs) {
     const fs::path in = series("head", 12), locked = folder / "locked";
@@ -499,33 +349,5 @@ TEST_F(Faults, AReadOnlyFolderIsLeftAsItIs) {
     EXPECT_TRUE(presets::readPreset(kept).notes.empty());
     EXPECT_EQ(entries(locked), 1U);
 }
-
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
-// From too little to start to enough, in steps: done, or refused in one line with a documented
-// code.
-TEST_F(Faults, LittleMemoryIsRefusedOrReduced) {
-    const fs::path in = series("head", 96, 192), out = folder / "out.png";
-    int done = 0, refused = 0;
-    for (int mb = 150; mb <= 1500; mb += 75) {
-        fs::remove(out);
-        const std::string limit = "ulimit -v " + std::to_string(mb * 1024) + ";";
-        if (cli("--version", limit).exitCode != 0)
-            continue; // the libraries themselves do not fit
-        const auto r = cli("render " + quoted(in) + " -o " + quoted(out) + " --threads 2", limit);
-        EXPECT_EQ(fs::exists(out), r.exitCode == 0) << mb;
-        if (r.exitCode == 0) {
-            ++done;
-            continue;
-        }
-        ++refused;
-        // The decoder has the same limit.
-        const bool isDecoder = r.error.find("the decoder cannot be started") != std::string::npos;
-        EXPECT_EQ(r.exitCode, isDecoder ? 1 : 4) << mb << " MB: " << r.error;
-        EXPECT_TRUE(isDecoder || r.error.find("memory") != std::string::npos) << mb << r.error;
-    }
-    EXPECT_GT(done, 0);
-    EXPECT_GT(refused, 0);
-}
-#endif
 
 } // namespace pellucid

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How soon work ends that is asked to.
+#include <chrono>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <thread>
+
+#include "core/decoder/decoder.h"
+#include "core/decoder/unpack_archive.h"
+#include "core/dicom/load_volume.h"
+#include "core/dicom/scan.h"
+#include "core/preprocess/step_cache.h"
+#include "core/presets/preset_library.h"
+#include "core/render/prepared_engine.h"
+#include "core/volume/nrrd.h"
+#include "tests/cli/faults.h"
+
+namespace pellucid {
+
+// Whenever work is asked to stop, it stops soon, and leaves nothing. (The window does not wait for
+// it: see cancelGivesTheProgramBackAtOnce.)
+TEST_F(Faults, CancellingIsPossibleAtEveryStage) {
+    const fs::path in = series("head", 160, 256), out = folder / "out.nrrd";
+    const fs::path archive = folder / "head.zip", unpacked = folder / "unpacked";
+    ASSERT_EQ(
+        run("cd " + quoted(folder.path()) + " && python3 -m zipfile -c head.zip head").exitCode, 0);
+    const auto catalogue = dicom::scan({in});
+    const dicom::VolumeEntry &entry = *dicom::defaultSelection(catalogue).volume;
+    const volume::Volume volume = dicom::loadVolume(entry).volume;
+    const classify::FieldWindow window{-900.0, 2000.0};
+    const classify::Look tissues =
+        presets::lookFor(presets::PresetLibrary({}).get("Bone over soft tissue").preset, window);
+    const classify::ShownFields fields{{classify::densityField(volume, window)}, {}};
+    render::Scene scene;
+    scene.tolerance = 1e-4;
+    using Stage = std::function<void(const task::Progress &)>;
+    const std::map<std::string, Stage> stages{
+        {"unpacking",
+         [&](const task::Progress &progress) {
+             fs::create_directories(unpacked);
+             decoder::unpackArchive(decoder::Decoder::ofProgram(), archive, unpacked, progress);
+         }},
+        {"headers", [&](const task::Progress &progress) { dicom::scan({in}, progress); }},
+        {"pixels", [&](const task::Progress &progress) { dicom::loadVolume(entry, progress); }},
+        {"classes",
+         [&](const task::Progress &progress) {
+             preprocess::StepCache steps(0);
+             classify::shownFields(volume, window, tissues, &steps, progress);
+         }},
+        {"spectra",
+         [&](const task::Progress &progress) {
+             render::prepareEngine(scene, fields, {}, progress);
+         }},
+        {"writing", [&](const task::Progress &progress) {
+             volume::writeNrrd(out, volume, volume::NrrdEncoding::gzip, progress);
+         }}};
+    using Clock = std::chrono::steady_clock;
+    const auto secondsSince = [](Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    for (const auto &[name, stage] : stages) {
+        stage({}); // plans of transforms are made once
+        const auto start = Clock::now();
+        stage({});
+        const double whole = secondsSince(start);
+        double slowest = 0.0;
+        int cancelled = 0;
+        constexpr int steps = 8;
+        for (int n = 0; n < steps; ++n) {
+            fs::remove(out);
+            fs::remove_all(unpacked);
+            std::stop_source stop;
+            Clock::time_point asked;
+            std::jthread later([&] {
+                std::this_thread::sleep_for(std::chrono::duration<double>(whole * n / steps));
+                asked = Clock::now();
+                stop.request_stop();
+            });
+            try {
+                stage(task::Progress(stop.get_token()));
+            } catch (const task::Cancelled &) {
+                later.join();
+                slowest = std::max(slowest, secondsSince(asked));
+                ++cancelled;
+                EXPECT_FALSE(fs::exists(out));
+            }
+        }
+        std::cout << name << ": " << 1e3 * whole << " ms, cancelled " << cancelled
+                  << " times, at most " << 1e3 * slowest << " ms after it was asked to\n";
+        EXPECT_GE(cancelled, steps / 2) << name;
+        EXPECT_LT(slowest, 0.25 + 0.3 * whole) << name; // a part of it at most, on a busy machine
+    }
+}
+
+} // namespace pellucid
