@@ -48,6 +48,10 @@ void Document::closeSource(int index) {
     emit sourcesChanged();
 }
 
+QString Document::place() const {
+    return m_currentSource < 0 ? QString() : m_sources[std::size_t(m_currentSource)].place();
+}
+
 void Document::setCurrentSource(int index) {
     if (index == m_currentSource)
         return;
@@ -95,6 +99,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
     if (!same) {
         // Edits belong to the study they were made on.
         m_undo.clear();
+        m_brightness.reset();
         m_crosshair = middleSample(volume.lattice());
         // Of few slices only their own planes show more than a strip.
         m_cut.axes = volume.lattice().size().k < fewSlices && volume.notes().placed
@@ -220,6 +225,13 @@ void Document::selectMeasurement(int index) {
         return;
     m_selectedMeasurement = index;
     emit selectedMeasurementChanged();
+}
+
+void Document::setBrightness(const std::optional<render::ToneRange> &brightness) {
+    if (brightness == m_brightness)
+        return;
+    m_brightness = brightness;
+    emit brightnessChanged();
 }
 
 void Document::setCrosshair(volume::PatientPoint point) {

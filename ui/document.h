@@ -12,6 +12,7 @@
 #include "core/dicom/catalogue.h"
 #include "core/measure/measurement.h"
 #include "core/mpr/reslice.h"
+#include "core/render/compose.h"
 #include "core/render/scene.h"
 #include "core/volume/volume.h"
 #include "ui/study_source.h"
@@ -48,6 +49,8 @@ public:
     /// It is listed no more; indices stay.
     void closeSource(int index);
     int currentSource() const { return m_currentSource; }
+    /// Of the current source, if there is one.
+    QString place() const;
     void setCurrentSource(int index);
 
     const std::vector<dicom::Skipped> &problems() const { return m_problems; }
@@ -82,6 +85,11 @@ public:
     const volume::ValueWindow &displayWindow() const { return m_window; }
     /// The state behind the undo commands; call through `EditDisplayWindow`.
     void setDisplayWindow(const volume::ValueWindow &window);
+
+    /// What the projection's brightness came to be where the scene fixes none; none: the next frame
+    /// tells it.
+    const std::optional<render::ToneRange> &brightness() const { return m_brightness; }
+    void setBrightness(const std::optional<render::ToneRange> &brightness);
 
     volume::PatientPoint crosshair() const { return m_crosshair; }
     void setCrosshair(volume::PatientPoint point);
@@ -120,6 +128,7 @@ signals:
     void cameraChanged();
     void sceneChanged();
     void displayWindowChanged();
+    void brightnessChanged();
     void crosshairChanged();
     void cutChanged();
     void measurementsChanged();
@@ -139,6 +148,7 @@ private:
     std::optional<classify::TissueClass> m_tint;
     render::Scene m_scene;
     volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
+    std::optional<render::ToneRange> m_brightness;
     volume::PatientPoint m_crosshair;
     Cut m_cut;
     std::vector<Measured> m_measured;

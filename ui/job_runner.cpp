@@ -40,7 +40,7 @@ void JobRunner::joinFinished() {
     std::erase_if(m_threads, [](const Thread &t) { return t.over->load(); });
 }
 
-void JobRunner::start(const QString &title, Work work) {
+void JobRunner::start(const QString &title, Work work, const QString &about) {
     m_title = title;
     cancel();
     joinFinished();
@@ -48,18 +48,18 @@ void JobRunner::start(const QString &title, Work work) {
     m_running = true;
     emit started(title);
     try {
-        launch(generation, std::move(work));
+        launch(generation, std::move(work), about);
     } catch (const std::exception &) { // there is no thread for it
         m_running = false;
-        emit failed(tr("not enough memory"), {});
+        emit failed(tr("not enough memory"), about);
         emit finished();
     }
 }
 
-void JobRunner::launch(quint64 generation, Work work) {
+void JobRunner::launch(quint64 generation, Work work, const QString &about) {
     auto over = std::make_shared<std::atomic<bool>>(false);
     m_threads.push_back(
-        {over, std::jthread([this, generation, over,
+        {over, std::jthread([this, generation, over, about,
                              work = std::move(work)](const std::stop_token &stop) {
              std::exception_ptr failure;
              try {
@@ -82,13 +82,13 @@ void JobRunner::launch(quint64 generation, Work work) {
              } catch (...) {
                  failure = std::current_exception();
              }
-             finish(generation, failure, stop);
+             finish(generation, failure, about, stop);
              over->store(true);
          })});
 }
 
 // Whatever comes of saying it: who waits for the end is told.
-void JobRunner::say(const std::exception_ptr &failure) {
+void JobRunner::say(const std::exception_ptr &failure, const QString &about) {
     if (!failure)
         return;
     try {
@@ -98,20 +98,20 @@ void JobRunner::say(const std::exception_ptr &failure) {
         } catch (...) {
             said = currentFailure();
         }
-        emit failed(said.what, said.path);
+        emit failed(said.what, said.path.isEmpty() ? about : said.path);
     } catch (const std::exception &) { // there is no memory for the words either
     }
 }
 
 // The last word of the thread that worked. Work that failed for want of memory may have left none
 // for it; others give some back.
-void JobRunner::finish(quint64 generation, const std::exception_ptr &failure,
+void JobRunner::finish(quint64 generation, const std::exception_ptr &failure, const QString &about,
                        const std::stop_token &stop) noexcept {
     while (!stop.stop_requested()) {
         try {
-            post(generation, [this, failure] {
+            post(generation, [this, failure, about] {
                 m_running = false;
-                say(failure);
+                say(failure, about);
                 emit finished();
             });
             return;

@@ -43,7 +43,8 @@ public:
     explicit JobRunner(QObject *parent = nullptr);
     ~JobRunner() override;
 
-    void start(const QString &title, Work work);
+    /// `about`: what failures are about that name no file.
+    void start(const QString &title, Work work, const QString &about = {});
     void cancel();
     /// Cancels and waits until no work runs any more.
     void join();
@@ -65,10 +66,10 @@ private:
         std::jthread thread;
     };
     void post(quint64 generation, std::function<void()> onUiThread);
-    void launch(quint64 generation, Work work);
-    void finish(quint64 generation, const std::exception_ptr &failure,
+    void launch(quint64 generation, Work work, const QString &about);
+    void finish(quint64 generation, const std::exception_ptr &failure, const QString &about,
                 const std::stop_token &stop) noexcept;
-    void say(const std::exception_ptr &failure);
+    void say(const std::exception_ptr &failure, const QString &about);
     void joinFinished();
 
     quint64 m_generation = 0;

@@ -6,6 +6,7 @@
 
 #include "core/dicom/load_volume.h"
 #include "core/mpr/plane.h"
+#include "core/render/compose.h"
 #include "core/render/prepared_engine.h"
 #include "ui/look_preparer.h"
 
@@ -24,6 +25,7 @@ struct KeptStudy {
     volume::ValueWindow displayWindow;
     volume::PatientPoint crosshair;
     mpr::PlaneAxes axes;
+    std::optional<render::ToneRange> brightness;
 
     std::size_t bytes() const;
 };

@@ -245,38 +245,40 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
     stopOwnJob();
     m_layers.reset();
     m_layersOf.reset();
-    m_jobs.start(tr("Preparing the parts of the look"), [this, volume = *m_document.volume(),
-                                                         wanted, steps = m_steps](const Job &job) {
-        const auto mixture = classify::mixtureOf(wanted.look);
-        const classify::FieldWindow window = windowOf(volume, wanted);
-        const auto announce = [&](const volume::Volume &of, bool isLast,
-                                  const task::Progress &progress) {
-            const auto layers = render::LayerSet::prepare(
-                planningScene(of, wanted), mixture.layers.size(),
-                [&](std::size_t n, const task::Progress &p) {
-                    return classify::cropped(
-                        classify::layerField(of, window, mixture.layers[n], steps.get(), p),
-                        wanted.crop);
-                },
-                // Half of it: engines of the sum are to come.
-                {task::availableMemoryBytes() / 2}, progress,
-                shading::shadingScale(volume.lattice()));
-            job.deliver([this, layers, wanted, isLast] {
-                m_layers = layers;
-                m_layersOf = wanted;
-                if (isLast)
-                    m_layersUnderway.reset();
-                const PreparedFor now(m_document);
-                if (m_prepared && now != *m_prepared && now.hasLayersOf(wanted))
-                    showLayers();
-            });
-        };
-        // First of a small volume: the hand does not wait.
-        if (isLarge(volume))
-            announce(classify::coarseVolume(volume, coarseSide), false,
-                     job.progress().part(0.0, 0.1));
-        announce(volume, true, job.progress().part(0.1, 1.0));
-    });
+    m_jobs.start(
+        tr("Preparing the parts of the look"),
+        [this, volume = *m_document.volume(), wanted, steps = m_steps](const Job &job) {
+            const auto mixture = classify::mixtureOf(wanted.look);
+            const classify::FieldWindow window = windowOf(volume, wanted);
+            const auto announce = [&](const volume::Volume &of, bool isLast,
+                                      const task::Progress &progress) {
+                const auto layers = render::LayerSet::prepare(
+                    planningScene(of, wanted), mixture.layers.size(),
+                    [&](std::size_t n, const task::Progress &p) {
+                        return classify::cropped(
+                            classify::layerField(of, window, mixture.layers[n], steps.get(), p),
+                            wanted.crop);
+                    },
+                    // Half of it: engines of the sum are to come.
+                    {task::availableMemoryBytes() / 2}, progress,
+                    shading::shadingScale(volume.lattice()));
+                job.deliver([this, layers, wanted, isLast] {
+                    m_layers = layers;
+                    m_layersOf = wanted;
+                    if (isLast)
+                        m_layersUnderway.reset();
+                    const PreparedFor now(m_document);
+                    if (m_prepared && now != *m_prepared && now.hasLayersOf(wanted))
+                        showLayers();
+                });
+            };
+            // First of a small volume: the hand does not wait.
+            if (isLarge(volume))
+                announce(classify::coarseVolume(volume, coarseSide), false,
+                         job.progress().part(0.0, 0.1));
+            announce(volume, true, job.progress().part(0.1, 1.0));
+        },
+        m_document.place());
     m_layersUnderway = wanted;
     if (!m_jobs.isRunning())
         giveUp();
@@ -287,9 +289,11 @@ void LookPreparer::startPreparing(bool coarseFirst) {
     m_rest.stop();
     stopOwnJob();
     emit planChanged(PlanState::underway);
-    m_jobs.start(tr("Preparing the projection"),
-                 [volume = *m_document.volume(), prepare = preparation(wanted, 0.0, coarseFirst)](
-                     const Job &job) { prepare(job, volume); });
+    m_jobs.start(
+        tr("Preparing the projection"),
+        [volume = *m_document.volume(),
+         prepare = preparation(wanted, 0.0, coarseFirst)](const Job &job) { prepare(job, volume); },
+        m_document.place());
     // Now that the end of the former job has been told.
     expect(wanted);
     m_coarseToCome = coarseFirst;

@@ -59,6 +59,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
                        QWidget *parent)
     : QMainWindow(parent), m_bench(bench), m_theme(theme), m_preferences(preferences) {
     const render::Camera camera = bench.document.scene().camera; // panes fit their own
+    const auto brightness = bench.document.brightness();
     setObjectName("mainWindow");
     setAcceptDrops(true);
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
@@ -93,6 +94,8 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
             &ProjectionView::setPlanState);
     connect(&m_bench.opener, &StudyOpener::cameraKept, this,
             [this](const render::Camera &kept) { m_projection->adoptCamera(kept); });
+    connect(&m_bench.opener, &StudyOpener::brightnessKept, m_projection,
+            &ProjectionView::adoptTone);
     connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
     connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
             &ProjectionView::setMessage);
@@ -113,6 +116,8 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
             &MainWindow::compareLooks);
     showVolumeState();
     bench.document.announce(); // what is open already
+    if (brightness)
+        m_projection->adoptTone(*brightness);
     if (const auto &engine = bench.preparer.fullEngine())
         bench.preparer.adopt(*bench.preparer.preparedFor(), *engine);
     if (bench.document.volume()) // once the panes have their sizes

@@ -41,7 +41,7 @@ std::optional<Session> currentSession(const Document &document) {
     session.phantom = source.phantom;
     session.key = source.digest();
     session.shown = {document.scene(), document.displayWindow(), document.crosshair(),
-                     document.cut()};
+                     document.cut(), document.brightness()};
     if (session.files.isEmpty() && session.phantom.isEmpty())
         return std::nullopt;
     return session;

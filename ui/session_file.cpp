@@ -69,12 +69,21 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
     return mpr::PlaneAxes(axes);
 }
 
+std::optional<render::ToneRange> brightnessFrom(const QJsonValue &value) {
+    const QJsonArray in = value.toArray();
+    const render::ToneRange range{in[0].toDouble(), in[1].toDouble()};
+    return range.low < range.high ? std::optional(range) : std::nullopt; // none, of old programs
+}
+
 QJsonObject objectOf(const Session &s) {
     const mpr::ResliceOptions &cut = s.shown.cut.options;
     QJsonArray leftOut;
     for (const dicom::Skipped &skipped : s.leftOut)
         leftOut << QJsonObject{{"path", QString::fromStdString(skipped.path.string())},
                                {"reason", QString::fromStdString(skipped.reason)}};
+    QJsonArray brightness;
+    if (s.shown.brightness)
+        brightness = {s.shown.brightness->low, s.shown.brightness->high};
     return {
         {"schema", schema},
         {"ended", s.hasEnded},
@@ -87,6 +96,7 @@ QJsonObject objectOf(const Session &s) {
         {"window", QJsonObject{{"center", s.shown.displayWindow.center},
                                {"width", s.shown.displayWindow.width},
                                {"name", QString::fromStdString(s.shown.displayWindow.name)}}},
+        {"brightness", brightness},
         {"crosshair", toJson(s.shown.crosshair.mm)},
         {"planes", toJson(s.shown.cut.axes)},
         {"slab", QJsonObject{{"mm", cut.slab.thicknessMm}, {"mode", int(cut.slab.mode)}}},
@@ -113,6 +123,7 @@ Session fromJson(const QJsonObject &in) {
     s.shown.displayWindow = {window["center"].toDouble(),
                              std::max(1e-6, window["width"].toDouble(1.0)),
                              window["name"].toString().toStdString()};
+    s.shown.brightness = brightnessFrom(in["brightness"]);
     s.shown.crosshair = {vectorFrom(in["crosshair"])};
     s.shown.cut.axes = planesFrom(in["planes"].toArray());
     const QJsonObject slab = in["slab"].toObject();

@@ -31,7 +31,7 @@ void StudyOpener::keepCurrent() {
     m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
                  m_document.defaultFieldWindow(), m_document.scene(), m_preparer.preparedFor(),
                  m_preparer.fullEngine(), m_document.displayWindow(), m_document.crosshair(),
-                 m_document.cut().axes});
+                 m_document.cut().axes, m_document.brightness()});
     // Half of what there is belongs to what comes.
     m_kept.trim(task::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
@@ -45,6 +45,8 @@ void StudyOpener::goOn(const Continuity &continuity) {
     m_document.setCrosshair(continuity.crosshair);
     m_document.setCut(continuity.cut);
     emit cameraKept(scene.camera);
+    if (continuity.brightness)
+        emit brightnessKept(*continuity.brightness);
 }
 
 void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &continuity) {
@@ -62,7 +64,7 @@ void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &
     scene.camera = m_document.scene().camera;
     scene.tolerance = m_document.scene().tolerance;
     scene.interpolation = m_document.scene().interpolation;
-    // The scene first: the brightness is taken from the engine's first frame.
+    // The scene first: without a brightness of its own it is taken from the engine's first frame.
     m_preparer.setHeld(true);
     m_document.setScene(scene);
     m_preparer.setHeld(false);
@@ -74,6 +76,8 @@ void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &
     cut.axes = study.axes;
     m_document.setCut(cut);
     emit cameraKept(study.scene.camera);
+    if (study.brightness)
+        emit brightnessKept(*study.brightness);
     m_preparer.prepareAgain(); // what changed, or was dropped
 }
 
@@ -83,28 +87,31 @@ void StudyOpener::openPaths(const QStringList &paths) {
     std::vector<std::filesystem::path> files;
     for (const QString &path : paths)
         files.emplace_back(path.toStdString());
-    m_jobs.start(tr("Reading headers"), [this, files, paths](const Job &job) {
-        auto catalogue =
-            std::make_shared<const dicom::Catalogue>(dicom::scan(files, job.progress()));
-        job.deliver([this, catalogue, files, paths] {
-            m_document.addProblems(catalogue->skipped);
-            if (catalogue->empty()) {
-                if (catalogue->skipped.empty())
-                    m_document.addProblems({{files.front(), "holds no images"}});
+    m_jobs.start(
+        tr("Reading headers"),
+        [this, files, paths](const Job &job) {
+            auto catalogue =
+                std::make_shared<const dicom::Catalogue>(dicom::scan(files, job.progress()));
+            job.deliver([this, catalogue, files, paths] {
+                m_document.addProblems(catalogue->skipped);
+                if (catalogue->empty()) {
+                    if (catalogue->skipped.empty())
+                        m_document.addProblems({{files.front(), "holds no images"}});
+                    endScan();
+                    m_preparer.prepareAgain(); // what the scan stopped
+                    return;
+                }
+                const auto indices = m_document.addSources(sourcesFrom(catalogue));
+                // Files may have changed since.
+                for (const int index : indices)
+                    m_kept.take(index);
+                if (!m_resumption) // what the user named was remembered then
+                    emit pathsOpened(paths);
                 endScan();
-                m_preparer.prepareAgain(); // what the scan stopped
-                return;
-            }
-            const auto indices = m_document.addSources(sourcesFrom(catalogue));
-            // Files may have changed since.
-            for (const int index : indices)
-                m_kept.take(index);
-            if (!m_resumption) // what the user named was remembered then
-                emit pathsOpened(paths);
-            endScan();
-            openSource(wantedOf(indices, indices[defaultSource(*catalogue)]));
-        });
-    });
+                openSource(wantedOf(indices, indices[defaultSource(*catalogue)]));
+            });
+        },
+        paths.front());
     if (m_jobs.isRunning()) // there may have been no thread for it
         m_preparer.setHeld(true);
 }
@@ -158,7 +165,7 @@ void StudyOpener::closeSource(int index) {
 
 Continuity StudyOpener::leavePhase(int next) {
     Continuity stays{m_document.scene(), m_document.displayWindow(), m_document.crosshair(),
-                     m_document.cut()};
+                     m_document.cut(), m_document.brightness()};
     // A volume's own window would differ from phase to phase.
     if (m_document.volume()->unit() == volume::ValueUnit::none)
         stays.scene.fieldWindow = m_document.fieldWindow();
@@ -187,24 +194,25 @@ void StudyOpener::openPhase(int index) {
     if (m_document.volume()->unit() == volume::ValueUnit::none)
         scene.fieldWindow = m_document.fieldWindow();
     const PreparedFor wanted(scene);
-    m_jobs.start(tr("Loading %1").arg(seriesText(source.volume)),
-                 [this, source, index, wanted,
-                  prepare = m_preparer.preparation(wanted, 0.6, false)](const Job &job) {
-                     const dicom::LoadedVolume loaded =
-                         source.load(job.progress().part(0.0, 0.6), {});
-                     const volume::ValueWindow window = initialWindow(loaded.volume);
-                     const auto field = classify::defaultFieldWindow(loaded.volume);
-                     job.deliver([this, loaded, window, field, index, wanted] {
-                         const Continuity stays = leavePhase(index);
-                         m_document.addProblems(loaded.skipped);
-                         m_document.setVolume(loaded.volume, window, field, false);
-                         m_preparer.expect(wanted);
-                         goOn(stays);
-                         m_preparer.prepareAgain(); // the look may have been changed meanwhile
-                     });
-                     job.stage(tr("Preparing the projection"));
-                     prepare(job, loaded.volume);
-                 });
+    m_jobs.start(
+        tr("Loading %1").arg(seriesText(source.volume)),
+        [this, source, index, wanted,
+         prepare = m_preparer.preparation(wanted, 0.6, false)](const Job &job) {
+            const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), {});
+            const volume::ValueWindow window = initialWindow(loaded.volume);
+            const auto field = classify::defaultFieldWindow(loaded.volume);
+            job.deliver([this, loaded, window, field, index, wanted] {
+                const Continuity stays = leavePhase(index);
+                m_document.addProblems(loaded.skipped);
+                m_document.setVolume(loaded.volume, window, field, false);
+                m_preparer.expect(wanted);
+                goOn(stays);
+                m_preparer.prepareAgain(); // the look may have been changed meanwhile
+            });
+            job.stage(tr("Preparing the projection"));
+            prepare(job, loaded.volume);
+        },
+        source.place());
 }
 
 void StudyOpener::openSource(int index) {
@@ -255,7 +263,8 @@ void StudyOpener::openSource(int index) {
             }
             job.stage(tr("Preparing the projection"));
             prepare(job, volume);
-        });
+        },
+        source.place());
     m_preparer.expect(wanted);
 }
 

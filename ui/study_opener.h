@@ -20,6 +20,7 @@ struct Continuity {
     volume::ValueWindow displayWindow;
     volume::PatientPoint crosshair;
     Cut cut;
+    std::optional<render::ToneRange> brightness; ///< see Document
 };
 
 /// The way from a path to a turning picture, as jobs: scan, choose, load with previews, and have
@@ -52,6 +53,7 @@ signals:
     void pathsOpened(const QStringList &paths);
     /// The way the study that came back was looked at.
     void cameraKept(const pellucid::render::Camera &camera);
+    void brightnessKept(const pellucid::render::ToneRange &range);
     /// The brightness of the projection is to stay, too.
     void phaseLeft();
     /// The open volume cannot be projected.

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <QCryptographicHash>
+#include <QFileInfo>
 
 #include "core/dicom/scan.h"
 #include "core/phantom/phantom.h"
@@ -70,6 +71,10 @@ dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
 }
 
 } // namespace
+
+QString StudySource::place() const {
+    return lasting.size() > 1 ? QFileInfo(lasting.front()).path() : lasting.value(0);
+}
 
 QString StudySource::digest() const {
     return QCryptographicHash::hash(key().toUtf8(), QCryptographicHash::Sha256).toHex();

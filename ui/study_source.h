@@ -29,6 +29,9 @@ struct StudySource {
     /// The user has closed it: not listed any more.
     bool isClosed = false;
 
+    /// The file, or the folder of its files, that is named where something about it is said; a
+    /// phantom has none.
+    QString place() const;
     /// What tells it from every other.
     QString key() const { return study.key() + "\n" + volume.key(); }
     /// The same without names in it, for files.

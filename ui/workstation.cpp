@@ -27,7 +27,8 @@ Workstation::Workstation(std::optional<EngineChoice> engine)
     connect(&m_keeping, &QTimer::timeout, this, [this] { keepWhatIsOpen(false); });
     for (const auto changed :
          {&Document::volumeChanged, &Document::sceneChanged, &Document::cameraChanged,
-          &Document::displayWindowChanged, &Document::crosshairChanged, &Document::cutChanged})
+          &Document::displayWindowChanged, &Document::brightnessChanged,
+          &Document::crosshairChanged, &Document::cutChanged})
         connect(&m_bench.document, changed, this, [this] {
             if (!m_keeping.isActive()) // a hand that does not rest is kept, too
                 m_keeping.start();

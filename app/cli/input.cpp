@@ -109,6 +109,15 @@ double Stopwatch::lapMs() {
     throw Error(ErrorCode::unusable, reason, path);
 }
 
+void addSeriesOption(CLI::App &command, std::string &series) {
+    const CLI::Validator notEmpty(
+        [](const std::string &text) { return text.empty() ? "it is empty" : ""; }, "");
+    command
+        .add_option("--series", series,
+                    "Series number or UID; default: the volume with most voxels")
+        ->check(notEmpty);
+}
+
 Input openInput(const std::filesystem::path &path, const std::string &series,
                 const std::vector<std::filesystem::path> &outs, const Context &context) {
     Stopwatch watch;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "app/cli/commands.h"
 #include "core/classify/density_field.h"
 #include "core/dicom/catalogue.h"
@@ -21,6 +23,9 @@ struct Input {
     std::vector<dicom::Skipped> skipped;
     double scanMs = 0.0, loadMs = 0.0;
 };
+
+/// --series, of a command that opens an input.
+void addSeriesOption(CLI::App &command, std::string &series);
 
 /// Scans a path and loads one volume of it: of the series named, else the one with most voxels.
 /// What is not used or not shown is said on stderr. *Throws* Error{unusable} naming the path;

@@ -217,8 +217,7 @@ void addRenderCommand(CLI::App &app, const Context &context) {
         ->required();
     c->add_option("-o,--output", o->out, "The image: .png, .npy, .nrrd or .dcm (Secondary Capture)")
         ->required();
-    c->add_option("--series", o->series,
-                  "Series number or UID; default: the volume with most voxels");
+    addSeriesOption(*c, o->series);
     addSceneOptions(*c, o->scene);
     c->add_option("--engine", o->engine, "auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));

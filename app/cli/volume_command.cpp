@@ -55,8 +55,7 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
     c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR, a ZIP archive or an NRRD file")
         ->required();
     c->add_option("-o,--output", o->out, "The NRRD file")->required();
-    c->add_option("--series", o->series,
-                  "Series number or UID; default: the volume with most voxels");
+    addSeriesOption(*c, o->series);
     CLI::Option *field =
         c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
     CLI::Option *tissue = c->add_option("--class", o->tissue,

@@ -342,7 +342,7 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     const auto count = number(&dataset, DCM_NumberOfFrames);
     const double most = std::min(double(decoder::mostFrames), double(fileBytes));
     const int frames = count && *count >= 1.0 ? int(std::min(*count, most)) : 1;
-    h.announcedFrames = count && *count >= 1.0 ? int(std::min(*count, 2e9)) : 1;
+    h.announcedFrames = count && *count >= 1.0 ? int(std::min(*count, 2147483647.0)) : 1;
     for (int n = 0; n < frames; ++n) {
         FrameHeader frame = shared;
         if (DcmItem *groups = sequenceItem(&dataset, DCM_PerFrameFunctionalGroupsSequence, n)) {

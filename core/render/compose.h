@@ -12,6 +12,7 @@ namespace pellucid::render {
 /// The two image values that a tone maps to black and white.
 struct ToneRange {
     double low = 0.0, high = 1.0;
+    bool operator==(const ToneRange &) const = default;
 };
 
 /// The tone's ends where they are given, else 0 and the 99.8 % quantile of the pixels' brightest

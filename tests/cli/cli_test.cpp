@@ -165,6 +165,22 @@ TEST_F(Cli, SecondaryCapturesBelongToTheStudy) {
     EXPECT_EQ(value(second.out, "(0020,0013)"), "2");
 }
 
+TEST_F(Cli, TheSeriesThatIsNamedIsTheOneThatIsRead) {
+    const fs::path series = phantomFolder("--kind cube --size 16x16x16");
+    const auto render = [&](const std::string &named) {
+        return cli("render " + quoted(series) + " -o " + quoted(folder / "image.png") +
+                   " --json --series " + named);
+    };
+    const auto found = render("1");
+    ASSERT_EQ(found.exitCode, 0) << found.error;
+    const std::string uid = json::parse(found.out)["volume"]["series"];
+    EXPECT_EQ(render(uid).exitCode, 0);
+    EXPECT_EQ(render("77").exitCode, 3);
+    const auto empty = render("''");
+    EXPECT_EQ(empty.exitCode, 2);
+    EXPECT_NE(empty.error.find("--series: it is empty"), std::string::npos) << empty.error;
+}
+
 TEST_F(Cli, VolumeWritesValuesAndField) {
     const fs::path series = phantomFolder("--kind head --size 32x30x8 --tilt 15");
     ASSERT_EQ(cli("volume " + quoted(series) + " -o " + quoted(folder / "v.nrrd")).exitCode, 0);

@@ -119,28 +119,40 @@ private slots:
         QCOMPARE(kept().leftOut[0].path, series / "IM0099.dcm");
     }
 
-    // Letters, cube and scale are those of the picture that comes back.
-    void whatIsTakenUpHasItsLetters() {
+    // Picture, letters, cube and scale are those of before.
+    void whatIsTakenUpIsSeenAsBefore() {
         const auto turned = [](ui::Document &document) {
             render::Camera camera = document.scene().camera;
             camera.orientation =
                 glm::normalize(glm::dquat(0.9, 0.1, 0.3, 0.0)) * camera.orientation;
             return camera;
         };
+        std::optional<render::ToneRange> brightness;
+        QImage picture;
         {
             ui::Workstation program;
             program.window().openPaths({headPath()});
             ui::Document &document = program.bench().document;
             QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
-            document.setCamera(turned(document));
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+            auto *pane = program.window().findChild<ui::ProjectionView *>();
+            const auto rests = [&] { return pane->showsWhatIsAskedFor(); };
+            QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs); // and has its brightness, of the front
+            render::Camera camera = turned(document);
+            camera.panMm = {30.0, 0.0};
+            emit program.bench().opener.cameraKept(camera);
+            QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs);
+            brightness = document.brightness();
+            picture = pane->picture();
         }
+        QVERIFY(brightness && kept().shown.brightness == brightness);
         ui::Workstation next;
         next.window().resumeSession();
         ui::Document &document = next.bench().document;
         auto *pane = next.window().findChild<ui::ProjectionView *>();
         const auto rests = [&] { return document.volume() && pane->showsWhatIsAskedFor(); };
         QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs);
+        QCOMPARE(document.brightness()->high, brightness->high);
+        QVERIFY(changed(pane->picture(), picture) < 0.001);
         auto *overlay = pane->findChild<QWidget *>("projectionOverlay");
         const QImage shown = overlay->grab().toImage();
         // As it is after another view.
@@ -332,6 +344,8 @@ private slots:
             const bool isOpen = document.volume()->lattice().size().k == 128;
             opened += isOpen ? 1 : 0;
             refused += failed.size() + said.size() > 0 ? 1 : 0;
+            for (const auto &failure : failed)
+                QCOMPARE(fs::path(failure[1].toString().toStdString()), large);
             QVERIFY2(isOpen || failed.size() + said.size() > 0, qPrintable(QString::number(mb)));
             program.window().openPaths({headPath()});
             QTRY_VERIFY_WITH_TIMEOUT(document.volume()->lattice().size().k == 80 && rests(),

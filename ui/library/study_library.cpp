@@ -35,7 +35,7 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
     }
     m_notices = opened.notices;
     try {
-        m_library = std::make_unique<Library>(opened.place);
+        open(opened.place);
         if (!opened.readable.empty())
             m_library->put(opened.readable);
     } catch (const task::Error &error) {
@@ -75,10 +75,21 @@ void StudyLibrary::start(Work work) {
         m_jobs.start(work.title, std::move(work.run));
 }
 
+void StudyLibrary::open(const LibraryPlace &place) {
+    m_library = std::make_unique<Library>(place);
+    m_listFile.emplace(std::vector{place.listFile()});
+}
+
 template <class F> auto StudyLibrary::attempt(F &&f) -> decltype(f(std::declval<Library &>())) {
     if (!m_library)
         return {};
     try {
+        // Another program may have found the list damaged and put a new one in its place.
+        const LibraryPlace place = m_library->place();
+        std::error_code unknown;
+        if (!place.inMemory && std::filesystem::exists(place.listFile(), unknown) &&
+            !m_listFile->find(place.listFile()))
+            open(place);
         return f(*m_library);
     } catch (const task::Error &error) {
         emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));

@@ -3,9 +3,11 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 
 #include <QObject>
 
+#include "core/files/file_ids.h"
 #include "ui/job_runner.h"
 #include "ui/library/import_studies.h"
 #include "ui/library/library.h"
@@ -40,6 +42,7 @@ signals:
     void failed(const QString &what, const QString &path);
 
 private:
+    void open(const LibraryPlace &place);
     template <class F> auto attempt(F &&f) -> decltype(f(std::declval<Library &>()));
 
     std::vector<dicom::Skipped> m_notices;
@@ -53,6 +56,7 @@ private:
     void importBy(std::function<ImportResult(const task::Progress &)> work);
 
     std::unique_ptr<Library> m_library;
+    std::optional<files::FileIds> m_listFile; ///< that it has open
     JobRunner m_jobs;
     std::deque<Work> m_waiting;
 };

@@ -4,7 +4,7 @@
 namespace pellucid::ui {
 
 void AutomaticTone::retake() {
-    m_isPhase = false;
+    m_isGiven = false;
     m_isWanted = true;
 }
 
@@ -13,8 +13,13 @@ void AutomaticTone::take(const render::ToneRange &range) {
     m_isWanted = false;
 }
 
+void AutomaticTone::adopt(const render::ToneRange &range) {
+    take(range);
+    m_isGiven = true;
+}
+
 bool AutomaticTone::outlivesVolume(bool hasNext) {
-    m_isPhase = m_isHeld;
+    m_isGiven = m_isHeld;
     if (m_isHeld) {
         m_isHeld = !hasNext; // closing the former phase comes before
         return true;
@@ -25,7 +30,7 @@ bool AutomaticTone::outlivesVolume(bool hasNext) {
 }
 
 void AutomaticTone::beginFields() {
-    m_isWanted = m_isWanted || !m_isPhase;
+    m_isWanted = m_isWanted || !m_isGiven;
 }
 
 void AutomaticTone::follow(const classify::Look &look, const shading::Shading &shading,
@@ -35,7 +40,7 @@ void AutomaticTone::follow(const classify::Look &look, const shading::Shading &s
     if (shading.lights.size() != drawn.lights.size() || shading.cue.kind != drawn.cue.kind)
         m_isWanted = true;
     if (look != m_look)
-        m_isPhase = false;
+        m_isGiven = false;
     m_look = look;
 }
 

@@ -17,6 +17,8 @@ public:
     bool isWanted() const { return m_isWanted; }
     void retake();
     void take(const render::ToneRange &range);
+    /// That of the same look at another time: the fields that come keep it.
+    void adopt(const render::ToneRange &range);
     /// The next volume is another phase, which keeps the brightness.
     void hold() { m_isHeld = true; }
     /// The volume changes; `hasNext`: to another one. False: the brightness goes with it.
@@ -34,8 +36,9 @@ public:
 private:
     render::ToneRange m_range;
     bool m_isWanted = true;
-    bool m_isHeld = false, m_isPhase = false;
-    classify::Look m_look; ///< that the phases share
+    bool m_isHeld = false;
+    bool m_isGiven = false; ///< and not taken from the fields that are shown
+    classify::Look m_look;  ///< that it is given for
 };
 
 } // namespace pellucid::ui

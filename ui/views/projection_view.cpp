@@ -143,6 +143,12 @@ void ProjectionView::holdTone() {
         m_tone.hold();
 }
 
+void ProjectionView::adoptTone(const render::ToneRange &range) {
+    m_tone.adopt(range);
+    m_document.setBrightness(range);
+    updateTone();
+}
+
 void ProjectionView::retakeTone() {
     m_tone.retake();
     requestFrame(false);
@@ -238,6 +244,8 @@ void ProjectionView::showComparison() {
 }
 
 void ProjectionView::requestFrame(bool moving) {
+    if (m_tone.isWanted()) // what it was is not that of what comes
+        m_document.setBrightness(std::nullopt);
     if (!m_engine)
         return;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
@@ -284,6 +292,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     emit engineDescribed(tr("%1: %2").arg(
         spoken(engine), frame->refusal.isEmpty() ? m_engineReason : frame->refusal));
     if (showsFinalImage()) {
+        m_document.setBrightness(m_tone.range());
         if (m_planState == PlanState::holds)
             m_comparison.settled(
                 {m_engine, m_document.scene().image, m_drawnShading, shownTone(), m_lookName});

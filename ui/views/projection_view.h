@@ -40,6 +40,8 @@ public:
     PlanState planState() const { return m_planState; }
     /// Takes the brightness anew from the next frame.
     void retakeTone();
+    /// What is shown next has this brightness.
+    void adoptTone(const render::ToneRange &range);
     /// The next volume is another phase: brightness and picture stay till its own is there.
     void holdTone();
     void setMessage(const QString &message);

@@ -13,6 +13,7 @@
 #include "tests/support/read_only_folder.h"
 #include "tests/ui/library/library_folder.h"
 #include "ui/library/import_studies.h"
+#include "ui/library/study_library.h"
 #include "ui/study_source.h"
 
 namespace pellucid {
@@ -349,6 +350,24 @@ private slots:
         QCOMPARE(programs[0].exitCode() + programs[1].exitCode(), 1);
         QVERIFY(count(Library(at)) > 300);
         QVERIFY(!openLibrary(at.folder).wasDamaged);
+    }
+
+    void aListThatAnotherProgramReplacesIsReadFromThen() {
+        const auto before = qgetenv("XDG_DATA_HOME");
+        const auto restored = qScopeGuard([&] { qputenv("XDG_DATA_HOME", before); });
+        qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "replaced").string()));
+        const LibraryPlace at{m_folder / "replaced" / "pellucid" / "library"};
+        StudyLibrary open;
+        Library(at).put(many(3, 2));
+        const auto seen = [&] { return open.find("", StudyOrder::byName, 0, 10).count; };
+        QCOMPARE(seen(), 3);
+        const fs::path damaged = at.folder / "damaged.sqlite";
+        fs::rename(at.listFile(), damaged);
+        QCOMPARE(seen(), 3); // the new one is to come
+        Library(at).put(many(2, 2));
+        QCOMPARE(seen(), 2);
+        open.remove(open.find("", StudyOrder::byName, 0, 10).studies.at(0));
+        QCOMPARE(count(Library(at)), 1);
     }
 
     void aReadOnlyFolderIsReadAndKeepsWhatItHas() {
