@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/main_window.h"
 
-#include <algorithm>
-#include <utility>
-
 #include <QAction>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QComboBox>
-#include <QDir>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QLabel>
@@ -16,7 +12,6 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
-#include <QSplitter>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTimer>
@@ -42,10 +37,9 @@
 #include "ui/panels/study_panel.h"
 #include "ui/preferences_dialog.h"
 #include "ui/projection_keys.h"
-#include "ui/recent_paths.h"
-#include "ui/session.h"
+#include "ui/reopening.h"
 #include "ui/shortcuts.h"
-#include "ui/study_beside.h"
+#include "ui/study_pair.h"
 #include "ui/tools_menu.h"
 #include "ui/view_menu.h"
 #include "ui/views/mpr_view.h"
@@ -78,6 +72,8 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     m_windowMenu = &lookMenu->windowMenu();
     m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_bench.document, m_mpr,
                             *m_projection, m_bench.phases);
+    m_pair->setTool(m_tools->tool());
+    connect(m_tools, &ToolsMenu::toolChosen, m_pair, &StudyPair::setTool);
     createHelpMenu();
     giveIcons(*this, m_theme);
     createToolBar();
@@ -99,15 +95,6 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
     connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
             &ProjectionView::setMessage);
-    connect(&m_bench.opener, &StudyOpener::pathsOpened, this, [this](QStringList paths) {
-        erase_if(paths, [&](const QString &path) {
-            const bool isKept = mayBeKept(path, m_bench.document);
-            if (!isKept) // from when it was allowed
-                forgetRecentPath(path);
-            return !isKept;
-        });
-        remember(paths);
-    });
     connect(&m_bench.document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
@@ -126,7 +113,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
 
 MainWindow::~MainWindow() {
     m_bench.exports.join();              // they look at the panes
-    delete m_beside;                     // it looks at the open study
+    m_pair->closeBeside();               // it looks at the open study
     m_bench.measurements.writePending(); // while somebody can say that it failed
 }
 
@@ -148,32 +135,16 @@ void MainWindow::createPanes() {
 
     m_start = new StartPage;
     connect(m_start, &StartPage::phantomRequested, this, &MainWindow::openPhantom);
-    connect(m_start, &StartPage::recentRequested, this, &MainWindow::openRecent);
-    connect(m_start, &StartPage::resumeRequested, this, &MainWindow::resumeSession);
-    showStart();
+    m_reopening = new Reopening(m_bench, *m_start, m_preferences, this);
     m_stack = new QStackedWidget;
     m_stack->addWidget(m_start);
     auto *viewing = new QWidget;
     auto *column = new QVBoxLayout(viewing);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    m_heading = new QLabel;
-    m_heading->setObjectName("studyHeading");
-    m_heading->setProperty("role", "studyHeading");
-    m_heading->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    m_heading->setFixedHeight(headingHeight);
-    m_heading->hide();
-    auto *open = new QWidget;
-    auto *openColumn = new QVBoxLayout(open);
-    openColumn->setContentsMargins(0, 0, 0, 0);
-    openColumn->setSpacing(0);
-    openColumn->addWidget(m_heading);
-    openColumn->addWidget(m_panes, 1);
-    m_viewers = new QSplitter;
-    m_viewers->setObjectName("viewers");
-    m_viewers->setChildrenCollapsible(false);
-    m_viewers->addWidget(open);
-    column->addWidget(m_viewers, 1);
+    m_pair = new StudyPair({m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
+    connect(m_pair, &StudyPair::failed, this, &MainWindow::report);
+    column->addWidget(m_pair, 1);
     column->addWidget(new PhaseBar(m_bench.phases));
     m_stack->addWidget(viewing);
     setCentralWidget(m_stack);
@@ -183,8 +154,9 @@ void MainWindow::createStudyDock() {
     m_studies = new StudyPanel(m_bench.document, m_bench.library, m_theme);
     connect(m_studies, &StudyPanel::sourceActivated, &m_bench.opener, &StudyOpener::openSource);
     connect(m_studies, &StudyPanel::closeRequested, &m_bench.opener, &StudyOpener::closeSource);
-    connect(m_studies, &StudyPanel::besideRequested, this, &MainWindow::openBeside);
-    connect(m_studies, &StudyPanel::libraryVolumeActivated, this, &MainWindow::openFromLibrary);
+    connect(m_studies, &StudyPanel::besideRequested, m_pair, &StudyPair::openBeside);
+    connect(m_studies, &StudyPanel::libraryVolumeActivated, m_reopening,
+            &Reopening::openFromLibrary);
     connect(&m_bench.library, &StudyLibrary::failed, this, &MainWindow::report);
     connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
         m_bench.document.addProblems(result.skipped);
@@ -236,11 +208,7 @@ void MainWindow::createFileMenu() {
     connect(m_file, &FileMenu::said, this,
             [this](const QString &text) { statusBar()->showMessage(text, 4000); });
     connect(m_file, &FileMenu::quitRequested, this, &QWidget::close);
-    connect(m_file, &FileMenu::recentForgotten, this, [this] {
-        forgetRecentPaths();
-        m_bench.session.forget();
-        showStart();
-    });
+    connect(m_file, &FileMenu::recentForgotten, m_reopening, &Reopening::forgetAll);
     connect(m_file, &FileMenu::preferencesRequested, this, [this] { openPreferences(); });
     connect(m_measurements, &MeasurementsPanel::exportRequested, m_file,
             &FileMenu::exportMeasurements);
@@ -284,9 +252,10 @@ void MainWindow::createViewMenu() {
     m_view = new ViewMenu(*menuBar()->addMenu(tr("&View")), *this,
                           {m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
     connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
-    connect(m_view, &ViewMenu::linkRequested, this,
-            [this] { m_beside->findChild<QToolButton *>("linkButton")->toggle(); });
-    connect(m_view, &ViewMenu::closeBesideRequested, this, &MainWindow::closeBeside);
+    connect(m_view, &ViewMenu::linkRequested, m_pair, &StudyPair::toggleLink);
+    connect(m_view, &ViewMenu::closeBesideRequested, m_pair, &StudyPair::closeBeside);
+    connect(m_pair, &StudyPair::besideChanged, m_view, &ViewMenu::setBeside);
+    connect(m_pair, &StudyPair::linkChanged, m_view, &ViewMenu::setLinked);
     connect(m_view, &ViewMenu::preparationRequested, &m_bench.preparer,
             &LookPreparer::prepareAgain);
 }
@@ -364,14 +333,14 @@ void MainWindow::createStatusBar() {
     });
     for (MprView *view : m_mpr)
         connect(view, &MprView::readoutChanged, m_readout, &QLabel::setText);
+    connect(m_pair, &StudyPair::readoutChanged, m_readout, &QLabel::setText);
     m_engine->setText(m_bench.card.description());
 }
 
 void MainWindow::showVolumeState() {
-    showHeading();
     showTitle();
     m_stack->setCurrentWidget(m_bench.document.volume() || m_bench.document.currentSource() >= 0
-                                  ? m_viewers->parentWidget()
+                                  ? m_pair->parentWidget()
                                   : m_start);
 }
 
@@ -383,60 +352,9 @@ void MainWindow::openPaths(const QStringList &paths) {
     m_bench.opener.openPaths(absolute);
 }
 
-void MainWindow::openFromLibrary(const StudyFacts &study, const VolumeFacts &volume) {
-    std::vector<VolumeFacts> series = m_bench.library.volumes(study);
-    std::erase_if(series, [&](const VolumeFacts &v) {
-        return v.seriesUid != volume.seriesUid || v.file != volume.file;
-    });
-    // The list that gave them is made anew by the opening.
-    const QString entry = recentEntry(study);
-    m_bench.opener.openFromLibrary(StudyFacts(study), series, volume.key(),
-                                   m_bench.library.files(volume));
-    remember({entry});
-}
-
-// Of a study the volume with most samples, as of a folder.
-void MainWindow::openRecent(const QString &entry) {
-    const auto study = recentStudy(entry, m_bench.library);
-    if (!study) {
-        openPaths({entry});
-        return;
-    }
-    const auto volumes = m_bench.library.volumes(*study);
-    const auto largest =
-        std::max_element(volumes.begin(), volumes.end(), [](const auto &a, const auto &b) {
-            return std::pair(a.placed, a.size.count()) < std::pair(b.placed, b.size.count());
-        });
-    if (largest != volumes.end())
-        openFromLibrary(*study, *largest);
-}
-
-void MainWindow::showStart() {
-    const bool remembers = m_preferences.remembersStudies;
-    std::vector<StartPage::Recent> recent;
-    for (const QString &entry : remembers ? recentPaths() : QStringList()) {
-        const auto study = recentStudy(entry, m_bench.library);
-        if (study)
-            recent.push_back({m_preferences.showsPatient
-                                  ? patientText(*study) + ", " + studyText(*study)
-                                  : studyText(*study),
-                              entry});
-        else if (QDir::isAbsolutePath(entry))
-            recent.push_back({QDir::toNativeSeparators(entry), entry});
-    }
-    m_start->setRecent(recent);
-    const auto session = remembers ? m_bench.session.kept() : std::nullopt;
-    m_start->setOffersResuming(session.has_value(), session && session->hasEnded);
-}
-
-void MainWindow::resumeSession() {
-    if (const auto session = m_bench.session.kept())
-        resume(*session, m_bench.opener, m_bench.document);
-}
-
 void MainWindow::setPreferences(const Preferences &preferences) {
     m_preferences = preferences;
-    showStart();
+    m_reopening->setPreferences(preferences);
     showTitle();
 }
 
@@ -451,12 +369,6 @@ void MainWindow::showTitle() {
 
 void MainWindow::openPhantom(const QString &kind) {
     m_bench.opener.openPhantom(kind);
-}
-
-void MainWindow::remember(const QStringList &paths) {
-    if (m_preferences.remembersStudies)
-        addRecentPaths(paths);
-    showStart();
 }
 
 void MainWindow::report(const QString &what, const QString &path) {
@@ -492,39 +404,6 @@ void MainWindow::compareLooks(bool isComparing) {
     m_projection->setComparing(isComparing);
     if (isComparing && !m_projection->isComparing())
         statusBar()->showMessage(tr("There is no look before this one"), 4000);
-}
-
-void MainWindow::openBeside(const StudySource &source) {
-    if (m_beside == nullptr) {
-        m_beside = new StudyBeside({m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
-        m_viewers->addWidget(m_beside);
-        m_viewers->setSizes({1, 1});
-        m_beside->setTool(m_tools->tool());
-        connect(m_tools, &ToolsMenu::toolChosen, m_beside, &StudyBeside::setTool);
-        connect(m_beside, &StudyBeside::closeRequested, this, &MainWindow::closeBeside,
-                Qt::QueuedConnection); // a button of what is deleted then
-        connect(m_beside, &StudyBeside::linkChanged, m_view, &ViewMenu::setLinked);
-        connect(m_beside, &StudyBeside::readoutChanged, m_readout, &QLabel::setText);
-        connect(m_beside, &StudyBeside::failed, this, &MainWindow::report);
-        m_view->setBeside(true);
-    }
-    showHeading();
-    m_beside->open(source);
-}
-
-void MainWindow::closeBeside() {
-    delete m_beside;
-    m_beside = nullptr;
-    m_view->setBeside(false);
-    showHeading();
-}
-
-// Which is which is asked only where there are two.
-void MainWindow::showHeading() {
-    const int open = m_bench.document.currentSource();
-    m_heading->setVisible(m_beside != nullptr && open >= 0);
-    if (open >= 0)
-        m_heading->setText(headingText(m_bench.document.sources()[std::size_t(open)]));
 }
 
 void MainWindow::keyPressEvent(QKeyEvent *event) {

@@ -11,7 +11,6 @@
 #include "ui/workbench.h"
 
 class QLabel;
-class QSplitter;
 class QStackedWidget;
 
 namespace pellucid::ui {
@@ -23,8 +22,9 @@ class MprView;
 class PaneArea;
 class PreferencesDialog;
 class ProjectionView;
+class Reopening;
 class StartPage;
-class StudyBeside;
+class StudyPair;
 class StudyPanel;
 class ToolsMenu;
 class ViewMenu;
@@ -40,8 +40,6 @@ public:
 
     void openPaths(const QStringList &paths);
     void openPhantom(const QString &kind);
-    /// What was open when the program ended.
-    void resumeSession();
     /// Those that need no new window.
     void setPreferences(const Preferences &preferences);
     PreferencesDialog &openPreferences();
@@ -53,6 +51,7 @@ public:
     StudyLibrary &library() { return m_bench.library; }
     GraphicsCard &graphicsCard() { return m_bench.card; }
     FileMenu &fileMenu() { return *m_file; }
+    Reopening &reopening() { return *m_reopening; }
 
 signals:
     void preferencesChanged(const pellucid::ui::Preferences &preferences);
@@ -77,14 +76,7 @@ private:
     void createStatusBar();
     void showVolumeState();
     void compareLooks(bool isComparing);
-    void openBeside(const StudySource &source);
-    void closeBeside();
-    void showHeading();
-    void openFromLibrary(const StudyFacts &study, const VolumeFacts &volume);
-    void openRecent(const QString &entry);
-    void showStart();
     void showTitle();
-    void remember(const QStringList &paths);
     void report(const QString &what, const QString &path);
     /// Of what should have been shown.
     void reportLoad(const QString &what, const QString &path);
@@ -99,11 +91,9 @@ private:
     ProjectionView *m_projection = nullptr;
     LookDocks *m_look = nullptr;
     PaneArea *m_panes = nullptr;
-    /// The two studies, while there is a second one.
-    QSplitter *m_viewers = nullptr;
-    StudyBeside *m_beside = nullptr;
-    QLabel *m_heading = nullptr;
+    StudyPair *m_pair = nullptr;
     StartPage *m_start = nullptr;
+    Reopening *m_reopening = nullptr;
     QStackedWidget *m_stack = nullptr;
     StudyPanel *m_studies = nullptr;
     MeasurementsPanel *m_measurements = nullptr;

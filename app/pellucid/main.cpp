@@ -23,6 +23,7 @@
 #include "ui/failure.h"
 #include "ui/graphics_card.h"
 #include "ui/main_window.h"
+#include "ui/reopening.h"
 #include "ui/workstation.h"
 
 namespace {
@@ -144,7 +145,7 @@ int main(int argc, char **argv) {
         if (!files.isEmpty())
             workstation.window().openPaths(files);
         else if (ui::Preferences::load().resumesAtStart)
-            workstation.window().resumeSession();
+            workstation.window().reopening().resume();
         return QApplication::exec();
     } catch (const task::Error &error) {
         std::fprintf(stderr, "pellucid: %s\n", error.what());

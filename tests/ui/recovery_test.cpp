@@ -20,6 +20,7 @@
 #include "tests/support/files.h"
 #include "tests/support/little_memory.h"
 #include "tests/support/read_only_folder.h"
+#include "ui/reopening.h"
 #include "ui/session.h"
 #include "ui/workstation.h"
 
@@ -75,7 +76,7 @@ private slots:
         fs::copy_file(m_folder / "killed.json", m_sessionFile,
                       fs::copy_options::overwrite_existing);
         ui::Workstation next;
-        next.window().resumeSession();
+        next.window().reopening().resume();
         QTRY_VERIFY_WITH_TIMEOUT(next.bench().document.scene().look == edited.look, patienceMs);
     }
 
@@ -98,7 +99,7 @@ private slots:
         }
         ui::Workstation next;
         QVERIFY(!isNamed(next));
-        next.window().resumeSession();
+        next.window().reopening().resume();
         QTRY_VERIFY_WITH_TIMEOUT(
             next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
         QVERIFY(isNamed(next));
@@ -146,7 +147,7 @@ private slots:
         }
         QVERIFY(brightness && kept().shown.brightness == brightness);
         ui::Workstation next;
-        next.window().resumeSession();
+        next.window().reopening().resume();
         ui::Document &document = next.bench().document;
         auto *pane = next.window().findChild<ui::ProjectionView *>();
         const auto rests = [&] { return document.volume() && pane->showsWhatIsAskedFor(); };
@@ -193,7 +194,7 @@ private slots:
         halves.sort();
         QCOMPARE(opened, halves);
         ui::Workstation next;
-        next.window().resumeSession();
+        next.window().reopening().resume();
         ui::Document &document = next.bench().document;
         QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
         QCOMPARE(document.volume()->lattice().size().k, 80);
