@@ -124,6 +124,7 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
 
 void Document::closeVolume() {
     m_volume.reset();
+    m_brightness.reset();
     m_measured.clear();
     m_selectedMeasurement = -1;
     m_preview = false;
@@ -227,7 +228,14 @@ void Document::selectMeasurement(int index) {
     emit selectedMeasurementChanged();
 }
 
-void Document::setBrightness(const std::optional<render::ToneRange> &brightness) {
+std::optional<render::ToneRange> Document::brightness() const {
+    return m_brightness && m_brightness->of == ToneSubject(m_scene)
+               ? std::optional(m_brightness->range)
+               : std::nullopt;
+}
+
+void Document::setBrightness(const render::ToneRange &range) {
+    const Brightness brightness{range, ToneSubject(m_scene)};
     if (brightness == m_brightness)
         return;
     m_brightness = brightness;

@@ -16,6 +16,7 @@
 #include "core/render/scene.h"
 #include "core/volume/volume.h"
 #include "ui/study_source.h"
+#include "ui/tone_subject.h"
 
 namespace pellucid::ui {
 
@@ -86,10 +87,10 @@ public:
     /// The state behind the undo commands; call through `EditDisplayWindow`.
     void setDisplayWindow(const volume::ValueWindow &window);
 
-    /// What the projection's brightness came to be where the scene fixes none; none: the next frame
-    /// tells it.
-    const std::optional<render::ToneRange> &brightness() const { return m_brightness; }
-    void setBrightness(const std::optional<render::ToneRange> &brightness);
+    /// What the automatic brightness of the projection came to be, for the scene as it is; none: it
+    /// has not been seen yet.
+    std::optional<render::ToneRange> brightness() const;
+    void setBrightness(const render::ToneRange &range);
 
     volume::PatientPoint crosshair() const { return m_crosshair; }
     void setCrosshair(volume::PatientPoint point);
@@ -148,7 +149,12 @@ private:
     std::optional<classify::TissueClass> m_tint;
     render::Scene m_scene;
     volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
-    std::optional<render::ToneRange> m_brightness;
+    struct Brightness {
+        render::ToneRange range;
+        ToneSubject of;
+        bool operator==(const Brightness &) const = default;
+    };
+    std::optional<Brightness> m_brightness;
     volume::PatientPoint m_crosshair;
     Cut m_cut;
     std::vector<Measured> m_measured;

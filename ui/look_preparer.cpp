@@ -137,6 +137,14 @@ void LookPreparer::adopt(const PreparedFor &preparedFor, const render::PreparedE
     showFull();
 }
 
+void LookPreparer::announce() {
+    emit planChanged(m_underway  ? PlanState::underway
+                     : m_givenUp ? PlanState::cancelled
+                                 : PlanState::holds);
+    if (m_full)
+        showFull();
+}
+
 void LookPreparer::showFull() {
     // After the layers the brightness is still theirs.
     const EngineStage stage =

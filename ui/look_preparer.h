@@ -75,6 +75,8 @@ public:
     const std::optional<render::PreparedEngine> &fullEngine() const { return m_full; }
     /// Shows an engine that was made before.
     void adopt(const PreparedFor &preparedFor, const render::PreparedEngine &engine);
+    /// Tells everything anew, to a window that has just been made.
+    void announce();
     /// The job that was just started, if it could be, makes an engine for it.
     void expect(const PreparedFor &wanted);
     /// What makes engines within a job and hands them over, in the part of its progress beyond

@@ -105,8 +105,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     bench.document.announce(); // what is open already
     if (brightness)
         m_projection->adoptTone(*brightness);
-    if (const auto &engine = bench.preparer.fullEngine())
-        bench.preparer.adopt(*bench.preparer.preparedFor(), *engine);
+    bench.preparer.announce();
     if (bench.document.volume()) // once the panes have their sizes
         QTimer::singleShot(0, m_projection, [this, camera] { m_projection->adoptCamera(camera); });
 }

@@ -34,7 +34,7 @@ void Reopening::openFromLibrary(const StudyFacts &study, const VolumeFacts &volu
     // The list that gave them is made anew by the opening.
     const QString entry = recentEntry(study);
     m_bench.opener.openFromLibrary(StudyFacts(study), series, volume.key(),
-                                   m_bench.library.files(volume));
+                                   m_bench.library.files(study, volume));
     remember({entry});
 }
 

@@ -35,6 +35,7 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
     connect(&m_copier, &CardCopier::engineReady, projection, &ProjectionView::setEngine);
     connect(projection, &ProjectionView::cardFailed, &card, &GraphicsCard::giveUp);
     connect(&m_preparer, &LookPreparer::planChanged, projection, &ProjectionView::setPlanState);
+    connect(&m_opener, &StudyOpener::brightnessKept, projection, &ProjectionView::adoptTone);
     connect(&m_opener, &StudyOpener::notProjectable, projection, &ProjectionView::setMessage);
     connect(&m_jobs, &JobRunner::started, projection, &ProjectionView::jobStarted);
     connect(&m_jobs, &JobRunner::finished, projection, &ProjectionView::jobEnded);

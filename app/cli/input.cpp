@@ -8,6 +8,7 @@
 #include <cstring>
 #include <set>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "app/cli/terminal.h"

@@ -5,8 +5,6 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "app/cli/commands.h"
 #include "core/classify/density_field.h"
 #include "core/dicom/catalogue.h"

@@ -7,9 +7,7 @@
 #include "core/phantom/phantom.h"
 #include "tests/cli/cli.h"
 
-namespace pellucid {
-
-using namespace test;
+namespace pellucid::test {
 
 inline volume::Volume head(int slices, int side = 64) {
     return phantom::makePhantom(
@@ -27,4 +25,4 @@ protected:
     }
 };
 
-} // namespace pellucid
+} // namespace pellucid::test

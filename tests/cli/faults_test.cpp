@@ -20,6 +20,8 @@
 
 namespace pellucid {
 
+using namespace test;
+
 using namespace std::chrono_literals;
 
 namespace {

@@ -49,6 +49,10 @@ private slots:
         const render::Scene scene = document().scene();
         const int edits = document().undoStack()->count();
         QVERIFY(edits >= 2);
+        // From here its brightness would be another.
+        QTest::keyClick(projectionOf(), Qt::Key_3, Qt::KeypadModifier);
+        settleIn();
+        const auto brightness = document().brightness();
         const QImage picture = projectionOf()->picture();
         choose("languageBox", "zh_TW");
         QTRY_COMPARE(window_().menuBar()->actions().front()->text(), QString::fromUtf8("檔案(&F)"));
@@ -58,6 +62,7 @@ private slots:
         // Menus of another script may be a little higher: the pane is smaller then.
         const QImage now = projectionOf()->picture().scaled(picture.size());
         QVERIFY(changed(picture, now) < 0.05);
+        QVERIFY(brightness && document().brightness() == brightness);
         QVERIFY(document().undoStack()->count() == edits);
         // Nothing that is seen is English: words of three letters and more are names and units.
         const QStringList english = englishTexts();
@@ -233,9 +238,15 @@ private slots:
         std::filesystem::copy(headPath().toStdString(), named);
         const QString path = QString::fromStdString(named.string());
         const auto choose = [&] {
-            QTimer::singleShot(100, this, [path] {
+            // Once it is there, however long that takes.
+            auto *waiting = new QTimer(this);
+            waiting->start(20);
+            connect(waiting, &QTimer::timeout, this, [path, waiting] {
                 auto *dialog = qobject_cast<QFileDialog *>(QApplication::activeModalWidget());
-                QVERIFY(dialog != nullptr);
+                if (dialog == nullptr)
+                    return;
+                waiting->deleteLater();
+                waiting->stop();
                 dialog->setDirectory(path);
                 dialog->findChild<QLineEdit *>("fileNameEdit")->setText(path);
                 QMetaObject::invokeMethod(dialog, "accept");

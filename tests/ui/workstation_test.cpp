@@ -129,6 +129,9 @@ private slots:
         QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
                           gallery->visualItemRect(bone).center());
         settle();
+        // From here its brightness would be another.
+        QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
+        settle();
         const QImage before = projection()->picture();
         find<QAction>("chestPhantomAction")->trigger();
         QTRY_VERIFY(m_window->document().currentSource() == 1);

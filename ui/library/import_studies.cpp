@@ -269,7 +269,7 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
     return result;
 }
 
-Removal removeStudy(Library &library, qint64 study) {
+Removal removeStudy(Library &library, const StudyFacts &study) {
     Removal removal;
     removal.copies = library.copiesOf(study);
     if (!removal.copies.empty()) {

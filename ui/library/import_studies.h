@@ -39,7 +39,7 @@ struct Removal {
     std::shared_ptr<files::SessionFolder> names;
 };
 /// Takes a study off the list. *Throws* Error{output}.
-Removal removeStudy(Library &library, qint64 study);
+Removal removeStudy(Library &library, const StudyFacts &study);
 /// Removes the copies. *Throws* Error{output} if the list cannot be read: the next program tries
 /// again.
 void finish(const Removal &removal, Library &library);

@@ -285,14 +285,14 @@ std::optional<StudyFacts> Library::study(qint64 id) const {
     return row.next() ? std::optional(studyOf(row)) : std::nullopt;
 }
 
-std::vector<VolumeFacts> Library::volumes(qint64 study) const {
+std::vector<VolumeFacts> Library::volumes(const StudyFacts &study) const {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
     const std::string copies = m_place.copiesFolder().string() + "/";
     std::vector<VolumeFacts> volumes;
     ListQuery series(
         list,
         QString("SELECT %1 FROM series WHERE study = ? ORDER BY number, id").arg(seriesColumns));
-    series.bind(study).run();
+    series.bind(findStudy(list, study)).run();
     while (series.next()) {
         VolumeFacts ofSeries = seriesOf(series);
         ListQuery files(list, "SELECT count(*), min(path) FROM instances WHERE series = ?");
@@ -311,13 +311,6 @@ std::vector<VolumeFacts> Library::volumes(qint64 study) const {
         }
     }
     return volumes;
-}
-
-std::vector<dicom::InstanceFile> Library::files(qint64 volume) const {
-    const QSqlDatabase list = QSqlDatabase::database(m_connection);
-    ListQuery row(list, "SELECT series FROM volumes WHERE id = ?");
-    row.bind(volume).run();
-    return row.next() ? filesOfSeries(list, row.integer(0)) : std::vector<dicom::InstanceFile>();
 }
 
 std::vector<dicom::InstanceFile> Library::files(const StudyFacts &study,
@@ -344,11 +337,11 @@ void Library::put(const std::vector<LibrarySeries> &series) {
     putting.commit();
 }
 
-std::vector<fs::path> Library::copiesOf(qint64 study) const {
+std::vector<fs::path> Library::copiesOf(const StudyFacts &study) const {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
     ListQuery rows(list, "SELECT path FROM instances WHERE series IN (SELECT id FROM series WHERE "
                          "study = ?)");
-    rows.bind(study).run();
+    rows.bind(findStudy(list, study)).run();
     const std::string copies = m_place.copiesFolder().string() + "/";
     std::vector<fs::path> own;
     while (rows.next())
@@ -357,9 +350,9 @@ std::vector<fs::path> Library::copiesOf(qint64 study) const {
     return own;
 }
 
-void Library::remove(qint64 study) {
+void Library::remove(const StudyFacts &study) {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
-    ListQuery(list, "DELETE FROM studies WHERE id = ?").bind(study).run();
+    ListQuery(list, "DELETE FROM studies WHERE id = ?").bind(findStudy(list, study)).run();
 }
 
 void Library::removeCopies(const std::vector<fs::path> &copies) {

@@ -74,23 +74,24 @@ public:
     StudyPage find(const QString &search, StudyOrder order, int offset, int limit) const;
     /// Whether it has the series of a volume.
     bool holds(const StudyFacts &study, const VolumeFacts &volume) const;
-    /// In the order of the series' numbers.
-    std::vector<VolumeFacts> volumes(qint64 study) const;
+    /// In the order of the series' numbers; none if the study is not there, as everywhere below:
+    /// studies are asked for by what tells them apart, because another program may make the list
+    /// anew and give other numbers.
+    std::vector<VolumeFacts> volumes(const StudyFacts &study) const;
     /// Of the series that a volume belongs to.
-    std::vector<dicom::InstanceFile> files(qint64 volume) const;
-    /// Of a series that is there already; empty if it is not.
     std::vector<dicom::InstanceFile> files(const StudyFacts &study,
                                            const VolumeFacts &volume) const;
 
+    /// By the number that it had when it was found; it may be another one by now.
     std::optional<StudyFacts> study(qint64 id) const;
 
     /// Adds series, in place of those that are there already, all of them or none.
     void put(const std::vector<LibrarySeries> &series);
     /// The files of a study that are the library's own.
-    std::vector<std::filesystem::path> copiesOf(qint64 study) const;
+    std::vector<std::filesystem::path> copiesOf(const StudyFacts &study) const;
     /// Takes a study off the list; its copies first have their names written down, as `removeStudy`
     /// does: files without a row are litter, a row without files is a broken promise.
-    void remove(qint64 study);
+    void remove(const StudyFacts &study);
     /// Removes copies unless a study has come to use them meanwhile.
     void removeCopies(const std::vector<std::filesystem::path> &copies);
 

@@ -209,15 +209,12 @@ OpenedLibrary openLibrary(const fs::path &folder) {
     opened.place.folder = folder;
     std::error_code failed;
     fs::create_directories(folder, failed);
-    if (isLost(opened.place)) {
+    const bool wasLost = isLost(opened.place);
+    if (wasLost) {
         try {
             files::AtomicFile(opened.place.rebuiltMark()).commit();
-            opened.notices.push_back(
-                {opened.place.listFile(),
-                 LibraryTexts::tr("the study library was empty; its own copies are listed again")
-                     .toStdString()});
         } catch (const Error &) {
-            // Nor will a list be made there, which is said.
+            // This program looks for them all the same.
         }
     }
     Found found = lookAt(opened.place);
@@ -252,7 +249,12 @@ OpenedLibrary openLibrary(const fs::path &folder) {
                                   .toStdString());
         }
     }
-    opened.mayLackCopies = fs::exists(opened.place.rebuiltMark(), failed);
+    if (wasLost)
+        opened.notices.push_back(
+            {opened.place.listFile(),
+             LibraryTexts::tr("the study library was empty; its own copies are listed again")
+                 .toStdString()});
+    opened.mayLackCopies = wasLost || fs::exists(opened.place.rebuiltMark(), failed);
     return opened;
 }
 

@@ -76,20 +76,30 @@ void StudyLibrary::start(Work work) {
 }
 
 void StudyLibrary::open(const LibraryPlace &place) {
-    m_library = std::make_unique<Library>(place);
+    // First: of one that is replaced meanwhile the next look tells.
     m_listFile.emplace(std::vector{place.listFile()});
+    m_library = std::make_unique<Library>(place);
+    if (m_listFile->isEmpty()) // it made the list
+        m_listFile.emplace(std::vector{place.listFile()});
+}
+
+// Another program may have found the list damaged and put a new one in its place.
+void StudyLibrary::openIfReplaced() {
+    const LibraryPlace place = m_library->place();
+    std::error_code unknown;
+    if (place.inMemory || !std::filesystem::exists(place.listFile(), unknown) ||
+        m_listFile->find(place.listFile()))
+        return;
+    open(place);
+    // Whoever shows rows of the former one shows them anew.
+    QMetaObject::invokeMethod(this, &StudyLibrary::changed, Qt::QueuedConnection);
 }
 
 template <class F> auto StudyLibrary::attempt(F &&f) -> decltype(f(std::declval<Library &>())) {
     if (!m_library)
         return {};
     try {
-        // Another program may have found the list damaged and put a new one in its place.
-        const LibraryPlace place = m_library->place();
-        std::error_code unknown;
-        if (!place.inMemory && std::filesystem::exists(place.listFile(), unknown) &&
-            !m_listFile->find(place.listFile()))
-            open(place);
+        openIfReplaced();
         return f(*m_library);
     } catch (const task::Error &error) {
         emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));
@@ -110,11 +120,12 @@ std::optional<StudyFacts> StudyLibrary::study(qint64 id) {
 }
 
 std::vector<VolumeFacts> StudyLibrary::volumes(const StudyFacts &study) {
-    return attempt([&](Library &l) { return l.volumes(study.libraryId); });
+    return attempt([&](Library &l) { return l.volumes(study); });
 }
 
-std::vector<dicom::InstanceFile> StudyLibrary::files(const VolumeFacts &volume) {
-    return attempt([&](Library &l) { return l.files(volume.libraryId); });
+std::vector<dicom::InstanceFile> StudyLibrary::files(const StudyFacts &study,
+                                                     const VolumeFacts &volume) {
+    return attempt([&](Library &l) { return l.files(study, volume); });
 }
 
 void StudyLibrary::import(const Import &import) {
@@ -137,7 +148,7 @@ void StudyLibrary::importBy(std::function<ImportResult(const task::Progress &)> 
 }
 
 void StudyLibrary::remove(const StudyFacts &study) {
-    const auto removal = attempt([&](Library &l) { return removeStudy(l, study.libraryId); });
+    const auto removal = attempt([&](Library &l) { return removeStudy(l, study); });
     emit changed();
     if (!removal.copies.empty())
         start({tr("Removing copies"),

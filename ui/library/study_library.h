@@ -30,7 +30,7 @@ public:
     /// None if it has been removed.
     std::optional<StudyFacts> study(qint64 id);
     std::vector<VolumeFacts> volumes(const StudyFacts &study);
-    std::vector<dicom::InstanceFile> files(const VolumeFacts &volume);
+    std::vector<dicom::InstanceFile> files(const StudyFacts &study, const VolumeFacts &volume);
 
     void import(const Import &import);
     void remove(const StudyFacts &study);
@@ -43,6 +43,7 @@ signals:
 
 private:
     void open(const LibraryPlace &place);
+    void openIfReplaced();
     template <class F> auto attempt(F &&f) -> decltype(f(std::declval<Library &>()));
 
     std::vector<dicom::Skipped> m_notices;

@@ -212,9 +212,10 @@ void StudyPanel::openBeside(const QModelIndex &index) {
     if (volume == nullptr)
         return;
     const int source = m_list.source(index);
-    emit besideRequested(
-        source >= 0 ? m_document.sources()[std::size_t(source)]
-                    : librarySource(m_list.study(index), *volume, m_library.files(*volume)));
+    emit besideRequested(source >= 0
+                             ? m_document.sources()[std::size_t(source)]
+                             : librarySource(m_list.study(index), *volume,
+                                             m_library.files(m_list.study(index), *volume)));
 }
 
 void StudyPanel::showDetails(const QModelIndex &index) {
@@ -226,7 +227,7 @@ void StudyPanel::showDetails(const QModelIndex &index) {
     if (open >= 0)
         files = m_document.sources()[std::size_t(open)].files;
     else
-        for (const dicom::InstanceFile &file : m_library.files(*volume))
+        for (const dicom::InstanceFile &file : m_library.files(m_list.study(index), *volume))
             files << QString::fromStdString(file.path.string());
     showStudyDetails(m_list.study(index), *volume, files, m_list.thumbnail(index), window());
 }

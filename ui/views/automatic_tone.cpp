@@ -3,45 +3,37 @@
 
 namespace pellucid::ui {
 
-void AutomaticTone::retake() {
-    m_isGiven = false;
-    m_isWanted = true;
-}
-
 void AutomaticTone::take(const render::ToneRange &range) {
     m_range = range;
     m_isWanted = false;
+    m_adoptedFor.reset();
 }
 
-void AutomaticTone::adopt(const render::ToneRange &range) {
+void AutomaticTone::adopt(const render::ToneRange &range, const render::Scene &scene) {
     take(range);
-    m_isGiven = true;
+    m_adoptedFor.emplace(scene);
+    m_lights = m_adoptedFor->lights;
+    m_cue = m_adoptedFor->cue;
 }
 
 bool AutomaticTone::outlivesVolume(bool hasNext) {
-    m_isGiven = m_isHeld;
     if (m_isHeld) {
         m_isHeld = !hasNext; // closing the former phase comes before
         return true;
     }
-    m_range = {};
-    m_isWanted = true;
+    *this = {};
     return false;
 }
 
-void AutomaticTone::beginFields() {
-    m_isWanted = m_isWanted || !m_isGiven;
+void AutomaticTone::beginFields(const render::Scene &scene) {
+    m_isWanted = m_isWanted || m_adoptedFor != ToneSubject(scene);
 }
 
-void AutomaticTone::follow(const classify::Look &look, const shading::Shading &shading,
-                           const shading::Shading &drawn) {
-    // Another number of lights or kind of cue has a brightness of its own; what the hand drags
-    // keeps it.
-    if (shading.lights.size() != drawn.lights.size() || shading.cue.kind != drawn.cue.kind)
-        m_isWanted = true;
-    if (look != m_look)
-        m_isGiven = false;
-    m_look = look;
+void AutomaticTone::follow(const shading::Shading &drawn) {
+    // What the hand drags keeps the brightness.
+    m_isWanted = m_isWanted || drawn.lights.size() != m_lights || drawn.cue.kind != m_cue;
+    m_lights = drawn.lights.size();
+    m_cue = drawn.cue.kind;
 }
 
 render::Tone AutomaticTone::completed(render::Tone tone) const {

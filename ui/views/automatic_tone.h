@@ -1,33 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/classify/look.h"
+#include <cstddef>
+#include <optional>
+
 #include "core/render/compose.h"
-#include "core/shading/shading.h"
+#include "ui/tone_subject.h"
 
 namespace pellucid::ui {
 
 /// The brightness of a projection where the user has fixed none. It is taken once, from a frame:
-/// one that followed the view would flicker. Weights that move and phases that follow each other
-/// keep it, because their brightness is what is to be seen; another field, light or volume has one
-/// of its own.
+/// one that followed the view would flicker. Weights that move keep it, and so do phases that
+/// follow each other, because their brightness is what is to be seen; what is seen again has the
+/// one that it had. Other fields, another number of lights, another kind of cue and another volume
+/// have one of their own.
 class AutomaticTone {
 public:
     /// The next frame tells the brightness anew; what is shown keeps its own till then.
     bool isWanted() const { return m_isWanted; }
-    void retake();
+    void retake() { m_isWanted = true; }
     void take(const render::ToneRange &range);
-    /// That of the same look at another time: the fields that come keep it.
-    void adopt(const render::ToneRange &range);
-    /// The next volume is another phase, which keeps the brightness.
+    /// The scene is seen again, with the brightness that it had: the fields that come for it, a
+    /// coarse picture's and then the full ones, keep it.
+    void adopt(const render::ToneRange &range, const render::Scene &scene);
+    /// The next volume is another phase: brightness and picture stay until its own are there.
     void hold() { m_isHeld = true; }
     /// The volume changes; `hasNext`: to another one. False: the brightness goes with it.
     bool outlivesVolume(bool hasNext);
-    /// Other fields are projected.
-    void beginFields();
-    /// The scene is another; `drawn`: how the last frame was lit.
-    void follow(const classify::Look &look, const shading::Shading &shading,
-                const shading::Shading &drawn);
+    /// Fields other than those of the last frame are projected, for a scene.
+    void beginFields(const render::Scene &scene);
+    /// The next frame is drawn with cue and lights like these.
+    void follow(const shading::Shading &drawn);
 
     const render::ToneRange &range() const { return m_range; }
     /// With both ends: those that the user fixed, and for the rest the brightness that was taken.
@@ -35,10 +38,11 @@ public:
 
 private:
     render::ToneRange m_range;
-    bool m_isWanted = true;
-    bool m_isHeld = false;
-    bool m_isGiven = false; ///< and not taken from the fields that are shown
-    classify::Look m_look;  ///< that it is given for
+    bool m_isWanted = true, m_isHeld = false;
+    std::optional<ToneSubject> m_adoptedFor;
+    /// Of the last frame.
+    std::size_t m_lights = 0;
+    shading::CueKind m_cue = shading::CueKind::none;
 };
 
 } // namespace pellucid::ui

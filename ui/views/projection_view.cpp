@@ -79,7 +79,6 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
          {&Document::measurementsChanged, &Document::selectedMeasurementChanged})
         connect(&document, changed, this, [this] { m_overlay->update(); });
     connect(&document, &Document::sceneChanged, this, [this] {
-        m_tone.follow(m_document.scene().look, m_document.scene().shading, m_drawnShading);
         updateTone();
         requestFrame(false);
     });
@@ -99,7 +98,7 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     // after the coarse one, has a brightness of its own.
     const bool sameFields = stage == EngineStage::live || stage == EngineStage::settled;
     if (!sameFields) {
-        m_tone.beginFields();
+        m_tone.beginFields(m_document.scene());
         m_fullFrameMs = 0.0;
     }
     // Frames of the weights of a moment ago are shown: the hand may be faster than they are.
@@ -144,7 +143,7 @@ void ProjectionView::holdTone() {
 }
 
 void ProjectionView::adoptTone(const render::ToneRange &range) {
-    m_tone.adopt(range);
+    m_tone.adopt(range, m_document.scene());
     m_document.setBrightness(range);
     updateTone();
 }
@@ -244,8 +243,6 @@ void ProjectionView::showComparison() {
 }
 
 void ProjectionView::requestFrame(bool moving) {
-    if (m_tone.isWanted()) // what it was is not that of what comes
-        m_document.setBrightness(std::nullopt);
     if (!m_engine)
         return;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
@@ -254,6 +251,8 @@ void ProjectionView::requestFrame(bool moving) {
     shading::Shading shading = m_document.scene().shading;
     if (shading.isLit() && !m_takesLight) // it is being prepared: all stays as it is till then
         shading = m_drawnShading;
+    else
+        m_tone.follow(shading);
     m_drawnShading = shading;
     std::optional<RenderWorker::Compared> compared;
     if (const auto &before = m_comparison.before(); m_isComparing && before)
@@ -292,10 +291,11 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     emit engineDescribed(tr("%1: %2").arg(
         spoken(engine), frame->refusal.isEmpty() ? m_engineReason : frame->refusal));
     if (showsFinalImage()) {
-        m_document.setBrightness(m_tone.range());
-        if (m_planState == PlanState::holds)
+        if (m_planState == PlanState::holds) {
+            m_document.setBrightness(m_tone.range());
             m_comparison.settled(
                 {m_engine, m_document.scene().image, m_drawnShading, shownTone(), m_lookName});
+        }
         emit finalImageShown();
     }
     showComparison();

@@ -109,9 +109,8 @@ private slots:
             QCOMPARE(filesBelow(at.copiesFolder()), 20 * studies);
             if (studies > 0) {
                 const StudyFacts study = library.find("", StudyOrder::byName, 0, 1).studies.at(0);
-                const VolumeFacts v = library.volumes(study.libraryId).at(0);
-                const auto loaded =
-                    librarySource(study, v, library.files(v.libraryId)).load({}, {});
+                const VolumeFacts v = library.volumes(study).at(0);
+                const auto loaded = librarySource(study, v, library.files(study, v)).load({}, {});
                 QCOMPARE(loaded.volume.lattice().size().k, 20);
             }
         }
@@ -191,8 +190,8 @@ private slots:
         importStudies(at, {{folder}, ImportMode::refer}, {});
         Library library(at);
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
-        const VolumeFacts v = library.volumes(study.libraryId)[0];
-        const auto files = library.files(v.libraryId);
+        const VolumeFacts v = library.volumes(study)[0];
+        const auto files = library.files(study, v);
         fs::remove(folder / "IM0001.dcm"); // the end of the stack
         const auto loaded = librarySource(study, v, files).load({}, {});
         QCOMPARE(loaded.volume.lattice().size().k, 19);
@@ -222,7 +221,7 @@ private slots:
         qInfo("%d of 400 studies were read", saved);
         QVERIFY(saved > 100);
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 1).studies.at(0);
-        QVERIFY(library.volumes(study.libraryId).at(0).files > 0);
+        QVERIFY(library.volumes(study).at(0).files > 0);
         QVERIFY(openLibrary(at.folder).notices.empty());
     }
 
@@ -299,7 +298,7 @@ private slots:
     void copiesWithoutRowsAreListedAfterARebuild() {
         const LibraryPlace at = place("relisted");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
-        Library(at).remove(Library(at).find("", StudyOrder::byName, 0, 1).studies.at(0).libraryId);
+        Library(at).remove(Library(at).find("", StudyOrder::byName, 0, 1).studies.at(0));
         std::ofstream(at.rebuiltMark()) << "";
         OpenedLibrary opened = openLibrary(at.folder);
         QVERIFY(opened.mayLackCopies && !opened.wasDamaged);
@@ -330,7 +329,7 @@ private slots:
         const LibraryPlace at = place("failed removal");
         importStudies(at, {{m_folder / "head"}, ImportMode::copy}, {});
         Library library(at);
-        removeStudy(library, library.find("", StudyOrder::byName, 0, 1).studies.at(0).libraryId);
+        removeStudy(library, library.find("", StudyOrder::byName, 0, 1).studies.at(0));
         QCOMPARE(filesBelow(at.copiesFolder()), 22); // their names, and a lock
         removeAbandonedImports(library, LeftCopies::removed);
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
@@ -361,13 +360,21 @@ private slots:
         Library(at).put(many(3, 2));
         const auto seen = [&] { return open.find("", StudyOrder::byName, 0, 10).count; };
         QCOMPARE(seen(), 3);
+        const StudyFacts listed = open.find("doe1", StudyOrder::byName, 0, 10).studies.at(0);
         const fs::path damaged = at.folder / "damaged.sqlite";
         fs::rename(at.listFile(), damaged);
         QCOMPARE(seen(), 3); // the new one is to come
-        Library(at).put(many(2, 2));
+        Library(at).put({many(2, 2).at(1), many(2, 2).at(0)});
+        QSignalSpy changed(&open, &StudyLibrary::changed);
         QCOMPARE(seen(), 2);
-        open.remove(open.find("", StudyOrder::byName, 0, 10).studies.at(0));
+        const StudyFacts found = open.find("doe1", StudyOrder::byName, 0, 10).studies.at(0);
+        QVERIFY(found.libraryId != listed.libraryId);
+        QTRY_COMPARE(changed.size(), 1); // whoever lists them is told
+        // Numbers are others now; what was listed before is what is meant.
+        QCOMPARE(open.volumes(listed).at(0).seriesUid, open.volumes(found).at(0).seriesUid);
+        open.remove(listed);
         QCOMPARE(count(Library(at)), 1);
+        QCOMPARE(count(Library(at), "doe0"), 1);
     }
 
     void aReadOnlyFolderIsReadAndKeepsWhatItHas() {
@@ -422,7 +429,7 @@ int main(int argc, char **argv) {
     if (argc == 3 && std::string_view(argv[1]) == "--remove") {
         pellucid::ui::Library library({argv[2]});
         const auto study = library.find("", pellucid::ui::StudyOrder::byName, 0, 1).studies.at(0);
-        const auto removal = pellucid::ui::removeStudy(library, study.libraryId);
+        const auto removal = pellucid::ui::removeStudy(library, study);
         std::_Exit(removal.copies.empty() ? 1 : 0);
     }
     if (argc == 3 && std::string_view(argv[1]) == "--open")

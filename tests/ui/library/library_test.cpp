@@ -65,21 +65,21 @@ private slots:
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
         QCOMPARE(study.key(), s.study.key());
         QCOMPARE(study.modalities, QString("CT"));
-        const VolumeFacts v = library.volumes(study.libraryId).at(0);
+        const VolumeFacts v = library.volumes(study).at(0);
         QCOMPARE(v.key(), s.volumes[0].key());
         QCOMPARE(v.tiltDeg, 18.5);
         QCOMPARE(v.warnings, s.volumes[0].warnings);
         QCOMPARE(v.thumbnail.size(), QSize(96, 60));
         QCOMPARE(qGray(v.thumbnail.pixel(5, 5)), 77);
         QCOMPARE(v.files, 3);
-        QCOMPARE(library.files(v.libraryId).size(), std::size_t(3));
+        QCOMPARE(library.files(study, v).size(), std::size_t(3));
         // Again, with another file: in place of what was there.
         s.files.resize(2);
         library.put({s});
         QCOMPARE(count(library), 1);
-        QCOMPARE(library.volumes(study.libraryId).size(), std::size_t(1));
-        QCOMPARE(library.volumes(study.libraryId)[0].files, 2);
-        finish(removeStudy(library, study.libraryId), library);
+        QCOMPARE(library.volumes(study).size(), std::size_t(1));
+        QCOMPARE(library.volumes(study)[0].files, 2);
+        finish(removeStudy(library, study), library);
         QCOMPARE(count(library), 0);
     }
 
@@ -132,18 +132,18 @@ private slots:
             QCOMPARE(result.files, 20);
             Library library(at);
             const StudyFacts study = library.find("head", StudyOrder::byName, 0, 10).studies.at(0);
-            const VolumeFacts v = library.volumes(study.libraryId).at(0);
+            const VolumeFacts v = library.volumes(study).at(0);
             QVERIFY(!v.thumbnail.isNull());
             QCOMPARE(v.isCopied, mode == ImportMode::copy);
             QCOMPARE(filesBelow(at.copiesFolder()), mode == ImportMode::copy ? 20 : 0);
             // No name of a patient among the names of the copies.
-            for (const dicom::InstanceFile &file : library.files(v.libraryId))
+            for (const dicom::InstanceFile &file : library.files(study, v))
                 QVERIFY(mode == ImportMode::refer ||
                         file.path.string().find("Head") == std::string::npos);
-            const auto loaded = librarySource(study, v, library.files(v.libraryId)).load({}, {});
+            const auto loaded = librarySource(study, v, library.files(study, v)).load({}, {});
             QCOMPARE(loaded.volume.lattice().size().k, 20);
             QVERIFY(loaded.skipped.empty());
-            finish(removeStudy(library, study.libraryId), library);
+            finish(removeStudy(library, study), library);
             QCOMPARE(filesBelow(at.copiesFolder()), 0);
             QCOMPARE(filesBelow(m_folder / "head"), 20);
         }
@@ -166,8 +166,8 @@ private slots:
         importStudies(at, {{two}, ImportMode::copy}, {}); // twice is once
         Library library(at);
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
-        QCOMPARE(library.volumes(study.libraryId).size(), std::size_t(1));
-        const VolumeFacts v = library.volumes(study.libraryId)[0];
+        QCOMPARE(library.volumes(study).size(), std::size_t(1));
+        const VolumeFacts v = library.volumes(study)[0];
         QCOMPARE(v.size.k, 20);
         QCOMPARE(filesBelow(at.copiesFolder()), 20);
     }
@@ -179,8 +179,8 @@ private slots:
         importStudies(at, {{m_folder / "head"}, ImportMode::refer}, {});
         Library library(at);
         const StudyFacts study = library.find("", StudyOrder::byName, 0, 10).studies.at(0);
-        QVERIFY(library.volumes(study.libraryId).at(0).isCopied);
-        finish(removeStudy(library, study.libraryId), library);
+        QVERIFY(library.volumes(study).at(0).isCopied);
+        finish(removeStudy(library, study), library);
         QCOMPARE(filesBelow(at.copiesFolder()), 0);
     }
 };

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/automatic_tone.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace pellucid::ui {
+
+namespace {
+
+const render::ToneRange bright{0.0, 300.0}, dark{0.0, 200.0};
+
+render::Scene litScene() {
+    render::Scene scene;
+    scene.look.transferFunction.weights = {0.0, 0.5, 1.0};
+    scene.fieldWindow = {-500.0, 1500.0};
+    scene.shading.lights.emplace_back();
+    return scene;
+}
+
+AutomaticTone taken(const render::ToneRange &range) {
+    AutomaticTone tone;
+    tone.take(range);
+    return tone;
+}
+
+AutomaticTone adopted(const render::Scene &scene) {
+    AutomaticTone tone;
+    tone.adopt(bright, scene);
+    return tone;
+}
+
+} // namespace
+
+TEST(AutomaticTone, IsTakenFromTheFirstFrameAndKeptUntilOtherFieldsCome) {
+    AutomaticTone tone;
+    EXPECT_TRUE(tone.isWanted());
+    tone.take(bright);
+    EXPECT_FALSE(tone.isWanted());
+    EXPECT_EQ(tone.completed({}).high, 300.0);
+    EXPECT_EQ(tone.completed({.high = 80.0}).high, 80.0); // the user's own end
+    tone.beginFields({});
+    EXPECT_TRUE(tone.isWanted());
+    EXPECT_EQ(tone.range(), bright); // till then
+}
+
+TEST(AutomaticTone, IsTakenAnewForAnotherNumberOfLightsOrKindOfCueAndNotForWhatTheHandDrags) {
+    const std::pair<std::function<void(shading::Shading &)>, bool> changes[] = {
+        {[](auto &s) { s.lights.emplace_back(); }, true},
+        {[](auto &s) { s.lights.clear(); }, true},
+        {[](auto &s) { s.cue.kind = shading::CueKind::sine; }, true},
+        {[](auto &s) { s.cue.strength = 0.3; }, false},
+        {[](auto &s) {
+             s.lights[0].direction = {0.0, 1.0, 0.0};
+         },
+         false}};
+    for (const auto &[change, isAnother] : changes) {
+        shading::Shading shading = litScene().shading;
+        shading.cue.kind = shading::CueKind::linear;
+        AutomaticTone tone = taken(bright);
+        tone.follow(shading);
+        tone.take(bright);
+        tone.follow(shading);
+        EXPECT_FALSE(tone.isWanted());
+        change(shading);
+        tone.follow(shading);
+        EXPECT_EQ(tone.isWanted(), isAnother);
+    }
+}
+
+TEST(AutomaticTone, OfASceneThatIsSeenAgainIsThatOfBeforeForAllItsFields) {
+    const render::Scene scene = litScene();
+    AutomaticTone tone = adopted(scene);
+    tone.beginFields(scene); // the coarse picture's
+    tone.follow(scene.shading);
+    tone.beginFields(scene);
+    tone.follow(scene.shading);
+    EXPECT_FALSE(tone.isWanted());
+    EXPECT_EQ(tone.range(), bright);
+    tone.retake();
+    tone.take(dark);
+    tone.beginFields(scene); // it is over
+    EXPECT_TRUE(tone.isWanted());
+}
+
+TEST(AutomaticTone, OfASceneThatIsSeenAgainIsNotThatOfAnother) {
+    const std::function<void(render::Scene &)> changes[] = {
+        [](auto &s) { s.look.transferFunction.weights[1] = 1.0; },
+        [](auto &s) { s.fieldWindow.reset(); }, [](auto &s) { s.crop.low.x += 0.25; },
+        [](auto &s) { s.shading.lights.clear(); },
+        [](auto &s) { s.shading.cue.kind = shading::CueKind::sine; }};
+    for (const auto &change : changes) {
+        render::Scene other = litScene();
+        AutomaticTone tone = adopted(other);
+        change(other);
+        tone.beginFields(other);
+        EXPECT_TRUE(tone.isWanted());
+    }
+}
+
+TEST(AutomaticTone, GoesWithItsVolumeUnlessTheNextIsAnotherPhase) {
+    AutomaticTone tone = taken(bright);
+    tone.hold();
+    EXPECT_TRUE(tone.outlivesVolume(false)); // the former phase is closed
+    EXPECT_TRUE(tone.outlivesVolume(true));
+    EXPECT_EQ(tone.range(), bright);
+    EXPECT_FALSE(tone.outlivesVolume(true)); // another study
+    EXPECT_TRUE(tone.isWanted());
+    EXPECT_EQ(tone.range(), render::ToneRange());
+}
+
+} // namespace pellucid::ui
