@@ -2,8 +2,6 @@
 #include "ui/failure.h"
 
 #include <exception>
-#include <new>
-#include <system_error>
 
 #include <QCoreApplication>
 
@@ -26,13 +24,9 @@ Failure currentFailure() {
         throw;
     } catch (const task::Error &error) {
         return {spoken(error.reason()), QString::fromStdString(error.path().string())};
-    } catch (const std::bad_alloc &) {
-        return {FailureTexts::tr("not enough memory"), {}};
-    } catch (const std::system_error &error) {
+    } catch (const std::exception &error) {
         if (task::isLackOfMemory(error))
             return {FailureTexts::tr("not enough memory"), {}};
-        task::log(std::string("a fault of the program: ") + error.what());
-    } catch (const std::exception &error) {
         task::log(std::string("a fault of the program: ") + error.what());
     } catch (...) {
         task::log("a fault of the program");

@@ -40,12 +40,12 @@ void Reopening::openFromLibrary(const StudyFacts &study, const VolumeFacts &volu
 
 void Reopening::resume() {
     if (const auto session = m_bench.session.kept())
-        ui::resume(*session, m_bench.opener, m_bench.document);
+        ui::resume(*session, m_bench.opener);
 }
 
 void Reopening::forgetAll() {
     forgetRecentPaths();
-    m_bench.session.forget();
+    m_bench.session.forgetAll();
     show();
 }
 

@@ -47,9 +47,8 @@ std::optional<Session> currentSession(const Document &document) {
     return session;
 }
 
-void resume(const Session &session, StudyOpener &opener, Document &document) {
-    document.addProblems(session.leftOut);
-    opener.resumeWith({session.key, session.shown});
+void resume(const Session &session, StudyOpener &opener) {
+    opener.resumeWith({session.key, session.shown, session.leftOut});
     if (!session.phantom.isEmpty())
         opener.openPhantom(session.phantom);
     else

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include <QStringList>
 
+#include "core/files/file_lock.h"
 #include "core/task/error.h"
 #include "ui/study_opener.h"
 
@@ -36,7 +38,8 @@ std::optional<Session> currentSession(const Document &document);
 
 /// The user's file of it, written a moment after each change and when the program ends: one that is
 /// killed loses a second or two. What cannot be written or read is as if there were none: nobody is
-/// kept from ending or beginning.
+/// kept from ending or beginning. Programs that run at the same time have files of their own; one
+/// that begins goes on with the one that was killed last, else with the one that ended last.
 class SessionFile {
 public:
     SessionFile();
@@ -46,15 +49,20 @@ public:
     /// Written aside, because it waits for the disk.
     void keep(const Session &session);
     void forget();
+    /// Those of programs that have ended, too.
+    void forgetAll();
     std::optional<Session> kept() const;
     /// Why what was kept cannot be taken up, where something was.
     std::optional<task::Error> fault() const;
 
 private:
+    void choose();
     void write(const std::stop_token &stop);
     /// A moment when nothing is being written; what was not begun may be dropped then.
     std::unique_lock<std::mutex> rest() const;
 
+    std::optional<std::filesystem::path> m_path; ///< none: there is no place for it
+    std::optional<files::FileLock> m_lock;
     mutable std::mutex m_mutex;
     mutable std::condition_variable_any m_changed;
     std::optional<Session> m_next;
@@ -63,6 +71,6 @@ private:
 };
 
 /// Opens it, as it was looked at. Files that are gone are among the problems.
-void resume(const Session &session, StudyOpener &opener, Document &document);
+void resume(const Session &session, StudyOpener &opener);
 
 } // namespace pellucid::ui

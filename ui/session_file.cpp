@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include <QJsonArray>
@@ -24,21 +26,33 @@ namespace {
 constexpr const char *schema = "pellucid-session/1";
 constexpr std::size_t mostOfSession = 64 << 20; // it may name each file of a study
 
-std::optional<std::filesystem::path> sessionFile() {
-    const auto folder = files::userDataFolder();
-    return folder ? std::optional(*folder / "session.json") : std::nullopt;
+constexpr int mostPrograms = 100;
+
+std::filesystem::path fileOf(const std::filesystem::path &folder, int program,
+                             const char *extension) {
+    return folder /
+           ("session" + (program == 0 ? "" : "-" + std::to_string(program + 1)) + extension);
+}
+
+// Of the programs that have a file, and of one more.
+int places(const std::filesystem::path &folder) {
+    std::error_code unknown;
+    int n = 0;
+    while (n + 1 < mostPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
+                                    std::filesystem::exists(fileOf(folder, n, ".lock"), unknown)))
+        ++n;
+    return n + 1;
 }
 
 // None where nothing was kept.
-std::optional<Session> readSession() {
-    const auto path = sessionFile();
+std::optional<Session> readSession(const std::filesystem::path &path) {
     std::error_code unknown;
-    if (!path || !std::filesystem::exists(*path, unknown))
+    if (!std::filesystem::exists(path, unknown))
         return std::nullopt;
     try {
-        return sessionFromJson(files::readText(*path, mostOfSession));
+        return sessionFromJson(files::readText(path, mostOfSession));
     } catch (const task::Error &error) {
-        throw task::Error(error.code(), error.reason(), *path);
+        throw task::Error(error.code(), error.reason(), path);
     }
 }
 
@@ -144,7 +158,38 @@ Session sessionFromJson(const std::string &text) {
     return fromJson(QJsonDocument::fromJson(QByteArray::fromStdString(text)).object());
 }
 
-SessionFile::SessionFile() : m_thread([this](const std::stop_token &stop) { write(stop); }) {}
+SessionFile::SessionFile() {
+    choose();
+    m_thread = std::jthread([this](const std::stop_token &stop) { write(stop); });
+}
+
+void SessionFile::choose() {
+    const auto folder = files::userDataFolder();
+    if (!folder)
+        return;
+    // What was killed is more urgent than what ended, and what is there at all than a free place.
+    std::tuple<int, std::filesystem::file_time_type> best{-1, {}};
+    for (int n = 0, all = places(*folder); n < all; ++n) {
+        files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Others::areLetBe);
+        if (!lock.isHeld())
+            continue;
+        const auto path = fileOf(*folder, n, ".json");
+        int urgency = 0;
+        try {
+            if (const auto session = readSession(path))
+                urgency = session->hasEnded ? 1 : 2;
+        } catch (const task::Error &) {
+            urgency = 1; // it is to be said that it cannot be read
+        }
+        std::error_code none;
+        const std::tuple rank{urgency, std::filesystem::last_write_time(path, none)};
+        if (!m_lock || (urgency > 0 && rank > best)) {
+            best = rank;
+            m_path = path;
+            m_lock = std::move(lock);
+        }
+    }
+}
 
 SessionFile::~SessionFile() {
     m_thread.request_stop();
@@ -158,8 +203,8 @@ void SessionFile::write(const std::stop_token &stop) {
         m_isWriting = true;
         lock.unlock();
         try {
-            if (const auto path = sessionFile()) {
-                files::AtomicFile file(*path);
+            if (m_path) {
+                files::AtomicFile file(*m_path);
                 file.write(toJson(session));
                 file.commit();
             }
@@ -190,16 +235,29 @@ void SessionFile::forget() {
     const auto lock = rest();
     m_next.reset();
     std::error_code ignored;
-    if (const auto path = sessionFile())
-        std::filesystem::remove(*path, ignored);
+    if (m_path)
+        std::filesystem::remove(*m_path, ignored);
+}
+
+void SessionFile::forgetAll() {
+    forget();
+    const auto folder = files::userDataFolder();
+    for (int n = 0, all = folder ? places(*folder) : 0; n < all; ++n) {
+        const files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Others::areLetBe);
+        std::error_code ignored;
+        if (lock.isHeld())
+            std::filesystem::remove(fileOf(*folder, n, ".json"), ignored);
+    }
 }
 
 std::optional<Session> SessionFile::kept() const {
     const auto lock = rest();
     if (m_next)
         return m_next;
+    if (!m_path)
+        return std::nullopt;
     try {
-        return readSession();
+        return readSession(*m_path);
     } catch (const task::Error &) {
         return std::nullopt;
     }
@@ -208,7 +266,8 @@ std::optional<Session> SessionFile::kept() const {
 std::optional<task::Error> SessionFile::fault() const {
     const auto lock = rest();
     try {
-        readSession();
+        if (m_path)
+            readSession(*m_path);
     } catch (const task::Error &error) {
         return error;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/study_opener.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/dicom/scan.h"
@@ -107,6 +108,9 @@ void StudyOpener::openPaths(const QStringList &paths) {
                     m_kept.take(index);
                 if (!m_resumption) // what the user named was remembered then
                     emit pathsOpened(paths);
+                else if (!holdsResumed(indices))
+                    m_document.addProblems(
+                        {{files.front(), "is not the study that was open here"}});
                 endScan();
                 openSource(wantedOf(indices, indices[defaultSource(*catalogue)]));
             });
@@ -114,6 +118,12 @@ void StudyOpener::openPaths(const QStringList &paths) {
         paths.front());
     if (m_jobs.isRunning()) // there may have been no thread for it
         m_preparer.setHeld(true);
+}
+
+bool StudyOpener::holdsResumed(const std::vector<int> &indices) const {
+    return std::any_of(indices.begin(), indices.end(), [&](int index) {
+        return m_document.sources()[std::size_t(index)].digest() == m_resumption->digest;
+    });
 }
 
 int StudyOpener::wantedOf(const std::vector<int> &indices, int usual) const {
@@ -132,8 +142,10 @@ void StudyOpener::takeUp() {
     if (m_document.currentSource() < 0)
         return;
     const StudySource &open = m_document.sources()[std::size_t(m_document.currentSource())];
-    if (open.digest() == resumption.digest)
+    if (open.digest() == resumption.digest) {
+        m_document.addProblems(resumption.leftOut);
         goOn(resumption.shown);
+    }
 }
 
 void StudyOpener::openPhantom(const QString &kind) {

@@ -43,6 +43,8 @@ public:
     struct Resumption {
         QString digest; ///< of the source
         Continuity shown;
+        /// What else of its folders could not be used then.
+        std::vector<dicom::Skipped> leftOut;
     };
     void resumeWith(const Resumption &resumption) { m_resumption = resumption; }
     /// Takes it off the list; if it is the open one, nothing is open then.
@@ -62,6 +64,7 @@ signals:
 private:
     void endScan();
     /// The one that is to be resumed, or else the usual one.
+    bool holdsResumed(const std::vector<int> &indices) const;
     int wantedOf(const std::vector<int> &indices, int usual) const;
     void takeUp();
     void keepCurrent();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/workstation.h"
 
+#include <algorithm>
+
 #include <QApplication>
 #include <QLibraryInfo>
 #include <QLocale>
@@ -47,8 +49,15 @@ void Workstation::keepWhatIsOpen(bool hasEnded) {
     // Who opened nothing still has what was open before.
     if (auto session = currentSession(m_bench.document)) {
         session->hasEnded = hasEnded;
-        m_bench.session.keep(*session);
         m_hasKept = true;
+        // A program that is killed may lose nothing; of one that ends no name is to stay.
+        const bool mayStay =
+            std::all_of(session->files.begin(), session->files.end(),
+                        [&](const QString &file) { return mayBeKept(file, m_bench.document); });
+        if (hasEnded && !mayStay)
+            m_bench.session.forget();
+        else
+            m_bench.session.keep(*session);
     } else if (hasEnded && m_hasKept) { // what was kept before is not of a crash
         if (auto kept = m_bench.session.kept()) {
             kept->hasEnded = true;
@@ -105,7 +114,7 @@ void Workstation::follow(const Preferences &preferences) {
     const Preferences before = m_preferences;
     m_preferences = preferences;
     if (!preferences.remembersStudies) {
-        m_bench.session.forget();
+        m_bench.session.forgetAll();
         forgetRecentPaths();
     }
     if (before.showsPatient && !preferences.showsPatient)

@@ -128,13 +128,15 @@ void addInfoCommand(CLI::App &app, const Context &context) {
     command->callback([options, context] {
         const std::vector<std::filesystem::path> paths(options->paths.begin(),
                                                        options->paths.end());
-        const dicom::Catalogue catalogue = dicom::scan(paths, task::Progress(context.stop));
-        if (options->json)
-            std::puts(jsonText(catalogueJson(catalogue)).c_str());
-        else
-            printCatalogue(catalogue);
-        if (catalogue.empty())
-            failWithoutImages(catalogue, paths.front());
+        naming(paths.front(), [&] {
+            const dicom::Catalogue catalogue = dicom::scan(paths, task::Progress(context.stop));
+            if (options->json)
+                std::puts(jsonText(catalogueJson(catalogue)).c_str());
+            else
+                printCatalogue(catalogue);
+            if (catalogue.empty())
+                failWithoutImages(catalogue, paths.front());
+        });
     });
 }
 

@@ -76,11 +76,13 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
     std::set<const dicom::Series *> series;
     for (const dicom::Selection &s : dicom::selections(catalogue))
         series.insert(s.series);
+    const std::size_t patients = catalogue.patients.size();
     if (isByDefault && series.size() > 1)
-        warn(fmt::format("series {} ({}) of {} series, {} patients; --series chooses, 'info' lists "
-                         "them",
-                         shown.series->number, shown.series->uid, series.size(),
-                         catalogue.patients.size()));
+        warn(
+            fmt::format("series {} ({}) of {} series, {} patient{}; --series chooses, 'info' lists "
+                        "them",
+                        shown.series->number, shown.series->uid, series.size(), patients,
+                        patients == 1 ? "" : "s"));
     if (shown.series->volumes.size() > 1)
         warn(fmt::format("volume '{}' of {} volumes of the series, of {} of its {} files; 'info' "
                          "lists them",
@@ -98,8 +100,35 @@ double Stopwatch::lapMs() {
     return lap;
 }
 
+void naming(const std::filesystem::path &path, const std::function<void()> &work) {
+    try {
+        work();
+    } catch (const Error &error) {
+        if (error.code() != ErrorCode::outOfMemory || !error.path().empty())
+            throw;
+        throw Error(error.code(), error.reason(), path);
+    } catch (const task::Cancelled &) {
+        throw;
+    } catch (const std::exception &error) {
+        if (!task::isLackOfMemory(error))
+            throw;
+        throw Error(ErrorCode::outOfMemory, "not enough memory", path);
+    }
+}
+
+// What is missing for want of memory tells nothing of the files.
+void requireAllRead(const std::vector<dicom::Skipped> &skipped, const std::filesystem::path &path) {
+    const auto lacking = std::count_if(skipped.begin(), skipped.end(), [](const auto &s) {
+        return s.reason == dicom::lacksMemory;
+    });
+    if (lacking > 0)
+        throw Error(ErrorCode::outOfMemory,
+                    fmt::format("{} of its files need more memory than there is", lacking), path);
+}
+
 [[noreturn]] void failWithoutImages(const dicom::Catalogue &catalogue,
                                     const std::filesystem::path &path) {
+    requireAllRead(catalogue.skipped, path);
     if (catalogue.skipped.size() == 1)
         throw Error(ErrorCode::unusable, catalogue.skipped[0].reason, catalogue.skipped[0].path);
     std::string reason = "holds no usable images";
@@ -137,19 +166,23 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     } catch (const Error &error) {
         throw Error(error.code(), error.reason(), path);
     }
-    if (!selection.volume->placed)
+    if (!selection.volume->placed) {
+        requireAllRead(catalogue.skipped, path);
         throw Error(ErrorCode::unusable,
                     "holds images but no volume: " + selection.volume->notPlacedReason, path);
+    }
     try {
         input.loaded = dicom::loadVolume(*selection.volume, progress);
     } catch (const Error &error) { // what an archive was unpacked to is gone when they look
         throw Error(error.code(), error.reason(),
                     error.path().empty() ? path : catalogue.named(error.path()));
     }
-    if (!input.loaded.volume.notes().placed)
+    if (!input.loaded.volume.notes().placed) {
+        requireAllRead(input.loaded.skipped, path);
         throw Error(ErrorCode::unusable,
                     "holds images but no volume: " + input.loaded.volume.notes().warnings.back(),
                     path);
+    }
     input.seriesUid = selection.series->uid;
     input.seriesDescription = selection.series->description;
     input.labels = dicom::captureLabels(selection);

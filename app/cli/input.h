@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,9 @@ void addSeriesOption(CLI::App &command, std::string &series);
 /// Error{usage} if one of `outs` is one of the files that are read.
 Input openInput(const std::filesystem::path &path, const std::string &series,
                 const std::vector<std::filesystem::path> &outs, const Context &context);
+
+/// Does work on an input. *Throws* as the work; what lacks memory names the input.
+void naming(const std::filesystem::path &path, const std::function<void()> &work);
 
 /// Why nothing of what was found can be used. *Throws* Error{unusable} naming a file and its
 /// reason.

@@ -101,13 +101,9 @@ int main(int argc, char **argv) {
         return report(error.what(), int(error.code()));
     } catch (const task::Cancelled &) {
         return report("cancelled", cancelledExit);
-    } catch (const std::bad_alloc &) {
-        return report("not enough memory", memoryExit);
-    } catch (const std::system_error &error) {
+    } catch (const std::exception &error) {
         return task::isLackOfMemory(error)
                    ? report("not enough memory", memoryExit)
                    : report(std::string("internal error: ") + error.what(), internalExit);
-    } catch (const std::exception &error) {
-        return report(std::string("internal error: ") + error.what(), internalExit);
     }
 }

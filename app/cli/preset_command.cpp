@@ -88,7 +88,8 @@ void import(const Options &o) {
 
 void addPresetCommand(CLI::App &app, const Context &) {
     auto o = std::make_shared<Options>();
-    CLI::App *c = app.add_subcommand("preset", "Looks that are kept: list, show, check, move them");
+    CLI::App *c =
+        app.add_subcommand("preset", "Looks that are kept: list, show, validate, move them");
     c->require_subcommand(1);
     c->add_subcommand("list", "One line per preset")->callback([] { list(); });
     CLI::App *show = c->add_subcommand("show", "Print a preset as JSON");

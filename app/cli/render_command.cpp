@@ -232,7 +232,7 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     c->add_flag("--deidentify", o->isDeidentified,
                 "A .dcm without the patient's identity (PS3.15, basic profile)");
     c->add_flag("--json", o->json, "Print one JSON object about what was done");
-    c->callback([o, c, context] { run(*o, *c, context); });
+    c->callback([o, c, context] { naming(o->path, [&] { run(*o, *c, context); }); });
 }
 
 } // namespace pellucid::cli

@@ -66,7 +66,7 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
         ->excludes(tissue);
     c->add_option("--window", o->window, "The field's window LO,HI in value units");
     c->add_flag("--gzip", o->gzip, "Compress the samples");
-    c->callback([o, c, context] { run(*o, *c, context); });
+    c->callback([o, c, context] { naming(o->path, [&] { run(*o, *c, context); }); });
 }
 
 } // namespace pellucid::cli

@@ -40,8 +40,13 @@ constexpr int mostWishes = 8;       // for memory, of one request
 constexpr double startSeconds = 30; // of a loaded machine
 constexpr std::chrono::milliseconds endPatience(500);
 
-[[noreturn]] void failStarting(const std::filesystem::path &program, const std::string &why) {
-    throw Error(ErrorCode::internal, "the decoder cannot be started: " + why, program);
+[[noreturn]] void failStarting(const std::filesystem::path &program, int error) {
+    if (error == ENOMEM || error == EAGAIN)
+        throw Error(ErrorCode::outOfMemory, "not enough memory for a decoder");
+    throw Error(ErrorCode::internal,
+                std::string("the decoder cannot be started: ") +
+                    (error == 0 ? "it does not answer" : std::strerror(error)),
+                program);
 }
 
 std::atomic<std::uint64_t> grantedBytes = 0; // of all arenas
@@ -51,7 +56,7 @@ Descriptor movedUp(int fd, const std::filesystem::path &program) {
     Descriptor low(fd);
     Descriptor high(fd < 0 ? -1 : ::fcntl(fd, F_DUPFD_CLOEXEC, 10));
     if (!high)
-        failStarting(program, std::strerror(errno));
+        failStarting(program, errno);
     return high;
 }
 
@@ -95,14 +100,14 @@ Child::~Child() {
 void Child::start(const std::filesystem::path &program, const task::Progress &progress) {
     std::array<int, 2> ends{-1, -1};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
-        failStarting(program, std::strerror(errno));
+        failStarting(program, errno);
     m_socket = movedUp(ends[0], program);
     Descriptor theirs = movedUp(ends[1], program);
     m_arena = movedUp(::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING), program);
     // It may never get smaller below us: reading beyond its end would end the program.
     if (::ftruncate(m_arena.get(), off_t(firstArenaBytes)) != 0 ||
         ::fcntl(m_arena.get(), F_ADD_SEALS, F_SEAL_SHRINK) != 0)
-        failStarting(program, std::strerror(errno));
+        failStarting(program, errno);
     m_arenaBytes = firstArenaBytes;
 
     // The terminal's interrupt is for the program, and its signals begin as usual.
@@ -138,7 +143,7 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
     ::posix_spawnattr_destroy(&attributes);
     if (failed != 0) {
         m_pid = -1;
-        failStarting(program, std::strerror(failed));
+        failStarting(program, failed);
     }
     theirs = Descriptor(); // its end is to be seen
     std::optional<Received> ready;
@@ -146,7 +151,7 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
     if (waitForMessage(progress))
         ready = receive(m_socket.get(), Takes::noDescriptors);
     if (!ready || ready->message.kind != Message::Kind::ready)
-        failStarting(program, "it does not answer");
+        failStarting(program, 0);
     m_confinement = ready->message.code;
     static std::once_flag once;
     std::call_once(once, [this] {

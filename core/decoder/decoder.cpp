@@ -262,6 +262,7 @@ void Decoder::archive(const fs::path &path,
                 const auto files = unpackArchiveFiles(answer.body);
                 const int flags = answer.message.code;
                 const bool isFirst = (flags & firstPart) != 0, isLast = (flags & lastPart) != 0;
+                const bool isDamaged = (flags & damagedPart) != 0;
                 if ((flags & announcement) != 0) {
                     if (!isAnnouncing)
                         throw Error(ErrorCode::unusable, "was decoded to nonsense");
@@ -270,11 +271,11 @@ void Decoder::archive(const fs::path &path,
                         announce(f);
                 } else {
                     if (files.size() != 1 || isFirst == isInFile ||
-                        (!isLast && answer.data.size() != archivePartBytes))
+                        (!isLast && (isDamaged || answer.data.size() != archivePartBytes)))
                         throw Error(ErrorCode::unusable, "was decoded to nonsense");
                     isAnnouncing = false;
                     isInFile = !isLast;
-                    take({files[0], answer.data, isFirst, isLast});
+                    take({files[0], answer.data, isFirst, isLast, isDamaged});
                 }
                 child->askForNext();
             });

@@ -41,6 +41,7 @@ struct ArchivePart {
     const ArchiveFile &file;
     std::span<const std::byte> data;
     bool isFirst, isLast;
+    bool isDamaged; ///< the last: the data are not those of the file
 };
 
 /// Reads files whose bytes nobody vouches for, in processes of their own (`pellucid-decode`) that

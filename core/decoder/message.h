@@ -44,7 +44,7 @@ enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2 };
 
 /// Bits of `Message::code` of `part`. An announcement has a list of files for a body, the others
 /// the file that the data are of.
-enum ArchiveFlag : std::int32_t { announcement = 1, firstPart = 2, lastPart = 4 };
+enum ArchiveFlag : std::int32_t { announcement = 1, firstPart = 2, lastPart = 4, damagedPart = 8 };
 
 /// A bit of `Message::code` of the last `part` of samples: the file holds more of them.
 inline constexpr std::int32_t goesOn = 8;

@@ -81,7 +81,7 @@ bool isArchive(const fs::path &path) {
     }
 }
 
-std::vector<std::string> unpackArchive(Decoder &decoder, const fs::path &path,
+std::vector<LeftOutFile> unpackArchive(Decoder &decoder, const fs::path &path,
                                        const fs::path &folder, const task::Progress &progress,
                                        const UnpackLimits &limits) {
     std::error_code unknown;
@@ -90,7 +90,7 @@ std::vector<std::string> unpackArchive(Decoder &decoder, const fs::path &path,
         unknown ? limits.bytes : std::min(limits.bytes, space.available / 2);
     std::uintmax_t announced = 0, written = 0;
     std::size_t files = 0, number = 0;
-    std::vector<std::string> links;
+    std::vector<LeftOutFile> leftOut;
     fs::path to;
     std::ofstream out;
     decoder.archive(
@@ -109,7 +109,7 @@ std::vector<std::string> unpackArchive(Decoder &decoder, const fs::path &path,
                 throw Error(ErrorCode::unusable,
                             fmt::format("holds more than {} files", limits.files), path);
             if (file.isLink)
-                links.push_back(file.name);
+                leftOut.push_back({file.name, "is a link in an archive"});
         },
         [&](const ArchivePart &part) {
             errno = 0;
@@ -132,11 +132,16 @@ std::vector<std::string> unpackArchive(Decoder &decoder, const fs::path &path,
                 out.close();
             if (!out)
                 failWriting(to);
+            if (part.isDamaged) {
+                std::error_code ignored;
+                fs::remove(to, ignored);
+                leftOut.push_back({part.file.name, "is damaged in the archive"});
+            }
             progress.report(announced > 0 ? std::min(1.0, double(written) / double(announced))
                                           : 1.0);
         },
         progress);
-    return links;
+    return leftOut;
 }
 
 } // namespace pellucid::decoder

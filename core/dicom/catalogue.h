@@ -18,6 +18,9 @@ struct Skipped {
     std::string reason;
 };
 
+/// The reason of those that are left out for want of memory, which is not their fault.
+inline constexpr const char *lacksMemory = "needs more memory than there is";
+
 /// One image plane: a file, or one frame of a multi-frame file.
 struct FrameReference {
     std::filesystem::path path;

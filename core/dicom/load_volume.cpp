@@ -217,7 +217,7 @@ private:
             if (error.code() != ErrorCode::outOfMemory)
                 throw;
             m_lacksMemory = true;
-            throw Error(ErrorCode::unusable, error.reason(), path);
+            throw Error(ErrorCode::unusable, lacksMemory, path);
         }
     }
     // Where no file is left that could be read.

@@ -97,9 +97,9 @@ private:
 
     void addArchive(const fs::path &path) {
         auto folder = std::make_shared<files::SessionFolder>();
-        for (const std::string &link : decoder::unpackArchive(decoder::Decoder::ofProgram(), path,
-                                                              folder->path(), m_progress))
-            skipped.push_back({path / fs::path(link).relative_path(), "is a link in an archive"});
+        for (const auto &file : decoder::unpackArchive(decoder::Decoder::ofProgram(), path,
+                                                       folder->path(), m_progress))
+            skipped.push_back({path / fs::path(file.name).relative_path(), file.reason});
         addFolder(folder->path());
         unpacked.push_back({std::move(folder), path});
     }
@@ -331,18 +331,19 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
                 if (const auto reason = decoder::whyUnusable(header))
                     reasons[n] = *reason;
                 else if (!held.take(bytesToGroup(header)))
-                    reasons[n] = "needs more memory than there is";
+                    reasons[n] = lacksMemory;
                 else
                     headers[n] = std::move(header);
             }
         } catch (const Error &error) {
             if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
                 throw;
-            reasons[n] = decoder::isArchive(list.found[n])
+            reasons[n] = error.code() == ErrorCode::outOfMemory ? lacksMemory
+                         : decoder::isArchive(list.found[n])
                              ? "is an archive; archives are opened by themselves"
                              : error.reason();
         } catch (const std::bad_alloc &) {
-            reasons[n] = "needs more memory than there is";
+            reasons[n] = lacksMemory;
         }
         const std::lock_guard lock(reporting);
         progress.report(double(++done) / double(list.found.size()));

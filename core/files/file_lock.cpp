@@ -7,10 +7,13 @@
 
 namespace pellucid::files {
 
-FileLock::FileLock(const std::filesystem::path &file)
+FileLock::FileLock(const std::filesystem::path &file, Others others)
     : m_file(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
-    while (m_file && ::flock(m_file.get(), LOCK_EX) != 0 && errno == EINTR) {
+    const int how = others == Others::areLetBe ? LOCK_EX | LOCK_NB : LOCK_EX;
+    int result = 0;
+    while (m_file && (result = ::flock(m_file.get(), how)) != 0 && errno == EINTR) {
     }
+    m_isHeld = result == 0 || errno != EWOULDBLOCK;
 }
 
 } // namespace pellucid::files

@@ -7,13 +7,18 @@
 
 namespace pellucid::files {
 
-/// Held by one program at a time, as long as the object is there; others wait for it. Where a file
-/// cannot be locked (a share without locks, a folder that cannot be written) nobody is kept out.
+/// Held by one program at a time, as long as the object is there; others wait for it, or do
+/// without. Where a file cannot be locked (a share without locks, a folder that cannot be written)
+/// nobody is kept out.
 class FileLock {
 public:
-    explicit FileLock(const std::filesystem::path &file);
+    enum class Others { areWaitedFor, areLetBe };
+    explicit FileLock(const std::filesystem::path &file, Others others = Others::areWaitedFor);
+    /// False: another one holds it.
+    bool isHeld() const { return m_isHeld; }
 
 private:
+    bool m_isHeld = true;
     Descriptor m_file;
 };
 

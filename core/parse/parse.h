@@ -40,11 +40,12 @@ NrrdLayout parseNrrd(std::span<const std::byte> file);
 void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples,
                      const std::function<void(std::span<const std::byte>, bool goesOn)> &take);
 
-/// A part of the data of a file in an archive.
+/// A part of the data of a file in an archive; `flags`: of decoder::ArchiveFlag.
 using TakeData = std::function<void(const ArchiveFile &file, std::span<const std::byte> data,
-                                    bool isFirst, bool isLast)>;
+                                    std::int32_t flags)>;
 /// The regular files that a ZIP archive announces; then their data, in parts of at most
-/// `decoder::archivePartBytes`. *Throws* Error{unusable} if it is damaged.
+/// `decoder::archivePartBytes`. *Throws* Error{unusable} if it is damaged, but for the data of a
+/// few files, which are marked.
 void listArchive(std::span<const std::byte> archive,
                  const std::function<void(const ArchiveFile &)> &announce);
 void readArchive(std::span<const std::byte> archive, const TakeData &take);

@@ -47,47 +47,73 @@ ArchiveFile fileOf(struct archive_entry *entry) {
             archive_entry_is_encrypted(entry) != 0, archive_entry_filetype(entry) == AE_IFLNK};
 }
 
-void forEachFile(struct archive *reader, const std::function<void(const ArchiveFile &)> &f) {
+// A damaged file may leave the reader unusable, and each costs a new one.
+constexpr int mostDamaged = 100;
+
+// False: `f` asked for the end.
+bool forEachFile(struct archive *reader, const std::function<bool(const ArchiveFile &)> &f) {
     for (;;) {
         struct archive_entry *entry = nullptr;
         const int status = archive_read_next_header(reader, &entry);
         if (status == ARCHIVE_EOF)
-            return;
+            return true;
         // A warning is about names in another character set.
         if (status != ARCHIVE_OK && status != ARCHIVE_WARN)
             failReading(reader);
         const auto type = archive_entry_filetype(entry);
-        if (type == AE_IFREG || type == AE_IFLNK)
-            f(fileOf(entry));
+        if ((type == AE_IFREG || type == AE_IFLNK) && !f(fileOf(entry)))
+            return false;
     }
+}
+
+// False: its data are damaged.
+bool readFile(struct archive *reader, const ArchiveFile &file, std::span<std::byte> part,
+              const TakeData &take) {
+    for (std::int32_t flags = decoder::firstPart; (flags & decoder::lastPart) == 0;) {
+        std::size_t filled = 0;
+        la_ssize_t got = 1;
+        while (filled < part.size() && got > 0) {
+            got = archive_read_data(reader, part.data() + filled, part.size() - filled);
+            filled += got > 0 ? std::size_t(got) : 0;
+        }
+        if (got <= 0)
+            flags |= decoder::lastPart;
+        if (got < 0)
+            flags |= decoder::damagedPart;
+        take(file, part.first(filled), flags);
+        if (got < 0)
+            return false;
+        flags &= ~decoder::firstPart;
+    }
+    return true;
 }
 
 } // namespace
 
 void listArchive(std::span<const std::byte> archive,
                  const std::function<void(const ArchiveFile &)> &announce) {
-    forEachFile(open(archive).get(), announce);
+    forEachFile(open(archive).get(), [&](const ArchiveFile &file) {
+        announce(file);
+        return true;
+    });
 }
 
 void readArchive(std::span<const std::byte> archive, const TakeData &take) {
-    const Reader reader = open(archive);
     std::vector<std::byte> part(decoder::archivePartBytes);
-    forEachFile(reader.get(), [&](const ArchiveFile &file) {
-        if (file.isLink)
-            return;
-        for (bool isFirst = true, isLast = false; !isLast; isFirst = false) {
-            std::size_t filled = 0;
-            while (filled < part.size() && !isLast) {
-                const la_ssize_t got =
-                    archive_read_data(reader.get(), part.data() + filled, part.size() - filled);
-                if (got < 0)
-                    failReading(reader.get());
-                filled += std::size_t(got);
-                isLast = got == 0;
-            }
-            take(file, std::span(part).first(filled), isFirst, isLast);
-        }
-    });
+    std::size_t done = 0;
+    bool isDone = false;
+    for (int damaged = 0; !isDone && damaged <= mostDamaged; ++damaged) {
+        const Reader reader = open(archive);
+        std::size_t n = 0;
+        isDone = forEachFile(reader.get(), [&](const ArchiveFile &file) {
+            if (n++ < done)
+                return true;
+            ++done;
+            return file.isLink || readFile(reader.get(), file, part, take);
+        });
+    }
+    if (!isDone)
+        throw Error(ErrorCode::unusable, "is a damaged archive");
 }
 
 } // namespace pellucid::parse

@@ -12,8 +12,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <zlib.h>
 
+#include "core/decoder/instance.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
 #include "core/task/text.h"
@@ -223,6 +225,13 @@ void parseLattice(const Fields &fields, NrrdLayout &layout) {
         origin = sign * vectors[0];
     }
     (void)volume::Lattice::make(layout.size, {origin}, steps); // which says what is wrong
+    if (glm::length(origin) > decoder::farthestMm)
+        fields.fail("the NRRD space origin is farther away than a kilometre");
+    for (const glm::dvec3 &step : steps)
+        if (glm::length(step) < decoder::smallestSpacingMm ||
+            glm::length(step) > decoder::largestSpacingMm)
+            fields.fail("the NRRD samples are closer than a nanometre or farther apart than ten "
+                        "metres");
     layout.originMm = origin;
     layout.stepsMm = steps;
     layout.isOfPatient = space.isOfPatient;

@@ -102,9 +102,8 @@ private:
         });
         announce();
         readArchive(archive, [&](const ArchiveFile &file, std::span<const std::byte> data,
-                                 bool isFirst, bool isLast) {
-            part((isFirst ? decoder::firstPart : 0) | (isLast ? decoder::lastPart : 0),
-                 decoder::pack(std::vector<ArchiveFile>{file}), data);
+                                 std::int32_t flags) {
+            part(flags, decoder::pack(std::vector<ArchiveFile>{file}), data);
         });
         finish(0, {}, {});
     }

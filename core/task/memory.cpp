@@ -99,8 +99,8 @@ void requireMemory(double bytes) {
     const std::size_t available = availableMemoryBytes();
     if (bytes > double(available))
         throw Error(ErrorCode::outOfMemory,
-                    fmt::format("needs {:.0f} MB of memory, there are {} MB", bytes / 1048576.0,
-                                available >> 20));
+                    fmt::format("needs {:.0f} MB of memory, there are {} MB",
+                                std::ceil(bytes / 1048576.0), available >> 20));
 }
 
 } // namespace pellucid::task

@@ -41,7 +41,7 @@ void writeGzip(files::AtomicFile &file, std::span<const std::byte> bytes,
         stream.avail_out = uInt(out.size());
         state = deflate(&stream, done == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
         try {
-            progress.check();
+            progress.report(double(done - stream.avail_in) / double(bytes.size()));
             file.write(std::span(out).first(out.size() - stream.avail_out));
         } catch (...) {
             deflateEnd(&stream);

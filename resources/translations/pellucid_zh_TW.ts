@@ -1316,6 +1316,26 @@
         <source>files whose compressed pixels are damaged: %1</source>
         <translation>壓縮像素損壞的檔案：%1</translation>
     </message>
+    <message>
+        <source>is damaged in the archive</source>
+        <translation>在壓縮檔中已損壞</translation>
+    </message>
+    <message>
+        <source>is not the study that was open here</source>
+        <translation>不是先前在此開啟的檢查</translation>
+    </message>
+    <message>
+        <source>not enough memory for a decoder</source>
+        <translation>記憶體不足以啟動解碼程式</translation>
+    </message>
+    <message>
+        <source>the NRRD space origin is farther away than a kilometre</source>
+        <translation>NRRD 的 space origin 遠於一公里</translation>
+    </message>
+    <message>
+        <source>the NRRD samples are closer than a nanometre or farther apart than ten metres</source>
+        <translation>NRRD 取樣間距小於一奈米或大於十公尺</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>

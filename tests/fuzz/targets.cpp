@@ -100,7 +100,7 @@ void archive(Bytes bytes) {
     refusing([&] {
         parse::listArchive(bytes, [](const parse::ArchiveFile &) {});
         std::size_t total = 0;
-        parse::readArchive(bytes, [&](const parse::ArchiveFile &, Bytes part, bool, bool) {
+        parse::readArchive(bytes, [&](const parse::ArchiveFile &, Bytes part, std::int32_t) {
             total += part.size();
             if (total > (std::size_t(1) << 26)) // the program's own limit is in another place
                 throw task::Error(task::ErrorCode::unusable, "is a bomb");
@@ -185,12 +185,13 @@ void library(Bytes bytes) {
     const ui::OpenedLibrary opened = ui::openLibrary(folder.path());
     refusing([&] {
         ui::Library list(opened.place);
-        for (const auto &study : list.find("a", ui::StudyOrder::newestFirst, 0, 50).studies)
-            for (const auto &volume : list.volumes(study.libraryId))
-                list.files(volume.libraryId);
-        const auto copies = list.copiesOf(1);
-        list.remove(1);
-        list.removeCopies(copies);
+        for (const auto &study : list.find("a", ui::StudyOrder::newestFirst, 0, 50).studies) {
+            for (const auto &volume : list.volumes(study))
+                list.files(study, volume);
+            const auto copies = list.copiesOf(study);
+            list.remove(study);
+            list.removeCopies(copies);
+        }
     });
 }
 

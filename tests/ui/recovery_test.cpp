@@ -20,6 +20,8 @@
 #include "tests/support/files.h"
 #include "tests/support/little_memory.h"
 #include "tests/support/read_only_folder.h"
+#include "ui/file_menu.h"
+#include "ui/recent_paths.h"
 #include "ui/reopening.h"
 #include "ui/session.h"
 #include "ui/workstation.h"
@@ -36,7 +38,10 @@ private slots:
         Workstation::initTestCase();
         m_sessionFile = m_folder / "data" / "pellucid" / "session.json";
     }
-    void init() { fs::remove(m_sessionFile); }
+    void init() {
+        for (const char *const name : {"session.json", "session-2.json"})
+            fs::remove(m_sessionFile.parent_path() / name);
+    }
 
     void whatWasOpenIsOfferedAfterAKill() {
         QProcess program;
@@ -53,6 +58,69 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT(
             next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
         QCOMPARE(next.bench().document.volume()->lattice().size().k, 80);
+    }
+
+    // Neither takes the other's place, and what still runs is nothing to recover.
+    void programsAtTheSameTimeAreRecoveredEach() {
+        QProcess first;
+        start(first, {headPath()});
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        const fs::path second = m_sessionFile.parent_path() / "session-2.json";
+        {
+            ui::Workstation other;
+            QVERIFY(!other.window().findChild<QPushButton *>("resumeButton")->isVisible());
+            other.window().openPhantom("chest");
+            QTRY_VERIFY_WITH_TIMEOUT(fs::exists(second), patienceMs);
+        }
+        QVERIFY(ui::sessionFromJson(readText(second)).hasEnded);
+        QVERIFY(!kept().hasEnded);
+        first.kill();
+        QVERIFY(first.waitForFinished(patienceMs));
+        ui::Workstation next;
+        auto *offer = next.window().findChild<QPushButton *>("resumeButton");
+        QCOMPARE(offer->text(), QString("Recover what was open")); // before what has ended
+        offer->click();
+        QTRY_VERIFY_WITH_TIMEOUT(
+            next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
+        QCOMPARE(next.bench().document.volume()->lattice().size().k, 80);
+        emit next.window().fileMenu().recentForgotten();
+        QVERIFY(!fs::exists(m_sessionFile) && !fs::exists(second));
+    }
+
+    // After a kill nothing is lost; what has ended leaves no path with a name in it.
+    void aPathThatNamesThePatientGoesWithTheProgram() {
+        const fs::path named = m_folder / "Secret Name";
+        fs::copy(headPath().toStdString(), named);
+        {
+            ui::Workstation program;
+            program.window().openPaths({QString::fromStdString(named.string())});
+            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+            const auto &source = program.bench().document.sources().at(0);
+            QVERIFY(ui::namesPatient(source.lasting.at(0), source.study));
+        }
+        QVERIFY(!hasSession());
+    }
+
+    // Other files lie there by now.
+    void anotherStudyInItsPlaceIsSaid() {
+        const fs::path place = m_folder / "place";
+        fs::copy(headPath().toStdString(), place);
+        {
+            ui::Workstation program;
+            program.window().openPaths({QString::fromStdString(place.string())});
+            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        }
+        QStringList change{"-nb", "-gst", "-gse", "-gin"};
+        for (const auto &file : fs::directory_iterator(place))
+            change << QString::fromStdString(file.path().string());
+        QCOMPARE(QProcess::execute("dcmodify", change), 0);
+        ui::Workstation next;
+        next.window().reopening().resume();
+        QTRY_VERIFY_WITH_TIMEOUT(next.bench().document.volume(), patienceMs);
+        const auto &problems = next.bench().document.problems();
+        QVERIFY(std::any_of(problems.begin(), problems.end(), [](const auto &p) {
+            return p.reason == "is not the study that was open here";
+        }));
     }
 
     // A look that nobody has saved.
@@ -416,11 +484,12 @@ private:
         program.start(PELLUCID_WORKSTATION, arguments);
         QVERIFY(program.waitForStarted(patienceMs));
     }
+    // Of the first program: a second one has a file of its own.
     bool hasSession() const {
-        return ui::SessionFile().kept().has_value();
+        return fs::exists(m_sessionFile);
     }
     ui::Session kept() const {
-        return *ui::SessionFile().kept();
+        return ui::sessionFromJson(readText(m_sessionFile));
     }
 
     fs::path m_sessionFile;

@@ -98,7 +98,7 @@ TEST_F(Archive, noNameLeadsOutAndNoLinkIsMade) {
         add(w, "./same", "2");
     });
     EXPECT_EQ(unpackArchive(Decoder::ofProgram(), path, m_out.path()),
-              std::vector<std::string>{"link"});
+              (std::vector<LeftOutFile>{{"link", "is a link in an archive"}}));
     EXPECT_EQ(read("evil"), "up");
     EXPECT_EQ(read("etc/evil"), "root");
     EXPECT_EQ(read("a/b"), "winding");
@@ -152,6 +152,36 @@ TEST_F(Archive, encryptedAndDamagedOnesSaySo) {
     const fs::path path = make([](auto *w) { add(w, "file", std::string(100000, 'x')); });
     fs::resize_file(path, fs::file_size(path) / 2);
     EXPECT_THAT(refusal(path), testing::HasSubstr("damaged"));
+}
+
+// A file whose sum is wrong, and one whose data are no data of a compressor.
+TEST_F(Archive, aDamagedFileCostsItself) {
+    const auto content = [](int n) { return std::string(50000, char('a' + n)); };
+    const fs::path path = make([&](auto *w) {
+        for (int n = 0; n < 5; ++n)
+            add(w, ("f" + std::to_string(n)).c_str(), content(n));
+    });
+    std::string bytes;
+    {
+        std::ifstream in(path, std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    const auto dataOf = [&](const std::string &name) {
+        const auto at = bytes.find(name); // behind the name and what else its header has
+        return at + name.size() + std::size_t(static_cast<unsigned char>(bytes[at - 2])) +
+               256U * static_cast<unsigned char>(bytes[at - 1]);
+    };
+    bytes[dataOf("f1") + 12] ^= 0x10;
+    for (std::size_t n = 0; n < 8; ++n)
+        bytes[dataOf("f3") + n] = char(0xff);
+    std::ofstream(path, std::ios::binary) << bytes;
+    const auto leftOut = unpackArchive(Decoder::ofProgram(), path, m_out.path());
+    EXPECT_EQ(leftOut, (std::vector<LeftOutFile>{{"f1", "is damaged in the archive"},
+                                                 {"f3", "is damaged in the archive"}}));
+    for (const int n : {0, 2, 4})
+        EXPECT_EQ(read(("f" + std::to_string(n)).c_str()), content(n));
+    EXPECT_FALSE(fs::exists(m_out.path() / "f1"));
+    EXPECT_FALSE(fs::exists(m_out.path() / "f3"));
 }
 
 TEST_F(Archive, cancelStopsIt) {

@@ -215,6 +215,10 @@ TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
          "NRRD0004\ntype: short\ndimension: 3\nsizes: -4 4 4\nencoding: raw\nendian: little\n\n"},
         {"flat", "NRRD0004\n" + good + "space directions: (1,0,0) (2,0,0) (0,0,1)\n\n" +
                      std::string(128, 'x')},
+        {"far", "NRRD0004\n" + good + "spacings: 1 1 1\nspace origin: (1e300,0,0)\n\n" +
+                    std::string(128, 'x')},
+        {"tiny", "NRRD0004\n" + good + "spacings: 1 1e-30 1\n\n" + std::string(128, 'x')},
+        {"large", "NRRD0004\n" + good + "spacings: 1 1 1e30\n\n" + std::string(128, 'x')},
         {"gzip", "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nencoding: gzip\nendian: "
                  "little\n\n\x1f\x8b garbage"},
     };
