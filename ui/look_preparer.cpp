@@ -138,9 +138,10 @@ void LookPreparer::adopt(const PreparedFor &preparedFor, const render::PreparedE
 }
 
 void LookPreparer::announce() {
-    emit planChanged(m_underway  ? PlanState::underway
-                     : m_givenUp ? PlanState::cancelled
-                                 : PlanState::holds);
+    emit planChanged(m_underway    ? PlanState::underway
+                     : !m_givenUp  ? PlanState::holds
+                     : m_hasFailed ? PlanState::failed
+                                   : PlanState::cancelled);
     if (m_full)
         showFull();
 }
@@ -173,9 +174,14 @@ void LookPreparer::expect(const PreparedFor &wanted) {
 void LookPreparer::followScene() {
     const PreparedFor wanted(m_document);
     const auto &volume = m_document.volume();
-    if (!volume || m_document.isPreview() || !volume->notes().placed || m_held ||
-        wanted == m_underway || wanted == m_givenUp)
+    if (!volume || m_document.isPreview() || !volume->notes().placed || wanted == m_underway ||
+        wanted == m_givenUp)
         return;
+    if (m_held) {
+        if (m_prepared && wanted != m_prepared)
+            emit planChanged(PlanState::underway); // it comes when the scan is over
+        return;
+    }
     if (wanted == m_prepared) {
         // Back to what is there: nothing else is wanted any more, and may be wanted again.
         m_givenUp.reset();

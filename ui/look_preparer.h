@@ -67,6 +67,7 @@ public:
     void prepareAgain();
     /// Nothing is prepared while the studies are scanned.
     void setHeld(bool held) { m_held = held; }
+    bool isHeld() const { return m_held; }
 
     /// A new volume comes: what was made is forgotten. What its engine will be made for.
     PreparedFor forgetVolume();

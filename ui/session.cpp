@@ -48,11 +48,11 @@ std::optional<Session> currentSession(const Document &document) {
 }
 
 void resume(const Session &session, StudyOpener &opener) {
-    opener.resumeWith({session.key, session.shown, session.leftOut});
+    const StudyOpener::Resumption resumption{session.key, session.shown, session.leftOut};
     if (!session.phantom.isEmpty())
-        opener.openPhantom(session.phantom);
+        opener.openPhantom(session.phantom, resumption);
     else
-        opener.openPaths(session.files);
+        opener.openPaths(session.files, resumption);
 }
 
 } // namespace pellucid::ui

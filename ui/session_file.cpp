@@ -7,6 +7,7 @@
 #include <system_error>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <QJsonArray>
 #include <QJsonDocument>
@@ -34,14 +35,14 @@ std::filesystem::path fileOf(const std::filesystem::path &folder, int program,
            ("session" + (program == 0 ? "" : "-" + std::to_string(program + 1)) + extension);
 }
 
-// Of the programs that have a file, and of one more.
+// Of the programs that have, or had, a file.
 int places(const std::filesystem::path &folder) {
     std::error_code unknown;
     int n = 0;
-    while (n + 1 < mostPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
-                                    std::filesystem::exists(fileOf(folder, n, ".lock"), unknown)))
+    while (n < mostPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
+                                std::filesystem::exists(fileOf(folder, n, ".lock"), unknown)))
         ++n;
-    return n + 1;
+    return n;
 }
 
 // None where nothing was kept.
@@ -167,9 +168,13 @@ void SessionFile::choose() {
     const auto folder = files::userDataFolder();
     if (!folder)
         return;
+    const int all = places(*folder);
     // What was killed is more urgent than what ended, and what is there at all than a free place.
-    std::tuple<int, std::filesystem::file_time_type> best{-1, {}};
-    for (int n = 0, all = places(*folder); n < all; ++n) {
+    std::tuple<int, std::filesystem::file_time_type> best;
+    std::vector<std::filesystem::path> ended;
+    for (int n = 0; n <= all; ++n) {
+        if (n == all && m_lock)
+            break;
         files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Others::areLetBe);
         if (!lock.isHeld())
             continue;
@@ -181,6 +186,8 @@ void SessionFile::choose() {
         } catch (const task::Error &) {
             urgency = 1; // it is to be said that it cannot be read
         }
+        if (urgency == 1)
+            ended.push_back(path);
         std::error_code none;
         const std::tuple rank{urgency, std::filesystem::last_write_time(path, none)};
         if (!m_lock || (urgency > 0 && rank > best)) {
@@ -189,6 +196,10 @@ void SessionFile::choose() {
             m_lock = std::move(lock);
         }
     }
+    // Of those that ended, only the last is of use.
+    for (const auto &path : ended)
+        if (std::error_code ignored; path != m_path)
+            std::filesystem::remove(path, ignored);
 }
 
 SessionFile::~SessionFile() {

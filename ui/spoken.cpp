@@ -177,7 +177,7 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "has no pixels (%1)"),
     QT_TRANSLATE_NOOP("Reasons", "is a broken link"),
     QT_TRANSLATE_NOOP("Reasons", "is a link in an archive"),
-    QT_TRANSLATE_NOOP("Reasons", "is damaged in the archive"),
+    QT_TRANSLATE_NOOP("Reasons", "is damaged in the archive: %1"),
     QT_TRANSLATE_NOOP("Reasons", "is not the study that was open here"),
     QT_TRANSLATE_NOOP("Reasons", "not enough memory for a decoder"),
     QT_TRANSLATE_NOOP("Reasons", "the NRRD space origin is farther away than a kilometre"),

@@ -22,7 +22,10 @@ StudyOpener::StudyOpener(Document &document, JobRunner &jobs, LookPreparer &prep
 }
 
 void StudyOpener::endScan() {
+    if (!m_preparer.isHeld())
+        return;
     m_preparer.setHeld(false);
+    m_preparer.prepareAgain(); // what the scan stopped, or what changed meanwhile
 }
 
 void StudyOpener::keepCurrent() {
@@ -82,9 +85,10 @@ void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &
     m_preparer.prepareAgain(); // what changed, or was dropped
 }
 
-void StudyOpener::openPaths(const QStringList &paths) {
+void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resumption> &resumption) {
     if (paths.isEmpty())
         return;
+    m_resumption = resumption;
     std::vector<std::filesystem::path> files;
     for (const QString &path : paths)
         files.emplace_back(path.toStdString());
@@ -99,7 +103,6 @@ void StudyOpener::openPaths(const QStringList &paths) {
                     if (catalogue->skipped.empty())
                         m_document.addProblems({{files.front(), "holds no images"}});
                     endScan();
-                    m_preparer.prepareAgain(); // what the scan stopped
                     return;
                 }
                 const auto indices = m_document.addSources(sourcesFrom(catalogue));
@@ -111,7 +114,7 @@ void StudyOpener::openPaths(const QStringList &paths) {
                 else if (!holdsResumed(indices))
                     m_document.addProblems(
                         {{files.front(), "is not the study that was open here"}});
-                endScan();
+                m_preparer.setHeld(false); // another volume comes, or the open one goes on
                 openSource(wantedOf(indices, indices[defaultSource(*catalogue)]));
             });
         },
@@ -148,7 +151,8 @@ void StudyOpener::takeUp() {
     }
 }
 
-void StudyOpener::openPhantom(const QString &kind) {
+void StudyOpener::openPhantom(const QString &kind, const std::optional<Resumption> &resumption) {
+    m_resumption = resumption;
     openSource(m_document.addSources({phantomSource(kind)}).front());
 }
 

@@ -31,22 +31,21 @@ public:
     StudyOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
                 QObject *parent = nullptr);
 
-    void openPaths(const QStringList &paths);
-    void openPhantom(const QString &kind);
-    void openSource(int index);
-    /// Another volume of the same series: look, view, window, crosshair and planes stay.
-    void openPhase(int index);
-    /// *Shape*: `series`: all volumes of it; `volume`: the one that is opened.
-    void openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
-                         const QString &volume, const std::vector<dicom::InstanceFile> &files);
-    /// What is opened next is looked at like this, if it is that source.
+    /// How what is opened is to be looked at, if it is that source.
     struct Resumption {
         QString digest; ///< of the source
         Continuity shown;
         /// What else of its folders could not be used then.
         std::vector<dicom::Skipped> leftOut;
     };
-    void resumeWith(const Resumption &resumption) { m_resumption = resumption; }
+    void openPaths(const QStringList &paths, const std::optional<Resumption> &resumption = {});
+    void openPhantom(const QString &kind, const std::optional<Resumption> &resumption = {});
+    void openSource(int index);
+    /// Another volume of the same series: look, view, window, crosshair and planes stay.
+    void openPhase(int index);
+    /// *Shape*: `series`: all volumes of it; `volume`: the one that is opened.
+    void openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
+                         const QString &volume, const std::vector<dicom::InstanceFile> &files);
     /// Takes it off the list; if it is the open one, nothing is open then.
     void closeSource(int index);
 
@@ -63,8 +62,8 @@ signals:
 
 private:
     void endScan();
-    /// The one that is to be resumed, or else the usual one.
     bool holdsResumed(const std::vector<int> &indices) const;
+    /// The one that is to be resumed, or else the usual one.
     int wantedOf(const std::vector<int> &indices, int usual) const;
     void takeUp();
     void keepCurrent();

@@ -2,8 +2,10 @@
 #include "ui/workstation.h"
 
 #include <algorithm>
+#include <set>
 
 #include <QApplication>
+#include <QFileInfo>
 #include <QLibraryInfo>
 #include <QLocale>
 
@@ -17,6 +19,25 @@ namespace pellucid::ui {
 namespace {
 
 constexpr int keepingMs = 1500;
+
+// Whether no path of it names a patient. A series has hundreds of files in a folder.
+bool mayStay(const Session &session, const Document &document) {
+    std::set<QString> folders, names;
+    const auto look = [&](const QString &file) {
+        folders.insert(QFileInfo(file).path());
+        names.insert(QFileInfo(file).fileName());
+    };
+    for (const QString &file : session.files)
+        look(file);
+    for (const dicom::Skipped &skipped : session.leftOut)
+        look(QString::fromStdString(skipped.path.string()));
+    QString all;
+    for (const QString &name : names)
+        all += "/" + name;
+    return mayBeKept(all, document) &&
+           std::all_of(folders.begin(), folders.end(),
+                       [&](const QString &folder) { return mayBeKept(folder, document); });
+}
 
 } // namespace
 
@@ -46,24 +67,19 @@ void Workstation::keepWhatIsOpen(bool hasEnded) {
         m_bench.session.forget();
         return;
     }
-    // Who opened nothing still has what was open before.
-    if (auto session = currentSession(m_bench.document)) {
-        session->hasEnded = hasEnded;
-        m_hasKept = true;
-        // A program that is killed may lose nothing; of one that ends no name is to stay.
-        const bool mayStay =
-            std::all_of(session->files.begin(), session->files.end(),
-                        [&](const QString &file) { return mayBeKept(file, m_bench.document); });
-        if (hasEnded && !mayStay)
-            m_bench.session.forget();
-        else
-            m_bench.session.keep(*session);
-    } else if (hasEnded && m_hasKept) { // what was kept before is not of a crash
-        if (auto kept = m_bench.session.kept()) {
-            kept->hasEnded = true;
-            m_bench.session.keep(*kept);
-        }
-    }
+    // Who opened nothing still has what was open before; what was closed since is not of a crash.
+    auto session = currentSession(m_bench.document);
+    if (!session && hasEnded && m_hasKept)
+        session = m_bench.session.kept();
+    if (!session)
+        return;
+    m_hasKept = true;
+    session->hasEnded = hasEnded;
+    // A program that is killed may lose nothing; of one that ends no name is to stay.
+    if (hasEnded && !mayStay(*session, m_bench.document))
+        m_bench.session.forget();
+    else
+        m_bench.session.keep(*session);
 }
 
 // English stands in the program; what is missing of another language stays English.

@@ -90,6 +90,16 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
                          shown.series->files.size()));
 }
 
+// What is missing for want of memory tells nothing of the files.
+void requireAllRead(const std::vector<dicom::Skipped> &skipped, const std::filesystem::path &path) {
+    const auto lacking = std::count_if(skipped.begin(), skipped.end(), [](const auto &s) {
+        return s.reason == dicom::lacksMemory;
+    });
+    if (lacking > 0)
+        throw Error(ErrorCode::outOfMemory,
+                    fmt::format("{} of its files need more memory than there is", lacking), path);
+}
+
 } // namespace
 
 Stopwatch::Stopwatch() : m_last(nowMs()) {}
@@ -114,16 +124,6 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
             throw;
         throw Error(ErrorCode::outOfMemory, "not enough memory", path);
     }
-}
-
-// What is missing for want of memory tells nothing of the files.
-void requireAllRead(const std::vector<dicom::Skipped> &skipped, const std::filesystem::path &path) {
-    const auto lacking = std::count_if(skipped.begin(), skipped.end(), [](const auto &s) {
-        return s.reason == dicom::lacksMemory;
-    });
-    if (lacking > 0)
-        throw Error(ErrorCode::outOfMemory,
-                    fmt::format("{} of its files need more memory than there is", lacking), path);
 }
 
 [[noreturn]] void failWithoutImages(const dicom::Catalogue &catalogue,

@@ -27,7 +27,8 @@ struct Input {
 void addSeriesOption(CLI::App &command, std::string &series);
 
 /// Scans a path and loads one volume of it: of the series named, else the one with most voxels.
-/// What is not used or not shown is said on stderr. *Throws* Error{unusable} naming the path;
+/// What is not used or not shown is said on stderr. *Throws* Error{unusable} naming the path,
+/// Error{outOfMemory} if the volume is missing for want of it;
 /// Error{usage} if one of `outs` is one of the files that are read.
 Input openInput(const std::filesystem::path &path, const std::string &series,
                 const std::vector<std::filesystem::path> &outs, const Context &context);
@@ -36,7 +37,7 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
 void naming(const std::filesystem::path &path, const std::function<void()> &work);
 
 /// Why nothing of what was found can be used. *Throws* Error{unusable} naming a file and its
-/// reason.
+/// reason, or Error{outOfMemory}.
 [[noreturn]] void failWithoutImages(const dicom::Catalogue &catalogue,
                                     const std::filesystem::path &path);
 

@@ -4,10 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <new>
 #include <pthread.h>
 #include <string>
-#include <system_error>
 #include <thread>
 
 #include <CLI/CLI.hpp>

@@ -41,7 +41,7 @@ constexpr double startSeconds = 30; // of a loaded machine
 constexpr std::chrono::milliseconds endPatience(500);
 
 [[noreturn]] void failStarting(const std::filesystem::path &program, int error) {
-    if (error == ENOMEM || error == EAGAIN)
+    if (error == ENOMEM)
         throw Error(ErrorCode::outOfMemory, "not enough memory for a decoder");
     throw Error(ErrorCode::internal,
                 std::string("the decoder cannot be started: ") +

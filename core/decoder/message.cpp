@@ -296,6 +296,11 @@ NrrdLayout unpackNrrd(std::span<const std::byte> body) {
     if (std::min({n.i, n.j, n.k}) < 1 || layout.scalar < NrrdScalar::i8 ||
         layout.scalar > NrrdScalar::f64)
         fail();
+    for (const glm::dvec3 &step : layout.stepsMm)
+        if (!(glm::length(step) >= smallestSpacingMm && glm::length(step) <= largestSpacingMm))
+            fail();
+    if (!(glm::length(layout.originMm) <= farthestMm))
+        fail();
     // Divided, not multiplied: the product of three sizes may wrap.
     if (std::uint64_t(n.i) >
         std::uint64_t(volume::mostSamples) / std::uint64_t(n.j) / std::uint64_t(n.k))

@@ -15,6 +15,7 @@
 
 #include "core/decoder/channel.h"
 #include "core/decoder/decoder.h"
+#include "core/decoder/message.h"
 #include "core/task/error.h"
 
 namespace pellucid::decoder {
@@ -123,6 +124,14 @@ std::vector<LeftOutFile> unpackArchive(Decoder &decoder, const fs::path &path,
                 if (!out)
                     failWriting(to);
             }
+            if (part.isDamaged) {
+                std::error_code ignored;
+                out.close();
+                fs::remove(to, ignored);
+                leftOut.push_back(
+                    {part.file.name, "is damaged in the archive: " + unpackReason(part.data)});
+                return;
+            }
             written += part.data.size();
             if (written > most)
                 throw Error(ErrorCode::unusable, "unpacks to more than it announces", path);
@@ -132,11 +141,6 @@ std::vector<LeftOutFile> unpackArchive(Decoder &decoder, const fs::path &path,
                 out.close();
             if (!out)
                 failWriting(to);
-            if (part.isDamaged) {
-                std::error_code ignored;
-                fs::remove(to, ignored);
-                leftOut.push_back({part.file.name, "is damaged in the archive"});
-            }
             progress.report(announced > 0 ? std::min(1.0, double(written) / double(announced))
                                           : 1.0);
         },

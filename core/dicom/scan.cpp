@@ -308,7 +308,8 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
             // One of several paths does not keep the others from being opened; a full disk does.
             if (paths.size() == 1 || error.code() == ErrorCode::output)
                 throw;
-            list.skipped.push_back({path, error.reason()});
+            list.skipped.push_back(
+                {path, error.code() == ErrorCode::outOfMemory ? lacksMemory : error.reason()});
         }
     }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cerrno>
 #include <memory>
+#include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <archive.h>
@@ -47,7 +50,7 @@ ArchiveFile fileOf(struct archive_entry *entry) {
             archive_entry_is_encrypted(entry) != 0, archive_entry_filetype(entry) == AE_IFLNK};
 }
 
-// A damaged file may leave the reader unusable, and each costs a new one.
+// A damaged file may leave the reader of no use; each of those costs a new one.
 constexpr int mostDamaged = 100;
 
 // False: `f` asked for the end.
@@ -66,7 +69,7 @@ bool forEachFile(struct archive *reader, const std::function<bool(const ArchiveF
     }
 }
 
-// False: its data are damaged.
+// False: the reader is of no more use.
 bool readFile(struct archive *reader, const ArchiveFile &file, std::span<std::byte> part,
               const TakeData &take) {
     for (std::int32_t flags = decoder::firstPart; (flags & decoder::lastPart) == 0;) {
@@ -76,13 +79,17 @@ bool readFile(struct archive *reader, const ArchiveFile &file, std::span<std::by
             got = archive_read_data(reader, part.data() + filled, part.size() - filled);
             filled += got > 0 ? std::size_t(got) : 0;
         }
-        if (got <= 0)
-            flags |= decoder::lastPart;
-        if (got < 0)
-            flags |= decoder::damagedPart;
+        if (got < 0) {
+            if (archive_errno(reader) == ENOMEM)
+                throw std::bad_alloc();
+            const char *const text = archive_error_string(reader);
+            const std::string_view why = text != nullptr ? text : "";
+            take(file, std::as_bytes(std::span(why)),
+                 flags | decoder::lastPart | decoder::damagedPart);
+            return got != ARCHIVE_FATAL;
+        }
+        flags |= got == 0 ? decoder::lastPart : 0;
         take(file, part.first(filled), flags);
-        if (got < 0)
-            return false;
         flags &= ~decoder::firstPart;
     }
     return true;

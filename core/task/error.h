@@ -36,7 +36,7 @@ private:
     std::filesystem::path m_path;
 };
 
-/// Whether the system has no thread to give, or no memory for one; TBB says it in words.
+/// Whether it says that there is no memory, for an object or a thread; TBB says it in words.
 bool isLackOfMemory(const std::exception &error);
 
 } // namespace pellucid::task

@@ -1317,8 +1317,8 @@
         <translation>壓縮像素損壞的檔案：%1</translation>
     </message>
     <message>
-        <source>is damaged in the archive</source>
-        <translation>在壓縮檔中已損壞</translation>
+        <source>is damaged in the archive: %1</source>
+        <translation>在壓縮檔中已損壞：%1</translation>
     </message>
     <message>
         <source>is not the study that was open here</source>

@@ -77,10 +77,11 @@ void StudyLibrary::start(Work work) {
 
 void StudyLibrary::open(const LibraryPlace &place) {
     // First: of one that is replaced meanwhile the next look tells.
-    m_listFile.emplace(std::vector{place.listFile()});
+    files::FileIds listFile(std::vector{place.listFile()});
     m_library = std::make_unique<Library>(place);
-    if (m_listFile->isEmpty()) // it made the list
-        m_listFile.emplace(std::vector{place.listFile()});
+    if (listFile.isEmpty()) // it made the list
+        listFile = files::FileIds(std::vector{place.listFile()});
+    m_listFile = std::move(listFile);
 }
 
 // Another program may have found the list damaged and put a new one in its place.

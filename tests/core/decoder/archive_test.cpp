@@ -176,8 +176,11 @@ TEST_F(Archive, aDamagedFileCostsItself) {
         bytes[dataOf("f3") + n] = char(0xff);
     std::ofstream(path, std::ios::binary) << bytes;
     const auto leftOut = unpackArchive(Decoder::ofProgram(), path, m_out.path());
-    EXPECT_EQ(leftOut, (std::vector<LeftOutFile>{{"f1", "is damaged in the archive"},
-                                                 {"f3", "is damaged in the archive"}}));
+    ASSERT_EQ(leftOut.size(), 2U);
+    for (const std::size_t n : {0U, 1U}) {
+        EXPECT_EQ(leftOut[n].name, n == 0 ? "f1" : "f3");
+        EXPECT_THAT(leftOut[n].reason, testing::StartsWith("is damaged in the archive: ZIP"));
+    }
     for (const int n : {0, 2, 4})
         EXPECT_EQ(read(("f" + std::to_string(n)).c_str()), content(n));
     EXPECT_FALSE(fs::exists(m_out.path() / "f1"));
