@@ -181,13 +181,14 @@ void SessionFile::choose() {
         const auto path = fileOf(*folder, n, ".json");
         int urgency = 0;
         try {
-            if (const auto session = readSession(path))
+            if (const auto session = readSession(path)) {
                 urgency = session->hasEnded ? 1 : 2;
+                if (session->hasEnded)
+                    ended.push_back(path);
+            }
         } catch (const task::Error &) {
             urgency = 1; // it is to be said that it cannot be read
         }
-        if (urgency == 1)
-            ended.push_back(path);
         std::error_code none;
         const std::tuple rank{urgency, std::filesystem::last_write_time(path, none)};
         if (!m_lock || (urgency > 0 && rank > best)) {

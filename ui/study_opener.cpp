@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/study_opener.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "core/dicom/scan.h"
@@ -109,13 +108,14 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
                 // Files may have changed since.
                 for (const int index : indices)
                     m_kept.take(index);
+                const auto resumed = resumedOf(indices);
                 if (!m_resumption) // what the user named was remembered then
                     emit pathsOpened(paths);
-                else if (!holdsResumed(indices))
+                else if (!resumed)
                     m_document.addProblems(
                         {{files.front(), "is not the study that was open here"}});
                 m_preparer.setHeld(false); // another volume comes, or the open one goes on
-                openSource(wantedOf(indices, indices[defaultSource(*catalogue)]));
+                openSource(resumed.value_or(indices[defaultSource(*catalogue)]));
             });
         },
         paths.front());
@@ -123,18 +123,12 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
         m_preparer.setHeld(true);
 }
 
-bool StudyOpener::holdsResumed(const std::vector<int> &indices) const {
-    return std::any_of(indices.begin(), indices.end(), [&](int index) {
-        return m_document.sources()[std::size_t(index)].digest() == m_resumption->digest;
-    });
-}
-
-int StudyOpener::wantedOf(const std::vector<int> &indices, int usual) const {
+std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) const {
     if (m_resumption)
         for (const int index : indices)
             if (m_document.sources()[std::size_t(index)].digest() == m_resumption->digest)
                 return index;
-    return usual;
+    return std::nullopt;
 }
 
 void StudyOpener::takeUp() {

@@ -62,9 +62,8 @@ signals:
 
 private:
     void endScan();
-    bool holdsResumed(const std::vector<int> &indices) const;
-    /// The one that is to be resumed, or else the usual one.
-    int wantedOf(const std::vector<int> &indices, int usual) const;
+    /// The one of them that is to be resumed.
+    std::optional<int> resumedOf(const std::vector<int> &indices) const;
     void takeUp();
     void keepCurrent();
     Continuity leavePhase(int next);

@@ -5,7 +5,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+} // namespace CLI
 
 namespace pellucid::cli {
 

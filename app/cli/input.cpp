@@ -139,13 +139,16 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
     throw Error(ErrorCode::unusable, reason, path);
 }
 
+CLI::Validator notEmpty() {
+    return {[](std::string &text) { return text.empty() ? "it is empty" : std::string(); }, "",
+            "text"};
+}
+
 void addSeriesOption(CLI::App &command, std::string &series) {
-    const CLI::Validator notEmpty(
-        [](const std::string &text) { return text.empty() ? "it is empty" : ""; }, "");
     command
         .add_option("--series", series,
                     "Series number or UID; default: the volume with most voxels")
-        ->check(notEmpty);
+        ->check(notEmpty());
 }
 
 Input openInput(const std::filesystem::path &path, const std::string &series,

@@ -23,6 +23,9 @@ struct Input {
     double scanMs = 0.0, loadMs = 0.0;
 };
 
+/// For options whose text says something.
+CLI::Validator notEmpty();
+
 /// --series, of a command that opens an input.
 void addSeriesOption(CLI::App &command, std::string &series);
 

@@ -167,15 +167,13 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         .add_option("--pixel-mm", options.pixelMm,
                     "Pixel size in mm; default: the shortest voxel step")
         ->check(positive);
-    const CLI::Validator notEmpty(
-        [](std::string &text) { return text.empty() ? "it is empty" : std::string(); }, "", "text");
     command.add_option("--preset", options.preset, "A look of the library, or its file")
-        ->check(notEmpty);
+        ->check(notEmpty());
     command.add_option("--window", options.window, "The field's window LO,HI in value units");
     command
         .add_option("--bezier", options.bezier,
                     "Weights w0,w1,... of the transfer function, 2 to 16 of 0 to 2")
-        ->check(notEmpty);
+        ->check(notEmpty());
     command
         .add_option("--class", options.classes,
                     "NAME=WEIGHT[:#rrggbb]: show the classes named, by weight 0 to 2; repeat it")
@@ -184,7 +182,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         .add_option("--depth-cue", options.depthCue,
                     "none, linear:S, sine:S (S 0 to 1), or curve:c0,c1,.. from far to near, "
                     "2 to 8 of 0 to 2")
-        ->check(notEmpty);
+        ->check(notEmpty());
     command
         .add_option("--light", options.lights,
                     "u,v,w[:#rrggbb[:S]]: a light of strength S, 0 to 1, from that direction "
