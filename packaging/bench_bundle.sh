@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Packs pellucid-bench with every library it needs but glibc and OpenGL, which belong to the machine
 # it will run on. Unpack it anywhere and run pellucid-bench/pellucid-bench.
 #   bench_bundle.sh PROGRAM OUT.tar.gz
@@ -13,6 +14,9 @@ mkdir -p "$folder/lib"
 decoder=$(dirname "$program")/pellucid-decode # which reads NRRD volumes
 strip -o "$folder/pellucid-bench" "$program"
 strip -o "$folder/pellucid-decode" "$decoder"
+if { ldd "$program"; ldd "$decoder"; } | grep 'not found' >&2; then
+    exit 1
+fi
 { ldd "$program"; ldd "$decoder"; } | sort -u | while read -r name _ path _; do
     [[ $path == /* ]] || continue
     case $name in
@@ -21,6 +25,9 @@ strip -o "$folder/pellucid-decode" "$decoder"
         *) cp -L "$path" "$folder/lib/$name" ;;
     esac
 done
+mkdir -p "$folder/share/pellucid"
+mapfile -t dictionaries < <("$(dirname "${BASH_SOURCE[0]}")/dictionaries.sh" "$decoder")
+cp "${dictionaries[@]}" "$folder/share/pellucid/"
 tar -C "$work" -czf "$out" pellucid-bench
 megabytes=$(($(stat -c %s "$out") / 1000000))
 if ((megabytes >= most_megabytes)); then

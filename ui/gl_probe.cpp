@@ -2,6 +2,7 @@
 #include "ui/gl_probe.h"
 
 #include <QGuiApplication>
+#include <QLibrary>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 
@@ -13,6 +14,11 @@ const std::optional<gpu::Capabilities> &windowCapabilities() {
         const QStringList withoutSurfaces{"offscreen", "minimal", "linuxfb", "vnc"};
         if (withoutSurfaces.contains(QGuiApplication::platformName()))
             return std::nullopt;
+#ifdef Q_OS_LINUX
+        // libepoxy looks a context of GLX up there, and ends the program without it.
+        if (!QLibrary("GL", 1).load())
+            return std::nullopt;
+#endif
         QOffscreenSurface surface;
         surface.create();
         QOpenGLContext context;

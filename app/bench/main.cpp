@@ -82,6 +82,7 @@ int main(int argc, char **argv) {
     using namespace pellucid;
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Speed and error, side by side", "pellucid-bench");
+    app.set_version_flag("--version", "pellucid-bench " PELLUCID_VERSION);
     std::vector<std::string> suites{"quick"};
     std::string json, csv, file, reportFolder;
     app.add_option("--suite", suites, "What to measure; several with commas between")

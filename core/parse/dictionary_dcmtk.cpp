@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 
 #include <dcmtk/config/osconfig.h>
 
@@ -21,21 +22,25 @@ namespace pellucid::parse {
 
 namespace {
 
-// What was installed with its libraries beside it has DCMTK's dictionary there, too.
-void findDictionary() {
+// What was installed with its libraries beside it has DCMTK's dictionaries there, too.
+void findDictionaries() {
     const auto own = files::programFolder();
     std::error_code ignored;
-    for (const char *const place :
-         {"../share/pellucid/dicom.dic", "../../share/pellucid/dicom.dic"})
-        if (const auto path = own / place; std::filesystem::exists(path, ignored))
-            ::setenv("DCMDICTPATH", path.c_str(), 0);
+    for (const char *const place : {"share/pellucid", "../share/pellucid", "../../share/pellucid"}) {
+        std::string paths;
+        for (const char *const name : {"dicom.dic", "private.dic"})
+            if (const auto path = own / place / name; std::filesystem::exists(path, ignored))
+                paths += (paths.empty() ? "" : ":") + path.string();
+        if (!paths.empty())
+            ::setenv("DCMDICTPATH", paths.c_str(), 0);
+    }
 }
 
 } // namespace
 
 void prepareDcmtk() {
     static const bool loaded = [] {
-        findDictionary();
+        findDictionaries();
         // DCMTK complains on the console about every odd file; the reasons come back as values.
         OFLog::configure(OFLogger::OFF_LOG_LEVEL);
         // Attributes that passed through systems which did not know them come as UN.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Makes a folder of an installed tree that runs by itself: libraries and Qt's plugins beside the
 # programs, wherever it lies. What belongs to the machine stays there: glibc, the display, OpenGL.
 #   bundle.sh TREE     TREE has bin, libexec, share
@@ -15,14 +16,19 @@ mkdir -p "$tree/lib" "$tree/plugins"
 for plugin in platforms/libqxcb.so sqldrivers/libqsqlite.so xcbglintegrations/libqxcb-glx-integration.so \
     xcbglintegrations/libqxcb-egl-integration.so imageformats/libqjpeg.so imageformats/libqsvg.so iconengines/libqsvgicon.so platforminputcontexts/libibusplatforminputcontextplugin.so \
     platforminputcontexts/libcomposeplatforminputcontextplugin.so; do
-    [[ -f $plugins/$plugin ]] || continue
     install -D -m 644 "$plugins/$plugin" "$tree/plugins/$plugin"
 done
 mkdir -p "$tree/translations"
-cp "$translations"/qtbase_zh_TW.qm "$tree/translations/" 2>/dev/null || true
-install -D -m 644 /usr/share/libdcmtk17/dicom.dic "$tree/share/pellucid/dicom.dic"
+install -m 644 "$translations/qtbase_zh_TW.qm" "$tree/translations/"
+mkdir -p "$tree/share/pellucid"
+mapfile -t dictionaries < <("$here/../dictionaries.sh" "$tree/libexec/pellucid/pellucid-decode")
+install -m 644 "${dictionaries[@]}" "$tree/share/pellucid"
 
 programs() { find "$tree/bin" "$tree/libexec" "$tree/plugins" -type f \( -perm -u+x -o -name '*.so' \); }
+if missing=$(programs | xargs -d '\n' ldd | grep 'not found'); then
+    echo "bundle: $missing" >&2
+    exit 1
+fi
 programs | while read -r program; do ldd "$program"; done | sed -nE 's#^\s*(\S+) => (/.*) \(0x.*#\1 \2#p' | sort -u |
     while read -r name path; do
         [[ $name =~ $of_machine ]] || cp -L "$path" "$tree/lib/$name"
@@ -39,4 +45,4 @@ for folder in bin libexec/pellucid; do
     printf '[Paths]\nPrefix=%s\nPlugins=plugins\nTranslations=translations\n' \
         "$(realpath --relative-to="$tree/$folder" "$tree")" >"$tree/$folder/qt.conf"
 done
-install -m 755 "$here/install.sh" "$tree/install.sh"
+install -m 755 "$here/install.sh" "$here/uninstall.sh" "$tree"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the packages where nothing was installed: a bare Debian without build tools for the .deb,
 # the next Debian for the self-extracting installer, by an ordinary user. Runs as root, takes some
 # minutes and 3 GB below WORK, and leaves screenshots and a report in PACKAGES/../install-test.
@@ -12,6 +13,8 @@ mkdir -p "$work" "$out"
 out=$(realpath "$out")
 report=$out/report.txt
 : >"$report"
+
+expected=$(basename "$run") expected=${expected#pellucid-} expected=${expected%-linux-*}
 
 say() { echo "$*" | tee -a "$report"; }
 fail() { say "FAILED: $*"; exit 1; }
@@ -31,6 +34,7 @@ system() { # RELEASE NAME
     local base=$work/$1-base
     root=$work/$2
     if [[ ! -d $base ]]; then
+        rm -rf --one-file-system "$base.new" # of a run that was stopped
         debootstrap --variant=minbase --include=ca-certificates "$1" "$base.new" "$(mirror)" >"$work/debootstrap.log" 2>&1 ||
             { tail -5 "$work/debootstrap.log"; fail "no bare system"; }
         for file in /etc/apt/apt.conf.d /etc/apt/apt.conf /etc/resolv.conf /etc/hosts /usr/local/share/ca-certificates /etc/ssl/certs; do
@@ -60,93 +64,151 @@ as_user() { chroot --userspec=tester:tester "$root" env -i HOME=/home/tester PAT
     LANG=C.UTF-8 LIBGL_ALWAYS_SOFTWARE=1 "$@"; }
 apt_install() { as_root apt-get install -y -qq --no-install-recommends "$@" >"$work/apt.log" 2>&1 || { tail -20 "$work/apt.log"; fail "apt: $*"; }; }
 
-# Every program, and the window with a study in it, as a picture.
-use_it() { # NAME
-    as_user pellucid --version | tee -a "$report"
+spread() { convert "$1" -gravity center -crop 60%x80%+0+0 -colorspace gray -format '%[fx:standard_deviation]' info:; }
+# Every program, and the window as a picture: with nothing open, with a study, and started by the menu entry.
+use_it() { # NAME ENTRY
+    [[ $(as_user pellucid --version) == "pellucid $expected" ]] || fail "$1: $(as_user pellucid --version) is not $expected"
+    as_user desktop-file-validate "$2" || fail "$1: the menu entry"
     as_user pellucid-cli phantom /home/tester/head --kind head --size 128x128x96 >/dev/null || fail "$1: phantom"
     as_user pellucid-cli render /home/tester/head -o /home/tester/front.png --json >"$out/$1-render.json" || fail "$1: render"
     cp "$root/home/tester/front.png" "$out/$1-front.png"
+    awk -v s="$(spread "$out/$1-front.png")" 'BEGIN { exit !(s > 0.15) }' || fail "$1: the projection shows nothing"
+    local first
+    first=$(cd "$root/home/tester" && find head -type f | sort | head -1)
+    [[ $(as_user gio mime application/dicom) == *"Default application"*org.pellucid.Pellucid.desktop* ]] || fail "$1: DICOM files are not opened by it"
+    [[ $(as_user gio info -a standard::content-type "/home/tester/$first") == *application/dicom* ]] || fail "$1: DICOM files are not known as such"
     # A screen, the program, a moment, a picture of all of it.
     cat >"$root/home/tester/look.sh" <<'TEXT'
 started() { # its window, on the screen; not one of those that nobody sees
     xwininfo -root -tree 2>/dev/null | grep -oE '0x[0-9a-f]+ "[^"]*Pellucid.* [0-9]{4}x[0-9]{3,4}\+' | cut -d' ' -f1 |
         xargs -r -n1 xwininfo -id 2>/dev/null | grep -q IsViewable
 }
-for run in cold warm; do
+for run in cold warm menu; do
     begin=$(date +%s%N)
-    pellucid head 2>stderr &
+    case $run in
+        cold) pellucid 2>stderr & ;;
+        warm) pellucid head 2>stderr & ;;
+        menu) gio launch "$1" "$2" 2>stderr & ;;
+    esac
     program=$!
     tries=0
     until started; do
         sleep 0.02
         tries=$((tries + 1))
-        [ $tries -lt 1500 ] && kill -0 $program || exit 1
+        [ $tries -lt 1500 ] || exit 1
+        [ $run = menu ] || kill -0 $program || exit 1
     done
     echo "$run $((($(date +%s%N) - begin) / 1000000)) ms" >>milliseconds
     sleep 12
-    import -window root window.png
+    import -window root $run.png
+    [ $run != menu ] || program=$(pgrep -x pellucid)
     kill $program
-    wait $program || exit 1 # it ends as one that is closed
+    [ $run = menu ] || wait $program || exit 1 # it ends as one that is closed
 done
+while pgrep -x pellucid >/dev/null; do sleep 0.1; done
 TEXT
-    as_user sh -c 'cd; xvfb-run -a -s "-screen 0 1600x1000x24" sh ./look.sh' || {
+    rm -f "$root/home/tester/milliseconds"
+    as_user sh -c 'cd; xvfb-run -a -s "-screen 0 1600x1000x24" sh ./look.sh "$0" "$1"' "$2" "$first" || {
         cat "$root/home/tester/stderr"
         fail "$1: the workstation"
     }
-    cp "$root/home/tester/window.png" "$out/$1-window.png"
     say "$1: window after $(paste -sd, "$root/home/tester/milliseconds")"
-    # A picture of a head is neither empty nor of one grey, in the window's right half.
-    local spread
-    spread=$(convert "$out/$1-window.png" -gravity center -crop 60%x80%+0+0 -colorspace gray -format '%[fx:standard_deviation]' info:)
-    awk -v s="$spread" 'BEGIN { exit !(s > 0.05) }' || fail "$1: the window shows nothing ($spread)"
-    say "$1: the window shows a study (spread $spread)"
+    awk '$1 == "warm" { exit !($2 <= 1500) }' "$root/home/tester/milliseconds" || fail "$1: the window takes more than 1.5 s"
+    local run
+    for run in cold warm menu; do cp "$root/home/tester/$run.png" "$out/$1-$run.png"; done
+    # Pictures of a head have more light and shade than the page that offers to open one.
+    for run in warm menu; do
+        awk -v s="$(spread "$out/$1-$run.png")" -v empty="$(spread "$out/$1-cold.png")" 'BEGIN { exit !(s > 2.5 * empty && s > 0.15) }' ||
+            fail "$1: the window shows nothing ($run)"
+        say "$1, $run: the window shows a study (spread $(spread "$out/$1-$run.png"), without one $(spread "$out/$1-cold.png"))"
+    done
 }
+# A preset, and a study of the library: the list is the program's own, made by starting it.
 keep_something() {
+    as_user sh -c 'cd; xvfb-run -a sh -c "pellucid & sleep 6; kill \$!; wait"' || fail "the workstation"
+    as_user sqlite3 /home/tester/.local/share/pellucid/library/library.sqlite "insert into studies (patient_id, patient_name, birth_date,
+        sex, uid, date, description, modalities, sort_name, search, added) values ('1', 'Kept^Study', '', '', '1.2.3', '', '', 'CT', 'kept', 'kept', 1)" ||
+        fail "there is no library"
     as_user sh -c 'cd /home/tester && pellucid-cli preset show "Bone" | sed "s/\"Bone\"/\"Kept by the tester\"/" >mine.json &&
         pellucid-cli preset import mine.json' >/dev/null || fail "no preset is kept"
 }
-still_kept() { as_user pellucid-cli preset list | grep -q "Kept by the tester" || fail "$1: the preset is lost"; }
-what_is_left() {
-    find "$root" -xdev \( -path "$root/proc" -o -path "$root/sys" -o -path "$root/dev" -o -path "$root/home/tester" -o -path "$root/tmp" \
-        -o -path "$root/var/lib/apt" -o -path "$root/var/cache" -o -path "$root/var/log" \) -prune -o -iname '*pellucid*' -print
+still_kept() { # WHEN
+    as_user grep -rqF "Kept by the tester" /home/tester/.local/share/pellucid || fail "$1: the preset is lost"
+    [[ $(as_user sqlite3 /home/tester/.local/share/pellucid/library/library.sqlite 'select patient_name from studies') == Kept^Study ]] ||
+        fail "$1: the library is lost"
 }
+# All that there is, but for what systems write of themselves.
+all_of_it() {
+    (cd "$root" && find . -xdev \( -path ./proc -o -path ./sys -o -path ./dev -o -path ./tmp -o -path ./run -o -path ./var/log -o -path ./var/cache \
+        -o -path ./home/tester/.cache/mesa_shader_cache -o -path ./home/tester/.cache/fontconfig \) -prune -o -print | sort)
+}
+nothing_is_left() { # WHAT BEFORE AFTER
+    local left
+    left=$(comm -13 "$2" "$3")
+    [[ -z $left ]] || fail "$1: left behind: $left"
+}
+# What a desktop has, and what looks at it.
+tools=(xvfb xauth x11-utils imagemagick fonts-dejavu-core procps sqlite3 desktop-file-utils shared-mime-info libglib2.0-bin)
 
+say "$(sha256sum "$deb" "$run" | sed 's#/.*/##')"
 say "== $(basename "$deb") in a bare Debian"
 system bookworm deb
-apt_install xvfb xauth x11-utils imagemagick fonts-dejavu-core
+apt_install "${tools[@]}"
 old=$work/older
 rm -rf "$old" && dpkg-deb -R "$deb" "$old"
 sed -i 's/^Version: .*/Version: 0.0.9/' "$old/DEBIAN/control"
+mkdir "$old/usr/share/pellucid-was"
+touch "$old/usr/share/pellucid-was/file"
 dpkg-deb --root-owner-group -b "$old" "$root/tmp/older.deb" >/dev/null
 cp "$deb" "$root/tmp/new.deb"
 apt_install /tmp/older.deb
 keep_something
 apt_install /tmp/new.deb
 version=$(as_root dpkg-query -W -f='${Version}' pellucid)
-[[ $version != 0.0.9 ]] || fail "not upgraded"
+[[ $version == "$expected" ]] || fail "not upgraded: $version"
+[[ ! -e $root/usr/share/pellucid-was ]] || fail "a file of the former version is still there"
 say "upgraded from 0.0.9 to $version"
-still_kept "upgrade"
 as_root sh -c '! command -v gcc && ! command -v cmake' >/dev/null || fail "there are build tools"
-use_it deb
+use_it deb /usr/share/applications/org.pellucid.Pellucid.desktop
+still_kept "upgrade"
 as_root apt-get purge -y -qq pellucid >/dev/null 2>&1 || fail "purge"
-left=$(what_is_left)
+# What it needed stays, as with every package.
+left=$(all_of_it | grep -i pellucid | grep -v -e '^./home/tester/' -e '^./var/lib/apt/' || true)
 [[ -z $left ]] || fail "left behind: $left"
-[[ -n $(find "$root/home/tester/.local/share/pellucid" -name '*.json') ]] || fail "the user's presets are gone"
+still_kept "removal"
 say "removed; of it remain the user's own: $(cd "$root/home/tester" && find .local .cache .config -maxdepth 2 -name 'pellucid*' 2>/dev/null | tr '\n' ' ')"
 
 say "== $(basename "$run") on the next Debian, by an ordinary user"
 system trixie run
-# What a desktop has: a display server, OpenGL, fonts.
-apt_install xvfb xauth x11-utils imagemagick fonts-dejavu-core libgl1 libegl1 libgl1-mesa-dri libfontconfig1 libx11-xcb1 libglib2.0-0t64
+apt_install "${tools[@]}" libgl1 libegl1 libgl1-mesa-dri libfontconfig1 libx11-xcb1 libglib2.0-0t64
 cp "$run" "$root/home/tester/pellucid.run"
+all_of_it >"$work/before"
 as_user sh /home/tester/pellucid.run --quiet | tee -a "$report"
 keep_something
-use_it run
+mkdir "$root/home/tester/.local/opt/pellucid/was"
+echo "inside /was/file" >>"$root/home/tester/.local/opt/pellucid/share/pellucid/installation" # of a former version
+touch "$root/home/tester/.local/opt/pellucid/was/file"
 as_user sh /home/tester/pellucid.run --quiet >/dev/null # over itself
+[[ ! -e $root/home/tester/.local/opt/pellucid/was && ! -e $root/home/tester/.local/opt/pellucid.old ]] || fail "something of the former version is still there"
+use_it run /home/tester/.local/share/applications/org.pellucid.Pellucid.desktop
 still_kept "upgrade"
 as_user pellucid-uninstall >/dev/null
-left=$(what_is_left; find "$root/home/tester" -iname '*pellucid*' -not -path '*/.local/share/pellucid*' -not -path '*/.cache/*' -not -path '*/.config/*' -not -name pellucid.run)
-[[ -z $left ]] || fail "left behind: $left"
-[[ -n $(find "$root/home/tester/.local/share/pellucid" -name '*.json') ]] || fail "the user's presets are gone"
-say "removed; the user's presets are kept"
-say "all passed"
+all_of_it | grep -v -e '^./home/tester/.local$' -e '^./home/tester/.local/share$' -e '^./home/tester/.local/share/pellucid' -e '^./home/tester/.config' \
+    -e '^./home/tester/\(head\|front.png\|look.sh\|milliseconds\|stderr\|mine.json\|cold.png\|warm.png\|menu.png\)' -e '^./home/tester/.cache$' \
+    -e '^./home/tester/.local/share/gvfs-metadata' >"$work/after"
+nothing_is_left "an ordinary user" "$work/before" "$work/after"
+still_kept "removal"
+say "removed; the user's presets, studies and settings are kept"
+
+say "== the same by root, for all users"
+all_of_it >"$work/before"
+as_root sh /home/tester/pellucid.run --quiet >/dev/null
+[[ $(as_user /usr/local/bin/pellucid --version) == "pellucid $expected" ]] || fail "an ordinary user cannot start it"
+as_user /usr/local/bin/pellucid-cli render /home/tester/head -o /home/tester/front.png >/dev/null || fail "an ordinary user cannot use it"
+if as_user /usr/local/bin/pellucid-uninstall 2>/dev/null; then fail "an ordinary user can remove it"; fi
+[[ $(as_user gio mime application/dicom) == *org.pellucid.Pellucid.desktop* ]] || fail "it is not in the users' menu"
+as_root /usr/local/bin/pellucid-uninstall >/dev/null
+all_of_it >"$work/after"
+nothing_is_left "root" "$work/before" "$work/after"
+say "removed; nothing is left"
+say "all passed; the bare systems stay in $work for the next time"

@@ -5,7 +5,8 @@
 inventory.py TREE VERSION LICENCES OUT.spdx.json
 
 Shared libraries that lie in TREE, and those that its programs are linked with, are looked up in
-Debian's package database; the copyright file of each package goes into the folder LICENCES.
+Debian's package database; the copyright file of each package goes into the folder LICENCES, and
+with libraries in TREE, which runs where there is no Debian, the licences that those files name.
 """
 import hashlib
 import json
@@ -15,6 +16,15 @@ import re
 import subprocess
 import sys
 import time
+
+
+# Whose licence text stands in the copyright file beside the list.
+SCANS = [
+    ("Lung-PET-CT-Dx", "https://doi.org/10.7937/TCIA.2020.NNC2-0461", "CC-BY-4.0",
+     "2020 Li P. et al., The Cancer Imaging Archive", "chest_*.png"),
+    ("dcm_qa_ct", "NOASSERTION", "BSD-2-Clause",
+     "2019 Chris Rorden; data of Aliza Medical Imaging", "head_bone.png, head_muscle.png, head_fluid.png"),
+]
 
 
 def output(*command: str) -> str:
@@ -82,11 +92,16 @@ def main() -> None:
     for header_only in ("libglm-dev", "nlohmann-json3-dev", "libcli11-dev"):
         by_package.setdefault(header_only, [])
 
+    brought = {package for package, names in by_package.items()
+               if not names or any(path.is_file() for name in names for path in tree.rglob(name))}
     licences.mkdir(parents=True, exist_ok=True)
     packages = []
+    common: set[str] = set()
     for package, names in sorted(by_package.items()):
         found, copyright_file = licences_of(package)
         (licences / package).write_bytes(copyright_file.read_bytes())
+        common.update(re.findall(r"/usr/share/common-licenses/([A-Za-z]+(?:-[0-9](?:\.[0-9])?)?)",
+                                 copyright_file.read_text(errors="replace")))
         packages.append({
             "SPDXID": identifier(package),
             "name": package,
@@ -101,6 +116,19 @@ def main() -> None:
             "copyrightText": "NOASSERTION",
             "comment": "libraries: " + ", ".join(names) if names else "compiled in, or data",
         })
+    if (tree / "lib").is_dir():
+        (licences / "common-licenses").mkdir(exist_ok=True)
+        for name in common:
+            text = pathlib.Path("/usr/share/common-licenses") / name
+            if not text.is_file():
+                sys.exit(f"inventory: there is no licence {name}")
+            (licences / "common-licenses" / name).write_bytes(text.read_bytes())
+    packages += [{
+        "SPDXID": identifier(name), "name": name, "downloadLocation": place, "filesAnalyzed": False,
+        "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": whose,
+        "comment": f"scan that pictures of the manual are made of: {pictures}",
+    } for name, place, licence, whose, pictures in SCANS]
+    brought.update(scan[0] for scan in SCANS)
     own = {
         "SPDXID": "SPDXRef-pellucid", "name": "pellucid", "versionInfo": version,
         "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
@@ -119,7 +147,7 @@ def main() -> None:
         "packages": [own, *packages],
         "relationships": [{"spdxElementId": "SPDXRef-DOCUMENT", "relationshipType": "DESCRIBES",
                            "relatedSpdxElement": "SPDXRef-pellucid"}]
-                         + [{"spdxElementId": "SPDXRef-pellucid", "relationshipType": "DEPENDS_ON",
+                         + [{"spdxElementId": "SPDXRef-pellucid", "relationshipType": "CONTAINS" if p["name"] in brought else "DEPENDS_ON",
                              "relatedSpdxElement": p["SPDXID"]} for p in packages],
     }
     pathlib.Path(out).write_text(json.dumps(document, indent=1) + "\n")

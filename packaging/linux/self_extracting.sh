@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Packs a folder that runs by itself (bundle.sh) into a program that installs it.
 #   self_extracting.sh FOLDER OUT.run     SOURCE_DATE_EPOCH: of everything in it
 set -euo pipefail
@@ -12,9 +13,10 @@ cp -a "$folder" "$scratch/pellucid" # which is the name it unpacks to
 mkdir "$scratch/bin"
 printf '#!/bin/sh\nexec %s --apparent-size "$@"\n' "$(command -v du)" >"$scratch/bin/du"
 chmod 755 "$scratch/bin/du"
+printf 'Installs Pellucid for this user, or for all as the superuser; elsewhere by: -- --prefix FOLDER\n\n' >"$scratch/help"
 cd "$scratch"
 # gzip without a time: the same folder gives the same file.
 GZIP=-n PATH=$scratch/bin:$PATH makeself --quiet --nox11 --gzip --packaging-date "$(LC_ALL=C date -u -d "@$SOURCE_DATE_EPOCH")" \
     --tar-quietly --tar-extra "--sort=name --mtime=@$SOURCE_DATE_EPOCH --owner=0 --group=0 --numeric-owner --mode=go=rX,u+rw" \
-    pellucid pellucid.run "Pellucid" ./install.sh 2>/dev/null
+    --help-header "$scratch/help" pellucid pellucid.run "Pellucid" sh ./install.sh >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; exit 1; }
 mv pellucid.run "$out"

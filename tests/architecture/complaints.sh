@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every test that tests/complaints.md names is there. Usage: complaints.sh SOURCE_ROOT
 set -uo pipefail
 cd "$1"

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Dependencies flow one way; third-party use shows in the file name. Fails with the lines that break it.
 # Usage: forbidden_includes.sh SOURCE_ROOT
 set -uo pipefail
@@ -44,8 +45,11 @@ forbid "public headers name no third party but GLM" '<(tbb|fmt|nlohmann|spdlog|C
 forbid "a *_nlohmann.h is for *_nlohmann.cpp" '"core/.*_nlohmann\.h"' $(files core gpu ui app tests | without '_nlohmann\.(cpp|h)$')
 forbid "the bench runs on bare machines" '["<](core/(dicom|preprocess)/|ui/|Q)' $(files app/bench)
 
-for file in $(files app core gpu ui tests); do
-    if [[ $(head -1 "$file") != "// SPDX-License-Identifier: GPL-3.0-or-later" ]]; then
+# In the first lines, below the interpreter's and the document's own.
+mapfile -t sources < <(find app core gpu ui tests shaders packaging -regex '.*\.\(h\|cpp\|inc\|glsl\|comp\|vert\|frag\|sh\|py\)' | sort)
+((${#sources[@]} > 300)) || { echo "where are the sources?"; failed=1; }
+for file in "${sources[@]}" dev .ci/run; do
+    if ! head -3 "$file" | grep -qE '^(//|#) SPDX-License-Identifier: GPL-3.0-or-later$'; then
         echo "$file has no SPDX line"
         failed=1
     fi

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every header compiles alone. Usage: headers_alone.sh SOURCE_ROOT COMPILER FLAGS...
 set -uo pipefail
 cd "$1"

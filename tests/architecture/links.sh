@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What manual and documents point at is there: files beside them, headings, pictures, and each
 # picture of the manual is one that the program brings along. Usage: links.sh SOURCE_ROOT
 set -euo pipefail

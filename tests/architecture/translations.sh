@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every text of the sources is translated, and no translation is of a text that is gone.
 # Usage: translations.sh SOURCE_ROOT
 set -euo pipefail
@@ -11,19 +12,24 @@ lupdate=/usr/lib/qt6/bin/lupdate
 "$lupdate" -silent -I . -no-obsolete -locations none -source-language en -target-language en -pluralonly ui -ts "$scratch/pellucid_en.ts" 2>/dev/null
 failed=0
 for file in "$scratch"/*.ts; do
-    missing=$(grep -B3 'type="unfinished"' "$file" | grep -o '<source>.*</source>' || true)
-    if [[ -n $missing ]]; then
-        echo "$(basename "$file"): not translated (./dev translations brings the file up to date):"
-        echo "$missing"
-        failed=1
-    fi
     # Places for numbers and names are in both.
-    python3 - "$file" <<'PYTHON' || failed=1
-import re, sys
+    python3 - "$file" resources/translations <<'PYTHON' || failed=1
+import pathlib, re, sys
 import xml.etree.ElementTree as tree
 wrong = 0
-for message in tree.parse(sys.argv[1]).getroot().iter('message'):
-    source, translation = message.find('source').text, message.find('translation')
+def messages(path):
+    return {(context.find('name').text, message.find('source').text, getattr(message.find('comment'), 'text', None)): message
+            for context in tree.parse(path).getroot().iter('context') for message in context.iter('message')}
+path = pathlib.Path(sys.argv[1])
+wanted = messages(path)
+for _, source, _ in messages(pathlib.Path(sys.argv[2]) / path.name).keys() - wanted.keys():
+    print(f'{path.name}: nothing says any more: {source!r} (./dev translations brings the file up to date)')
+    wrong = 1
+for (_, source, _), message in wanted.items():
+    translation = message.find('translation')
+    if translation.get('type') == 'unfinished':
+        print(f'{path.name}: not translated (./dev translations brings the file up to date): {source!r}')
+        wrong = 1
     texts = [form.text or '' for form in translation.findall('numerusform')] or [translation.text or '']
     places = set(re.findall(r'%(?:\d|n)', source))
     for text in texts:

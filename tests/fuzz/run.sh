@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Fuzzes every target, or the named ones, and fails if one breaks.
 # Usage: run.sh BIN SECONDS [TARGET...]; what breaks a target is left in BIN/../fuzz/found.
 set -uo pipefail
