@@ -18,6 +18,8 @@ import sys
 import time
 
 
+# Where Debian's copyright files point.
+COMMON = pathlib.Path("/usr/share/common-licenses")
 # Whose licence text stands in the copyright file beside the list.
 SCANS = [
     ("Lung-PET-CT-Dx", "https://doi.org/10.7937/TCIA.2020.NNC2-0461", "CC-BY-4.0",
@@ -97,11 +99,11 @@ def main() -> None:
     licences.mkdir(parents=True, exist_ok=True)
     packages = []
     common: set[str] = set()
+    known = "|".join(map(re.escape, sorted(os.listdir(COMMON), key=len, reverse=True)))
     for package, names in sorted(by_package.items()):
         found, copyright_file = licences_of(package)
         (licences / package).write_bytes(copyright_file.read_bytes())
-        common.update(re.findall(r"/usr/share/common-licenses/([A-Za-z]+(?:-[0-9](?:\.[0-9])?)?)",
-                                 copyright_file.read_text(errors="replace")))
+        common.update(re.findall(rf"{COMMON}/({known})", copyright_file.read_text(errors="replace")))
         packages.append({
             "SPDXID": identifier(package),
             "name": package,
@@ -118,11 +120,8 @@ def main() -> None:
         })
     if (tree / "lib").is_dir():
         (licences / "common-licenses").mkdir(exist_ok=True)
-        for name in common:
-            text = pathlib.Path("/usr/share/common-licenses") / name
-            if not text.is_file():
-                sys.exit(f"inventory: there is no licence {name}")
-            (licences / "common-licenses" / name).write_bytes(text.read_bytes())
+        for name in sorted(common):
+            (licences / "common-licenses" / name).write_bytes((COMMON / name).read_bytes())
     packages += [{
         "SPDXID": identifier(name), "name": name, "downloadLocation": place, "filesAnalyzed": False,
         "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": whose,
