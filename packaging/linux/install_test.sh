@@ -108,7 +108,7 @@ done
 while pgrep -x pellucid >/dev/null; do sleep 0.1; done
 TEXT
     rm -f "$root/home/tester/milliseconds"
-    as_user sh -c 'cd; xvfb-run -a -s "-screen 0 1600x1000x24" sh ./look.sh "$0" "$1"' "$2" "$first" || {
+    as_user sh -c 'cd; xvfb-run -a -s "-screen 0 1600x1000x24" sh ./look.sh "$0" head' "$2" || {
         cat "$root/home/tester/stderr"
         fail "$1: the workstation"
     }
