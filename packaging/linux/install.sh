@@ -154,7 +154,7 @@ done
 update-desktop-database -q "$data/applications" 2>/dev/null || true
 update-mime-database "$data/mime" 2>/dev/null || true
 done=yes
-remove_old
+remove_old || true
 [ ! -e "$old" ] || say "what somebody put into the former folder is in $old"
 echo "Pellucid is installed in $prefix; it is in the menu, and as: $bin/pellucid"
 case :$PATH: in

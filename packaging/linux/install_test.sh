@@ -185,9 +185,8 @@ cp "$run" "$root/home/tester/pellucid.run"
 all_of_it >"$work/before"
 as_user sh /home/tester/pellucid.run --quiet | tee -a "$report"
 keep_something
-mkdir "$root/home/tester/.local/opt/pellucid/was"
-echo "inside /was/file" >>"$root/home/tester/.local/opt/pellucid/share/pellucid/installation" # of a former version
-touch "$root/home/tester/.local/opt/pellucid/was/file"
+# A file that only a former version had.
+as_user sh -c 'cd ~/.local/opt/pellucid && mkdir was && touch was/file && echo "inside /was/file" >>share/pellucid/installation'
 as_user sh /home/tester/pellucid.run --quiet >/dev/null # over itself
 [[ ! -e $root/home/tester/.local/opt/pellucid/was && ! -e $root/home/tester/.local/opt/pellucid.old ]] || fail "something of the former version is still there"
 use_it run /home/tester/.local/share/applications/org.pellucid.Pellucid.desktop
