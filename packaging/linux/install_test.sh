@@ -140,7 +140,7 @@ still_kept() { # WHEN
 # All that there is, but for what systems write of themselves.
 all_of_it() {
     (cd "$root" && find . -xdev \( -path ./proc -o -path ./sys -o -path ./dev -o -path ./tmp -o -path ./run -o -path ./var/log -o -path ./var/cache \
-        -o -path ./home/tester/.cache/mesa_shader_cache -o -path ./home/tester/.cache/fontconfig \) -prune -o -print | sort)
+        -o -path './home/tester/.cache/mesa_shader_cache*' -o -path './home/tester/.cache/qtshadercache*' -o -path ./home/tester/.cache/fontconfig \) -prune -o -print | sort)
 }
 nothing_is_left() { # WHAT BEFORE AFTER
     local left
@@ -207,6 +207,7 @@ as_user /usr/local/bin/pellucid-cli render /home/tester/head -o /home/tester/fro
 if as_user /usr/local/bin/pellucid-uninstall 2>/dev/null; then fail "an ordinary user can remove it"; fi
 [[ $(as_user gio mime application/dicom) == *org.pellucid.Pellucid.desktop* ]] || fail "it is not in the users' menu"
 as_root /usr/local/bin/pellucid-uninstall >/dev/null
+as_user rm -rf /home/tester/.cache/pellucid # root's uninstaller leaves users' folders alone
 all_of_it >"$work/after"
 nothing_is_left "root" "$work/before" "$work/after"
 say "removed; nothing is left"
