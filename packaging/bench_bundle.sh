@@ -26,7 +26,8 @@ fi
     esac
 done
 mkdir -p "$folder/share/pellucid"
-mapfile -t dictionaries < <("$(dirname "${BASH_SOURCE[0]}")/dictionaries.sh" "$decoder")
+found=$("$(dirname "${BASH_SOURCE[0]}")/dictionaries.sh" "$decoder")
+mapfile -t dictionaries <<<"$found"
 cp "${dictionaries[@]}" "$folder/share/pellucid/"
 tar -C "$work" -czf "$out" pellucid-bench
 megabytes=$(($(stat -c %s "$out") / 1000000))

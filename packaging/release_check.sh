@@ -16,8 +16,8 @@ version=$(sed -n 's/^project(.* VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 check "format and lint"
 ./dev lint
 check "tests, with the real series; translations, manual, documents and licences of sources are among them"
-[[ -n ${PELLUCID_TEST_DATA:-} || -x ../shared/data/unpack ]] || fail "the real series are not there: PELLUCID_TEST_DATA"
-./dev test | tee build/release-tests.log
+[[ -d ${PELLUCID_TEST_DATA:-/none} || -x ../shared/data/unpack ]] || fail "the real series are not there: PELLUCID_TEST_DATA"
+./dev test 2>&1 | tee build/release-tests.log
 if grep -q 'cannot be unpacked' build/release-tests.log; then fail "the real series cannot be unpacked"; fi
 
 check "packages, twice the same: here, and from a clone at another place without what was compiled before"

@@ -26,7 +26,8 @@ namespace {
 void findDictionaries() {
     const auto own = files::programFolder();
     std::error_code ignored;
-    for (const char *const place : {"share/pellucid", "../share/pellucid", "../../share/pellucid"}) {
+    for (const char *const place :
+         {"share/pellucid", "../share/pellucid", "../../share/pellucid"}) {
         std::string paths;
         for (const char *const name : {"dicom.dic", "private.dic"})
             if (const auto path = own / place / name; std::filesystem::exists(path, ignored))

@@ -21,7 +21,8 @@ done
 mkdir -p "$tree/translations"
 install -m 644 "$translations/qtbase_zh_TW.qm" "$tree/translations/"
 mkdir -p "$tree/share/pellucid"
-mapfile -t dictionaries < <("$here/../dictionaries.sh" "$tree/libexec/pellucid/pellucid-decode")
+found=$("$here/../dictionaries.sh" "$tree/libexec/pellucid/pellucid-decode")
+mapfile -t dictionaries <<<"$found"
 install -m 644 "${dictionaries[@]}" "$tree/share/pellucid"
 
 programs() { find "$tree/bin" "$tree/libexec" "$tree/plugins" -type f \( -perm -u+x -o -name '*.so' \); }

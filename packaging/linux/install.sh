@@ -3,16 +3,22 @@
 # Installs Pellucid for this user, or for all if the superuser runs it. Run by the self-extracting
 # archive, from the folder that it unpacked.
 #   install.sh [--prefix FOLDER]
-# What it makes is written down in FOLDER/share/pellucid/installation, which uninstall.sh reads.
+# Whole or not there: all is copied beside FOLDER and takes its place at once; what fails, or is
+# stopped, later on is taken back. FOLDER/share/pellucid/installation lists what there is of it, in
+# FOLDER (inside) and elsewhere (link, file, folder): it is complete before anything is made elsewhere,
+# and uninstall.sh reads it.
 set -eu
 umask 022 # the archive's own is 077
 say() { echo "install.sh: $*" >&2; }
+refuse() { say "$*"; exit 1; }
+tab=$(printf '\t')
 from=$(cd "$(dirname "$0")" && pwd)
+: "${HOME:?install.sh: HOME says nothing}"
 if [ "$(id -u)" = 0 ]; then
     prefix=/opt/pellucid bin=/usr/local/bin data=/usr/local/share
 else
-    : "${HOME:?install.sh: HOME says nothing}"
-    prefix=$HOME/.local/opt/pellucid bin=$HOME/.local/bin data=${XDG_DATA_HOME:-$HOME/.local/share}
+    prefix=$HOME/.local/opt/pellucid bin=$HOME/.local/bin data=$HOME/.local/share
+    case ${XDG_DATA_HOME:-} in /*) data=$XDG_DATA_HOME ;; esac # what is relative counts for nothing
 fi
 while [ $# -gt 0 ]; do
     case $1 in
@@ -28,134 +34,166 @@ case $prefix in
     /*) ;;
     *) prefix=${USER_PWD:-$PWD}/$prefix ;; # where the archive was started
 esac
-while [ "$prefix" != "${prefix%/}" ]; do prefix=${prefix%/}; done
-# What a menu entry cannot hold, and the list of what is installed.
+prefix=$(readlink -m "$prefix")
+# What a menu entry cannot hold, a list of dictionaries, and the list of what is installed.
 case $prefix in
-    '' | *[\"\`\$\\%]*) say "'$prefix' cannot hold programs: it is the root, or has one of \" \` \$ \\ %; take another by --prefix"; exit 1 ;;
+    *[\"\`\$\\%:]*) refuse "$prefix cannot hold programs for one of \" \` \$ \\ % : in it; take another by --prefix" ;;
 esac
 case $prefix$bin$data in
-    *'
-'*) say "there is a line break in the name of a folder"; exit 1 ;;
+    *"$tab"* | *'
+'*) refuse "there is a tabulator or a line break in the name of a folder" ;;
 esac
+for folder in "$data/pellucid" "${XDG_CONFIG_HOME:-$HOME/.config}/pellucid" "${XDG_CACHE_HOME:-$HOME/.cache}/pellucid" "$bin"; do
+    folder=$(readlink -m "$folder")
+    case $folder/ in "${prefix%/}"/*) refuse "$prefix is no place for programs: $folder is for something else" ;; esac
+    case $prefix/ in "$folder"/*) refuse "$prefix is no place for programs: $folder is for something else" ;; esac
+done
 record=share/pellucid/installation
-is_ours() { [ -f "$1/$record" ] && [ -x "$1/bin/pellucid" ]; }
+is_ours() { [ -f "$1/$record" ]; }
 # Somebody's folder, or program, that is no installation is not replaced.
 if [ -e "$prefix" ] && ! is_ours "$prefix" && [ -n "$(ls -A "$prefix" 2>/dev/null || echo a file)" ]; then
-    say "$prefix is there already and is not Pellucid"
-    exit 1
+    refuse "$prefix is there already and is not Pellucid"
 fi
 for program in pellucid pellucid-cli pellucid-uninstall; do
-    target=$(readlink "$bin/$program" 2>/dev/null || true)
-    case $target in
-        "$prefix"/*) continue ;;
-        */bin/pellucid | */bin/pellucid-cli | */uninstall.sh)
-            other=${target%/bin/*} other=${other%/uninstall.sh}
-            if is_ours "$other"; then
-                say "Pellucid is installed in $other; remove it by $other/uninstall.sh first"
-                exit 1
-            fi
-            [ -e "$target" ] || continue # a folder that somebody took away
-            ;;
-    esac
-    if [ -e "$bin/$program" ] || [ -L "$bin/$program" ]; then
-        say "$bin/$program is there already and is not Pellucid's"
-        exit 1
+    link=$bin/$program
+    [ -L "$link" ] || [ -e "$link" ] || continue
+    target=$(readlink -m "$link")
+    case $target in "$prefix"/*) [ ! -L "$link" ] || continue ;; esac
+    other=${target%/bin/*} other=${other%/uninstall.sh}
+    if [ -L "$link" ] && is_ours "$other"; then
+        refuse "Pellucid is installed in $other; remove it by $other/uninstall.sh first"
     fi
+    [ -L "$link" ] && [ ! -e "$link" ] || refuse "$link is there already and is not Pellucid's"
 done
 
-# Whole or not there: the new one takes the old one's place when all of it is copied, and the old
-# one comes back if anything fails.
-new=$prefix.new old=$prefix.old swapped= done=
-if [ ! -e "$prefix" ] && is_ours "$old"; then # killed at the wrong moment
-    mv "$old" "$prefix"
+# One at a time: a lock on a folder that is there anyway leaves nothing behind.
+if [ "$(id -u)" = 0 ]; then exec 9</; else exec 9<"$HOME"; fi
+if command -v flock >/dev/null && ! flock -w 10 9; then
+    refuse "another one is installing Pellucid; wait for it"
 fi
-remove_old() { [ ! -e "$old" ] || sh "$from/uninstall.sh" --inside "$old"; }
-if is_ours "$prefix" && is_ours "$old"; then # or a moment later
-    remove_old
-fi
-if [ -e "$old" ]; then
-    say "$old is in the way; somebody put something into it"
-    exit 1
-fi
-rm -rf "$new"
-finish() {
-    [ -z "$done" ] || return 0
-    rm -rf "$new"
-    if is_ours "$old"; then
-        rm -rf "$prefix"
-        mv "$old" "$prefix"
-    elif [ -f "$prefix/$record" ] && [ -n "$swapped" ]; then
-        sh "$prefix/uninstall.sh" --quiet || true
+
+new=$prefix.new old=$prefix.old state=looking made=
+# What earlier ones left that were killed: the former installation waits for its place, or to go.
+for rest in "$old" "$old".[0-9]*; do
+    is_ours "$rest" || continue
+    if [ -e "$prefix" ]; then
+        sh "$from/uninstall.sh" --inside "$rest" || true
     else
-        printf %s "$written" | sed 's/^folder //' | sort -r | while IFS= read -r path; do rmdir "$path" || true; done
+        mv "$rest" "$prefix"
     fi
+done
+n=1
+while [ -e "$old" ]; do # somebody's files of a former one
+    n=$((n + 1)) old=$prefix.old.$n
+done
+if [ -e "$new" ] && ! rmdir "$new" 2>/dev/null; then
+    [ -e "$new/.unpacking" ] || is_ours "$new" || refuse "$new is in the way"
+    rm -rf "$new"
+fi
+
+# What is made elsewhere, by an installation in FOLDER: kind, from, to. Files of these names in the
+# folders of the desktop are Pellucid's, whoever wrote them.
+elsewhere() { # FOLDER
+    printf "%s$tab%s$tab%s\n" link "$prefix/bin/pellucid" "$bin/pellucid" link "$prefix/bin/pellucid-cli" "$bin/pellucid-cli" \
+        file "$1/share/pellucid/menu-entry" "$data/applications/org.pellucid.Pellucid.desktop" \
+        file "$1/share/mime/packages/pellucid.xml" "$data/mime/packages/pellucid.xml" \
+        file "$1/share/bash-completion/completions/pellucid-cli" "$data/bash-completion/completions/pellucid-cli"
+    (cd "$1/share/icons/hicolor" && find . -type f) | sort | while IFS= read -r icon; do
+        printf "file$tab%s$tab%s\n" "$1/share/icons/hicolor/${icon#./}" "$data/icons/hicolor/${icon#./}"
+    done
+    printf "%s$tab%s$tab%s\n" link "$prefix/uninstall.sh" "$bin/pellucid-uninstall"
+}
+# Each in one go: there is the former one or the new one.
+make_elsewhere() { # FOLDER
+    elsewhere "$1" | while IFS=$tab read -r kind source to; do
+        mkdir -p "$(dirname "$to")" || exit 1
+        rm -f "$to.pellucid-new"
+        case $kind in
+            link) ln -s "$source" "$to.pellucid-new" ;;
+            file) cp "$source" "$to.pellucid-new" ;;
+        esac && mv -fT "$to.pellucid-new" "$to" || { rm -f "$to.pellucid-new"; exit 1; }
+    done
+}
+missing_folders() { # the outermost last
+    folder=$(dirname "$1")
+    while [ ! -d "$folder" ]; do
+        echo "folder $folder"
+        folder=$(dirname "$folder")
+    done
+}
+
+# Nothing of what fails stays; the former installation comes back, and what it has elsewhere.
+finish() {
+    trap '' INT TERM HUP
+    case $state in
+        done) return ;;
+        looking) ;;
+        *)
+            if [ $state = copying ]; then
+                : # the former one was not touched
+            elif [ ! -e "$new" ] && is_ours "$prefix" && is_ours "$old"; then
+                grep -vxF -f "$old/$record" "$prefix/$record" | sh "$from/uninstall.sh" --listed "$prefix" || true
+                mv "$prefix" "$new"
+                mv "$old" "$prefix"
+                make_elsewhere "$prefix" || true
+            elif [ ! -e "$new" ] && is_ours "$prefix"; then
+                sh "$prefix/uninstall.sh" --quiet || true
+            elif [ ! -e "$prefix" ] && is_ours "$old"; then
+                mv "$old" "$prefix"
+            fi
+            rm -rf "$new"
+            printf %s "$made" | while IFS= read -r folder; do rmdir "${folder#folder }" 2>/dev/null || true; done
+            ;;
+    esac
     say "Pellucid was not installed; all is as before"
 }
 trap finish EXIT
 trap 'exit 130' INT TERM HUP
 
-written= # FOLDER and FILE lines of the record
-note() {
-    written="$written$1 $2
+made="$(missing_folders "$prefix")
 "
-}
-# Makes a folder and notes those that were not there, the outermost first.
-make_folder() {
-    [ ! -d "$1" ] || return 0
-    make_folder "$(dirname "$1")"
-    mkdir "$1"
-    note folder "$1"
-}
-make_folder "$(dirname "$prefix")"
-why=$(cp -R "$from" "$new" 2>&1) || { say "$(printf '%s\n' "$why" | head -n 1)"; exit 1; }
+state=copying
+mkdir -p "$(dirname "$prefix")"
+mkdir "$new"
+: >"$new/.unpacking"
+why=$(cp -R "$from/." "$new" 2>&1) || refuse "$(printf '%s\n' "$why" | head -n 1)"
 chmod -R u+rwX,go+rX "$new"
 rm -f "$new/install.sh"
 mkdir -p "$new/share/pellucid"
+entry=$prefix/bin/pellucid awk '/^Exec=pellucid/ { print "Exec=\"" ENVIRON["entry"] "\"" substr($0, 14); next } { print }' \
+    "$new/share/applications/org.pellucid.Pellucid.desktop" >"$new/share/pellucid/menu-entry"
 {
-    echo "prefix $prefix"
+    # What a former installation has elsewhere, and this one lacks, goes with this one.
+    if is_ours "$prefix"; then grep -E '^(data|link|file|folder) ' "$prefix/$record"; fi
     echo "data $data"
-    (cd "$new" && find . ! -type d) | sed 's/^\./inside /' | sort
-    # What an earlier installation made is this one's.
-    [ ! -f "$prefix/$record" ] || grep '^folder ' "$prefix/$record" || true
-    printf %s "$written"
-} >"$new/$record"
+    elsewhere "$new" | while IFS=$tab read -r kind _ to; do
+        echo "$kind $to"
+        missing_folders "$to"
+    done
+    printf %s "$made"
+    (cd "$new" && find . ! -type d ! -name .unpacking) | sed 's/^\./inside /'
+    echo "prefix $prefix"
+} | sort -u >"$new/.record"
+mv "$new/.record" "$new/$record"
+rm "$new/.unpacking"
+state=swapping
 if is_ours "$prefix"; then
-    mv "$prefix" "$old"
+    mv -T "$prefix" "$old"
 elif [ -e "$prefix" ]; then
     rmdir "$prefix"
 fi
-mv "$new" "$prefix"
-swapped=yes
-
-# Written down before it is made: what fails half way can be taken back.
-keep() { # FROM TO
-    written=
-    make_folder "$(dirname "$2")"
-    note file "$2"
-    printf %s "$written" >>"$prefix/$record"
-    rm -f "$2"
-    if [ "$1" = link ]; then ln -s "$prefix/$3" "$2"; else cp "$1" "$2"; fi
-}
-desktop=share/applications/org.pellucid.Pellucid.desktop
-keep link "$bin/pellucid" bin/pellucid
-keep link "$bin/pellucid-cli" bin/pellucid-cli
-keep link "$bin/pellucid-uninstall" uninstall.sh
-entry=$prefix/bin/pellucid awk '/^Exec=pellucid/ { print "Exec=\"" ENVIRON["entry"] "\"" substr($0, 14); next } { print }' \
-    "$prefix/$desktop" >"$prefix/share/pellucid/menu-entry"
-echo "inside /share/pellucid/menu-entry" >>"$prefix/$record"
-keep "$prefix/share/pellucid/menu-entry" "$data/applications/org.pellucid.Pellucid.desktop"
-keep "$prefix/share/mime/packages/pellucid.xml" "$data/mime/packages/pellucid.xml"
-keep "$prefix/share/bash-completion/completions/pellucid-cli" "$data/bash-completion/completions/pellucid-cli"
-for size in "$prefix"/share/icons/hicolor/*; do
-    for icon in "$size"/apps/*; do
-        keep "$icon" "$data${icon#"$prefix/share"}"
-    done
-done
+mv -T "$new" "$prefix"
+make_elsewhere "$prefix"
+state=done
+trap '' INT TERM HUP
+if is_ours "$old"; then
+    elsewhere "$prefix" | while IFS=$tab read -r kind _ to; do echo "$kind $to"; done |
+        grep -vxF -f - "$prefix/$record" | grep -E '^(link|file) ' | sh "$prefix/uninstall.sh" --listed "$prefix" || true
+    sh "$prefix/uninstall.sh" --inside "$old" || true
+    [ ! -e "$old" ] || say "what somebody put into the former folder is in $old"
+fi
 update-desktop-database -q "$data/applications" 2>/dev/null || true
 update-mime-database "$data/mime" 2>/dev/null || true
-done=yes
-remove_old || true
-[ ! -e "$old" ] || say "what somebody put into the former folder is in $old"
 echo "Pellucid is installed in $prefix; it is in the menu, and as: $bin/pellucid"
 case :$PATH: in
     *:"$bin":*) ;;

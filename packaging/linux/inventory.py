@@ -88,10 +88,10 @@ def main() -> None:
         if package is None:
             sys.exit(f"inventory: {path} is of no package")
         by_package.setdefault(package, []).append(name)
-    # Compiled in: headers without a library.
+    # Compiled in: headers without a library, or with most of it in them.
     if (tree / "translations").is_dir():
         by_package.setdefault("qt6-translations-l10n", [])
-    for header_only in ("libglm-dev", "nlohmann-json3-dev", "libcli11-dev"):
+    for header_only in ("libglm-dev", "nlohmann-json3-dev", "libcli11-dev", "libinsighttoolkit5-dev", "libhwy-dev"):
         by_package.setdefault(header_only, [])
 
     brought = {package for package, names in by_package.items()

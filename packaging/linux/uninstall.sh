@@ -1,17 +1,17 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Removes Pellucid, as install.sh wrote down what it made; presets, the study library and settings
-# stay, and so does what others put beside it.
-#   uninstall.sh [--quiet]
-#   uninstall.sh --inside FOLDER     only the files of the installation that FOLDER was
+# stay, and so does what others put beside it. What cannot be removed is named, and it can be run again.
+#   uninstall.sh [--quiet]           --quiet: what a failed installation made, the cache is not its
+#   uninstall.sh --inside FOLDER     only the files in the folder of an installation
+#   uninstall.sh --listed PREFIX     only what is listed on the standard input as in the record
 set -eu
 say() { echo "pellucid-uninstall: $*" >&2; }
-here=$(cd "$(dirname "$(readlink -f "$0")")" && pwd)
-only= quiet=
-case ${1:-} in
-    '') ;;
-    --quiet) quiet=yes ;;
-    --inside) here=${2:?} only=yes ;;
+here=$(cd "$(dirname "$(readlink -f "$0")")" && pwd -P)
+mode=${1:-all}
+case $mode in
+    all | --quiet) ;;
+    --inside | --listed) here=${2:?} ;;
     *) say "unknown: $1"; exit 2 ;;
 esac
 record=$here/share/pellucid/installation
@@ -21,37 +21,67 @@ if [ ! -w "$here" ] || [ ! -w "$(dirname "$here")" ]; then
     exit 1
 fi
 of() { sed -n "s/^$1 //p" "$record"; }
-prefix=$(of prefix) data=$(of data)
+prefix=$(of prefix | head -n 1)
 
-if [ -z "$only" ]; then
-    of file | while IFS= read -r path; do
-        # Somebody else's program may have taken a name since.
-        if [ -L "$path" ]; then
-            case $(readlink "$path") in "$prefix"/*) ;; *) continue ;; esac
-        fi
-        rm -f "$path"
+# Lines of the record: what has been made elsewhere. Somebody else's may have taken a name since.
+remove_listed() {
+    while read -r kind path; do
+        case $kind in
+            link)
+                [ -L "$path" ] || continue
+                case $(readlink "$path") in "$prefix"/*) rm -f "$path" || true ;; esac
+                ;;
+            file) [ -d "$path" ] || rm -f "$path" || true ;;
+        esac
     done
+}
+remove_folders() { # the innermost first, and none that others use
+    sed -n 's/^folder //p' | sort -ru | while IFS= read -r path; do rmdir "$path" 2>/dev/null || true; done
+}
+if [ "$mode" = --listed ]; then
+    listed=$(cat)
+    printf '%s\n' "$listed" | remove_listed
+    printf '%s\n' "$listed" | remove_folders
+    exit
+fi
+
+remove_inside() { # FOLDER; what lists the rest goes last
+    sed -n 's/^inside //p' "$1/share/pellucid/installation" | sed "s|^|./|" | tr '\n' '\0' | (cd "$1" && xargs -0 -r rm -f)
+    rm -f "$1/share/pellucid/installation"
+    find "$1" -depth -type d -empty -exec rmdir {} \;
+}
+if [ "$mode" = --inside ]; then
+    remove_inside "$here"
+    exit
+fi
+
+# The way to this file goes last of what is elsewhere.
+all=$(cat "$record")
+printf '%s\n' "$all" | grep -v '/pellucid-uninstall$' | remove_listed
+of data | while IFS= read -r data; do
     update-desktop-database -q "$data/applications" 2>/dev/null || true
     update-mime-database "$data/mime" 2>/dev/null || true
     # Lists that the two make, where nobody else had any.
-    if of folder | grep -qxF "$data/applications" && [ "$(ls -A "$data/applications")" = mimeinfo.cache ]; then
+    if of folder | grep -qxF "$data/applications" && [ "$(ls -A "$data/applications" 2>/dev/null)" = mimeinfo.cache ]; then
         rm -f "$data/applications/mimeinfo.cache"
     fi
     if of folder | grep -qxF "$data/mime" && [ -z "$(ls -A "$data/mime/packages" 2>/dev/null)" ]; then
         rm -rf "$data/mime"
     fi
-    if [ "$(id -u)" != 0 ] && [ -n "${HOME:-}" ]; then
-        rm -rf "${XDG_CACHE_HOME:-$HOME/.cache}/pellucid" # can be made again
-    fi
+done
+if [ "$mode" = all ] && [ "$(id -u)" != 0 ] && [ -n "${HOME:-}" ]; then
+    rm -rf "${XDG_CACHE_HOME:-$HOME/.cache}/pellucid" # can be made again
 fi
-folders=$(of folder)
-(of inside; echo "/share/pellucid/installation") | while IFS= read -r path; do rm -f "$here$path"; done
-find "$here" -depth -type d -empty -exec rmdir {} \;
-if [ -z "$only" ]; then
-    # The innermost first, and none that others use.
-    printf '%s\n' "$folders" | sort -ru | while IFS= read -r path; do
-        [ -z "$path" ] || rmdir "$path" 2>/dev/null || true
-    done
-    [ ! -e "$here" ] || say "what is not of Pellucid stays in $here"
-    [ -n "$quiet" ] || echo "Pellucid is removed. Presets and studies are kept in ~/.local/share/pellucid, settings in ~/.config/pellucid"
+left=$(of file | while IFS= read -r path; do [ ! -e "$path" ] || echo "$path"; done)
+if [ -n "$left" ]; then
+    say "cannot be removed: $(printf '%s' "$left" | tr '\n' ' '); then run $here/uninstall.sh again"
+    exit 1
 fi
+for former in "$here".old "$here".old.[0-9]*; do # of an upgrade that was killed
+    [ ! -f "$former/share/pellucid/installation" ] || remove_inside "$former"
+done
+remove_inside "$here"
+printf '%s\n' "$all" | grep '/pellucid-uninstall$' | remove_listed
+printf '%s\n' "$all" | remove_folders
+[ ! -e "$here" ] || say "what is not of Pellucid stays in $here"
+[ "$mode" = --quiet ] || echo "Pellucid is removed. Presets, studies and settings are kept, of each user: in ~/.local/share/pellucid and ~/.config/pellucid"

@@ -48,6 +48,6 @@ TEST_P(Regressions, areTakenOrRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, Regressions, testing::ValuesIn(targets()),
-                         [](const auto &info) { return std::string(info.param.name); });
+                         [](const auto &target) { return std::string(target.param.name); });
 
 } // namespace pellucid::fuzz

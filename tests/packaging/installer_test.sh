@@ -30,7 +30,8 @@ printf '#!/bin/sh\necho 1000\n' >"$work/tools/id"
 chmod 755 "$work/tools/id"
 as_user() { env -i HOME="$home" PATH="$work/tools:$PATH" USER_PWD="$work" "$@"; }
 install() { (umask 077 && cd "$work/unpacked" && as_user sh ./install.sh "$@" >"$work/said" 2>&1); }
-all_of() { (cd "$1" && find . | sort); }
+# Names, what links point at, and what files hold.
+all_of() { (cd "$1" && find . -printf '%p %y %l\n' | sort && find . -type f -print0 | sort -z | xargs -0 -r cksum); }
 refuses() { # WHY ARGUMENTS...
     local why=$1 before
     shift
@@ -54,32 +55,42 @@ for name in plain "two words" "o'brien & söhne|x"; do
     grep -qxF "Exec=\"$prefix/bin/pellucid\" %F" "$entry" || fail "$name: $(grep Exec "$entry")"
     # What is somebody's: in the folder, beside it, and a program that took a name since.
     touch "$prefix/mine" "$home/.local/bin/mine"
-    mkdir -p "$home/.local/share/pellucid/presets"
+    mkdir -p "$home/.local/share/pellucid/presets" "$home/.cache/pellucid"
+    touch "$home/.cache/pellucid/log"
     # Over itself: what only the former one had goes.
     unpacked "second $((++n))"
     install || fail "$name, again: $(cat "$work/said")"
     [[ -e "$prefix/second $n" && ! -e $prefix/first ]] || fail "$name: not renewed"
     [[ -e $prefix.old/mine ]] || fail "$name: what was put into the folder is lost"
     rm -r "$prefix.old" "$home/.local/bin/mine"
-    ln -sf /bin/true "$home/.local/bin/pellucid-cli"
+    rm "$home/.local/bin/pellucid-cli"
+    echo mine >"$home/.local/bin/pellucid-cli"
     as_user sh "$home/.local/bin/pellucid-uninstall" >/dev/null
-    [[ -e $home/.local/bin/pellucid-cli ]] || fail "$name: removed what is another's"
+    [[ $(cat "$home/.local/bin/pellucid-cli") == mine ]] || fail "$name: removed what is another's"
     rm -r "$home/.local/bin" "$home/.local/share/pellucid"
+    rmdir "$home/.cache"
     rmdir -p --ignore-fail-on-non-empty "$home/.local/share" 2>/dev/null || true
     [[ $(all_of "$home") == "$before" ]] || fail "$name: left behind: $(all_of "$home")"
     unpacked first
 done
 
 home=$work/refused
-mkdir -p "$home"/{tools,full}
-touch "$home"/tools/{uninstall.sh,data}
+mkdir -p "$home"/{tools,full,x.new,src/bin}
+touch "$home"/tools/{uninstall.sh,data} "$home/x.new/thesis" "$home/src/bin/pellucid"
 chmod 755 "$home/tools/uninstall.sh"
 refuses "is not Pellucid" --prefix "$home/tools"
+refuses "is in the way" --prefix "$home/x"
 refuses "cannot hold" --prefix "$home/100%"
+refuses "cannot hold" --prefix "$home/a:b"
+refuses "is no place" --prefix "$home/.local"
+refuses "is no place" --prefix "$home/.local/share/pellucid"
+refuses "is no place" --prefix "$home/.local/share/pellucid/programs"
 refuses "unknown" --here
 refuses "wants a folder" --prefix
 mkdir -p "$home/.local/bin"
 echo mine >"$home/.local/bin/pellucid"
+refuses "is not Pellucid's"
+ln -sf ../../src/bin/pellucid "$home/.local/bin/pellucid"
 refuses "is not Pellucid's"
 rm -r "$home/.local"
 # What fails on the way is taken back: a file where a folder has to be.
@@ -88,15 +99,65 @@ touch "$home/.local/share/icons"
 refuses "was not installed"
 rm -r "$home/.local"
 # One at a time, and a folder as it was typed.
-install --prefix "refused/here" || fail "$(cat "$work/said")"
+install --prefix "refused/./here" || fail "$(cat "$work/said")"
 [[ -x $home/here/bin/pellucid ]] || fail "not where it was asked for"
 refuses "is installed in $home/here"
 # An upgrade that fails leaves what was there.
 unpacked second
-rm -r "$home/.local/share/bash-completion"
-touch "$home/.local/share/bash-completion"
-install --prefix "refused/here" && fail "installed over a file"
-[[ -e $home/here/first && ! -e $home/here.old && ! -e $home/here.new ]] || fail "the former one is lost"
-as_user sh "$home/here/uninstall.sh" --quiet
-rm "$home/.local/share/bash-completion" 2>/dev/null || true
-[[ ! -e $home/here ]] || fail "still there"
+touch "$work/unpacked/share/icons/hicolor/scalable/apps/new.svg"
+rm "$home/.local/share/mime/packages/pellucid.xml"
+mkdir "$home/.local/share/mime/packages/pellucid.xml"
+refuses "was not installed" --prefix "$home/here"
+rmdir "$home/.local/share/mime/packages/pellucid.xml"
+# One that succeeds removes what the former one had elsewhere, and repairs.
+rm "$home/here/bin/pellucid" "$work/unpacked/share/icons/hicolor/scalable/apps/pellucid.svg"
+mkdir "$home/data"
+as_user XDG_DATA_HOME="$home/data" sh "$work/unpacked/install.sh" --prefix "$home/here" >/dev/null
+[[ -x $home/here/bin/pellucid && ! -e $home/.local/share/applications/org.pellucid.Pellucid.desktop ]] || fail "the former menu entry stays"
+as_user sh "$home/here/uninstall.sh" >/dev/null
+left=$(cd "$home" && find . -iname '*pellucid*' -not -path './src/*' -print -o -path './.local/*' -print)
+[[ -z $left ]] || fail "left behind: $left"
+
+# Stopped at any time, or killed: as before or as after, and the next one is whole.
+home=$work/stopped
+mkdir -p "$home/.config"
+before=$(all_of "$home")
+unpacked first
+whole() { [[ -x $home/.local/opt/pellucid/bin/pellucid && -e $home/.local/share/applications/org.pellucid.Pellucid.desktop && -L $home/.local/bin/pellucid-uninstall ]]; }
+for signal in TERM KILL; do
+    for round in fresh renewed; do
+        for ms in 005 010 015 020 025 030 040 050 060 080 100; do
+            if [[ $round == renewed ]]; then
+                install || fail "after SIG$signal: $(cat "$work/said")"
+                was=$(all_of "$home")
+            else
+                was=$before
+            fi
+            (umask 077 && cd "$work/unpacked" && exec env -i HOME="$home" PATH="$work/tools:$PATH" sh ./install.sh >"$work/said" 2>&1) &
+            sleep "0.$ms"
+            kill -s $signal $! 2>/dev/null || true
+            wait $! 2>/dev/null || true
+            if [[ $signal == TERM ]] && ! whole && [[ $(all_of "$home") != "$was" ]]; then
+                fail "SIGTERM after $ms ms: neither as before nor whole: $(diff <(echo "$was") <(all_of "$home"))"
+            fi
+            sleep 0.02 # what a killed one started
+            install || fail "after SIG$signal: $(cat "$work/said")"
+            whole || fail "SIG$signal after $ms ms: not whole after the next"
+            as_user sh "$home/.local/opt/pellucid/uninstall.sh" >/dev/null
+            left=$(cd "$home" && find . -type f -o -type l)
+            [[ -z $left ]] || fail "SIG$signal after $ms ms: left behind: $left"
+            rm -rf "$home/.local" "$home/.cache" # folders that a killed one made
+        done
+    done
+done
+# Two at once: one of them installs.
+for round in 1 2 3; do
+    for one in a b; do
+        (cd "$work/unpacked" && as_user sh ./install.sh >"$work/said.$one" 2>&1; echo $? >"$work/status.$one") &
+        sleep 0.0$round
+    done
+    wait
+    whole || fail "two at once: $(cat "$work"/said.?)"
+    as_user sh "$home/.local/bin/pellucid-uninstall" >/dev/null
+    [[ $(all_of "$home") == "$before" ]] || fail "two at once: left behind: $(diff <(echo "$before") <(all_of "$home"))"
+done

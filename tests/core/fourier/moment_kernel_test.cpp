@@ -34,8 +34,9 @@ TEST_P(Moment, IsOddAndItsPairsAreItsValues) {
             // Pairs are floats of values up to 1.
             EXPECT_NEAR(even + c * odd, moment.value(t), 3e-7);
             EXPECT_NEAR(moment.value(-t), -moment.value(t), 1e-12);
-            if (2 * k != width - 1)
+            if (2 * k != width - 1) {
                 EXPECT_NEAR(c * odd - even, moment.value(c - k + 0.5 * (width - 1)), 3e-7);
+            }
         }
 }
 

@@ -59,8 +59,9 @@ TEST(BoxOutline, ofATiltedScanLeansAndWhatIsBeyondThePictureIsItsBorder) {
     ASSERT_EQ(edges.size(), 4U);
     EXPECT_NEAR(area(edges), 20.0 * 40.0, 1e-9); // sheared, of one area
     for (const BoxEdge &e : edges)
-        if (e.axis == 1)
+        if (e.axis == 1) {
             EXPECT_NEAR(std::abs((e.to.x - e.from.x) / (e.to.y - e.from.y)), shear, 1e-9);
+        }
     Plane close = through(Orientation::axial);
     close.width = close.height = 11; // inside of the box
     const auto borders = boxOutline(lattice, {{0, 0, 0}, {40, 40, 40}}, close);

@@ -178,8 +178,9 @@ TEST(Reslice, IsWhatItsPointsAre) {
                     for (const double face : {-0.5 * mm, 0.5 * mm}) {
                         const float at = mpr::valueAt(
                             volume, {plane.at(c, r).mm + face * plane.axes.toViewer()});
-                        if (!std::isnan(at))
+                        if (!std::isnan(at)) {
                             ASSERT_GE(slab.values[n], at - 0.05);
+                        }
                     }
                 }
             EXPECT_GT(inside, 500);
