@@ -18,5 +18,5 @@ cd "$scratch"
 # gzip without a time: the same folder gives the same file.
 GZIP=-n PATH=$scratch/bin:$PATH makeself --quiet --nox11 --gzip --packaging-date "$(LC_ALL=C date -u -d "@$SOURCE_DATE_EPOCH")" \
     --tar-quietly --tar-extra "--sort=name --mtime=@$SOURCE_DATE_EPOCH --owner=0 --group=0 --numeric-owner --mode=go=rX,u+rw" \
-    --help-header "$scratch/help" pellucid pellucid.run "Pellucid" sh ./install.sh >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; exit 1; }
+    --help-header ./help pellucid pellucid.run "Pellucid" sh ./install.sh >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; exit 1; }
 mv pellucid.run "$out"
