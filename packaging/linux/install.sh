@@ -13,7 +13,7 @@ say() { echo "install.sh: $*" >&2; }
 refuse() { say "$*"; exit 1; }
 tab=$(printf '\t')
 from=$(cd "$(dirname "$0")" && pwd)
-: "${HOME:?install.sh: HOME says nothing}"
+[ -d "${HOME:-}" ] || refuse "HOME is no folder: '${HOME:-}'"
 if [ "$(id -u)" = 0 ]; then
     prefix=/opt/pellucid bin=/usr/local/bin data=/usr/local/share
 else
@@ -153,8 +153,7 @@ trap 'exit 130' INT TERM HUP
 made="$(missing_folders "$prefix")
 "
 state=copying
-mkdir -p "$(dirname "$prefix")"
-mkdir "$new"
+why=$(mkdir -p "$(dirname "$prefix")" 2>&1 && mkdir "$new" 2>&1) || refuse "$why"
 : >"$new/.unpacking"
 why=$(cp -R "$from/." "$new" 2>&1) || refuse "$(printf '%s\n' "$why" | head -n 1)"
 chmod -R u+rwX,go+rX "$new"

@@ -55,12 +55,18 @@ if [ "$mode" = --inside ]; then
     exit
 fi
 
+# What is elsewhere is of the installation at its place, and not of a copy of it.
+if [ "$here" != "$prefix" ] && [ -f "$prefix/share/pellucid/installation" ]; then
+    remove_inside "$here"
+    echo "This copy is removed; the Pellucid in $prefix stays"
+    exit
+fi
 # The way to this file goes last of what is elsewhere.
 all=$(cat "$record")
 printf '%s\n' "$all" | grep -v '/pellucid-uninstall$' | remove_listed
 of data | while IFS= read -r data; do
     update-desktop-database -q "$data/applications" 2>/dev/null || true
-    update-mime-database "$data/mime" 2>/dev/null || true
+    [ ! -d "$data/mime/packages" ] || update-mime-database "$data/mime" 2>/dev/null || true
     # Lists that the two make, where nobody else had any.
     if of folder | grep -qxF "$data/applications" && [ "$(ls -A "$data/applications" 2>/dev/null)" = mimeinfo.cache ]; then
         rm -f "$data/applications/mimeinfo.cache"
@@ -69,8 +75,11 @@ of data | while IFS= read -r data; do
         rm -rf "$data/mime"
     fi
 done
-if [ "$mode" = all ] && [ "$(id -u)" != 0 ] && [ -n "${HOME:-}" ]; then
-    rm -rf "${XDG_CACHE_HOME:-$HOME/.cache}/pellucid" # can be made again
+if [ "$mode" = all ] && [ "$(id -u)" != 0 ]; then # can be made again
+    case ${XDG_CACHE_HOME:-} in
+        /*) rm -rf "$XDG_CACHE_HOME/pellucid" ;;
+        *) [ -z "${HOME:-}" ] || rm -rf "$HOME/.cache/pellucid" ;;
+    esac
 fi
 left=$(of file | while IFS= read -r path; do [ ! -e "$path" ] || echo "$path"; done)
 if [ -n "$left" ]; then
@@ -83,5 +92,7 @@ done
 remove_inside "$here"
 printf '%s\n' "$all" | grep '/pellucid-uninstall$' | remove_listed
 printf '%s\n' "$all" | remove_folders
-[ ! -e "$here" ] || say "what is not of Pellucid stays in $here"
+for rest in "$here" "$here".old "$here".old.[0-9]*; do
+    [ ! -e "$rest" ] || say "what is not of Pellucid stays in $rest"
+done
 [ "$mode" = --quiet ] || echo "Pellucid is removed. Presets, studies and settings are kept, of each user: in ~/.local/share/pellucid and ~/.config/pellucid"

@@ -118,6 +118,16 @@ as_user sh "$home/here/uninstall.sh" >/dev/null
 left=$(cd "$home" && find . -iname '*pellucid*' -not -path './src/*' -print -o -path './.local/*' -print)
 [[ -z $left ]] || fail "left behind: $left"
 
+# A copy has nothing elsewhere, and what is relative counts for nothing.
+install || fail "$(cat "$work/said")"
+cp -a "$home/.local/opt/pellucid" "$home/copy"
+as_user sh "$home/copy/uninstall.sh" >/dev/null
+[[ ! -e $home/copy && -x $home/.local/bin/pellucid && -e $home/.local/share/applications/org.pellucid.Pellucid.desktop ]] || fail "a copy took the installation along"
+mkdir -p "$work/here/pellucid"
+(cd "$work/here" && as_user XDG_CACHE_HOME=. sh "$home/.local/bin/pellucid-uninstall" >/dev/null)
+[[ -d $work/here/pellucid ]] || fail "a folder of the place where it was started is gone"
+[[ ! -e $home/.local/opt/pellucid ]] || fail "still there"
+
 # Stopped at any time, or killed: as before or as after, and the next one is whole.
 home=$work/stopped
 mkdir -p "$home/.config"
