@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Whether what is committed can be released: each line is a check, the first that fails ends it.
-# Takes two hours on two cores; needs root for the install tests. Called by `./dev release-check`.
+# Takes half an hour on two cores with a warm compiler cache, two hours without; needs root for the install tests. Called by `./dev release-check`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 check() { echo "== $*"; }
