@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t largePage = std::size_t(2) << 20;
 
 #ifdef PELLUCID_LARGE_PAGES
-// Whole large pages of their own, given back whole. The allocator's regions would keep the wish for
-// large pages after a block is freed, and a few bytes then hold 2 MB each.
+// Whole large pages of their own, given back whole. The allocator would keep much of what is freed,
+// and its regions the wish for large pages.
 std::byte *mapLargePages(std::size_t size) {
     const std::size_t reserved = size + largePage;
     void *const start =
