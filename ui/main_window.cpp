@@ -26,6 +26,7 @@
 #include "ui/dock.h"
 #include "ui/file_menu.h"
 #include "ui/help_menu.h"
+#include "ui/huge_question.h"
 #include "ui/icons.h"
 #include "ui/look_docks.h"
 #include "ui/look_menu.h"
@@ -92,6 +93,12 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
             [this](const render::Camera &kept) { m_projection->adoptCamera(kept); });
     connect(&m_bench.opener, &StudyOpener::brightnessKept, m_projection,
             &ProjectionView::adoptTone);
+    connect(&m_bench.opener, &StudyOpener::hugeFound, this,
+            [this](const QStringList &paths, const std::vector<dicom::Skipped> &huge) {
+                askForHuge(this, huge, [this, paths] {
+                    m_bench.opener.openPaths(paths, {}, {.takesHuge = true});
+                });
+            });
     connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
     connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
             &ProjectionView::setMessage);

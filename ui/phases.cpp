@@ -15,22 +15,9 @@ namespace {
 
 constexpr int playMs = 200;
 
-// What tells stacks of a series apart that are no phases of each other: other directions, spaces or
-// kinds of values. The scan puts it last in the label.
-QString stackOf(const QString &label) {
-    const QString last = label.mid(label.lastIndexOf(", ") + 1).trimmed();
-    for (const char *direction : {"axial", "coronal", "sagittal", "images"})
-        if (last.startsWith(QLatin1String(direction)))
-            return last;
-    return {};
-}
-
 bool arePhases(const StudySource &a, const StudySource &b) {
     return !a.isClosed && !b.isClosed && a.study.key() == b.study.key() &&
-           !a.volume.seriesUid.isEmpty() && a.volume.seriesUid == b.volume.seriesUid &&
-           a.volume.placed && b.volume.placed && a.volume.size == b.volume.size &&
-           a.volume.spacingMm == b.volume.spacingMm &&
-           stackOf(a.volume.label) == stackOf(b.volume.label);
+           arePhases(a.volume, b.volume);
 }
 
 } // namespace

@@ -84,7 +84,8 @@ void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &
     m_preparer.prepareAgain(); // what changed, or was dropped
 }
 
-void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resumption> &resumption) {
+void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resumption> &resumption,
+                            const dicom::ScanOptions &options) {
     if (paths.isEmpty())
         return;
     m_resumption = resumption;
@@ -93,11 +94,15 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
         files.emplace_back(path.toStdString());
     m_jobs.start(
         tr("Reading headers"),
-        [this, files, paths](const Job &job) {
-            auto catalogue =
-                std::make_shared<const dicom::Catalogue>(dicom::scan(files, job.progress()));
+        [this, files, paths, options](const Job &job) {
+            auto catalogue = std::make_shared<const dicom::Catalogue>(
+                dicom::scan(files, job.progress(), options));
             job.deliver([this, catalogue, files, paths] {
                 m_document.addProblems(catalogue->skipped);
+                std::vector<dicom::Skipped> huge = catalogue->skipped;
+                std::erase_if(huge, [](const dicom::Skipped &s) { return !s.isHuge; });
+                if (!huge.empty())
+                    emit hugeFound(paths, huge);
                 if (catalogue->empty()) {
                     if (catalogue->skipped.empty())
                         m_document.addProblems({{files.front(), "holds no images"}});

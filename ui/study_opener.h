@@ -6,6 +6,7 @@
 #include <QObject>
 #include <QStringList>
 
+#include "core/dicom/scan.h"
 #include "ui/document.h"
 #include "ui/kept_studies.h"
 #include "ui/study_source.h"
@@ -38,7 +39,8 @@ public:
         /// What else of its folders could not be used then.
         std::vector<dicom::Skipped> leftOut;
     };
-    void openPaths(const QStringList &paths, const std::optional<Resumption> &resumption = {});
+    void openPaths(const QStringList &paths, const std::optional<Resumption> &resumption = {},
+                   const dicom::ScanOptions &options = {});
     void openPhantom(const QString &kind, const std::optional<Resumption> &resumption = {});
     void openSource(int index);
     /// Another volume of the same series: look, view, window, crosshair and planes stay.
@@ -52,6 +54,8 @@ public:
 signals:
     /// The paths held something.
     void pathsOpened(const QStringList &paths);
+    /// They held images that are opened only when that is asked for.
+    void hugeFound(const QStringList &paths, const std::vector<pellucid::dicom::Skipped> &huge);
     /// The way the study that came back was looked at.
     void cameraKept(const pellucid::render::Camera &camera);
     void brightnessKept(const pellucid::render::ToneRange &range);

@@ -62,7 +62,8 @@ dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
                                  "drive they are on may be away")
                 .toStdString(),
             skipped.empty() ? fs::path() : skipped.front().path.parent_path());
-    const dicom::Catalogue catalogue = dicom::scan(there, progress.part(0.0, 0.2));
+    const dicom::Catalogue catalogue =
+        dicom::scan(there, progress.part(0.0, 0.2), {.takesHuge = true}); // it is kept
     skipped.insert(skipped.end(), catalogue.skipped.begin(), catalogue.skipped.end());
     dicom::LoadedVolume loaded =
         dicom::loadVolume(meant(catalogue, volume), progress.part(0.2, 1.0), observer);
@@ -95,7 +96,8 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
                 source.lasting << lasting;
         }
         source.lasting.removeDuplicates();
-        source.volume.file = QString::fromStdString(catalogue->named(s.volume->nrrd).string());
+        source.volume.file =
+            QString::fromStdString(catalogue->named(s.volume->volumeFile).string());
         // The catalogue is kept alive by whoever may load from it.
         source.load = [catalogue, entry = s.volume](const task::Progress &progress,
                                                     const dicom::LoadObserver &observer) {

@@ -46,6 +46,19 @@ void WindowChooser::add(const volume::ValueWindow &window, const QKeySequence &k
     m_box.addItem(windowLabel(window));
 }
 
+// What it is takes a look at all values, when it is wanted.
+void WindowChooser::addAutomatic() {
+    const QAction *const action = m_menu.addAction(spokenName("Auto"));
+    connect(action, &QAction::triggered, this, [this] {
+        if (!m_document.volume())
+            return;
+        const volume::ValueWindow window = automaticWindow(*m_document.volume());
+        if (!(m_document.displayWindow() == window))
+            m_document.undoStack()->push(new EditDisplayWindow(m_document, window));
+    });
+    m_box.addItem(action->text());
+}
+
 void WindowChooser::showWindows() {
     m_menu.clear();
     const auto &volume = m_document.volume();
@@ -59,6 +72,8 @@ void WindowChooser::showWindows() {
         add(preset.window, QKeySequence(QString::number(preset.key)));
     for (std::size_t n = 1; n < volume->notes().windows.size(); ++n)
         add(volume->notes().windows[n], {});
+    if (m_document.initialWindow().name != "Auto")
+        addAutomatic();
     showCurrent();
 }
 

@@ -22,6 +22,7 @@ public:
     WindowChooser(Document &document, QMenu &menu, QComboBox &box);
 
 private:
+    void addAutomatic();
     void showWindows();
     void showCurrent();
     void add(const volume::ValueWindow &window, const QKeySequence &key);

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/bench/suites.h"
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 #include "core/files/atomic_file.h"
 #include "core/reference/wide_kernel.h"
 #include "core/task/error.h"
@@ -37,7 +37,7 @@ void save(const std::string &path, const std::string &text) {
 
 pellucid::bench::Subject readSubject(const std::string &path) {
     using namespace pellucid;
-    const auto volume = decoder::readNrrd(path);
+    const auto volume = decoder::readVolumeFile(path);
     bench::Subject subject{std::filesystem::path(path).stem().string(),
                            classify::densityField(volume, classify::defaultFieldWindow(volume))};
     // The exact reference that errors are taken against is the largest thing by far.

@@ -37,6 +37,7 @@ json volumeJson(const dicom::VolumeEntry &v) {
                 {"origin_mm", vector(l.origin().mm)},
                 {"steps_mm", {vector(l.step(0)), vector(l.step(1)), vector(l.step(2))}},
                 {"frames", v.frames.size()},
+                {"gaps_filled", v.fillsHoles},
                 {"resampled", !v.geometry.frameOffsetsMm.empty()},
                 {"unit", v.unit == volume::ValueUnit::hounsfield ? "HU" : ""},
                 {"lossy", v.notes.lossy},
@@ -115,7 +116,7 @@ void printCatalogue(const dicom::Catalogue &catalogue) {
 void addInfoCommand(CLI::App &app, const Context &context) {
     struct Options {
         std::vector<std::string> paths;
-        bool json = false;
+        bool json = false, large = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand(
@@ -125,11 +126,13 @@ void addInfoCommand(CLI::App &app, const Context &context) {
                      "Files, folders, DICOMDIRs, ZIP archives or NRRD files")
         ->required();
     command->add_flag("--json", options->json, "Print one JSON object");
+    addLargeOption(*command, options->large);
     command->callback([options, context] {
         const std::vector<std::filesystem::path> paths(options->paths.begin(),
                                                        options->paths.end());
         naming(paths.front(), [&] {
-            const dicom::Catalogue catalogue = dicom::scan(paths, task::Progress(context.stop));
+            const dicom::Catalogue catalogue =
+                dicom::scan(paths, task::Progress(context.stop), {options->large});
             if (options->json)
                 std::puts(jsonText(catalogueJson(catalogue)).c_str());
             else

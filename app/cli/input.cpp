@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/terminal.h"
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 #include "core/dicom/scan.h"
 #include "core/files/file_ids.h"
 #include "core/task/error.h"
@@ -46,8 +46,8 @@ void requireOther(const std::vector<std::filesystem::path> &outs, const std::fil
     for (const dicom::Selection &s : dicom::selections(catalogue)) {
         for (const dicom::InstanceFile &file : s.series->files)
             check(file.path);
-        if (!s.volume->nrrd.empty())
-            check(decoder::readNrrdHeader(s.volume->nrrd).samplesFile);
+        if (!s.volume->volumeFile.empty())
+            check(decoder::readVolumeFileHeader(s.volume->volumeFile).samplesFile);
     }
 }
 
@@ -129,6 +129,10 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
 [[noreturn]] void failWithoutImages(const dicom::Catalogue &catalogue,
                                     const std::filesystem::path &path) {
     requireAllRead(catalogue.skipped, path);
+    const auto huge = std::find_if(catalogue.skipped.begin(), catalogue.skipped.end(),
+                                   [](const dicom::Skipped &s) { return s.isHuge; });
+    if (huge != catalogue.skipped.end())
+        throw Error(ErrorCode::unusable, huge->reason + "; --large opens it", huge->path);
     if (catalogue.skipped.size() == 1)
         throw Error(ErrorCode::unusable, catalogue.skipped[0].reason, catalogue.skipped[0].path);
     std::string reason = "holds no usable images";
@@ -144,18 +148,31 @@ CLI::Validator notEmpty() {
             "text"};
 }
 
-void addSeriesOption(CLI::App &command, std::string &series) {
-    command
-        .add_option("--series", series,
-                    "Series number or UID; default: the volume with most voxels")
-        ->check(notEmpty());
+void addLargeOption(CLI::App &command, bool &large) {
+    command.add_flag("--large", large,
+                     "Open images that are unusually large, or larger than their files suggest");
 }
 
-Input openInput(const std::filesystem::path &path, const std::string &series,
-                const std::vector<std::filesystem::path> &outs, const Context &context) {
+void addInputOptions(CLI::App &command, InputOptions &options) {
+    command
+        .add_option("PATH", options.path,
+                    "A file, a folder, a DICOMDIR, a ZIP archive or an NRRD file")
+        ->required();
+    command
+        .add_option("--series", options.series,
+                    "Series number or UID; default: the volume with most voxels")
+        ->check(notEmpty());
+    command.add_flag("--fill-gaps", options.fillGaps,
+                     "Interpolate where several slices are missing, instead of the longest run");
+    addLargeOption(command, options.large);
+}
+
+Input openInput(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
+                const Context &context) {
+    const std::filesystem::path path = options.path;
     Stopwatch watch;
     const task::Progress progress(context.stop);
-    const dicom::Catalogue catalogue = dicom::scan({path}, progress);
+    const dicom::Catalogue catalogue = dicom::scan({path}, progress, {options.large});
     Input input;
     input.skipped = catalogue.skipped;
     input.scanMs = watch.lapMs();
@@ -164,8 +181,9 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     requireOther(outs, path, catalogue);
     dicom::Selection selection;
     try {
-        selection = series.empty() ? dicom::defaultSelection(catalogue)
-                                   : dicom::selectSeries(catalogue, series);
+        const auto holes = options.fillGaps ? dicom::Holes::fill : dicom::Holes::split;
+        selection = options.series.empty() ? dicom::defaultSelection(catalogue, holes)
+                                           : dicom::selectSeries(catalogue, options.series, holes);
     } catch (const Error &error) {
         throw Error(error.code(), error.reason(), path);
     }
@@ -194,7 +212,7 @@ Input openInput(const std::filesystem::path &path, const std::string &series,
     input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
                          input.loaded.skipped.end());
     // Said even where no JSON is asked for: that a slice is left out, above all.
-    warnOfOthers(catalogue, selection, series.empty());
+    warnOfOthers(catalogue, selection, options.series.empty());
     for (const std::string &warning : input.loaded.volume.notes().warnings)
         warn(warning);
     input.loadMs = watch.lapMs();

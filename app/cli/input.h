@@ -26,15 +26,24 @@ struct Input {
 /// For options whose text says something.
 CLI::Validator notEmpty();
 
-/// --series, of a command that opens an input.
-void addSeriesOption(CLI::App &command, std::string &series);
+/// What a command opens.
+struct InputOptions {
+    std::string path, series;
+    bool fillGaps = false, large = false;
+};
+
+/// --large, of a command that opens something.
+void addLargeOption(CLI::App &command, bool &large);
+
+/// PATH, --series, --fill-gaps and --large.
+void addInputOptions(CLI::App &command, InputOptions &options);
 
 /// Scans a path and loads one volume of it: of the series named, else the one with most voxels.
 /// What is not used or not shown is said on stderr. *Throws* Error{unusable} naming the path,
 /// Error{outOfMemory} if the volume is missing for want of it;
 /// Error{usage} if one of `outs` is one of the files that are read.
-Input openInput(const std::filesystem::path &path, const std::string &series,
-                const std::vector<std::filesystem::path> &outs, const Context &context);
+Input openInput(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
+                const Context &context);
 
 /// Does work on an input. *Throws* as the work; what lacks memory names the input.
 void naming(const std::filesystem::path &path, const std::function<void()> &work);

@@ -32,7 +32,8 @@ using task::ErrorCode;
 
 struct Options {
     SceneOptions scene;
-    std::string path, out, series, engine = "auto";
+    InputOptions input;
+    std::string out, engine = "auto";
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
     bool turntable = false, json = false, isDeidentified = false;
@@ -62,7 +63,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         for (int frame = 0; frame < o.frames; ++frame)
             outs.push_back(framePath(out, frame));
     }
-    const Input input = openInput(o.path, o.series, outs, context);
+    const Input input = openInput(o.input, outs, context);
     const volume::Volume &volume = input.loaded.volume;
     render::Scene scene = sceneFor(o.scene, command, volume);
     // The scene file may have brought colours.
@@ -79,7 +80,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         throw Error(ErrorCode::outOfMemory,
                     fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
                                 o.memory >> 20),
-                    o.path);
+                    o.input.path);
     preprocess::StepCache steps(budgetOfSteps);
     const auto fields = classify::cropped(
         classify::shownFields(volume, window, scene.look, &steps, task::Progress(context.stop)),
@@ -100,7 +101,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
             throw Error(error.code(),
                         fmt::format("{}; {} of {} MB are the volume and its fields", error.reason(),
                                     held >> 20, o.memory >> 20),
-                        o.path);
+                        o.input.path);
         }
     };
     Renderer renderer = prepared();
@@ -213,11 +214,9 @@ void addRenderCommand(CLI::App &app, const Context &context) {
         "", "size");
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("render", "Project a volume into an image");
-    c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR, a ZIP archive or an NRRD file")
-        ->required();
+    addInputOptions(*c, o->input);
     c->add_option("-o,--output", o->out, "The image: .png, .npy, .nrrd or .dcm (Secondary Capture)")
         ->required();
-    addSeriesOption(*c, o->series);
     addSceneOptions(*c, o->scene);
     c->add_option("--engine", o->engine, "auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
@@ -232,7 +231,7 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     c->add_flag("--deidentify", o->isDeidentified,
                 "A .dcm without the patient's identity (PS3.15, basic profile)");
     c->add_flag("--json", o->json, "Print one JSON object about what was done");
-    c->callback([o, c, context] { naming(o->path, [&] { run(*o, *c, context); }); });
+    c->callback([o, c, context] { naming(o->input.path, [&] { run(*o, *c, context); }); });
 }
 
 } // namespace pellucid::cli

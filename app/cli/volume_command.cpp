@@ -16,7 +16,8 @@ namespace pellucid::cli {
 namespace {
 
 struct Options {
-    std::string path, out, series, window, tissue;
+    InputOptions input;
+    std::string out, window, tissue;
     bool field = false, edges = false, gzip = false;
 };
 
@@ -31,7 +32,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     std::optional<classify::FieldWindow> window;
     if (command.count("--window") > 0)
         window = parseWindow(o.window);
-    const Input input = openInput(o.path, o.series, {o.out}, context);
+    const Input input = openInput(o.input, {o.out}, context);
     const volume::Volume &volume = input.loaded.volume;
     const auto encoding = o.gzip ? volume::NrrdEncoding::gzip : volume::NrrdEncoding::raw;
     if (!o.field && !tissue) {
@@ -52,10 +53,8 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c =
         app.add_subcommand("volume", "Write a volume, or the field that is projected, as NRRD");
-    c->add_option("PATH", o->path, "A file, a folder, a DICOMDIR, a ZIP archive or an NRRD file")
-        ->required();
+    addInputOptions(*c, o->input);
     c->add_option("-o,--output", o->out, "The NRRD file")->required();
-    addSeriesOption(*c, o->series);
     CLI::Option *field =
         c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
     CLI::Option *tissue = c->add_option("--class", o->tissue,
@@ -66,7 +65,7 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
         ->excludes(tissue);
     c->add_option("--window", o->window, "The field's window LO,HI in value units");
     c->add_flag("--gzip", o->gzip, "Compress the samples");
-    c->callback([o, c, context] { naming(o->path, [&] { run(*o, *c, context); }); });
+    c->callback([o, c, context] { naming(o->input.path, [&] { run(*o, *c, context); }); });
 }
 
 } // namespace pellucid::cli

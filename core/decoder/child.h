@@ -62,9 +62,9 @@ private:
     int m_confinement = 0;
 };
 
-/// What a request may take. A decoder gives itself up after the first, the program it after the
-/// second. *Units*: seconds.
+/// What a request may take of the processor, after which a decoder gives itself up, and how long
+/// the program waits for it: files may come slowly. *Units*: seconds.
 double decodingSeconds(const Message &request);
-inline constexpr double patienceSeconds = 3.0;
+double waitingSeconds(const Message &request);
 
 } // namespace pellucid::decoder

@@ -284,28 +284,29 @@ void Decoder::archive(const fs::path &path,
     });
 }
 
-NrrdLayout Decoder::nrrd(const fs::path &path, const task::Progress &progress) {
+VolumeLayout Decoder::layout(const fs::path &path, const task::Progress &progress) {
     const OpenFile file = open(path);
     return naming(path, [&] {
-        auto child = ask({Message::Kind::nrrd, 0, file.bytes, 0}, file.descriptor.get(), progress);
-        NrrdLayout layout = answered(
-            child, progress, [](const Child::Answer &answer) { return unpackNrrd(answer.body); });
+        auto child =
+            ask({Message::Kind::layout, 0, file.bytes, 0}, file.descriptor.get(), progress);
+        VolumeLayout layout = answered(
+            child, progress, [](const Child::Answer &answer) { return unpackLayout(answer.body); });
         takeBack(std::move(child));
         return layout;
     });
 }
 
-bool Decoder::nrrdSamples(const fs::path &path, const NrrdSamples &samples,
-                          const std::function<void(std::span<const std::byte>)> &take,
-                          const task::Progress &progress) {
+bool Decoder::samples(const fs::path &path, const SampleRange &samples,
+                      const std::function<void(std::span<const std::byte>)> &take,
+                      const task::Progress &progress) {
     const OpenFile file = open(path);
     bool hasMore = false;
     naming(path, [&] {
-        const int code = samples.bytesEach | (samples.isGzip ? deflated : 0) |
-                         (samples.isSwapped ? swapped : 0) |
-                         (samples.isBehindHeader ? behindHeader : 0);
-        auto child = ask({Message::Kind::nrrdSamples, code, file.bytes, samples.bytes},
-                         file.descriptor.get(), progress);
+        const int code = samples.bytesEach | (samples.isDeflated ? deflated : 0) |
+                         (samples.isSwapped ? swapped : 0);
+        auto child =
+            ask({Message::Kind::samples, code, file.bytes, samples.bytes, samples.at, samples.skip},
+                file.descriptor.get(), progress);
         std::uint64_t left = samples.bytes;
         for (bool isDone = false; !isDone;) {
             answered(child, progress, [&](const Child::Answer &answer) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/decoder/instance.h"
-#include "core/decoder/nrrd_layout.h"
+#include "core/decoder/volume_layout.h"
 #include "core/task/progress.h"
 
 namespace pellucid::decoder {
@@ -71,12 +71,13 @@ public:
                  const std::function<void(const ArchivePart &)> &take,
                  const task::Progress &progress = {});
 
-    NrrdLayout nrrd(const std::filesystem::path &path, const task::Progress &progress = {});
+    /// Of a file that `volume::isVolumeFile`.
+    VolumeLayout layout(const std::filesystem::path &path, const task::Progress &progress = {});
     /// Exactly so many bytes, in parts of whole samples. True if the file holds more. The callback
     /// may throw.
-    bool nrrdSamples(const std::filesystem::path &path, const NrrdSamples &samples,
-                     const std::function<void(std::span<const std::byte>)> &take,
-                     const task::Progress &progress = {});
+    bool samples(const std::filesystem::path &path, const SampleRange &samples,
+                 const std::function<void(std::span<const std::byte>)> &take,
+                 const task::Progress &progress = {});
 
     /// Other files come, of somebody else perhaps: decoders that have read the former ones read
     /// none of these. One that a file has taken over could give wrong headers and pixels for what

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/decoder/instance.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace pellucid::decoder {
 
 namespace {
 
-// Media Storage Directory Storage; Segmentation Storage (PS3.4, B.5).
+// Media Storage Directory Storage; Segmentation and Label Map
+// Segmentation Storage (PS3.4, B.5).
 constexpr const char *directoryClass = "1.2.840.10008.1.3.10";
-constexpr const char *segmentationClass = "1.2.840.10008.5.1.4.1.1.66.4";
+constexpr const char *segmentationClass = "1.2.840.10008.5.1.4.1.1.66.4",
+                     *labelMapClass = "1.2.840.10008.5.1.4.1.1.66.7";
 
 } // namespace
 
 std::optional<std::string> whyUnusable(const InstanceHeader &h) {
     if (h.sopClassUid == directoryClass)
         return "is an index of files, not an image";
-    if (h.sopClassUid == segmentationClass)
+    if (h.sopClassUid == segmentationClass || h.sopClassUid == labelMapClass)
         return "segmentations are not shown";
     if (h.floatPixels)
         return "floating-point pixels are not supported";
@@ -29,9 +33,15 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
         return "has an image larger than DICOM allows";
     if (h.announcedFrames != int(h.frames.size()))
         return fmt::format("announces {} frames, more than the file can hold", h.announcedFrames);
-    if (h.samplesPerPixel != 1 || (h.photometric != "MONOCHROME1" &&
-                                   h.photometric != "MONOCHROME2" && !h.photometric.empty()))
+    const bool isMonochrome =
+        h.photometric == "MONOCHROME1" || h.photometric == "MONOCHROME2" || h.photometric.empty();
+    if (!isMonochrome)
         return "is a colour image (" + h.photometric + ")";
+    if (h.samplesPerPixel != 1)
+        return fmt::format("has {} samples per pixel; monochrome images have one",
+                           h.samplesPerPixel);
+    if (!h.unsupportedSyntax.empty())
+        return "transfer syntax not supported: " + h.unsupportedSyntax;
     if (h.bitsAllocated != 8 && h.bitsAllocated != 16)
         return fmt::format("has {} bits per sample; 8 and 16 are supported", h.bitsAllocated);
     if (h.bitsStored < 1 || h.bitsStored > h.bitsAllocated || h.highBit >= h.bitsAllocated ||
@@ -47,9 +57,19 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
     return std::nullopt;
 }
 
+bool isHuge(const InstanceHeader &h, std::uint64_t fileBytes) {
+    constexpr double manyBytes = 512.0 * (1 << 20), manyTimes = 1000.0;
+    constexpr int largestSide = 16384;
+    const int side = std::max(1, h.mosaicSide);
+    const double pixels = 2.0 * h.rows * h.columns * double(h.frames.size());
+    return std::max(h.rows, h.columns) * side > largestSide ||
+           (pixels > manyBytes && pixels > manyTimes * double(fileBytes));
+}
+
 bool hasSurplusPixels(const InstanceHeader &h) {
+    const double tiles = h.mosaicSide > 0 ? double(h.mosaicSide) * h.mosaicSide : h.announcedFrames;
     const double described =
-        double(h.rows) * h.columns * h.samplesPerPixel * h.bitsAllocated / 8.0 * h.announcedFrames;
+        double(h.rows) * h.columns * h.samplesPerPixel * h.bitsAllocated / 8.0 * tiles;
     return double(h.pixelBytes) > described + 1.0;
 }
 

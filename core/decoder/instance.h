@@ -20,6 +20,7 @@ namespace pellucid::decoder {
 inline constexpr double farthestMm = 1e6, smallestSpacingMm = 1e-6, largestSpacingMm = 1e4,
                         largestRescale = 1e9;
 inline constexpr std::size_t mostFrames = 100000; ///< of a file
+inline constexpr int mostVolumes = 10000;         ///< of a file
 
 /// How stored values become values: value = slope * stored + intercept, or a modality table.
 struct Rescale {
@@ -43,9 +44,19 @@ struct FrameHeader {
     std::map<std::string, std::string> dimensions;
 };
 
+/// What a file does that the standard forbids, and that is read all the same. Bits.
+enum Oddity : std::uint32_t {
+    mislabelledEncoding = 1, ///< elements without representations under a syntax that has them
+    definedLengthPixels = 2, ///< of a compressed syntax
+    missingDelimiter = 4,    ///< at the end of compressed pixels
+    otherPrecision = 8,      ///< compressed values need more bits than the header says
+    allOddities = 15
+};
+
 /// What a header says about a file.
 struct InstanceHeader {
     std::string sopClassUid, sopClassName, sopInstanceUid, transferSyntax;
+    std::string unsupportedSyntax; ///< what cannot be decoded: its name, or its UID
     std::string patientId, patientName, birthDate, sex;
     std::string studyUid, studyDate, studyDescription, frameOfReferenceUid;
     std::string seriesUid, seriesDescription, modality, bodyPart;
@@ -58,6 +69,10 @@ struct InstanceHeader {
     int pixelRepresentation = 0; ///< 0: unsigned, 1: signed, -1: not said
     bool lossy = false;
     bool hasDamagedPixels = false; ///< as far as their decoder noticed, who went on
+    std::uint32_t oddities = 0;    ///< of Oddity
+    /// Tiles along a side of a Siemens mosaic, whose tiles are the frames; 0: it is none. Rows and
+    /// columns are those of a tile.
+    int mosaicSide = 0;
     std::string photometric, rescaleType;
     std::optional<int> paddingValue, paddingLimit;
     std::vector<volume::ValueWindow> windows;
@@ -78,6 +93,10 @@ struct DecodedImage {
 /// Whether uncompressed pixels go on behind those that the header describes, whichever frames of it
 /// are in use; a byte is padding.
 bool hasSurplusPixels(const InstanceHeader &header);
+
+/// Whether an image takes so much more memory than its file has bytes, or is so large, that it is
+/// opened only when the user says so.
+bool isHuge(const InstanceHeader &header, std::uint64_t fileBytes);
 
 /// Why a file's pixels cannot be part of a volume or an image set, or nothing if they can.
 std::optional<std::string> whyUnusable(const InstanceHeader &header);

@@ -142,14 +142,15 @@ template <class A> void pass(A &archive, InstanceHeader &h) {
          {&h.sopClassUid, &h.sopClassName, &h.sopInstanceUid, &h.transferSyntax, &h.patientId,
           &h.patientName, &h.birthDate, &h.sex, &h.studyUid, &h.studyDate, &h.studyDescription,
           &h.seriesUid, &h.seriesDescription, &h.modality, &h.bodyPart, &h.photometric,
-          &h.rescaleType, &h.frameOfReferenceUid})
+          &h.rescaleType, &h.frameOfReferenceUid, &h.unsupportedSyntax})
         pass(archive, *text);
     for (int *const number :
          {&h.seriesNumber, &h.instanceNumber, &h.rows, &h.columns, &h.samplesPerPixel,
           &h.announcedFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.pixelRepresentation,
-          &h.modalityTableFirst})
+          &h.modalityTableFirst, &h.mosaicSide})
         pass(archive, *number);
     pass(archive, h.pixelBytes);
+    pass(archive, h.oddities);
     for (bool *const flag : {&h.hasPixels, &h.floatPixels, &h.lossy, &h.hasDamagedPixels})
         pass(archive, *flag);
     pass(archive, h.paddingValue);
@@ -171,19 +172,23 @@ template <class A> void pass(A &archive, ArchiveFile &file) {
     pass(archive, file.isLink);
 }
 
-template <class A> void pass(A &archive, NrrdLayout &layout) {
-    for (int *const number : {&layout.size.i, &layout.size.j, &layout.size.k})
+template <class A> void pass(A &archive, VolumeLayout &layout) {
+    for (int *const number : {&layout.size.i, &layout.size.j, &layout.size.k, &layout.volumes})
         pass(archive, *number);
     pass(archive, layout.originMm);
     for (glm::dvec3 &step : layout.stepsMm)
         pass(archive, step);
     auto scalar = std::int32_t(layout.scalar);
     pass(archive, scalar);
-    layout.scalar = NrrdScalar(scalar);
-    pass(archive, layout.isGzip);
+    layout.scalar = StoredScalar(scalar);
+    pass(archive, layout.slope);
+    pass(archive, layout.intercept);
+    pass(archive, layout.isDeflated);
     pass(archive, layout.isSwapped);
     pass(archive, layout.isOfPatient);
     pass(archive, layout.dataFile);
+    pass(archive, layout.at);
+    pass(archive, layout.skip);
 }
 
 template <class A, class T> void pass(A &archive, std::optional<T> &value) {
@@ -251,7 +256,8 @@ InstanceHeader unpackHeader(std::span<const std::byte> body) {
     };
     if (header.frames.empty() || header.frames.size() > mostFrames ||
         header.modalityTable.size() > 65536 || header.windows.size() > 100 ||
-        !isWithin(header.modalityTableFirst, 65536) ||
+        !isWithin(header.modalityTableFirst, 65536) || header.oddities > allOddities ||
+        header.mosaicSide < 0 || header.mosaicSide > 100 ||
         !isWithin(header.paddingValue.value_or(0), 65536) ||
         !isWithin(header.paddingLimit.value_or(0), 65536))
         fail();
@@ -286,15 +292,19 @@ std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body) {
     return unpacked<std::vector<ArchiveFile>>(body);
 }
 
-std::string pack(const NrrdLayout &layout) {
+std::string pack(const VolumeLayout &layout) {
     return packed(layout);
 }
 
-NrrdLayout unpackNrrd(std::span<const std::byte> body) {
-    const auto layout = unpacked<NrrdLayout>(body);
+VolumeLayout unpackLayout(std::span<const std::byte> body) {
+    const auto layout = unpacked<VolumeLayout>(body);
     const volume::GridSize n = layout.size;
-    if (std::min({n.i, n.j, n.k}) < 1 || layout.scalar < NrrdScalar::i8 ||
-        layout.scalar > NrrdScalar::f64)
+    constexpr std::uint64_t mostSkipped = std::uint64_t(1) << 40;
+    if (std::min({n.i, n.j, n.k}) < 1 || layout.volumes < 1 || layout.volumes > mostVolumes ||
+        layout.at > mostSkipped || layout.skip > mostSkipped ||
+        std::abs(layout.slope) > largestRescale || std::abs(layout.intercept) > largestRescale ||
+        layout.slope == 0.0 || layout.scalar < StoredScalar::i8 ||
+        layout.scalar > StoredScalar::f64)
         fail();
     for (const glm::dvec3 &step : layout.stepsMm)
         if (!(glm::length(step) >= smallestSpacingMm && glm::length(step) <= largestSpacingMm))

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/decoder/instance.h"
-#include "core/decoder/nrrd_layout.h"
+#include "core/decoder/volume_layout.h"
 
 namespace pellucid::decoder {
 
@@ -21,9 +21,9 @@ struct Message {
         image,
         directory,
         archive,
-        nrrd,        ///< the header of one
-        nrrdSamples, ///< `dataBytes`: all of them, `code`: the size of one and bits of `NrrdFlag`
-        granted,     ///< `size`: of the arena now
+        layout,  ///< the header of a file that holds volumes
+        samples, ///< `dataBytes`: all of them, `code`: the size of one and bits of `SampleFlag`
+        granted, ///< `size`: of the arena now
         refused,
         next, ///< part of an archive or of samples
         // from it
@@ -37,6 +37,8 @@ struct Message {
     std::int32_t code = 0;       ///< 0, or a task::ErrorCode whose reason is the body
     std::uint64_t size = 0;      ///< of the body
     std::uint64_t dataBytes = 0; ///< of what lies after it
+    /// Of samples: where they begin in the file, and what is to be skipped once it is inflated.
+    std::uint64_t at = 0, skip = 0;
 };
 
 /// Bits of `Message::code` of `ready`.
@@ -49,8 +51,8 @@ enum ArchiveFlag : std::int32_t { announcement = 1, firstPart = 2, lastPart = 4,
 /// A bit of `Message::code` of the last `part` of samples: the file holds more of them.
 inline constexpr std::int32_t goesOn = 8;
 
-/// Bits of `Message::code` of `nrrdSamples`, beside the size of a sample.
-enum NrrdFlag : std::int32_t { deflated = 16, swapped = 32, behindHeader = 64 };
+/// Bits of `Message::code` of `samples`, beside the size of a sample.
+enum SampleFlag : std::int32_t { deflated = 16, swapped = 32 };
 
 /// A part that is not the last of its file is full; so is an announcement that is not the last.
 inline constexpr std::size_t archivePartBytes = 1 << 20, filesAnnouncedAtOnce = 500;
@@ -68,8 +70,8 @@ std::string pack(const DirectoryFile &directory);
 DirectoryFile unpackDirectory(std::span<const std::byte> body);
 std::string pack(const std::vector<ArchiveFile> &files);
 std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body);
-std::string pack(const NrrdLayout &layout);
-NrrdLayout unpackNrrd(std::span<const std::byte> body);
+std::string pack(const VolumeLayout &layout);
+VolumeLayout unpackLayout(std::span<const std::byte> body);
 /// A reason: printable, one line, not endless.
 std::string unpackReason(std::span<const std::byte> body);
 

@@ -11,12 +11,31 @@ namespace pellucid::dicom {
 
 namespace {
 
+// A large single image is no volume beside a stack, a file of labels is none beside the series that
+// they are of, and what was scanned comes before what was filled in.
 const Selection &largest(const std::vector<Selection> &candidates) {
-    return *std::max_element(candidates.begin(), candidates.end(),
-                             [](const Selection &a, const Selection &b) {
-                                 return std::tuple(a.volume->placed, a.volume->voxels()) <
-                                        std::tuple(b.volume->placed, b.volume->voxels());
-                             });
+    const auto rank = [](const Selection &s) {
+        const VolumeEntry &v = *s.volume;
+        return std::tuple(v.placed, v.geometry.lattice.size().k > 1, v.volumeFile.empty(),
+                          !v.fillsHoles, v.voxels());
+    };
+    return *std::max_element(
+        candidates.begin(), candidates.end(),
+        [&](const Selection &a, const Selection &b) { return rank(a) < rank(b); });
+}
+
+// Where a series has a volume with its holes filled, that alone, if it is asked for.
+std::vector<Selection> choose(std::vector<Selection> all, Holes holes) {
+    if (holes == Holes::fill) {
+        std::set<const Series *> filled;
+        for (const Selection &s : all)
+            if (s.volume->fillsHoles)
+                filled.insert(s.series);
+        std::erase_if(all, [&](const Selection &s) {
+            return filled.contains(s.series) && !s.volume->fillsHoles;
+        });
+    }
+    return all;
 }
 
 // Nothing where the file is not below the folder.
@@ -52,17 +71,17 @@ std::vector<Selection> selections(const Catalogue &catalogue) {
     return all;
 }
 
-Selection defaultSelection(const Catalogue &catalogue) {
-    const auto all = selections(catalogue);
+Selection defaultSelection(const Catalogue &catalogue, Holes holes) {
+    const auto all = choose(selections(catalogue), holes);
     if (all.empty())
         throw task::Error(task::ErrorCode::unusable, "holds no usable images");
     return largest(all);
 }
 
-Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid) {
+Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid, Holes holes) {
     std::vector<Selection> matching, byUid;
     std::string known;
-    for (const Selection &s : selections(catalogue)) {
+    for (const Selection &s : choose(selections(catalogue), holes)) {
         if (s.series->uid == numberOrUid)
             byUid.push_back(s);
         if (std::to_string(s.series->number) == numberOrUid)

@@ -16,6 +16,7 @@ namespace pellucid::dicom {
 struct Skipped {
     std::filesystem::path path;
     std::string reason;
+    bool isHuge = false; ///< it is used if that is asked for, see `ScanOptions`
 };
 
 /// The reason of those that are left out for want of memory, which is not their fault.
@@ -33,8 +34,9 @@ struct FrameReference {
 /// Where the planes of a stack lie and where the volume's slices will be.
 struct StackGeometry {
     volume::Lattice lattice;
-    /// For an uneven stack: distance of every frame from the first, along the slices' normal, mm;
-    /// the lattice's slices are interpolated between them. Empty if every frame is a slice.
+    /// For an uneven stack: distance of every frame from the lattice's first slice, along the
+    /// slices' normal, mm; the lattice's slices are interpolated between them. Empty if every frame
+    /// is a slice.
     std::vector<double> frameOffsetsMm;
 };
 
@@ -44,10 +46,13 @@ struct VolumeEntry {
     std::vector<FrameReference> frames; ///< in the order of the stack
     StackGeometry geometry;
     bool placed = true; ///< false: images only, not a volume
+    /// Holes of several slices are interpolated; the runs between them are volumes of their own.
+    bool fillsHoles = false;
     std::string notPlacedReason;
     volume::ValueUnit unit = volume::ValueUnit::none;
     volume::VolumeNotes notes;
-    std::filesystem::path nrrd; ///< set instead of frames for a NRRD file
+    std::filesystem::path volumeFile; ///< set instead of frames for a file of one volume or several
+    int fileVolume = 0;               ///< which of them
 
     std::size_t voxels() const { return geometry.lattice.size().count(); }
 };
@@ -106,12 +111,18 @@ struct Selection {
 /// Every volume, in the catalogue's order.
 std::vector<Selection> selections(const Catalogue &catalogue);
 
-/// The volume with most voxels; sets of images come after every volume.
-/// *Throws* Error{unusable} if there is none.
-Selection defaultSelection(const Catalogue &catalogue);
+/// What becomes of holes of several slices: the longest run is taken, or the whole with its holes
+/// interpolated.
+enum class Holes { split, fill };
 
-/// A series by its UID or number, its largest volume. *Throws* Error{unusable}, also where several
-/// series have the number.
-Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid);
+/// The volume with most voxels; single images come after stacks, other files after DICOM series,
+/// sets of images after every volume.
+/// *Throws* Error{unusable} if there is none.
+Selection defaultSelection(const Catalogue &catalogue, Holes holes = Holes::split);
+
+/// A series by its UID or number, its volume as of `defaultSelection`. *Throws* Error{unusable},
+/// also where several series have the number.
+Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid,
+                       Holes holes = Holes::split);
 
 } // namespace pellucid::dicom

@@ -19,10 +19,13 @@ namespace {
 
 using Frames = std::vector<PlacedFrame>;
 
-// Axes written with six digits differ by rounding; 1e-4 is 0.006 degrees, a tenth of a voxel across
-// a large image.
 bool sameAxis(const glm::dvec3 &a, const glm::dvec3 &b) {
-    return glm::distance(a, b) < 1e-4;
+    return glm::distance(a, b) <= largestJitter;
+}
+
+bool sameSpacing(const glm::dvec2 &a, const glm::dvec2 &b) {
+    const glm::dvec2 off = glm::abs(a / b - 1.0);
+    return std::max(off.x, off.y) <= largestJitter;
 }
 
 bool isLocalizer(const std::string &imageType) {
@@ -31,10 +34,9 @@ bool isLocalizer(const std::string &imageType) {
 
 bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
     const FrameHeader &x = a.header, &y = b.header;
-    return a.rows == b.rows && a.columns == b.columns &&
-           a.frameOfReferenceUid == b.frameOfReferenceUid && a.modality == b.modality &&
+    return a.rows == b.rows && a.columns == b.columns && a.modality == b.modality &&
            isLocalizer(x.imageType) == isLocalizer(y.imageType) &&
-           glm::distance(*x.spacingMm, *y.spacingMm) < 1e-4 && sameAxis(*x.rowAxis, *y.rowAxis) &&
+           sameSpacing(*x.spacingMm, *y.spacingMm) && sameAxis(*x.rowAxis, *y.rowAxis) &&
            sameAxis(*x.columnAxis, *y.columnAxis);
 }
 
@@ -42,26 +44,40 @@ bool samePlace(const PlacedFrame &a, const PlacedFrame &b) {
     return std::abs(a.depthMm - b.depthMm) < 0.01;
 }
 
+std::size_t digestOf(const PlacedFrame &frame) {
+    return dicom::digestOf(frame.sopInstanceUid, frame.frameOfReferenceUid, frame.modality,
+                           frame.header);
+}
+
 bool placesRepeat(const Frames &sorted) {
     return std::adjacent_find(sorted.begin(), sorted.end(), samePlace) != sorted.end();
 }
 
-// One instance twice, as when a CD is copied into a folder that has it already.
+// One instance twice, as when a CD is copied into a folder that has it already. Some tools write
+// one UID into every image of a series, or into an Enhanced file and the slices taken out of it:
+// those are other images, and stay.
 void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
-    std::map<std::pair<std::string, int>, std::filesystem::path> seen;
+    using Instance = std::pair<std::string, int>;
+    using Image = std::tuple<int, int, int, int, std::size_t>;
+    std::map<Instance, std::map<Image, std::filesystem::path>> seen;
     std::set<std::filesystem::path> reported;
     std::erase_if(frames, [&](const PlacedFrame &frame) {
         if (frame.sopInstanceUid.empty())
             return false;
-        const auto [it, fresh] =
-            seen.try_emplace({frame.sopInstanceUid, frame.reference.frame}, frame.reference.path);
-        if (fresh)
+        const Image image(frame.framesOfFile, frame.rows, frame.columns, frame.instanceNumber,
+                          digestOf(frame));
+        const auto [it, isNew] = seen[{frame.sopInstanceUid, frame.reference.frame}].try_emplace(
+            image, frame.reference.path);
+        if (isNew)
             return false;
         if (reported.insert(frame.reference.path).second)
             skipped.push_back({frame.reference.path,
                                "has the instance UID of " + it->second.filename().string()});
         return true;
     });
+    for (PlacedFrame &frame : frames)
+        if (!frame.sopInstanceUid.empty())
+            frame.sharesUid = seen[{frame.sopInstanceUid, frame.reference.frame}].size() > 1;
 }
 
 struct Part {
@@ -153,9 +169,13 @@ VolumeEntry entryFrom(const Part &part) {
     entry.label = part.label;
     for (const PlacedFrame &frame : part.frames) {
         entry.frames.push_back(frame.reference);
-        entry.frames.back().digest =
-            digestOf(frame.sopInstanceUid, frame.frameOfReferenceUid, frame.modality, frame.header);
+        entry.frames.back().digest = digestOf(frame);
     }
+    const auto shared = std::count_if(part.frames.begin(), part.frames.end(),
+                                      [](const PlacedFrame &frame) { return frame.sharesUid; });
+    if (shared > 0)
+        entry.notes.warnings.push_back(
+            fmt::format("different images with the same instance UID: {}", shared));
     return entry;
 }
 
@@ -177,7 +197,7 @@ std::vector<Frames>
 blocksOf(const Frames &frames,
          const std::function<bool(const PlacedFrame &, const PlacedFrame &)> &same,
          const task::Progress &progress) {
-    constexpr double cellsPerUnit = 1000.0; // wider than `sameAxis` forgives
+    constexpr double cellsPerUnit = 1.0 / (1.25 * largestJitter); // wider than `sameAxis` forgives
     std::vector<Frames> blocks;
     std::map<std::tuple<int, int, long>, std::vector<std::size_t>> known;
     for (const PlacedFrame &frame : frames) {
@@ -197,6 +217,72 @@ blocksOf(const Frames &frames,
         blocks[found].push_back(frame);
     }
     return blocks;
+}
+
+constexpr const char *ownSpaces = "every image has its own frame of reference; treated as one";
+
+// Blocks of one space each. Anonymisers that replace UIDs one by one give each image a space of its
+// own: where none repeats, they say nothing.
+std::vector<Frames> spacesOf(Frames block, std::vector<std::string> &warnings) {
+    constexpr std::size_t fewestImages = 3;
+    std::map<std::string, std::size_t> known;
+    std::vector<Frames> spaces;
+    for (PlacedFrame &frame : block) {
+        const auto [it, isNew] = known.try_emplace(frame.frameOfReferenceUid, spaces.size());
+        if (isNew)
+            spaces.emplace_back();
+        spaces[it->second].push_back(frame);
+    }
+    if (spaces.size() < fewestImages || spaces.size() < block.size())
+        return spaces;
+    warnings.emplace_back(ownSpaces);
+    return {std::move(block)};
+}
+
+// The stack of a part, or, where slices are missing in it, the runs between the holes and the whole
+// with its holes filled.
+std::vector<VolumeEntry> volumesOf(const Part &part) {
+    const auto volumeOf = [](const Part &of) {
+        VolumeEntry entry = entryFrom(of);
+        StackResult stack = stackGeometry(of.frames);
+        if (stack.refusal.empty())
+            entry.geometry = std::move(stack.geometry);
+        else
+            makeImages(entry, of.frames, stack.refusal);
+        entry.notes.filled = std::move(stack.filled);
+        entry.notes.warnings.insert(entry.notes.warnings.end(), stack.warnings.begin(),
+                                    stack.warnings.end());
+        return entry;
+    };
+    const auto runs = runsOf(part.frames);
+    if (runs.size() == 1)
+        return {volumeOf(part)};
+    std::vector<VolumeEntry> volumes;
+    for (const auto &[first, end] : runs) {
+        const std::string which = end - first > 1 ? fmt::format("slices {} to {}", first + 1, end)
+                                                  : fmt::format("slice {}", end);
+        Part run{which,
+                 {part.frames.begin() + std::ptrdiff_t(first),
+                  part.frames.begin() + std::ptrdiff_t(end)}};
+        if (!part.label.empty())
+            run.label = part.label + ", " + run.label;
+        VolumeEntry entry = volumeOf(run);
+        const std::size_t next = end < part.frames.size() ? end : first;
+        entry.notes.warnings.push_back(
+            fmt::format("{} of {}: a gap of {:.1f} mm between {} and {}", which, part.frames.size(),
+                        part.frames[next].depthMm - part.frames[next - 1].depthMm,
+                        part.frames[next - 1].reference.path.filename().string(),
+                        part.frames[next].reference.path.filename().string()));
+        volumes.push_back(std::move(entry));
+    }
+    // More that is made up than was scanned helps nobody.
+    VolumeEntry whole = volumeOf(part);
+    if (!whole.placed || whole.geometry.lattice.size().k > 2 * int(part.frames.size()))
+        return volumes;
+    whole.fillsHoles = true;
+    whole.label = (part.label.empty() ? "" : part.label + ", ") + "gaps filled";
+    volumes.push_back(std::move(whole));
+    return volumes;
 }
 
 // The side of the body that a stack's slices are seen from: the nearest.
@@ -256,6 +342,12 @@ std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frame
 
 constexpr const char *surplus = "files with more pixels than their header says: ",
                      *zeroSlopes = "rescale slopes of 0, taken for 1: ";
+constexpr std::array<std::pair<decoder::Oddity, const char *>, 4> oddities{{
+    {decoder::mislabelledEncoding, "files coded implicitly that say they are explicit: "},
+    {decoder::definedLengthPixels, "files of a compressed syntax with pixels of defined length: "},
+    {decoder::missingDelimiter, "files whose compressed pixels have no end: "},
+    {decoder::otherPrecision, "files whose pixels have more bits than their header says: "},
+}};
 
 std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader *> &files) {
     std::vector<std::string> warnings;
@@ -271,11 +363,15 @@ std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader
                std::any_of(h.frames.begin(), h.frames.end(),
                            [](const FrameHeader &f) { return f.rescale.isSlopeZero; });
     });
+    for (const auto &[oddity, what] : oddities)
+        count(what, [bit = oddity](const InstanceHeader &h) { return (h.oddities & bit) != 0; });
     return warnings;
 }
 
 bool isOfValues(const std::string &warning) {
-    return warning.starts_with(surplus) || warning.starts_with(zeroSlopes);
+    return warning.starts_with(surplus) || warning.starts_with(zeroSlopes) ||
+           std::any_of(oddities.begin(), oddities.end(),
+                       [&](const auto &odd) { return warning.starts_with(odd.second); });
 }
 
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
@@ -292,6 +388,7 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
             frame.rows = file.header.rows;
             frame.columns = file.header.columns;
             frame.instanceNumber = file.header.instanceNumber;
+            frame.framesOfFile = int(file.header.frames.size());
             frame.sopInstanceUid = file.header.sopInstanceUid;
             frame.frameOfReferenceUid = file.header.frameOfReferenceUid;
             frame.modality = file.header.modality;
@@ -301,21 +398,28 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
     dropCopies(unplaced, skipped);
 
     std::vector<std::vector<VolumeEntry>> stacks;
-    for (Frames &block : blocksOf(placed, sameBlock, progress)) {
-        std::vector<VolumeEntry> &entries = stacks.emplace_back();
-        sortByDepth(block);
-        const std::vector<Part> parts =
-            placesRepeat(block) ? splitRepeats(block, progress) : std::vector<Part>{{"", block}};
-        for (const Part &part : parts) {
-            progress.check();
-            VolumeEntry entry = entryFrom(part);
-            StackResult stack = stackGeometry(part.frames);
-            if (stack.refusal.empty())
-                entry.geometry = std::move(stack.geometry);
-            else
-                makeImages(entry, part.frames, stack.refusal);
-            entry.notes.warnings = std::move(stack.warnings);
-            entries.push_back(std::move(entry));
+    for (const Frames &images : blocksOf(placed, sameBlock, progress)) {
+        std::vector<std::string> warnings;
+        for (Frames &block : spacesOf(images, warnings)) {
+            sortByDepth(block);
+            const std::vector<Part> parts = placesRepeat(block) ? splitRepeats(block, progress)
+                                                                : std::vector<Part>{{"", block}};
+            // Phases share their stacks, each run of slices is one.
+            std::map<std::pair<std::size_t, bool>, std::size_t> runs;
+            for (const Part &part : parts) {
+                progress.check();
+                std::vector<VolumeEntry> volumes = volumesOf(part);
+                for (std::size_t n = 0; n < volumes.size(); ++n) {
+                    VolumeEntry &entry = volumes[n];
+                    entry.notes.warnings.insert(entry.notes.warnings.begin(), warnings.begin(),
+                                                warnings.end());
+                    const auto [it, isNew] = runs.try_emplace(
+                        {entry.fillsHoles ? 0 : n, entry.fillsHoles}, stacks.size());
+                    if (isNew)
+                        stacks.emplace_back();
+                    stacks[it->second].push_back(std::move(entry));
+                }
+            }
         }
     }
     const auto sameSize = [](const PlacedFrame &a, const PlacedFrame &b) {

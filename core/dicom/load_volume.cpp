@@ -14,12 +14,13 @@
 #include <new>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/decoder/decoder.h"
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 #include "core/dicom/group_series.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
@@ -137,7 +138,8 @@ std::vector<T> resampled(const std::vector<T> &frames, const StackGeometry &geom
         const double depth = std::min(k * lattice.sliceDistanceMm(), at.back());
         const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, depth);
         const auto high = std::size_t(above - at.begin()), low = high - 1;
-        const double w = std::clamp((depth - at[low]) / (at[high] - at[low]), 0.0, 1.0);
+        const double gap = at[high] - at[low];
+        const double w = gap > 0.0 ? std::clamp((depth - at[low]) / gap, 0.0, 1.0) : 0.0;
         const T *a = frames.data() + low * plane, *b = frames.data() + high * plane;
         T *to = out.data() + std::size_t(k) * plane;
         for (std::size_t n = 0; n < plane; ++n) {
@@ -239,6 +241,7 @@ private:
         std::vector<std::atomic<bool>> arrived(m_entry.frames.size());
         std::vector<std::pair<std::size_t, Skipped>> failed;
         std::set<std::string> damaged; // and decoded all the same
+        std::atomic<int> otherwisePrecise = 0;
         std::mutex guard;
         std::size_t done = 0;
         bool fits = true, isPreviewing = false;
@@ -253,6 +256,8 @@ private:
                     fits = false;
                     return;
                 }
+                if ((image.header.oddities & decoder::otherPrecision) != 0)
+                    ++otherwisePrecise;
                 if (image.header.hasDamagedPixels) {
                     const std::lock_guard lock(guard);
                     damaged.insert(m_paths[n].filename().string());
@@ -309,6 +314,14 @@ private:
         if (damaged.size() > mostNamed)
             ofDamage.push_back(
                 fmt::format("files whose compressed pixels are damaged: {}", damaged.size()));
+        if (otherwisePrecise > 0) {
+            InstanceHeader header;
+            header.oddities = decoder::otherPrecision;
+            const std::vector<const InstanceHeader *> all(std::size_t(otherwisePrecise.load()),
+                                                          &header);
+            for (const std::string &warning : warningsOfValues(all))
+                ofDamage.push_back(warning);
+        }
         // Why images are no volume stays the last.
         notes.warnings.insert(notes.warnings.end() -
                                   (m_entry.placed || notes.warnings.empty() ? 0 : 1),
@@ -374,21 +387,30 @@ private:
             throw Error(codeWithoutAny(), skipped.front().reason, skipped.front().path);
         std::vector<Skipped> ignored;
         const auto entries = groupSeries(files, ignored);
-        if (entries.size() != 1)
+        // Several slices that are missing side by side leave runs; or all of it, as was asked for.
+        const auto found = std::max_element(
+            entries.begin(), entries.end(), [&](const VolumeEntry &a, const VolumeEntry &b) {
+                const auto rank = [&](const VolumeEntry &e) {
+                    return std::tuple(e.placed, e.fillsHoles == m_entry.fillsHoles,
+                                      e.frames.size());
+                };
+                return rank(a) < rank(b);
+            });
+        if (entries.size() != 1 && (!found->placed || found->geometry.lattice.size().k < 2))
             throw Error(ErrorCode::unusable,
                         skipped.front().reason + "; the other slices make no volume",
                         skipped.front().path);
         VolumeEntry rest = m_entry;
-        rest.frames = entries[0].frames;
+        rest.frames = found->frames;
         for (FrameReference &frame : rest.frames)
             frame.frame = originalFrame.at(frame.path).at(std::size_t(frame.frame));
-        rest.geometry = entries[0].geometry;
-        rest.placed = entries[0].placed;
+        rest.geometry = found->geometry;
+        rest.placed = found->placed;
         rest.notes.placed = rest.placed;
+        rest.notes.filled = found->notes.filled;
         // What was said of all slices no longer holds.
-        std::erase_if(rest.notes.warnings, [](const std::string &w) {
-            return w.starts_with("uneven") || isOfValues(w);
-        });
+        std::erase_if(rest.notes.warnings,
+                      [](const std::string &w) { return isOfStack(w) || isOfValues(w); });
         std::vector<const InstanceHeader *> headers;
         for (const SeriesFile &file : files)
             headers.push_back(&file.header);
@@ -397,10 +419,12 @@ private:
         for (const Skipped &s : skipped)
             rest.notes.warnings.push_back("without " + s.path.filename().string() + ": " +
                                           s.reason);
-        rest.notes.warnings.insert(rest.notes.warnings.end(), entries[0].notes.warnings.begin(),
-                                   entries[0].notes.warnings.end());
+        for (const std::string &warning : found->notes.warnings)
+            if (std::find(rest.notes.warnings.begin(), rest.notes.warnings.end(), warning) ==
+                rest.notes.warnings.end())
+                rest.notes.warnings.push_back(warning);
         if (!rest.placed)
-            rest.notes.warnings.push_back("images only: " + entries[0].notPlacedReason);
+            rest.notes.warnings.push_back("images only: " + found->notPlacedReason);
         LoadedVolume loaded = loadVolume(rest, m_progress, m_observer);
         loaded.skipped.insert(loaded.skipped.begin(), skipped.begin(), skipped.end());
         return loaded;
@@ -419,8 +443,8 @@ private:
 LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress,
                         const LoadObserver &observer) {
     try {
-        if (!entry.nrrd.empty())
-            return {decoder::readNrrd(entry.nrrd, progress), {}};
+        if (!entry.volumeFile.empty())
+            return {decoder::readVolumeFile(entry.volumeFile, progress, entry.fileVolume), {}};
         return Assembly(entry, progress, observer).load();
     } catch (const std::bad_alloc &) {
         const volume::GridSize n = entry.geometry.lattice.size();

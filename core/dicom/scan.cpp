@@ -14,13 +14,13 @@
 #include <tbb/parallel_for.h>
 
 #include "core/decoder/decoder.h"
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/group_series.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
 #include "core/task/text.h"
-#include "core/volume/nrrd.h"
+#include "core/volume/volume_file.h"
 
 namespace pellucid::dicom {
 
@@ -106,8 +106,9 @@ private:
 
     // What is no DICOM file at all is said when it is read.
     decoder::DirectoryFile directoryAt(const fs::path &path) const {
-        return volume::isNrrdPath(path) ? decoder::DirectoryFile()
-                                        : decoder::Decoder::ofProgram().directory(path, m_progress);
+        return volume::isVolumeFile(path)
+                   ? decoder::DirectoryFile()
+                   : decoder::Decoder::ofProgram().directory(path, m_progress);
     }
 
     void addDirectory(const fs::path &path, const decoder::DirectoryFile &directory) {
@@ -194,6 +195,11 @@ std::size_t bytesToGroup(const InstanceHeader &header) {
     return copies * bytes;
 }
 
+std::string hugeReason(const InstanceHeader &h, std::uint64_t fileBytes) {
+    return fmt::format("is unusually large: {} x {} x {} pixels in a file of {:.1f} MB", h.columns,
+                       h.rows, h.frames.size(), double(fileBytes) / 1e6);
+}
+
 using HeadersByPath = std::map<fs::path, const InstanceHeader *>;
 
 // What the volume's values and notes are, from the first file of a series' entry.
@@ -201,7 +207,11 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     const InstanceHeader &h = *headers.at(entry.frames.front().path);
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
     entry.notes.modality = h.modality;
-    entry.notes.windows = h.windows;
+    // Of series whose images state windows of their own, the middle one's: the first is often
+    // noise.
+    entry.notes.windows = headers.at(entry.frames[entry.frames.size() / 2].path)->windows;
+    if (entry.notes.windows.empty())
+        entry.notes.windows = h.windows;
     entry.notes.darkIsHigh = h.photometric == "MONOCHROME1";
     entry.notes.placed = entry.placed;
     std::map<fs::path, const InstanceHeader *> files;
@@ -229,6 +239,21 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
             fmt::format("tilted by {:.1f} degrees; shown from its own lattice", tilt));
 }
 
+// Instance UIDs that several images share tell none of them.
+void addFiles(Series &series, const std::vector<SeriesFile> &files) {
+    std::map<std::string, std::size_t> images;
+    std::set<fs::path> used;
+    for (const VolumeEntry &volume : series.volumes)
+        for (const FrameReference &frame : volume.frames)
+            used.insert(frame.path);
+    for (const SeriesFile &file : files)
+        images[file.header.sopInstanceUid] += used.contains(file.path) ? 1 : 0;
+    for (const SeriesFile &file : files) {
+        const std::string &uid = file.header.sopInstanceUid;
+        series.files.push_back({file.path, images[uid] > 1 ? std::string() : uid});
+    }
+}
+
 // Where in a catalogue the studies are that series belong to; new ones are added.
 class Studies {
 public:
@@ -254,27 +279,34 @@ private:
     std::map<std::pair<std::size_t, std::string>, std::size_t> m_studies;
 };
 
-void addNrrd(Catalogue &catalogue, const fs::path &path, const decoder::NrrdHeader &header) {
+void addVolumeFile(Catalogue &catalogue, const fs::path &path,
+                   const decoder::VolumeFileHeader &header) {
     if (catalogue.patients.empty() || catalogue.patients.back().id != "files")
         catalogue.patients.push_back({"files", "Files", "", "", {{"", "", "Volume files", {}}}});
     Series series;
     series.description = path.filename().string();
     series.number = int(catalogue.patients.back().studies[0].series.size()) + 1;
-    VolumeEntry entry;
-    entry.nrrd = path;
-    entry.geometry.lattice = header.lattice;
-    entry.notes = header.notes;
     series.files.push_back({path, ""});
-    series.volumes.push_back(std::move(entry));
+    for (int n = 0; n < header.volumes; ++n) {
+        VolumeEntry entry;
+        entry.volumeFile = path;
+        entry.fileVolume = n;
+        if (header.volumes > 1)
+            entry.label = fmt::format("temporal position {}", n + 1);
+        entry.geometry.lattice = header.lattice;
+        entry.notes = header.notes;
+        series.volumes.push_back(std::move(entry));
+    }
     catalogue.patients.back().studies[0].series.push_back(std::move(series));
 }
 
-// Files that hold the samples of a NRRD header are no images by themselves, and nobody's loss.
-std::set<fs::path> samplesOf(const std::vector<std::optional<decoder::NrrdHeader>> &nrrds) {
+// Files that hold the samples of a header are no images by themselves, and nobody's loss.
+std::set<fs::path>
+samplesOf(const std::vector<std::optional<decoder::VolumeFileHeader>> &volumeFiles) {
     std::set<fs::path> samples;
-    for (const auto &nrrd : nrrds)
-        if (nrrd)
-            samples.insert(resolved(nrrd->samplesFile));
+    for (const auto &file : volumeFiles)
+        if (file)
+            samples.insert(resolved(file->samplesFile));
     return samples;
 }
 
@@ -298,7 +330,8 @@ private:
 
 } // namespace
 
-Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress) {
+Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress,
+               const ScanOptions &options) {
     decoder::Decoder::ofProgram().beginOpening();
     FileList list(progress);
     for (const fs::path &path : paths) {
@@ -317,23 +350,30 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     constexpr std::size_t ofUsualSeries = std::size_t(32) << 20;
     HeldMemory held(std::max(task::availableMemoryBytes() / 2, ofUsualSeries));
     std::vector<InstanceHeader> headers(list.found.size());
-    std::vector<std::optional<decoder::NrrdHeader>> nrrds(list.found.size());
+    std::vector<std::optional<decoder::VolumeFileHeader>> volumeFiles(list.found.size());
     std::vector<std::string> reasons(list.found.size());
+    std::vector<char> huge(list.found.size()); // not bool: each is written by its own thread
     std::atomic<std::size_t> done = 0;
     std::mutex reporting;
     tbb::parallel_for(std::size_t(0), list.found.size(), [&](std::size_t n) {
         progress.check();
         try {
-            if (volume::isNrrdPath(list.found[n])) {
-                nrrds[n] = decoder::readNrrdHeader(list.found[n], progress);
+            if (volume::isVolumeFile(list.found[n])) {
+                volumeFiles[n] = decoder::readVolumeFileHeader(list.found[n], progress);
             } else {
                 InstanceHeader header =
                     decoder::Decoder::ofProgram().header(list.found[n], progress);
-                if (const auto reason = decoder::whyUnusable(header))
+                std::error_code unknown;
+                const auto bytes = fs::file_size(list.found[n], unknown);
+                if (const auto reason = decoder::whyUnusable(header)) {
                     reasons[n] = *reason;
-                else if (!held.take(bytesToGroup(header)))
+                } else if (!options.takesHuge && decoder::isHuge(header, bytes)) {
+                    reasons[n] = hugeReason(header, bytes);
+                    huge[n] = 1;
+                }
+                if (reasons[n].empty() && !held.take(bytesToGroup(header)))
                     reasons[n] = lacksMemory;
-                else
+                if (reasons[n].empty())
                     headers[n] = std::move(header);
             }
         } catch (const Error &error) {
@@ -353,25 +393,27 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     Catalogue catalogue;
     catalogue.skipped = std::move(list.skipped);
     catalogue.unpacked = std::move(list.unpacked);
-    // Never two series in one volume: the key is the series with its study and patient.
+    // Never two series in one volume: the key is the series with its patient. The study counts only
+    // for images that name no series: some writers give each slice a study of its own.
     std::map<std::tuple<std::string, std::string, std::string, std::string>,
              std::vector<SeriesFile>>
         series;
     std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
-    const std::set<fs::path> samples = samplesOf(nrrds);
+    const std::set<fs::path> samples = samplesOf(volumeFiles);
     for (std::size_t n = 0; n < list.found.size(); ++n) {
         if (!reasons[n].empty()) {
             if (!samples.empty() && samples.contains(resolved(list.found[n])))
                 continue;
-            catalogue.skipped.push_back({list.found[n], reasons[n]});
+            catalogue.skipped.push_back({list.found[n], reasons[n], huge[n] != 0});
             continue;
         }
-        if (nrrds[n]) {
-            addNrrd(catalogue, list.found[n], *nrrds[n]);
+        if (volumeFiles[n]) {
+            addVolumeFile(catalogue, list.found[n], *volumeFiles[n]);
             continue;
         }
         const InstanceHeader &h = headers[n];
-        const auto key = std::tuple(h.patientId, h.patientName, h.studyUid, h.seriesUid);
+        const auto key = std::tuple(h.patientId, h.patientName,
+                                    h.seriesUid.empty() ? h.studyUid : std::string(), h.seriesUid);
         auto &files = series[key];
         if (files.empty())
             order.push_back(key);
@@ -385,13 +427,20 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
             h.seriesUid, h.seriesDescription, h.modality,
             h.bodyPart,  h.seriesNumber,      groupSeries(files, catalogue.skipped, progress),
             {}};
-        for (const SeriesFile &file : files)
-            entry.files.push_back({file.path, file.header.sopInstanceUid});
+        addFiles(entry, files);
         HeadersByPath headersByPath;
         for (const SeriesFile &file : files)
             headersByPath[file.path] = &file.header;
-        for (VolumeEntry &volume : entry.volumes)
+        std::set<std::string> namedStudies;
+        for (const SeriesFile &file : files)
+            namedStudies.insert(file.header.studyUid);
+        for (VolumeEntry &volume : entry.volumes) {
+            if (namedStudies.size() > 1)
+                volume.notes.warnings.push_back(
+                    fmt::format("images of one series name {} studies; shown in the first",
+                                namedStudies.size()));
             describe(volume, headersByPath);
+        }
         studies.of(h).series.push_back(std::move(entry));
     }
     for (Skipped &skipped : catalogue.skipped)

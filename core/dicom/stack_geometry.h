@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/decoder/instance.h"
@@ -19,7 +20,9 @@ struct PlacedFrame {
     FrameHeader header;
     int rows = 0, columns = 0;
     int instanceNumber = 0;
+    int framesOfFile = 1;
     std::string sopInstanceUid;
+    bool sharesUid = false; ///< another image has its instance UID
     /// Frames of one volume share them: positions of one space, values of one kind.
     std::string frameOfReferenceUid, modality;
 
@@ -31,22 +34,37 @@ struct PlacedFrame {
 
 struct StackResult {
     StackGeometry geometry;
+    std::vector<volume::SliceRange> filled; ///< slices of the lattice inside a hole
     std::vector<std::string> warnings;
     /// Set if the frames make no volume.
     std::string refusal;
 };
 
-/// Neighbouring slices that differ by less than this from the common distance are evenly spaced.
-double spacingToleranceMm(double spacingMm);
+/// The largest distance of a slice from its place on an even grid: positions are often written with
+/// one decimal. *Units*: mm.
+double evennessToleranceMm(double spacingMm);
 
-/// Sets the depths along the first frame's normal and sorts by them. Every frame needs a position
+/// Axes and pixel spacings of two images of one stack may differ by this much, in radians and
+/// relatively: against their mean, less than half a pixel at the edge of 512. From `jitterToReport`
+/// off the mean, the volume has a warning.
+inline constexpr double largestJitter = 3e-3, jitterToReport = 1e-3;
+
+/// Sets the depths along the frames' mean normal and sorts by them. Every frame needs a position
 /// and an orientation.
 void sortByDepth(std::vector<PlacedFrame> &frames);
 
-/// The lattice of frames that are sorted by depth and share size, orientation and pixel spacing.
-/// Spacing and tilt come from the positions alone. Uneven distances are resampled onto the smallest
-/// gap that occurs more than once, with a warning that names the files where the distance changes;
-/// a gap of more than 2.5 times the median is refused.
+/// Ranges [first, last) of sorted frames between holes; a hole is a gap of more than 2.5 times the
+/// median. One range if there is none.
+std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<PlacedFrame> &frames);
+
+/// The lattice of frames that are sorted by depth and share size, and orientation and pixel spacing
+/// up to `largestJitter`. Spacing and tilt come from the positions alone, by least squares.
+/// Missing slices are interpolated linearly. Uneven distances are resampled onto the smallest gap
+/// that occurs more than once, on a grid through the longest run of such gaps, with a warning that
+/// names the files where the distance changes.
 StackResult stackGeometry(const std::vector<PlacedFrame> &frames);
+
+/// Whether a warning is one of those of `stackGeometry`.
+bool isOfStack(const std::string &warning);
 
 } // namespace pellucid::dicom

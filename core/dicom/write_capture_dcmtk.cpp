@@ -63,7 +63,7 @@ void putProfile(DcmDataset &d) {
 CaptureLabels captureLabels(const Selection &s) {
     CaptureLabels labels;
     labels.studyUid = s.study->uid;
-    if (!s.volume->nrrd.empty())
+    if (!s.volume->volumeFile.empty())
         return labels; // a file is nobody's
     labels.patientId = s.patient->id;
     labels.patientName = s.patient->name;

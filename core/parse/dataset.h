@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/decoder/instance.h"
+#include "core/parse/load_file.h"
 
 class DcmDataset;
 class DcmItem;
@@ -15,8 +16,10 @@ namespace pellucid::parse {
 /// another file, perhaps, and gigabytes of it.
 void dropUnreadable(DcmItem &dataset);
 
-/// The header of a loaded dataset. `fileBytes` bounds how many frames are believed: each takes a
-/// byte at least.
+/// The header of a loaded dataset; a mosaic is still one image. `fileBytes` bounds how many frames
+/// are believed: each takes a byte at least.
 decoder::InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes);
+/// With what else the file says.
+decoder::InstanceHeader headerOf(const LoadedFile &file, std::size_t fileBytes);
 
 } // namespace pellucid::parse

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cstring>
+#include <string>
 
 #include <dcmtk/config/osconfig.h>
 
-#include <dcmtk/dcmdata/dcpixel.h>
-#include <dcmtk/dcmdata/dcpixseq.h>
-#include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <fmt/format.h>
@@ -14,9 +11,12 @@
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
 #include "core/parse/decoder_warnings.h"
-#include "core/parse/dictionary.h"
+#include "core/parse/fragments.h"
+#include "core/parse/frame_check.h"
 #include "core/parse/jpeg2000.h"
-#include "core/parse/memory_input.h"
+#include "core/parse/jpeg_xl.h"
+#include "core/parse/load_file.h"
+#include "core/parse/mosaic.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
 
@@ -40,72 +40,126 @@ std::uint16_t extended(std::uint32_t value, int bits, bool isSigned) {
     return std::uint16_t(value);
 }
 
-bool isJpeg2000(E_TransferSyntax syntax) {
-    return syntax == EXS_JPEG2000LosslessOnly || syntax == EXS_JPEG2000;
-}
-
-std::vector<std::byte> bytesOf(DcmPixelSequence &sequence, unsigned long first, unsigned long end) {
-    std::vector<std::byte> bytes;
-    for (unsigned long n = first; n < end; ++n) {
-        DcmPixelItem *item = nullptr;
-        Uint8 *data = nullptr;
-        if (sequence.getItem(item, n).bad() || item->getUint8Array(data).bad() ||
-            (data == nullptr && item->getLength() > 0))
-            fail("a fragment of the compressed pixels is not readable");
-        const auto *from = reinterpret_cast<const std::byte *>(data);
-        bytes.insert(bytes.end(), from, from + item->getLength());
-    }
-    return bytes;
-}
-
-bool startsCodestream(DcmPixelSequence &sequence, unsigned long fragment) {
-    DcmPixelItem *item = nullptr;
-    Uint8 *data = nullptr;
-    if (sequence.getItem(item, fragment).bad())
-        fail("a fragment of the compressed pixels is not readable");
-    if (item->getLength() < 12)
-        return false;
-    if (item->getUint8Array(data).bad() || data == nullptr)
-        fail("a fragment of the compressed pixels is not readable");
-    return (data[0] == 0xFF && data[1] == 0x4F) || std::memcmp(data + 4, "jP  ", 4) == 0;
-}
-
-void decodeJpeg2000Frames(DcmDataset &dataset, DecodedImage &image) {
+// The header decides whether values are signed; where the codestream disagrees its bits are the
+// two's complement of its own precision.
+template <class T>
+void takeFrame(const std::vector<T> &samples, int precision, std::size_t frame,
+               DecodedImage &image) {
     const InstanceHeader &h = image.header;
-    DcmElement *element = nullptr;
-    dataset.findAndGetElement(DCM_PixelData, element);
-    auto *pixels = dynamic_cast<DcmPixelData *>(element);
-    DcmPixelSequence *sequence = nullptr;
-    E_TransferSyntax syntax = EXS_Unknown;
-    const DcmRepresentationParameter *parameter = nullptr;
-    if (pixels != nullptr)
-        pixels->getOriginalRepresentationKey(syntax, parameter);
-    if (pixels == nullptr ||
-        pixels->getEncapsulatedRepresentation(syntax, parameter, sequence).bad() ||
-        sequence == nullptr)
-        fail("the compressed pixels are not readable");
-    // Fragment 0 is the offset table. A frame may be cut into several fragments; each starts where
-    // a codestream starts.
-    std::vector<unsigned long> starts;
-    const unsigned long fragments = sequence->card();
-    for (unsigned long n = 1; n < fragments; ++n)
-        // The fragments of one frame belong together, whatever they start with.
-        if (h.frames.size() == 1 ? n == 1 : startsCodestream(*sequence, n))
-            starts.push_back(n);
-    if (starts.size() != h.frames.size())
-        fail(fmt::format("holds {} compressed frames, {} are announced", starts.size(),
-                         h.frames.size()));
-    starts.push_back(fragments);
     const std::size_t plane = std::size_t(h.rows) * h.columns;
-    for (std::size_t frame = 0; frame + 1 < starts.size(); ++frame) {
-        const auto bytes = bytesOf(*sequence, starts[frame], starts[frame + 1]);
-        const Jpeg2000Image decoded = decodeJpeg2000(bytes, h.rows, h.columns);
+    for (std::size_t n = 0; n < plane; ++n)
+        image.samples[frame * plane + n] =
+            extended(std::uint32_t(samples[n]), precision, h.isSigned());
+}
+
+void decodeJpeg2000Frames(const CompressedFrames &frames, DecodedImage &image) {
+    for (std::size_t n = 0; n < frames.count(); ++n) {
+        const Jpeg2000Image decoded =
+            decodeJpeg2000(frames.frame(n), image.header.rows, image.header.columns);
         image.header.hasDamagedPixels = image.header.hasDamagedPixels || decoded.isDamaged;
-        // The header decides whether values are signed; where the codestream disagrees its bits are
-        // the two's complement of its own precision.
-        for (std::size_t n = 0; n < plane; ++n)
-            image.samples[frame * plane + n] =
-                extended(std::uint32_t(decoded.samples[n]), decoded.precision, h.isSigned());
+        takeFrame(decoded.samples, decoded.precision, n, image);
+    }
+}
+
+void decodeJpegXlFrames(const CompressedFrames &frames, DecodedImage &image) {
+    for (std::size_t n = 0; n < frames.count(); ++n) {
+        const JpegXlImage decoded =
+            decodeJpegXl(frames.frame(n), image.header.rows, image.header.columns);
+        takeFrame(decoded.samples, decoded.precision, n, image);
+    }
+}
+
+// DCMTK decodes what does not fit its header to something. The most bits of all frames.
+int checkJpegFrames(const CompressedFrames &frames, const InstanceHeader &h,
+                    const std::string &syntaxUid) {
+    const auto syntax = DcmXfer(syntaxUid.c_str()).getXfer();
+    // By the syntax: markers that its frames may begin with (ISO/IEC 10918-1, table B.1).
+    const auto isOfSyntax = [&](int process) {
+        switch (syntax) {
+        case EXS_JPEGLSLossless:
+        case EXS_JPEGLSLossy:
+            return process == 0xF7;
+        case EXS_JPEGProcess14:
+        case EXS_JPEGProcess14SV1:
+            return process == 0xC3;
+        case EXS_JPEGProcess1:
+            return process == 0xC0;
+        default: // extended and progressive are told apart by their decoder
+            return process >= 0xC0 && process <= 0xC2;
+        }
+    };
+    int precision = 0;
+    for (std::size_t n = 0; n < frames.count(); ++n) {
+        const auto frame = jpegFrame(frames.frame(n));
+        if (!frame)
+            fail("a compressed frame has no header");
+        if (frame->columns != h.columns || (frame->rows != h.rows && frame->rows != 0))
+            fail(fmt::format("a compressed frame has {} x {} pixels, the header says {} x {}",
+                             frame->columns, frame->rows, h.columns, h.rows));
+        if (frame->components != 1)
+            fail(fmt::format("a compressed frame has {} colours", frame->components));
+        if (!isOfSyntax(frame->process))
+            fail(fmt::format("a compressed frame is coded otherwise (marker FF{:02X}) than its "
+                             "transfer syntax says: {}",
+                             frame->process, syntaxName(syntaxUid)));
+        if (frame->precision > h.bitsAllocated)
+            fail(fmt::format("a compressed frame has {} bits per sample, the header says {}",
+                             frame->precision, h.bitsAllocated));
+        precision = std::max(precision, frame->precision);
+    }
+    return precision;
+}
+
+void checkRleFrames(const CompressedFrames &frames, const InstanceHeader &h) {
+    for (std::size_t n = 0; n < frames.count(); ++n)
+        if (const auto why =
+                whyIncompleteRle(frames.frame(n), h.rows, h.columns, h.bitsAllocated / 8))
+            fail(*why);
+}
+
+// Whether the decoder's words hold more bits than the header's samples have.
+bool exceedsStored(DcmDataset &dataset, const InstanceHeader &h, int precision) {
+    if (h.bitsAllocated != 16)
+        return false;
+    const Uint16 *data = nullptr;
+    unsigned long count = 0;
+    dataset.findAndGetUint16Array(DCM_PixelData, data, &count);
+    for (unsigned long n = 0; data != nullptr && n < count; ++n)
+        if (extended(data[n], h.bitsStored, h.isSigned()) !=
+            extended(data[n], precision, h.isSigned()))
+            return true;
+    return false;
+}
+
+// By DCMTK's coders, which the data set then holds the samples of.
+void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::size_t fileBytes,
+                   InstanceHeader &h) {
+    DcmDataset &dataset = file.dataset();
+    const DcmXfer transfer(file.syntaxUid.c_str());
+    const bool isRle = transfer.getXfer() == EXS_RLELossless;
+    int precision = 0;
+    if (isRle)
+        checkRleFrames(frames, h);
+    else
+        precision = checkJpegFrames(frames, h, file.syntaxUid);
+    const DecoderWarnings warnings;
+    const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
+    if (decoded.bad())
+        fail(fmt::format("{}: {}", transfer.getXferName(), decoded.text()));
+    h.hasDamagedPixels = warnings.sayDamaged();
+    // The decoder may have widened or narrowed the samples.
+    const InstanceHeader after = headerOf(dataset, fileBytes);
+    h.bitsAllocated = after.bitsAllocated;
+    h.bitsStored = after.bitsStored;
+    h.highBit = after.highBit;
+    h.pixelRepresentation = after.pixelRepresentation;
+    if (after.rows != h.rows || after.columns != h.columns || after.samplesPerPixel != 1 ||
+        whyUnusable(h))
+        fail("the compressed image is not what the header says");
+    if (precision > h.bitsStored && exceedsStored(dataset, h, precision)) {
+        h.oddities |= decoder::otherPrecision;
+        h.bitsStored = precision;
+        h.highBit = precision - 1;
     }
 }
 
@@ -145,58 +199,73 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
     take(data);
 }
 
-DecodedImage decoded(std::span<const std::byte> bytes) {
-    prepareDcmtk();
+// Compressed pixels of a length that is said are what a compressed frame begins with, or they are
+// plain after all.
+bool isPlain(const LoadedFile &file, const InstanceHeader &h) {
+    if (isNative(file.syntaxUid))
+        return true;
+    if ((h.oddities & decoder::definedLengthPixels) == 0)
+        return false;
+    DcmElement *element = nullptr;
+    Uint8 *data = nullptr;
+    if (file.dataset().findAndGetElement(DCM_PixelData, element).bad() ||
+        element->getUint8Array(data).bad() || data == nullptr)
+        fail("the pixels are not readable");
+    return !beginsCodestream({reinterpret_cast<const std::byte *>(data), element->getLength()});
+}
 
-    const auto input = memoryInput(bytes);
-    DcmFileFormat file;
-    file.transferInit();
-    const OFCondition parsed = file.read(*input, EXS_Unknown, EGL_noChange);
-    file.transferEnd();
-    DcmDataset *dataset = file.getDataset();
-    if (dataset == nullptr || dataset->card() == 0)
-        fail("is not a DICOM file");
-    DecodedImage image{headerOf(*dataset, bytes.size()), {}};
-    if (const auto reason = whyUnusable(image.header))
+// No coder in use packs more samples into a byte, not even of an empty image; what announces more
+// is refused before memory is asked for.
+void requireRoom(std::size_t samples, bool isPlainAndWhole, std::size_t fileBytes) {
+    constexpr std::size_t mostSamplesPerByte = 20000;
+    if (samples / (isPlainAndWhole ? 1 : mostSamplesPerByte) > fileBytes)
+        fail("the pixels are truncated");
+}
+
+void decodeFrames(const LoadedFile &file, std::size_t fileBytes, DecodedImage &image) {
+    const InstanceHeader &h = image.header;
+    DcmDataset &dataset = file.dataset();
+    if (!isPlain(file, h)) {
+        const CompressedFrames frames(dataset, h.frames.size(), beginsCodestream);
+        if (isJpeg2000(file.syntaxUid)) {
+            decodeJpeg2000Frames(frames, image);
+            return;
+        }
+        if (isJpegXl(file.syntaxUid)) {
+            decodeJpegXlFrames(frames, image);
+            return;
+        }
+        if ((h.oddities & decoder::definedLengthPixels) != 0)
+            fail("compressed pixels without fragments: " + syntaxName(file.syntaxUid));
+        decodeByDcmtk(file, frames, fileBytes, image.header);
+    }
+    decodePlainFrames(dataset, image);
+}
+
+DecodedImage decoded(std::span<const std::byte> bytes) {
+    const LoadedFile file = loadFile(bytes, Extent::everything);
+    DecodedImage image{headerOf(file, bytes.size()), {}};
+    InstanceHeader &h = image.header;
+    if (const auto reason = whyUnusable(h))
         fail(*reason);
+    const auto mosaic = mosaicOf(file.dataset(), h);
     // DCMTK keeps what it has of an element that the file does not finish, and fills the rest.
     DcmElement *pixels = nullptr;
-    if (parsed.bad() && dataset->findAndGetElement(DCM_PixelData, pixels).good() &&
-        pixels->transferState() != ERW_ready)
+    if (!file.isComplete && file.dataset().findAndGetElement(DCM_PixelData, pixels).good() &&
+        pixels->transferState() != ERW_ready && (h.oddities & decoder::missingDelimiter) == 0)
         fail("the pixels are truncated");
-    const E_TransferSyntax syntax = dataset->getOriginalXfer();
-    const DcmXfer transfer(syntax);
-    const std::size_t plane = std::size_t(image.header.rows) * image.header.columns;
-    const std::size_t announced = plane * image.header.frames.size(); // at most 2^32 * 10^5
-    const bool plain = !transfer.isEncapsulated() && syntax != EXS_DeflatedLittleEndianExplicit;
-    // No coder in use packs more samples into a byte, not even of an empty image; what
-    // announces more is refused before memory is asked for.
-    constexpr std::size_t mostSamplesPerByte = 20000;
-    if (announced / (plain ? 1 : mostSamplesPerByte) > bytes.size())
-        fail("the pixels are truncated");
-    image.samples.resize(plane * image.header.frames.size());
-    if (isJpeg2000(syntax)) {
-        decodeJpeg2000Frames(*dataset, image);
-        return image;
+    const std::size_t samples =
+        std::size_t(h.rows) * h.columns * h.frames.size(); // at most 2^32 * 10^5
+    requireRoom(samples,
+                isNative(file.syntaxUid) &&
+                    file.syntaxUid != UID_DeflatedExplicitVRLittleEndianTransferSyntax,
+                bytes.size());
+    image.samples.resize(samples);
+    decodeFrames(file, bytes.size(), image);
+    if (mosaic) {
+        takeApart(h, *mosaic);
+        image.samples = tilesOf(image.samples, *mosaic, h.rows, h.columns);
     }
-    if (transfer.isEncapsulated()) {
-        const DecoderWarnings warnings;
-        const OFCondition decoded =
-            dataset->chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
-        if (decoded.bad())
-            fail(fmt::format("{}: {}", transfer.getXferName(), decoded.text()));
-        image.header.hasDamagedPixels = warnings.sayDamaged();
-        // The decoder may have widened or narrowed the samples.
-        const InstanceHeader after = headerOf(*dataset, bytes.size());
-        image.header.bitsAllocated = after.bitsAllocated;
-        image.header.bitsStored = after.bitsStored;
-        image.header.highBit = after.highBit;
-        image.header.pixelRepresentation = after.pixelRepresentation;
-        if (after.rows != image.header.rows || after.columns != image.header.columns ||
-            after.samplesPerPixel != 1 || whyUnusable(image.header))
-            fail("the compressed image is not what the header says");
-    }
-    decodePlainFrames(*dataset, image);
     return image;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/parse/decoder_warnings.h"
 
+#include <cstdio>
+
 #include <dcmtk/config/osconfig.h>
 
 #include <dcmtk/oflog/logger.h>
@@ -19,8 +21,14 @@ bool isDamaged = false;
 class Listener : public log::NullAppender {
     void append(const log::spi::InternalLoggingEvent &event) override {
         const OFString &said = event.getMessage();
-        // Of the JPEG library and of the run length decoder.
-        for (const char *const what : {"Corrupt JPEG", "Premature end", "insufficient data"})
+        // A byte or two between the end of the pixels and the next marker is padding; more is what
+        // a decoder that lost its way leaves.
+        constexpr int mostPadding = 3;
+        int extraneous = 0;
+        if (std::sscanf(said.c_str(), "Corrupt JPEG data: %d extraneous", &extraneous) == 1 &&
+            extraneous <= mostPadding)
+            return;
+        for (const char *const what : {"Corrupt JPEG", "Premature end"}) // of the JPEG library
             isDamaged = isDamaged || said.find(what) != OFString_npos;
     }
 };

@@ -48,7 +48,13 @@ void prepareDcmtk() {
         dcmEnableUnknownVRConversion.set(OFTrue);
         DcmRLEDecoderRegistration::registerCodecs();
         DcmRLEEncoderRegistration::registerCodecs();
-        DJDecoderRegistration::registerCodecs();
+        // Pixels of a length that is said, under a compressed syntax: the decoder sees what they
+        // are.
+        dcmUseExplLengthPixDataForEncTS.set(OFTrue);
+        // Cornell's coder wrote differences of 16 bits that others cut.
+        constexpr auto predictor6 = OFFalse, cornell = OFTrue;
+        DJDecoderRegistration::registerCodecs(EDC_photometricInterpretation, EUC_default,
+                                              EPC_default, predictor6, cornell);
         DJEncoderRegistration::registerCodecs();
         DJLSDecoderRegistration::registerCodecs();
         DJLSEncoderRegistration::registerCodecs();

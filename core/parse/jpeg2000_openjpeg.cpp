@@ -77,10 +77,10 @@ OPJ_BOOL seekWrite(OPJ_OFF_T to, void *user) {
     return OPJ_TRUE;
 }
 
-// The marker that ends a codestream, before what makes the length even. Of a codestream in a JP2
-// file nothing is said: boxes may follow.
+// The marker that ends a codestream, before what makes the length even: zeros, or the bytes of
+// erased memory. A codestream in a JP2 file may have boxes after it.
 bool hasEnd(std::span<const std::byte> data) {
-    while (!data.empty() && data.back() == std::byte(0))
+    while (!data.empty() && (data.back() == std::byte(0) || data.back() == std::byte(0xFF)))
         data = data.first(data.size() - 1);
     return data.size() > 1 && data.back() == std::byte(0xD9) &&
            data[data.size() - 2] == std::byte(0xFF);

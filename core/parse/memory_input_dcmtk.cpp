@@ -25,8 +25,9 @@ std::size_t stackToUse() {
     return std::min<std::size_t>(usual, isKnown ? limit.rlim_cur : usual) / 2;
 }
 
-// An element takes about five reads; 50 000 frames of 250 elements each are as many.
-constexpr std::size_t mostReads = 60'000'000;
+// An element takes about five reads and some 250 bytes of DCMTK's: four million elements, 10 000
+// frames of 400 each, and a gigabyte.
+constexpr std::size_t mostReads = 20'000'000;
 
 std::uintptr_t stackPlace() {
     return reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));

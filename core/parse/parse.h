@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/decoder/instance.h"
-#include "core/decoder/nrrd_layout.h"
+#include "core/decoder/volume_layout.h"
 
 namespace pellucid::parse {
 
@@ -15,8 +15,8 @@ using decoder::DecodedImage;
 using decoder::DirectoryFile;
 using decoder::FrameHeader;
 using decoder::InstanceHeader;
-using decoder::NrrdLayout;
-using decoder::NrrdSamples;
+using decoder::SampleRange;
+using decoder::VolumeLayout;
 
 // What `pellucid-decode` does with bytes that nobody vouches for. No path, no file, no process: all
 // of it runs confined. Other programs ask `decoder::Decoder`.
@@ -32,13 +32,14 @@ DecodedImage decodeImage(std::span<const std::byte> file);
 /// damaged.
 DirectoryFile parseDirectory(std::span<const std::byte> file);
 
-/// The header of a NRRD file. *Throws* Error{unusable} naming what is damaged or not supported.
-NrrdLayout parseNrrd(std::span<const std::byte> file);
+/// The header of a NRRD, NIfTI or MetaImage file. *Throws* Error{unusable} naming what is damaged
+/// or not supported.
+VolumeLayout parseVolumeLayout(std::span<const std::byte> file);
 /// Samples as they are stored, in this machine's byte order, in parts of 1 MB; the last is what is
 /// left, and says whether the file goes on behind it. *Throws* Error{unusable} if there are fewer,
 /// or what is deflated is damaged.
-void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples,
-                     const std::function<void(std::span<const std::byte>, bool goesOn)> &take);
+void readSamples(std::span<const std::byte> file, const SampleRange &samples,
+                 const std::function<void(std::span<const std::byte>, bool goesOn)> &take);
 
 /// A part of the data of a file in an archive; `flags`: of decoder::ArchiveFlag.
 using TakeData = std::function<void(const ArchiveFile &file, std::span<const std::byte> data,

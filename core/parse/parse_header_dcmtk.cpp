@@ -11,12 +11,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/decoder/decoder.h"
 #include "core/parse/character_sets.h"
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
-#include "core/parse/dictionary.h"
-#include "core/parse/memory_input.h"
+#include "core/parse/mosaic.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
 
@@ -231,8 +229,7 @@ std::vector<volume::ValueWindow> readWindows(DcmItem *item, const CharacterSets 
 // Compressed ones say no size.
 std::uint32_t pixelBytes(DcmDataset &dataset) {
     DcmElement *element = nullptr;
-    if (DcmXfer(dataset.getOriginalXfer()).isEncapsulated() ||
-        dataset.findAndGetElement(DCM_PixelData, element).bad())
+    if (dataset.findAndGetElement(DCM_PixelData, element).bad())
         return 0;
     const Uint32 bytes = element->getLengthField();
     return bytes == DCM_UndefinedLength ? 0 : bytes;
@@ -289,7 +286,6 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     h.sopInstanceUid = text(&dataset, DCM_SOPInstanceUID);
     const char *const name = dcmFindNameOfUID(h.sopClassUid.c_str());
     h.sopClassName = name != nullptr ? name : h.sopClassUid;
-    h.transferSyntax = DcmXfer(dataset.getOriginalXfer()).getXferName();
     h.patientId = text(&dataset, DCM_PatientID, &sets);
     h.patientName = text(&dataset, DCM_PatientName, &sets);
     h.birthDate = text(&dataset, DCM_PatientBirthDate);
@@ -343,13 +339,19 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     const double most = std::min(double(decoder::mostFrames), double(fileBytes));
     const int frames = count && *count >= 1.0 ? int(std::min(*count, most)) : 1;
     h.announcedFrames = count && *count >= 1.0 ? int(std::min(*count, 2147483647.0)) : 1;
+    // From item to item: asked for by its number, each would be counted from the first.
+    DcmSequenceOfItems *perFrame = nullptr;
+    dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, perFrame);
+    DcmObject *item = perFrame != nullptr ? perFrame->nextInContainer(nullptr) : nullptr;
     for (int n = 0; n < frames; ++n) {
         FrameHeader frame = shared;
-        if (DcmItem *groups = sequenceItem(&dataset, DCM_PerFrameFunctionalGroupsSequence, n)) {
+        if (auto *const groups = dynamic_cast<DcmItem *>(item)) {
             readFunctionalGroups(groups, frame);
-            if (n == 0 && h.windows.empty())
+            // The middle one has what a study is about; of the ends that is not sure.
+            if (n == frames / 2 && h.windows.empty())
                 if (DcmItem *lut = sequenceItem(groups, DCM_FrameVOILUTSequence))
                     h.windows = readWindows(lut, sets);
+            item = perFrame->nextInContainer(item);
         } else if (frames > 1) {
             // A multi-frame image without groups of its own repeats one position: it says nothing.
             frame.positionMm.reset();
@@ -362,39 +364,46 @@ InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes) {
     return h;
 }
 
+InstanceHeader headerOf(const LoadedFile &file, std::size_t fileBytes) {
+    DcmDataset &dataset = file.dataset();
+    InstanceHeader header = headerOf(dataset, fileBytes);
+    header.oddities = file.oddities;
+    header.transferSyntax = syntaxName(file.syntaxUid);
+    if (!isDecodable(file.syntaxUid))
+        header.unsupportedSyntax = header.transferSyntax;
+    if (header.sopClassUid.empty())
+        header.sopClassUid = text(file.format->getMetaInfo(), DCM_MediaStorageSOPClassUID);
+    const bool isCompressed = !isNative(file.syntaxUid);
+    if (isCompressed && header.pixelBytes > 0)
+        header.oddities |= decoder::definedLengthPixels;
+    else if (isCompressed && !file.isComplete)
+        header.oddities |= decoder::missingDelimiter;
+    if (isCompressed)
+        header.pixelBytes = 0;
+    return header;
+}
+
 namespace {
 
 InstanceHeader parsed(std::span<const std::byte> bytes) {
-    prepareDcmtk();
-    if (bytes.empty())
-        throw Error(ErrorCode::unusable, "is empty");
-    if (!decoder::looksLikeDicom(bytes))
-        throw Error(ErrorCode::unusable, "is not a DICOM file");
-    const auto input = memoryInput(bytes);
-    DcmFileFormat file;
-    file.transferInit();
-    // Values above 4 KiB, pixels above all, stay where they are.
-    const OFCondition loaded = file.read(*input, EXS_Unknown, EGL_noChange, 4096);
-    file.transferEnd();
-    DcmDataset *dataset = file.getDataset();
-    if (dataset == nullptr || dataset->card() == 0)
-        throw Error(ErrorCode::unusable, loaded.bad()
-                                             ? std::string("is not readable: ") + loaded.text()
-                                             : "holds no data");
-    InstanceHeader header = headerOf(*dataset, bytes.size());
-    if (header.sopClassUid.empty())
-        header.sopClassUid = text(file.getMetaInfo(), DCM_MediaStorageSOPClassUID);
+    const LoadedFile file = loadFile(bytes, Extent::header);
+    DcmDataset &dataset = file.dataset();
+    InstanceHeader header = headerOf(file, bytes.size());
+    const bool isDeflated = file.syntaxUid == UID_DeflatedExplicitVRLittleEndianTransferSyntax;
+    // Inflated up to the pixels only: whether there are any is seen when they are wanted.
+    header.hasPixels =
+        header.hasPixels || (isDeflated && header.rows > 0 && header.bitsAllocated > 0);
     // Plain pixels have a known size; a file that is shorter cannot hold them.
-    const E_TransferSyntax syntax = dataset->getOriginalXfer();
     const double needed = double(header.rows) * header.columns * header.samplesPerPixel *
                           header.bitsAllocated / 8.0 * double(header.frames.size());
-    if (header.hasPixels && !DcmXfer(syntax).isEncapsulated() &&
-        syntax != EXS_DeflatedLittleEndianExplicit && !whyUnusable(header) &&
+    if (header.hasPixels && !isDeflated && !whyUnusable(header) && isNative(file.syntaxUid) &&
         needed > double(bytes.size()))
         throw Error(ErrorCode::unusable, "the pixels are truncated");
     // What follows damaged elements is lost, but a complete image in front of them is not.
-    if (loaded.bad() && !(header.hasPixels && header.rows > 0))
-        throw Error(ErrorCode::unusable, std::string("is damaged: ") + loaded.text());
+    if (!file.isComplete && !(header.hasPixels && header.rows > 0))
+        throw Error(ErrorCode::unusable, "is damaged: " + file.failure);
+    if (const auto mosaic = mosaicOf(dataset, header))
+        takeApart(header, *mosaic);
     return header;
 }
 

@@ -68,14 +68,14 @@ private:
         case Message::Kind::archive:
             answerArchive(file.bytes());
             break;
-        case Message::Kind::nrrd:
-            finish(0, decoder::pack(parseNrrd(file.bytes())), {});
+        case Message::Kind::layout:
+            finish(0, decoder::pack(parseVolumeLayout(file.bytes())), {});
             break;
-        case Message::Kind::nrrdSamples:
-            readNrrdSamples(file.bytes(), samplesOf(request.message),
-                            [&](std::span<const std::byte> data, bool goesOn) {
-                                part(goesOn ? decoder::goesOn : 0, {}, data);
-                            });
+        case Message::Kind::samples:
+            readSamples(file.bytes(), samplesOf(request.message),
+                        [&](std::span<const std::byte> data, bool goesOn) {
+                            part(goesOn ? decoder::goesOn : 0, {}, data);
+                        });
             finish(0, {}, {});
             break;
         default:
@@ -83,10 +83,10 @@ private:
         }
     }
 
-    static NrrdSamples samplesOf(const Message &request) {
+    static SampleRange samplesOf(const Message &request) {
         const auto has = [&](int flag) { return (request.code & flag) != 0; };
-        return {request.dataBytes, request.code & 15, has(decoder::deflated), has(decoder::swapped),
-                has(decoder::behindHeader)};
+        return {request.dataBytes,     request.code & 15, has(decoder::deflated),
+                has(decoder::swapped), request.at,        request.skip};
     }
 
     void answerArchive(std::span<const std::byte> archive) {

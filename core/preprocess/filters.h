@@ -36,11 +36,12 @@ Mask closing(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
 /// All samples within a distance of the mask.
 Mask dilated(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
              const task::Progress &progress = {});
-/// The part with most samples, connected by faces.
-Mask largestPart(const volume::Lattice &lattice, const Mask &mask,
+/// The part with most samples, connected by faces, and every other with at least a share of them.
+Mask largestPart(const volume::Lattice &lattice, const Mask &mask, double leastShare = 1.0,
                  const task::Progress &progress = {});
-/// The patient: the largest part above air (-400 HU, or Otsu's threshold), without what is thinner
-/// than the couch's shell, with everything that a slice encloses, and a margin.
+/// The patient: the largest part above air (-400 HU, or Otsu's threshold) that is thicker than the
+/// couch's shell, with what is thin and short at it (ears, a nose, fingers), with everything that a
+/// slice encloses, and a margin.
 Mask body(const volume::Volume &volume, double marginMm, const task::Progress &progress = {});
 /// What of the body with its margin is not deeper in the body than a depth.
 Mask skin(const volume::Volume &volume, double depthMm, double marginMm,

@@ -31,6 +31,9 @@ using MaskImage = itk::Image<std::uint8_t, 3>;
 
 // Thinner than the arms of children, thicker than the shells of couches.
 constexpr double couchRadiusMm = 4.0;
+// Of what is thinner than that an ear is 80 mm long, a couch or a head rest far more. Skin is rough
+// within the second: roughness hangs together all around.
+constexpr double longestThinPartMm = 130.0, roughnessMm = 2.0;
 constexpr double airBelowHu = -400.0;
 
 // An image over samples that stay where they are and must outlive it.
@@ -234,6 +237,64 @@ double airThreshold(const volume::Volume &volume) {
     return ends[0] + (threshold + 1.0) / bins * (ends[1] - ends[0]);
 }
 
+// Connected parts, by faces: 1 to `count`, 0 where nothing is.
+struct Parts {
+    std::vector<std::uint32_t> labels;
+    std::size_t count = 0;
+};
+
+Parts partsOf(const volume::Lattice &lattice, const Mask &mask, const char *step,
+              const task::Progress &progress) {
+    using Labels = itk::Image<std::uint32_t, 3>;
+    auto filter = itk::ConnectedComponentImageFilter<MaskImage, Labels>::New();
+    filter->SetInput(imageOver<MaskImage>(lattice, mask.data()));
+    runFilter(*filter, step, progress);
+    const std::uint32_t *const labels = filter->GetOutput()->GetBufferPointer();
+    return {{labels, labels + mask.size()}, std::size_t(filter->GetObjectCount())};
+}
+
+// What of the tissue is thin, short and at the core, with the core: an ear, not a couch.
+Mask withShortParts(const volume::Lattice &lattice, Mask core, const Mask &tissue,
+                    const task::Progress &progress) {
+    const volume::GridSize size = lattice.size();
+    Mask thin(tissue.size());
+    for (std::size_t n = 0; n < thin.size(); ++n)
+        thin[n] = std::uint8_t(tissue[n] & ~core[n] & 1);
+    const Parts parts = partsOf(lattice, thin, "body", progress);
+    struct Part {
+        volume::VoxelIndex lo{1 << 30, 1 << 30, 1 << 30}, hi{-1, -1, -1};
+        bool touches = false;
+    };
+    std::vector<Part> found(parts.count + 1);
+    const std::size_t row = std::size_t(size.i), plane = row * std::size_t(size.j);
+    std::size_t n = 0;
+    for (int k = 0; k < size.k; ++k)
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i, ++n) {
+                if (parts.labels[n] == 0)
+                    continue;
+                Part &part = found[parts.labels[n]];
+                part.lo = {std::min(part.lo.i, i), std::min(part.lo.j, j), std::min(part.lo.k, k)};
+                part.hi = {std::max(part.hi.i, i), std::max(part.hi.j, j), std::max(part.hi.k, k)};
+                part.touches =
+                    part.touches || (i > 0 && core[n - 1] != 0) ||
+                    (i + 1 < size.i && core[n + 1] != 0) || (j > 0 && core[n - row] != 0) ||
+                    (j + 1 < size.j && core[n + row] != 0) || (k > 0 && core[n - plane] != 0) ||
+                    (k + 1 < size.k && core[n + plane] != 0);
+            }
+    std::vector<std::uint8_t> isKept(found.size());
+    for (std::size_t label = 1; label < found.size(); ++label) {
+        const Part &part = found[label];
+        const glm::dvec3 mm((part.hi.i - part.lo.i + 1) * lattice.spacingMm(0),
+                            (part.hi.j - part.lo.j + 1) * lattice.spacingMm(1),
+                            (part.hi.k - part.lo.k + 1) * lattice.spacingMm(2));
+        isKept[label] = part.touches && glm::length(mm) <= longestThinPartMm;
+    }
+    for (std::size_t at = 0; at < core.size(); ++at)
+        core[at] = std::uint8_t(core[at] | isKept[parts.labels[at]]);
+    return core;
+}
+
 // Everything that each slice encloses.
 Mask filledSlices(const volume::Lattice &lattice, const Mask &mask,
                   const task::Progress &progress) {
@@ -299,22 +360,22 @@ Mask dilated(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
     return radiusMm > 0.0 ? grown(lattice, mask, radiusMm, progress) : mask;
 }
 
-Mask largestPart(const volume::Lattice &lattice, const Mask &mask, const task::Progress &progress) {
-    using Labels = itk::Image<std::uint32_t, 3>;
-    auto filter = itk::ConnectedComponentImageFilter<MaskImage, Labels>::New();
-    filter->SetInput(imageOver<MaskImage>(lattice, mask.data()));
-    runFilter(*filter, "largest", progress);
-    const std::uint32_t *const labels = filter->GetOutput()->GetBufferPointer();
-    std::vector<std::size_t> counts(std::size_t(filter->GetObjectCount()) + 1, 0);
-    for (std::size_t n = 0; n < mask.size(); ++n)
-        ++counts[labels[n]];
-    if (counts.size() == 1)
+Mask largestPart(const volume::Lattice &lattice, const Mask &mask, double leastShare,
+                 const task::Progress &progress) {
+    const Parts parts = partsOf(lattice, mask, "largest", progress);
+    std::vector<std::size_t> counts(parts.count + 1, 0);
+    for (const std::uint32_t label : parts.labels)
+        ++counts[label];
+    if (parts.count == 0)
         return mask; // nothing
-    const auto largest =
-        std::uint32_t(std::max_element(counts.begin() + 1, counts.end()) - counts.begin());
+    const auto most = std::max_element(counts.begin() + 1, counts.end());
+    std::vector<std::uint8_t> isKept(counts.size());
+    for (std::size_t label = 1; label < counts.size(); ++label)
+        isKept[label] = leastShare < 1.0 ? double(counts[label]) >= leastShare * double(*most)
+                                         : counts.begin() + std::ptrdiff_t(label) == most;
     Mask part(mask.size());
     for (std::size_t n = 0; n < mask.size(); ++n)
-        part[n] = labels[n] == largest;
+        part[n] = isKept[parts.labels[n]];
     return part;
 }
 
@@ -329,7 +390,11 @@ Mask body(const volume::Volume &volume, double marginMm, const task::Progress &p
     // Lungs would be opened into the air around: what slices enclose belongs to the patient.
     const Mask opened = opening(lattice, filledSlices(lattice, tissue, progress.part(0.0, 0.2)),
                                 couchRadiusMm, progress.part(0.2, 0.6));
-    const Mask patient = largestPart(lattice, opened, progress.part(0.6, 0.8));
+    const Mask core = largestPart(lattice, opened, 1.0, progress.part(0.6, 0.7));
+    Mask patient = dilated(lattice, core, roughnessMm, progress.part(0.7, 0.75));
+    for (std::size_t n = 0; n < patient.size(); ++n)
+        patient[n] = std::uint8_t((patient[n] & tissue[n]) | core[n]);
+    patient = withShortParts(lattice, std::move(patient), tissue, progress.part(0.75, 0.8));
     return dilated(lattice, filledSlices(lattice, patient, progress.part(0.8, 0.9)), marginMm,
                    progress.part(0.9, 1.0));
 }

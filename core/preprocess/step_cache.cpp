@@ -159,7 +159,7 @@ std::vector<Region> foundRegions(const volume::Volume &values, const Step &step,
     }
     const Mask now = belonging(values, tissue, before);
     if (step.kind == "largest")
-        return partOf(lattice, now, largestPart(lattice, now, progress), before);
+        return partOf(lattice, now, largestPart(lattice, now, step.at("share"), progress), before);
     if (step.kind == "opening")
         return partOf(lattice, now, opening(lattice, now, step.at("radius_mm"), progress), before);
     const Mask closed = closing(lattice, now, step.at("radius_mm"), progress);

@@ -8,9 +8,6 @@
 
 namespace pellucid::volume {
 
-/// True if a path looks like a NRRD header (.nrrd, .nhdr). Who reads one: `decoder::readNrrd`.
-bool isNrrdPath(const std::filesystem::path &path);
-
 enum class NrrdEncoding { raw, gzip };
 
 /// Writes a volume in its stored type, attached, little endian, space left-posterior-superior.

@@ -22,12 +22,19 @@ struct ValueWindow {
     bool operator==(const ValueWindow &) const = default;
 };
 
+/// Slices from `first` to `last`, both included.
+struct SliceRange {
+    int first = 0, last = 0;
+    bool operator==(const SliceRange &) const = default;
+};
+
 /// What the source said about a volume, as far as a viewer shows it.
 struct VolumeNotes {
     std::string title;                 ///< series description or file name
     std::string modality;              ///< DICOM modality, empty if unknown
     std::vector<ValueWindow> windows;  ///< the file's own windows
     std::vector<std::string> warnings; ///< what the reader had to do to the geometry or the values
+    std::vector<SliceRange> filled;    ///< slices between images that are missing, interpolated
     bool darkIsHigh = false;           ///< MONOCHROME1: shown inverted
     bool lossy = false;                ///< compressed with loss at some point
     bool placed = true;                ///< false: images without positions, no volume

@@ -2,6 +2,26 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en" sourcelanguage="en">
 <context>
+    <name>HugeQuestionTexts</name>
+    <message numerus="yes">
+        <source>So are %n others.</source>
+        <translation>
+            <numerusform>So is %n other.</numerusform>
+            <numerusform>So are %n others.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>StudyFactsTexts</name>
+    <message numerus="yes">
+        <source>%n phases</source>
+        <translation>
+            <numerusform>%n phase</numerusform>
+            <numerusform>%n phases</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>pellucid::ui::ImportDialog</name>
     <message numerus="yes">
         <source>and %n more</source>

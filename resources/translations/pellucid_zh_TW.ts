@@ -101,6 +101,32 @@
     </message>
 </context>
 <context>
+    <name>HugeQuestionTexts</name>
+    <message>
+        <source>%1 %2.</source>
+        <comment>file name, then what is odd about it</comment>
+        <translation>%1 %2。</translation>
+    </message>
+    <message numerus="yes">
+        <source>So are %n others.</source>
+        <translation>
+            <numerusform>另有 %n 個也是如此。</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Opening may take all memory and a long time.</source>
+        <translation>開啟可能耗盡記憶體並花費很長時間。</translation>
+    </message>
+    <message>
+        <source>Unusually large</source>
+        <translation>異常龐大</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>開啟</translation>
+    </message>
+</context>
+<context>
     <name>Import</name>
     <message>
         <source>copies need %1 MB and there are %2 MB</source>
@@ -467,6 +493,10 @@
         <source>lossy</source>
         <translation>有損壓縮</translation>
     </message>
+    <message>
+        <source>interpolated: no image was taken here</source>
+        <translation>內插：此處沒有影像</translation>
+    </message>
 </context>
 <context>
     <name>ProjectionView</name>
@@ -523,10 +553,6 @@
     <message>
         <source>uneven slice distances, resampled onto %1 mm; they change at %2</source>
         <translation>切片間距不均，重新取樣為 %1 mm；變化處：%2</translation>
-    </message>
-    <message>
-        <source>a gap of %1 mm between %2 and %3; slices are %4 mm apart elsewhere</source>
-        <translation>%2 與 %3 之間有 %1 mm 的空隙；其他切片相距 %4 mm</translation>
     </message>
     <message>
         <source>has its samples in another file; referred to, not copied</source>
@@ -595,10 +621,6 @@
     <message>
         <source>tilted by %1 degrees; shown from its own lattice</source>
         <translation>傾斜 %1 度；依其自身格點顯示</translation>
-    </message>
-    <message>
-        <source>%1 lies %2 mm beside the line of the other slices</source>
-        <translation>%1 偏離其他切片的連線 %2 mm</translation>
     </message>
     <message>
         <source>&apos;%1&apos; is no parameter of the step &apos;%2&apos;, which has %3</source>
@@ -961,10 +983,6 @@
         <translation>時間點 %1</translation>
     </message>
     <message>
-        <source>is not a NRRD file</source>
-        <translation>不是 NRRD 檔案</translation>
-    </message>
-    <message>
         <source>ffmpeg ended early</source>
         <translation>ffmpeg 提前結束</translation>
     </message>
@@ -1233,10 +1251,6 @@
         <translation>已損壞</translation>
     </message>
     <message>
-        <source>the slices lie at one place</source>
-        <translation>各切片位於同一位置</translation>
-    </message>
-    <message>
         <source>is larger than such files are (%1 MB)</source>
         <translation>大於此類檔案的大小上限（%1 MB）</translation>
     </message>
@@ -1329,12 +1343,232 @@
         <translation>記憶體不足以啟動解碼程式</translation>
     </message>
     <message>
-        <source>the NRRD space origin is farther away than a kilometre</source>
-        <translation>NRRD 的 space origin 遠於一公里</translation>
+        <source>all slices have the same position</source>
+        <translation>所有切片位於同一位置</translation>
     </message>
     <message>
-        <source>the NRRD samples are closer than a nanometre or farther apart than ten metres</source>
-        <translation>NRRD 取樣間距小於一奈米或大於十公尺</translation>
+        <source>%1 is %2 mm off the line through all slices</source>
+        <translation>%1 偏離所有切片的連線 %2 mm</translation>
+    </message>
+    <message>
+        <source>missing slices, interpolated: %1</source>
+        <translation>缺少切片，已內插補上：%1</translation>
+    </message>
+    <message>
+        <source>orientations differ by up to %1 degrees; the mean is used</source>
+        <translation>切片方向最多相差 %1 度；採用平均值</translation>
+    </message>
+    <message>
+        <source>pixel spacings differ by up to %1 %; the mean is used</source>
+        <translation>像素間距最多相差 %1 %；採用平均值</translation>
+    </message>
+    <message>
+        <source>every image has its own frame of reference; treated as one</source>
+        <translation>每張影像各有自己的參考座標系；視為同一個</translation>
+    </message>
+    <message>
+        <source>different images with the same instance UID: %1</source>
+        <translation>不同影像具有相同的物件 UID：%1 張</translation>
+    </message>
+    <message>
+        <source>images of one series name %1 studies; shown in the first</source>
+        <translation>同一系列的影像標示了 %1 個檢查；顯示於第一個</translation>
+    </message>
+    <message>
+        <source>slices %1 to %2 of %3: a gap of %4 mm between %5 and %6</source>
+        <translation>第 %1 至 %2 張，共 %3 張：%5 與 %6 之間有 %4 mm 的空隙</translation>
+    </message>
+    <message>
+        <source>slice %1 of %2: a gap of %3 mm between %4 and %5</source>
+        <translation>第 %1 張，共 %2 張：%4 與 %5 之間有 %3 mm 的空隙</translation>
+    </message>
+    <message>
+        <source>files coded implicitly that say they are explicit: %1</source>
+        <translation>標示為顯式、實際為隱式編碼的檔案：%1</translation>
+    </message>
+    <message>
+        <source>files of a compressed syntax with pixels of defined length: %1</source>
+        <translation>壓縮語法卻具有固定長度像素的檔案：%1</translation>
+    </message>
+    <message>
+        <source>files whose compressed pixels have no end: %1</source>
+        <translation>壓縮像素沒有結尾的檔案：%1</translation>
+    </message>
+    <message>
+        <source>files whose pixels have more bits than their header says: %1</source>
+        <translation>像素位元數多於標頭所述的檔案：%1</translation>
+    </message>
+    <message>
+        <source>is unusually large: %1 x %2 x %3 pixels in a file of %4 MB</source>
+        <translation>異常龐大：%4 MB 的檔案內有 %1 x %2 x %3 像素</translation>
+    </message>
+    <message>
+        <source>transfer syntax not supported: %1</source>
+        <translation>不支援的傳輸語法：%1</translation>
+    </message>
+    <message>
+        <source>has %1 samples per pixel; monochrome images have one</source>
+        <translation>每像素有 %1 個取樣；單色影像只有一個</translation>
+    </message>
+    <message>
+        <source>the pixels are not readable</source>
+        <translation>無法讀取像素</translation>
+    </message>
+    <message>
+        <source>a compressed frame has no header</source>
+        <translation>壓縮影格沒有標頭</translation>
+    </message>
+    <message>
+        <source>a compressed frame has %1 x %2 pixels, the header says %3 x %4</source>
+        <translation>壓縮影格有 %1 x %2 像素，標頭則為 %3 x %4</translation>
+    </message>
+    <message>
+        <source>a compressed frame has %1 colours</source>
+        <translation>壓縮影格有 %1 種色彩</translation>
+    </message>
+    <message>
+        <source>a compressed frame has %1 bits per sample, the header says %2</source>
+        <translation>壓縮影格每取樣 %1 位元，標頭則為 %2</translation>
+    </message>
+    <message>
+        <source>a compressed frame is coded otherwise (marker %1) than its transfer syntax says: %2</source>
+        <translation>壓縮影格的編碼（標記 %1）與其傳輸語法不符：%2</translation>
+    </message>
+    <message>
+        <source>compressed pixels without fragments: %1</source>
+        <translation>壓縮像素沒有分段：%1</translation>
+    </message>
+    <message>
+        <source>a run-length frame has no header</source>
+        <translation>遊程編碼影格沒有標頭</translation>
+    </message>
+    <message>
+        <source>a run-length frame has wrong offsets</source>
+        <translation>遊程編碼影格的位移有誤</translation>
+    </message>
+    <message>
+        <source>a run-length frame has %1 segments, %2 expected</source>
+        <translation>遊程編碼影格有 %1 個區段，應為 %2 個</translation>
+    </message>
+    <message>
+        <source>a run-length segment gives %1 bytes, %2 expected</source>
+        <translation>遊程編碼區段解出 %1 位元組，應為 %2</translation>
+    </message>
+    <message>
+        <source>a run-length segment has %1 bytes more than its image</source>
+        <translation>遊程編碼區段比影像多出 %1 位元組</translation>
+    </message>
+    <message>
+        <source>JPEG XL: %1</source>
+        <translation>JPEG XL：%1</translation>
+    </message>
+    <message>
+        <source>holds no image</source>
+        <translation>不含影像</translation>
+    </message>
+    <message>
+        <source>slices %1 to %2</source>
+        <translation>第 %1 至 %2 張</translation>
+    </message>
+    <message>
+        <source>slice %1</source>
+        <translation>第 %1 張</translation>
+    </message>
+    <message>
+        <source>gaps filled</source>
+        <translation>已補上空隙</translation>
+    </message>
+    <message>
+        <source>many files</source>
+        <translation>許多檔案</translation>
+    </message>
+    <message>
+        <source>is not a NRRD, NIfTI or MetaImage file</source>
+        <translation>不是 NRRD、NIfTI 或 MetaImage 檔案</translation>
+    </message>
+    <message>
+        <source>the size of the volume is out of range</source>
+        <translation>體積的大小超出範圍</translation>
+    </message>
+    <message>
+        <source>the volume is too large</source>
+        <translation>體積過大</translation>
+    </message>
+    <message>
+        <source>the origin is farther away than a kilometre</source>
+        <translation>原點距離超過一公里</translation>
+    </message>
+    <message>
+        <source>the samples are closer than a nanometre or farther apart than ten metres</source>
+        <translation>取樣間距小於一奈米或大於十公尺</translation>
+    </message>
+    <message>
+        <source>holds colours; volumes of one value a voxel are supported</source>
+        <translation>含有色彩；僅支援每體素一個值的體積</translation>
+    </message>
+    <message>
+        <source>holds several values a voxel; volumes of one are supported</source>
+        <translation>每體素含有多個值；僅支援單一值的體積</translation>
+    </message>
+    <message>
+        <source>holds more volumes than any series</source>
+        <translation>所含體積多於任何系列</translation>
+    </message>
+    <message>
+        <source>holds fewer volumes than before</source>
+        <translation>所含體積比先前少</translation>
+    </message>
+    <message>
+        <source>NIfTI data type %1 is not supported</source>
+        <translation>不支援 NIfTI 資料型別 %1</translation>
+    </message>
+    <message>
+        <source>the NIfTI header has no dimensions</source>
+        <translation>NIfTI 標頭沒有維度</translation>
+    </message>
+    <message>
+        <source>the NIfTI header says no place of the samples</source>
+        <translation>NIfTI 標頭未說明取樣的位置</translation>
+    </message>
+    <message>
+        <source>has its samples in another file; .nii files hold both</source>
+        <translation>取樣在另一個檔案中；.nii 檔案兩者皆含</translation>
+    </message>
+    <message>
+        <source>the MetaImage header has a line without &apos;=&apos;</source>
+        <translation>MetaImage 標頭有一行沒有「=」</translation>
+    </message>
+    <message>
+        <source>the MetaImage header has no &apos;%1&apos;</source>
+        <translation>MetaImage 標頭沒有「%1」</translation>
+    </message>
+    <message>
+        <source>MetaImage numbers expected: %1</source>
+        <translation>應為 MetaImage 數字：%1</translation>
+    </message>
+    <message>
+        <source>MetaImage type &apos;%1&apos; is not supported</source>
+        <translation>不支援 MetaImage 型別「%1」</translation>
+    </message>
+    <message>
+        <source>only three- and four-dimensional MetaImage volumes are supported</source>
+        <translation>僅支援三維與四維的 MetaImage 體積</translation>
+    </message>
+    <message>
+        <source>MetaImage samples as text are not supported</source>
+        <translation>不支援文字形式的 MetaImage 取樣</translation>
+    </message>
+    <message>
+        <source>MetaImage samples in a list of files are not supported</source>
+        <translation>不支援分散於多個檔案的 MetaImage 取樣</translation>
+    </message>
+    <message>
+        <source>MetaImage header sizes counted from the end are not supported</source>
+        <translation>不支援由檔尾計算的 MetaImage 標頭大小</translation>
+    </message>
+    <message>
+        <source>its values, from %1 to %2, differ by less than 24 bits can tell</source>
+        <translation>其值自 %1 至 %2，差異小於 24 位元所能分辨</translation>
     </message>
 </context>
 <context>
@@ -1445,6 +1679,12 @@
     <message>
         <source>Volume files</source>
         <translation>體積檔案</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n phases</source>
+        <translation>
+            <numerusform>%n 個時相</numerusform>
+        </translation>
     </message>
 </context>
 <context>

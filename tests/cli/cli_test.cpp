@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/reference/wide_kernel.h"
@@ -188,8 +188,8 @@ TEST_F(Cli, VolumeWritesValuesAndField) {
                   " --field --window 0,1000 --gzip")
                   .exitCode,
               0);
-    const auto values = decoder::readNrrd(folder / "v.nrrd"),
-               field = decoder::readNrrd(folder / "f.nrrd");
+    const auto values = decoder::readVolumeFile(folder / "v.nrrd"),
+               field = decoder::readVolumeFile(folder / "f.nrrd");
     EXPECT_FALSE(values.isFloat());
     EXPECT_TRUE(field.isFloat());
     EXPECT_EQ(values.lattice().size(), field.lattice().size());
@@ -210,7 +210,8 @@ TEST_F(Cli, ScenesTurntablesAndFormats) {
     ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(folder / "i.nrrd") + " --size 40x30")
                   .exitCode,
               0);
-    EXPECT_EQ(decoder::readNrrd(folder / "i.nrrd").lattice().size(), (volume::GridSize{40, 30, 1}));
+    EXPECT_EQ(decoder::readVolumeFile(folder / "i.nrrd").lattice().size(),
+              (volume::GridSize{40, 30, 1}));
     render::Scene scene;
     scene.camera = {render::viewOrientation(render::StandardView::left), 2.0, 30, 20, {1.0, 2.0}};
     scene.image.reconstruction = render::Reconstruction::linear;

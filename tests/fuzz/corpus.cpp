@@ -111,7 +111,7 @@ void writeMessages(const fs::path &folder) {
               decoder::pack(parse::parseHeader(test::readBytes(dicom / "syntax1"))));
     fs::remove_all(dicom);
     writeText(folder / "directory", decoder::pack(decoder::DirectoryFile{true, {{"A", "B"}}}));
-    decoder::NrrdLayout nrrd;
+    decoder::VolumeLayout nrrd;
     nrrd.size = {4, 3, 2};
     nrrd.stepsMm = {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
     nrrd.dataFile = "samples.raw";

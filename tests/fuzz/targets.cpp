@@ -115,23 +115,24 @@ void message(Bytes bytes) {
     });
     refusing([&] { decoder::unpackDirectory(bytes); });
     refusing([&] { decoder::unpackArchiveFiles(bytes); });
-    refusing([&] { decoder::unpackNrrd(bytes); });
+    refusing([&] { decoder::unpackLayout(bytes); });
     decoder::unpackReason(bytes);
 }
 
 void nrrd(Bytes bytes) {
     refusing([&] {
-        const auto layout = parse::parseNrrd(bytes);
+        const auto layout = parse::parseVolumeLayout(bytes);
         const std::string packed = decoder::pack(layout);
-        const auto received = decoder::unpackNrrd(std::as_bytes(std::span(packed)));
+        const auto received = decoder::unpackLayout(std::as_bytes(std::span(packed)));
         check(decoder::pack(received) == packed);
         (void)volume::Lattice::make(received.size, {received.originMm}, received.stepsMm);
         const std::size_t each = decoder::bytesOf(layout.scalar);
         if (layout.size.count() > (1U << 24) || !layout.dataFile.empty())
             return;
         std::size_t left = layout.size.count() * each;
-        parse::readNrrdSamples(
-            bytes, {left, int(each), layout.isGzip, layout.isSwapped, true}, [&](Bytes part, bool) {
+        parse::readSamples(
+            bytes, {left, int(each), layout.isDeflated, layout.isSwapped, layout.at, layout.skip},
+            [&](Bytes part, bool) {
                 check(!part.empty() && part.size() <= left && part.size() % each == 0);
                 left -= part.size();
             });

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 #include <vector>
 
@@ -43,8 +44,8 @@ void act(std::string_view word) {
     else if (word == "killed")
         ::raise(SIGKILL);
     else if (word == "hang")
-        for (;;)
-            ::alarm(0);
+        for (const itimerval never{};;)
+            ::setitimer(ITIMER_PROF, &never, nullptr);
     else if (word == "dawdle") { // under the clock of its own
         parse::Watch watch;
         watch.allow(decoder::decodingSeconds({Message::Kind::header, 0, 0, 0}));

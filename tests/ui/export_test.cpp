@@ -15,7 +15,7 @@
 #include <QStatusBar>
 #include <QTimer>
 
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 #include "tests/support/files.h"
 #include "ui/video_writer.h"
 
@@ -58,7 +58,7 @@ private slots:
         }
         // The values of the file are those of the picture.
         exported("Projection", 3, 1, false);
-        const volume::Volume values = decoder::readNrrd(m_folder / "out.nrrd");
+        const volume::Volume values = decoder::readVolumeFile(m_folder / "out.nrrd");
         const render::ProjectionImage image =
             projection()->pictureRenderer()(projection()->sceneOfPicture().camera);
         QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));

@@ -11,12 +11,12 @@
 #include <QCoreApplication>
 #include <QCryptographicHash>
 
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 #include "core/dicom/scan.h"
 #include "core/files/atomic_file.h"
 #include "core/files/session_folder.h"
 #include "core/task/error.h"
-#include "core/volume/nrrd.h"
+#include "core/volume/volume_file.h"
 #include "ui/library/thumbnail.h"
 
 namespace pellucid::ui {
@@ -72,7 +72,8 @@ public:
         if (failed)
             throw Error(ErrorCode::output, "cannot be copied into the library: " + failed.message(),
                         from);
-        const std::string suffix = volume::isNrrdPath(from) ? ".nrrd" : ".dcm";
+        const std::string volumeSuffix = volume::volumeSuffix(from),
+                          suffix = volumeSuffix.empty() ? ".dcm" : volumeSuffix;
         m_copies.push_back({incoming, m_place.copiesFolder() / series / (instance + suffix)});
         return m_copies.back().to;
     }
@@ -242,8 +243,8 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
             }
             if (!isCopied(file))
                 return false;
-            if (volume::isNrrdPath(file.path) &&
-                decoder::readNrrdHeader(file.path, copying).samplesFile != file.path) {
+            if (volume::isVolumeFile(file.path) &&
+                decoder::readVolumeFileHeader(file.path, copying).samplesFile != file.path) {
                 const bool isGoing = files::isInSessionFolder(file.path);
                 result.skipped.push_back(
                     {file.path, isGoing ? "has its samples in another file; not imported"

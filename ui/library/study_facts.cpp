@@ -17,6 +17,16 @@ QString text(const std::string &utf8) {
     return QString::fromStdString(utf8);
 }
 
+// What tells stacks of a series apart that are no phases of each other: other directions, spaces or
+// kinds of values. The scan puts it last in the label.
+QString stackOf(const QString &label) {
+    const QString last = label.mid(label.lastIndexOf(", ") + 1).trimmed();
+    for (const char *direction : {"axial", "coronal", "sagittal", "images"})
+        if (last.startsWith(QLatin1String(direction)))
+            return last;
+    return {};
+}
+
 } // namespace
 
 bool StudyFacts::hasPatient() const {
@@ -70,7 +80,7 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
     facts.placed = s.volume->placed;
     for (const std::string &warning : s.volume->notes.warnings)
         facts.warnings << text(warning);
-    facts.file = text(s.volume->nrrd.string());
+    facts.file = text(s.volume->volumeFile.string());
     facts.files = int(s.series->files.size());
     return facts;
 }
@@ -94,11 +104,20 @@ QString studyText(const StudyFacts &study) {
     return said.isEmpty() ? StudyFactsTexts::tr("Study") : said;
 }
 
+bool arePhases(const VolumeFacts &a, const VolumeFacts &b) {
+    const bool isOneSeries = !a.seriesUid.isEmpty() ? a.seriesUid == b.seriesUid
+                                                    : !a.file.isEmpty() && b.seriesUid.isEmpty();
+    return isOneSeries && a.file == b.file && a.placed && b.placed && a.size == b.size &&
+           a.spacingMm == b.spacingMm && stackOf(a.label) == stackOf(b.label);
+}
+
 QString seriesText(const VolumeFacts &volume) {
     QString said = QString("%1 %2")
                        .arg(volume.seriesNumber)
                        .arg(volume.description.isEmpty() ? volume.modality : volume.description);
-    if (!volume.label.isEmpty())
+    if (volume.phases > 1)
+        said += ", " + StudyFactsTexts::tr("%n phases", "", volume.phases);
+    else if (!volume.label.isEmpty())
         said += ", " + spoken(volume.label);
     return said;
 }

@@ -42,10 +42,15 @@ struct VolumeFacts {
     qint64 libraryId = 0;
     bool isCopied = false; ///< its files are the library's own
     QImage thumbnail;
+    /// How many volumes a row of a list stands for; the others are like this one.
+    int phases = 1;
 
     /// What tells the volumes of a study apart.
     QString key() const;
 };
+
+/// Whether two volumes of a study differ in time, echo or the like only: same place, same size.
+bool arePhases(const VolumeFacts &a, const VolumeFacts &b);
 
 StudyFacts studyFacts(const dicom::Selection &selection);
 VolumeFacts volumeFacts(const dicom::Selection &selection);

@@ -49,7 +49,22 @@ bool StudyList::matches(const StudyFacts &study, const std::vector<VolumeFacts> 
 
 void StudyList::append(StudyFacts study, bool isRead) {
     m_entries.push_back(
-        std::make_unique<Entry>(Entry{std::move(study), {}, isRead, int(m_entries.size())}));
+        std::make_unique<Entry>(Entry{std::move(study), {}, {}, isRead, int(m_entries.size())}));
+}
+
+// A series of many phases is one row: the phase bar chooses among them.
+void StudyList::addVolumes(Entry &entry, const std::vector<VolumeFacts> &volumes) {
+    for (const VolumeFacts &volume : volumes) {
+        const auto row = std::find_if(entry.volumes.begin(), entry.volumes.end(),
+                                      [&](const VolumeFacts &v) { return arePhases(v, volume); });
+        if (row == entry.volumes.end()) {
+            entry.volumes.push_back(volume);
+            entry.keys.push_back({volume.key()});
+        } else {
+            ++row->phases;
+            entry.keys[std::size_t(row - entry.volumes.begin())] << volume.key();
+        }
+    }
 }
 
 void StudyList::rebuild() {
@@ -64,7 +79,7 @@ void StudyList::rebuild() {
             rows.insert(key, m_entries.size());
             append(source.study, true);
         }
-        m_entries[rows.value(key)]->volumes.push_back(source.volume);
+        addVolumes(*m_entries[rows.value(key)], {source.volume});
     }
     std::erase_if(m_entries,
                   [&](const auto &entry) { return !matches(entry->study, entry->volumes); });
@@ -90,10 +105,17 @@ const VolumeFacts *StudyList::volume(const QModelIndex &at) const {
 }
 
 int StudyList::source(const QModelIndex &at) const {
-    const VolumeFacts *const facts = volume(at);
-    if (facts == nullptr)
+    if (volume(at) == nullptr)
         return -1;
-    return m_document.sourceWith(study(at).key() + "\n" + facts->key());
+    // The one that is shown, if it is among them.
+    int found = -1;
+    const QString study = this->study(at).key();
+    for (const QString &key :
+         m_entries.at(std::size_t(at.parent().row()))->keys.at(std::size_t(at.row())))
+        if (const int source = m_document.sourceWith(study + "\n" + key);
+            source >= 0 && (found < 0 || source == m_document.currentSource()))
+            found = source;
+    return found;
 }
 
 bool StudyList::isOpen(const QModelIndex &at) const {
@@ -112,7 +134,7 @@ QModelIndex StudyList::find(int source) {
         const QModelIndex parent = index(row, 0);
         fetchMore(parent);
         for (int n = 0; n < int(entry.volumes.size()); ++n)
-            if (entry.volumes[std::size_t(n)].key() == wanted.volume.key())
+            if (entry.keys[std::size_t(n)].contains(wanted.volume.key()))
                 return index(n, 0, parent);
     }
     return {};
@@ -187,8 +209,11 @@ void StudyList::fetchMore(const QModelIndex &parent) {
     entry.isRead = true;
     if (volumes.empty())
         return;
-    beginInsertRows(parent, 0, int(volumes.size()) - 1);
-    entry.volumes = std::move(volumes);
+    Entry added;
+    addVolumes(added, volumes);
+    beginInsertRows(parent, 0, int(added.volumes.size()) - 1);
+    entry.volumes = std::move(added.volumes);
+    entry.keys = std::move(added.keys);
     endInsertRows();
 }
 

@@ -53,12 +53,14 @@ public:
 private:
     struct Entry {
         StudyFacts study;
-        std::vector<VolumeFacts> volumes;
+        std::vector<VolumeFacts> volumes; ///< a row each: phases have one
+        std::vector<QStringList> keys;    ///< of the volumes of each row
         bool isRead = false;
         int row = 0;
     };
     void rebuild();
     void append(StudyFacts study, bool isRead);
+    static void addVolumes(Entry &entry, const std::vector<VolumeFacts> &volumes);
     bool matches(const StudyFacts &study, const std::vector<VolumeFacts> &volumes) const;
 
     Document &m_document;

@@ -42,7 +42,7 @@ QImage makeThumbnail(const volume::Volume &volume) {
 
 QImage makeThumbnail(const dicom::VolumeEntry &entry) {
     try {
-        if (!entry.nrrd.empty())
+        if (!entry.volumeFile.empty())
             return entry.voxels() > mostVoxelsRead ? QImage()
                                                    : makeThumbnail(dicom::loadVolume(entry).volume);
         const volume::Lattice &lattice = entry.geometry.lattice;

@@ -35,6 +35,42 @@ QString coordinateText(const glm::dvec3 &axis, double mm) {
     return QString("%1 %2").arg(QString::fromStdString(side)).arg(std::abs(mm), 0, 'f', 1);
 }
 
+// Draws the edges of gaps that were filled, in planes across them. True where this plane lies in
+// one.
+bool isInFilled(QPainter &painter, const QRect &area, const PaneMapping &mapping,
+                const volume::Volume &volume, volume::PatientPoint at, const QColor &color) {
+    const volume::Lattice &lattice = volume.lattice();
+    // The slice number is an affine function of the place on the pane.
+    const auto sliceAt = [&](const QPointF &position) {
+        return lattice.voxel(mapping.patientAt(position)).v.z;
+    };
+    const QPointF middle = QRectF(area).center();
+    const double here = sliceAt(middle);
+    const QPointF slope(sliceAt(middle + QPointF(1.0, 0.0)) - here,
+                        sliceAt(middle + QPointF(0.0, 1.0)) - here);
+    const double square = QPointF::dotProduct(slope, slope);
+    constexpr double noSlope = 1e-6; // slices a pixel
+    const double slice = lattice.voxel(at).v.z;
+    bool isInside = false;
+    painter.save();
+    painter.setClipRect(area);
+    painter.setPen(QPen(color, 1.0, Qt::DashLine));
+    for (const volume::SliceRange &range : volume.notes().filled) {
+        if (square <= noSlope * noSlope) {
+            isInside = isInside || (slice > range.first - 0.5 && slice < range.last + 0.5);
+            continue;
+        }
+        for (const double edge : {range.first - 0.5, range.last + 0.5}) {
+            const QPointF on = middle + slope * ((edge - here) / square);
+            const double reach = area.width() + area.height();
+            const QPointF along = QPointF(-slope.y(), slope.x()) * (reach / std::sqrt(square));
+            painter.drawLine(on - along, on + along);
+        }
+    }
+    painter.restore();
+    return isInside;
+}
+
 } // namespace
 
 QString planeTitle(mpr::Orientation o) {
@@ -92,9 +128,14 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
                   .arg(1 + int(std::lround(
                                document.volume()->lattice().voxel(document.crosshair()).v.z)));
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop, position, colors.text);
+    int lines = 1; // at the top right
     if (cut.options.slab.thicknessMm > 0.0)
-        drawText(painter, inner.adjusted(0, line, 0, 0), Qt::AlignRight | Qt::AlignTop,
+        drawText(painter, inner.adjusted(0, line * lines++, 0, 0), Qt::AlignRight | Qt::AlignTop,
                  slabText(cut.options.slab), colors.text);
+    if (isInFilled(painter, area, mapping, *document.volume(), document.crosshair(),
+                   colors.warning))
+        drawText(painter, inner.adjusted(0, line * lines, 0, 0), Qt::AlignRight | Qt::AlignTop,
+                 PlaneTextsTexts::tr("interpolated: no image was taken here"), colors.warning);
     if (notes.placed)
         drawOrientationLetters(painter, area, mapping.plane.axes.right, mapping.plane.axes.up,
                                colors);

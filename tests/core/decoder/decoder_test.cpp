@@ -139,15 +139,15 @@ TEST_F(TakenOver, nothingItSaysIsBelieved) {
 }
 
 TEST_F(TakenOver, itsSamplesAreCounted) {
-    const NrrdSamples wanted{4096, 2, false, false, false};
+    const SampleRange wanted{4096, 2, false, false, false};
     const std::map<std::string, std::uint64_t> lies{
         {"more-samples", 0},  {"half-a-sample", 0},    {"no-samples", 0},
         {"fewer-samples", 0}, {"samples-twice", 4096}, {"half-the-samples", 2048}};
     for (const auto &[word, believed] : lies) {
         std::uint64_t taken = 0;
         try {
-            m_decoder.nrrdSamples(file(word), wanted,
-                                  [&](std::span<const std::byte> part) { taken += part.size(); });
+            m_decoder.samples(file(word), wanted,
+                              [&](std::span<const std::byte> part) { taken += part.size(); });
             ADD_FAILURE() << word;
         } catch (const task::Error &error) {
             EXPECT_EQ(error.reason(), "was decoded to nonsense") << word;
@@ -183,7 +183,8 @@ TEST_F(TakenOver, cancellingDoesNotWaitForIt) {
 TEST_F(TakenOver, whatHangsEndsByTheClock) {
     if (std::getenv("PELLUCID_LONG_TESTS") == nullptr)
         GTEST_SKIP() << "takes twenty seconds, with the long tests";
-    const double own = decodingSeconds({Message::Kind::header, 0, 0, 0});
+    const double own = decodingSeconds({Message::Kind::header, 0, 0, 0}),
+                 ours = waitingSeconds({Message::Kind::header, 0, 0, 0});
     std::array<double, 2> seconds{};
     {
         std::vector<std::jthread> both;
@@ -202,9 +203,9 @@ TEST_F(TakenOver, whatHangsEndsByTheClock) {
         }
     }
     EXPECT_GT(seconds[0], own - 1.0);
-    EXPECT_LT(seconds[0], own + patienceSeconds - 0.5); // not ours
-    EXPECT_GE(seconds[1], own + patienceSeconds);
-    EXPECT_LT(seconds[1], own + 3.0 * patienceSeconds);
+    EXPECT_LT(seconds[0], ours - 0.5); // not ours: two programs share the processor with others
+    EXPECT_GE(seconds[1], ours);
+    EXPECT_LT(seconds[1], ours + 6.0);
     EXPECT_EQ(said("well"), "decoded by hand");
 }
 

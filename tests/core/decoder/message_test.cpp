@@ -85,32 +85,32 @@ TEST(Message, nonsenseIsRefused) {
 }
 
 TEST(Message, layoutsOfNrrdComeThroughOrAreRefused) {
-    NrrdLayout sent;
+    VolumeLayout sent;
     sent.size = {4, 3, 2};
     sent.stepsMm = {glm::dvec3(1, 0, 0), glm::dvec3(0, 2, 0), glm::dvec3(0, 0.5, 3)};
     sent.originMm = {1, 2, 3};
-    sent.scalar = NrrdScalar::f32;
+    sent.scalar = StoredScalar::f32;
     sent.isSwapped = true;
     sent.dataFile = "samples.raw";
-    const NrrdLayout got = unpackNrrd(bytesOf(pack(sent)));
+    const VolumeLayout got = unpackLayout(bytesOf(pack(sent)));
     EXPECT_EQ(got.size, sent.size);
     EXPECT_EQ(got.stepsMm, sent.stepsMm);
     EXPECT_EQ(got.originMm, sent.originMm);
     EXPECT_EQ(got.scalar, sent.scalar);
     EXPECT_TRUE(got.isSwapped);
-    EXPECT_FALSE(got.isGzip);
+    EXPECT_FALSE(got.isDeflated);
     EXPECT_EQ(got.dataFile, sent.dataFile);
     const auto refused = [&](auto change) {
-        NrrdLayout bad = sent;
+        VolumeLayout bad = sent;
         change(bad);
-        EXPECT_THROW(unpackNrrd(bytesOf(pack(bad))), task::Error);
+        EXPECT_THROW(unpackLayout(bytesOf(pack(bad))), task::Error);
     };
-    refused([](NrrdLayout &l) { l.size.j = 0; });
-    refused([](NrrdLayout &l) { l.size.k = -2; });
-    refused([](NrrdLayout &l) { l.size = {1 << 20, 1 << 20, 1 << 24}; }); // the product wraps
-    refused([](NrrdLayout &l) { l.scalar = NrrdScalar(10); });
-    refused([](NrrdLayout &l) { l.scalar = NrrdScalar(-1); });
-    refused([](NrrdLayout &l) { l.stepsMm[1].y = std::numeric_limits<double>::quiet_NaN(); });
+    refused([](VolumeLayout &l) { l.size.j = 0; });
+    refused([](VolumeLayout &l) { l.size.k = -2; });
+    refused([](VolumeLayout &l) { l.size = {1 << 20, 1 << 20, 1 << 24}; }); // the product wraps
+    refused([](VolumeLayout &l) { l.scalar = StoredScalar(10); });
+    refused([](VolumeLayout &l) { l.scalar = StoredScalar(-1); });
+    refused([](VolumeLayout &l) { l.stepsMm[1].y = std::numeric_limits<double>::quiet_NaN(); });
 }
 
 TEST(Message, reasonsAreOneLine) {

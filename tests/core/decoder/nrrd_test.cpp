@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ namespace pellucid {
 
 namespace {
 
-using decoder::readNrrd;
-using decoder::readNrrdHeader;
+using decoder::readVolumeFile;
+using decoder::readVolumeFileHeader;
 using volume::Volume;
 
 void write(const std::filesystem::path &path, const std::string &text) {
@@ -54,7 +54,7 @@ TEST_F(Nrrd, RoundTripsBothTypesAndEncodingsOnATiltedLattice) {
     for (const auto encoding : {volume::NrrdEncoding::raw, volume::NrrdEncoding::gzip})
         for (const Volume &volume : {floats, Volume(lattice, shorts, volume::ValueUnit::none)}) {
             volume::writeNrrd(folder / "v.nrrd", volume, encoding);
-            const Volume back = readNrrd(folder / "v.nrrd");
+            const Volume back = readVolumeFile(folder / "v.nrrd");
             EXPECT_EQ(back.isFloat(), volume.isFloat());
             for (int k = 0; k < 3; ++k)
                 for (int i = 0; i < 5; ++i)
@@ -72,7 +72,7 @@ TEST_F(Nrrd, ReadsEveryScalarTypeInBothByteOrders) {
                                          "\ndimension: 3\nsizes: 3 1 1\nencoding: raw\nendian: " +
                                          (big ? "big" : "little") + "\n\n" +
                                          bytesOf<T>({T(1), T(2), T(100)}, big));
-            EXPECT_EQ(readNrrd(folder / "t.nrrd").value({2, 0, 0}), 100.0) << name << big;
+            EXPECT_EQ(readVolumeFile(folder / "t.nrrd").value({2, 0, 0}), 100.0) << name << big;
         }
     };
     check(std::int8_t(), "int8");
@@ -96,7 +96,7 @@ TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
     const std::vector<std::string> odd{"samples that are no finite numbers: 2"};
     std::vector<std::string> both{"holds more samples than its header says", odd[0]};
     const auto warnings = [&](const std::string &name) {
-        return readNrrd(folder / name).notes().warnings;
+        return readVolumeFile(folder / name).notes().warnings;
     };
     for (const auto &[samples, expected] : {std::pair(three, odd), std::pair(four, both)}) {
         write(folder / "raw.nrrd", "NRRD0001\n" + header + "raw\n\n" + samples);
@@ -115,19 +115,19 @@ TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
         write(folder / "units.nrrd",
               "NRRD0004\n" + header + "raw\nspace units: " + units + "\n\n" + three);
         if (isTaken)
-            EXPECT_NO_THROW(readNrrd(folder / "units.nrrd"));
+            EXPECT_NO_THROW(readVolumeFile(folder / "units.nrrd"));
         else
-            EXPECT_THROW(readNrrd(folder / "units.nrrd"), task::Error);
+            EXPECT_THROW(readVolumeFile(folder / "units.nrrd"), task::Error);
     }
     write(folder / "axes.nrrd",
           "NRRD0004\n" + header + "raw\nunits: \"mm\" \"\" \"mm\"\n\n" + three);
-    EXPECT_NO_THROW(readNrrd(folder / "axes.nrrd"));
+    EXPECT_NO_THROW(readVolumeFile(folder / "axes.nrrd"));
     for (const char *units : {"units: \"um\" \"um\" \"um\"", "space units: m m m"}) {
         write(folder / "axes.nrrd", "NRRD0004\n" + header + "raw\n" + units + "\n\n" + three);
-        EXPECT_THROW(readNrrd(folder / "axes.nrrd"), task::Error) << units;
+        EXPECT_THROW(readVolumeFile(folder / "axes.nrrd"), task::Error) << units;
     }
     write(folder / "twice.nrrd", "NRRD0001\nsizes: 1 1 1\n" + header + "raw\n\n" + three);
-    EXPECT_THROW(readNrrd(folder / "twice.nrrd"), task::Error);
+    EXPECT_THROW(readVolumeFile(folder / "twice.nrrd"), task::Error);
 }
 
 TEST_F(Nrrd, ASpaceThatIsNotThePatientsIsMentioned) {
@@ -137,7 +137,7 @@ TEST_F(Nrrd, ASpaceThatIsNotThePatientsIsMentioned) {
                                          {"space: RAS\n", true}}) {
         write(folder / "space.nrrd", std::string("NRRD0004\ntype: uchar\ndimension: 3\n") + space +
                                          "sizes: 1 1 1\nencoding: raw\n\nv");
-        EXPECT_EQ(readNrrd(folder / "space.nrrd").notes().warnings.empty(), isNamed) << space;
+        EXPECT_EQ(readVolumeFile(folder / "space.nrrd").notes().warnings.empty(), isNamed) << space;
     }
 }
 
@@ -145,7 +145,7 @@ TEST_F(Nrrd, LargeUnsignedShortsBecomeFloat) {
     write(folder / "u.nrrd",
           "NRRD0001\ntype: ushort\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nendian: little\n\n" +
               bytesOf<std::uint16_t>({1, 65535}));
-    const Volume volume = readNrrd(folder / "u.nrrd");
+    const Volume volume = readVolumeFile(folder / "u.nrrd");
     EXPECT_TRUE(volume.isFloat());
     EXPECT_EQ(volume.value({1, 0, 0}), 65535.0);
 }
@@ -156,8 +156,8 @@ TEST_F(Nrrd, ConvertsRasAndLasToLps) {
                              "space origin: (10,20,30)\nspace: ";
     write(folder / "ras.nrrd", "NRRD0004\n" + rest + "right-anterior-superior\n\nx");
     write(folder / "las.nrrd", "NRRD0004\n" + rest + "LAS\n\nx");
-    const auto ras = readNrrd(folder / "ras.nrrd").lattice(),
-               las = readNrrd(folder / "las.nrrd").lattice();
+    const auto ras = readVolumeFile(folder / "ras.nrrd").lattice(),
+               las = readVolumeFile(folder / "las.nrrd").lattice();
     EXPECT_EQ(ras.origin().mm, glm::dvec3(-10, -20, 30));
     EXPECT_EQ(ras.step(0), glm::dvec3(-2, 0, 0));
     EXPECT_EQ(las.origin().mm, glm::dvec3(10, -20, 30));
@@ -171,7 +171,7 @@ TEST_F(Nrrd, ReadsDetachedGzipWithSpacings) {
     write(folder / "d.nhdr",
           "NRRD0001\n# comment\ntype: unsigned char\ndimension: 3\nsizes: 3 2 1\nspacings: 1 2 3\n"
           "encoding: gzip\ndata file: ./d.raw.gz\n");
-    const Volume volume = readNrrd(folder / "d.nhdr");
+    const Volume volume = readVolumeFile(folder / "d.nhdr");
     EXPECT_EQ(volume.value({2, 1, 0}), double('f'));
     EXPECT_EQ(volume.lattice().spacingMm(2), 3.0);
 }
@@ -185,14 +185,14 @@ TEST_F(Nrrd, AFlippedByteOfCompressedSamplesIsNoticed) {
         "NRRD0001\ntype: unsigned char\ndimension: 3\nsizes: 3 2 1\nencoding: gzip\n"
         "data file: f.raw.gz\n";
     write(folder / "f.nhdr", header);
-    EXPECT_EQ(readNrrd(folder / "f.nhdr").value({0, 0, 0}), double('a'));
+    EXPECT_EQ(readVolumeFile(folder / "f.nhdr").value({0, 0, 0}), double('a'));
     std::string bytes = test::readText(folder / "f.raw.gz");
     bytes[bytes.find("abcdef") + 2] = 'C';
     write(folder / "f.raw.gz", bytes);
-    EXPECT_THROW(readNrrd(folder / "f.nhdr"), task::Error);
+    EXPECT_THROW(readVolumeFile(folder / "f.nhdr"), task::Error);
     bytes.resize(bytes.size() - 4); // and without its end
     write(folder / "f.raw.gz", bytes);
-    EXPECT_THROW(readNrrd(folder / "f.nhdr"), task::Error);
+    EXPECT_THROW(readVolumeFile(folder / "f.nhdr"), task::Error);
 }
 
 TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
@@ -225,14 +225,14 @@ TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
     for (const auto &[name, text] : cases) {
         write(folder / name, text);
         try {
-            readNrrd(folder / name);
+            readVolumeFile(folder / name);
             ADD_FAILURE() << name << " was read";
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::unusable) << name;
             EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
         }
     }
-    EXPECT_THROW(readNrrd(folder / "absent.nrrd"), task::Error);
+    EXPECT_THROW(readVolumeFile(folder / "absent.nrrd"), task::Error);
 }
 
 // A header may not have another file shown, nor be read for ever, nor waited for.
@@ -247,7 +247,7 @@ TEST_F(Nrrd, NamesFilesBesideItOnly) {
                     "data file: " +
                         name + "\n");
         try {
-            readNrrd(path);
+            readVolumeFile(path);
         } catch (const task::Error &error) {
             return error.reason();
         }
@@ -271,9 +271,9 @@ TEST_F(Nrrd, AHeaderWithoutAnEndIsNotReadToIt) {
         return text;
     }());
     for (const char *const name : {"line.nrrd", "lines.nrrd"})
-        EXPECT_THROW(readNrrdHeader(folder / name), task::Error) << name;
+        EXPECT_THROW(readVolumeFileHeader(folder / name), task::Error) << name;
     ASSERT_EQ(std::system(("mkfifo '" + (folder / "pipe.nrrd").string() + "'").c_str()), 0);
-    EXPECT_THROW(readNrrdHeader(folder / "pipe.nrrd"), task::Error);
+    EXPECT_THROW(readVolumeFileHeader(folder / "pipe.nrrd"), task::Error);
 }
 
 } // namespace

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/decoder/decoder.h"
-#include "core/decoder/read_nrrd.h"
+#include "core/decoder/read_volume_file.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/task/error.h"
@@ -350,7 +350,7 @@ TEST(Nasty, DicomdirsOfEveryKindListTheirFiles) {
 
 TEST(RealSeries, TheBonsaiIsAnNrrdVolume) {
     PELLUCID_NEEDS_TEST_DATA();
-    const auto bonsai = decoder::readNrrd(test::testData() / "vol_bonsai_256/bonsai.nhdr");
+    const auto bonsai = decoder::readVolumeFile(test::testData() / "vol_bonsai_256/bonsai.nhdr");
     EXPECT_EQ(bonsai.lattice().size(), (volume::GridSize{256, 256, 256}));
     EXPECT_EQ(volume::statistics(bonsai).maximum, 255.0);
 }

@@ -178,5 +178,60 @@ TEST(Body, IsThePatientWithoutTheCouchAndWithTheAirInside) {
     EXPECT_LT(missed, tissue / 50);
 }
 
+// Two lungs that no airway joins, and a bubble.
+TEST(LargestPart, KeepsThoseThatAreNotMuchSmaller) {
+    const auto lattice = volume::Lattice::centred({40, 20, 20}, {1, 1, 1});
+    const auto right = [](glm::dvec3 p) { return glm::length(p - glm::dvec3(9, 0, 0)) < 6.0; };
+    const auto left = [](glm::dvec3 p) { return glm::length(p - glm::dvec3(-9, 0, 0)) < 5.0; };
+    const auto bubble = [](glm::dvec3 p) { return glm::length(p - glm::dvec3(0, 8, 0)) < 1.5; };
+    const Mask mask =
+        maskOf(lattice, [&](glm::dvec3 p) { return right(p) || left(p) || bubble(p); });
+    EXPECT_EQ(preprocess::largestPart(lattice, mask, 0.1),
+              maskOf(lattice, [&](glm::dvec3 p) { return right(p) || left(p); }));
+    EXPECT_EQ(preprocess::largestPart(lattice, mask, 0.001), mask);
+    EXPECT_EQ(preprocess::largestPart(lattice, mask), maskOf(lattice, right));
+}
+
+// Ears of 3 mm and a nose at a head that lies in a rest of 4 mm, which touches it.
+TEST(Body, KeepsEarsAndLeavesTheHeadRest) {
+    const auto lattice = volume::Lattice::centred({110, 120, 60}, {2.0, 2.0, 3.0});
+    const auto head = [](glm::dvec3 p) {
+        return glm::length(p / glm::dvec3(75.0, 95.0, 110.0)) < 1.0;
+    };
+    const auto ear = [](glm::dvec3 p) {
+        return std::abs(p.x) > 70.0 && std::abs(p.x) < 98.0 && std::abs(p.y - 10.0) < 2.0 &&
+               std::abs(p.z) < 30.0;
+    };
+    const auto nose = [](glm::dvec3 p) {
+        return std::abs(p.x) < 3.0 && p.y < -85.0 && p.y > -112.0 && std::abs(p.z + 20.0) < 12.0;
+    };
+    const auto rest = [](glm::dvec3 p) {
+        const double r = glm::length(glm::dvec2(p.x, p.y) / glm::dvec2(79.0, 99.0));
+        return p.y > 40.0 && r > 1.0 && r < 1.04;
+    };
+    std::vector<std::int16_t> samples(lattice.size().count(), -1000);
+    std::vector<std::uint8_t> isPatient(samples.size()), isRest(samples.size());
+    for (int k = 0, n = 0; k < lattice.size().k; ++k)
+        for (int j = 0; j < lattice.size().j; ++j)
+            for (int i = 0; i < lattice.size().i; ++i, ++n) {
+                const glm::dvec3 p = lattice.patient(volume::VoxelIndex{i, j, k}).mm;
+                isPatient[std::size_t(n)] = head(p) || ear(p) || nose(p);
+                isRest[std::size_t(n)] = rest(p) && isPatient[std::size_t(n)] == 0;
+                if (isPatient[std::size_t(n)] != 0 || isRest[std::size_t(n)] != 0)
+                    samples[std::size_t(n)] = 40;
+            }
+    const volume::Volume volume(lattice, samples, volume::ValueUnit::hounsfield);
+    const Mask body = preprocess::body(volume, 0.0);
+    std::size_t lost = 0, left = 0, ofRest = 0;
+    for (std::size_t n = 0; n < body.size(); ++n) {
+        lost += isPatient[n] != 0 && body[n] == 0;
+        left += isRest[n] != 0 && body[n] != 0;
+        ofRest += isRest[n];
+    }
+    EXPECT_EQ(lost, 0U);
+    // What of the rest lies within the roughness of the skin cannot be told from it.
+    EXPECT_LT(left, ofRest / 5);
+}
+
 } // namespace
 } // namespace pellucid

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <limits>
 #include <map>
-#include <new>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -13,10 +12,8 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <zlib.h>
 
-#include "core/decoder/instance.h"
-#include "core/parse/parse.h"
+#include "core/parse/volume_formats.h"
 #include "core/task/error.h"
 #include "core/task/text.h"
 
@@ -24,18 +21,11 @@ namespace pellucid::parse {
 
 namespace {
 
-using decoder::NrrdScalar;
+using decoder::StoredScalar;
 using task::Error;
 using task::ErrorCode;
 
 constexpr std::size_t maxHeaderBytes = 1 << 20; // larger ones are not headers
-
-std::string trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r\n");
-    if (first == text.npos)
-        return {};
-    return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
-}
 
 struct Header {
     std::map<std::string, std::string> fields;
@@ -106,48 +96,48 @@ private:
     const Header &m_header;
 };
 
-std::optional<NrrdScalar> scalarOf(const std::string &name) {
-    static const std::map<std::string, NrrdScalar> names = {
-        {"signed char", NrrdScalar::i8},
-        {"int8", NrrdScalar::i8},
-        {"int8_t", NrrdScalar::i8},
-        {"uchar", NrrdScalar::u8},
-        {"unsigned char", NrrdScalar::u8},
-        {"uint8", NrrdScalar::u8},
-        {"uint8_t", NrrdScalar::u8},
-        {"short", NrrdScalar::i16},
-        {"short int", NrrdScalar::i16},
-        {"signed short", NrrdScalar::i16},
-        {"signed short int", NrrdScalar::i16},
-        {"int16", NrrdScalar::i16},
-        {"int16_t", NrrdScalar::i16},
-        {"ushort", NrrdScalar::u16},
-        {"unsigned short", NrrdScalar::u16},
-        {"unsigned short int", NrrdScalar::u16},
-        {"uint16", NrrdScalar::u16},
-        {"uint16_t", NrrdScalar::u16},
-        {"int", NrrdScalar::i32},
-        {"signed int", NrrdScalar::i32},
-        {"int32", NrrdScalar::i32},
-        {"int32_t", NrrdScalar::i32},
-        {"uint", NrrdScalar::u32},
-        {"unsigned int", NrrdScalar::u32},
-        {"uint32", NrrdScalar::u32},
-        {"uint32_t", NrrdScalar::u32},
-        {"longlong", NrrdScalar::i64},
-        {"long long", NrrdScalar::i64},
-        {"long long int", NrrdScalar::i64},
-        {"signed long long", NrrdScalar::i64},
-        {"signed long long int", NrrdScalar::i64},
-        {"int64", NrrdScalar::i64},
-        {"int64_t", NrrdScalar::i64},
-        {"ulonglong", NrrdScalar::u64},
-        {"unsigned long long", NrrdScalar::u64},
-        {"unsigned long long int", NrrdScalar::u64},
-        {"uint64", NrrdScalar::u64},
-        {"uint64_t", NrrdScalar::u64},
-        {"float", NrrdScalar::f32},
-        {"double", NrrdScalar::f64}};
+std::optional<StoredScalar> scalarOf(const std::string &name) {
+    static const std::map<std::string, StoredScalar> names = {
+        {"signed char", StoredScalar::i8},
+        {"int8", StoredScalar::i8},
+        {"int8_t", StoredScalar::i8},
+        {"uchar", StoredScalar::u8},
+        {"unsigned char", StoredScalar::u8},
+        {"uint8", StoredScalar::u8},
+        {"uint8_t", StoredScalar::u8},
+        {"short", StoredScalar::i16},
+        {"short int", StoredScalar::i16},
+        {"signed short", StoredScalar::i16},
+        {"signed short int", StoredScalar::i16},
+        {"int16", StoredScalar::i16},
+        {"int16_t", StoredScalar::i16},
+        {"ushort", StoredScalar::u16},
+        {"unsigned short", StoredScalar::u16},
+        {"unsigned short int", StoredScalar::u16},
+        {"uint16", StoredScalar::u16},
+        {"uint16_t", StoredScalar::u16},
+        {"int", StoredScalar::i32},
+        {"signed int", StoredScalar::i32},
+        {"int32", StoredScalar::i32},
+        {"int32_t", StoredScalar::i32},
+        {"uint", StoredScalar::u32},
+        {"unsigned int", StoredScalar::u32},
+        {"uint32", StoredScalar::u32},
+        {"uint32_t", StoredScalar::u32},
+        {"longlong", StoredScalar::i64},
+        {"long long", StoredScalar::i64},
+        {"long long int", StoredScalar::i64},
+        {"signed long long", StoredScalar::i64},
+        {"signed long long int", StoredScalar::i64},
+        {"int64", StoredScalar::i64},
+        {"int64_t", StoredScalar::i64},
+        {"ulonglong", StoredScalar::u64},
+        {"unsigned long long", StoredScalar::u64},
+        {"unsigned long long int", StoredScalar::u64},
+        {"uint64", StoredScalar::u64},
+        {"uint64_t", StoredScalar::u64},
+        {"float", StoredScalar::f32},
+        {"double", StoredScalar::f64}};
     const auto it = names.find(task::lowered(name));
     return it == names.end() ? std::nullopt : std::optional(it->second);
 }
@@ -199,7 +189,7 @@ void requireMillimetres(const Fields &fields, const std::string &name, std::stri
             fields.fail("NRRD " + name + " '" + unit.substr(0, 20) + "' are not supported");
 }
 
-void parseLattice(const Fields &fields, NrrdLayout &layout) {
+void parseLattice(const Fields &fields, VolumeLayout &layout) {
     for (const char *const name : {"space units", "units"})
         if (const auto units = fields.find({name}))
             requireMillimetres(fields, name, *units);
@@ -224,113 +214,30 @@ void parseLattice(const Fields &fields, NrrdLayout &layout) {
             fields.fail("one NRRD space origin expected");
         origin = sign * vectors[0];
     }
-    (void)volume::Lattice::make(layout.size, {origin}, steps); // which says what is wrong
-    if (glm::length(origin) > decoder::farthestMm)
-        fields.fail("the NRRD space origin is farther away than a kilometre");
-    for (const glm::dvec3 &step : steps)
-        if (glm::length(step) < decoder::smallestSpacingMm ||
-            glm::length(step) > decoder::largestSpacingMm)
-            fields.fail("the NRRD samples are closer than a nanometre or farther apart than ten "
-                        "metres");
     layout.originMm = origin;
     layout.stepsMm = steps;
     layout.isOfPatient = space.isOfPatient;
+    requireLattice(layout);
 }
-
-constexpr std::size_t partBytes = 1 << 20;
-
-void swapEach(std::span<std::byte> bytes, int bytesEach) {
-    for (std::size_t at = 0; at < bytes.size(); at += std::size_t(bytesEach))
-        std::reverse(bytes.begin() + std::ptrdiff_t(at),
-                     bytes.begin() + std::ptrdiff_t(at) + bytesEach);
-}
-
-// One member of a gzip file after the other, as tools append them.
-class Inflated {
-public:
-    explicit Inflated(std::span<const std::byte> deflated) : m_rest(deflated) {
-        constexpr int largestWindow = 15, ofGzip = 16;
-        if (inflateInit2(&m_stream, largestWindow + ofGzip) != Z_OK)
-            throw std::bad_alloc();
-    }
-    ~Inflated() { inflateEnd(&m_stream); }
-    Inflated(const Inflated &) = delete;
-    Inflated &operator=(const Inflated &) = delete;
-
-    void read(std::span<std::byte> out) {
-        m_stream.next_out = reinterpret_cast<Bytef *>(out.data());
-        m_stream.avail_out = uInt(out.size());
-        while (m_stream.avail_out > 0)
-            inflateMore();
-    }
-
-    // All that was wanted is there: what follows is read as far as the sum of a gzip member, which
-    // tells whether its bytes are those that were deflated. True if there is more instead.
-    bool goesOn() {
-        std::byte beyond{};
-        m_stream.next_out = reinterpret_cast<Bytef *>(&beyond);
-        m_stream.avail_out = 1;
-        while (!m_isAtEnd && m_stream.avail_out > 0)
-            inflateMore();
-        if (m_stream.avail_out == 0)
-            return true;
-        // Another member, or padding of whoever stored it.
-        return m_stream.avail_in > 1 && m_stream.next_in[0] == 0x1F && m_stream.next_in[1] == 0x8B;
-    }
-
-private:
-    static constexpr std::size_t largestInput = 1U << 30;
-
-    void inflateMore() {
-        if (m_isAtEnd)
-            inflateReset(&m_stream);
-        if (m_stream.avail_in == 0) {
-            const auto next = m_rest.first(std::min(m_rest.size(), largestInput));
-            m_stream.next_in = const_cast<Bytef *>(reinterpret_cast<const Bytef *>(next.data()));
-            m_stream.avail_in = uInt(next.size());
-            m_rest = m_rest.subspan(next.size());
-        }
-        const int status = inflate(&m_stream, Z_NO_FLUSH);
-        if (status == Z_MEM_ERROR)
-            throw std::bad_alloc();
-        // Without any input left there is no progress, which is an error, too.
-        if (status != Z_OK && status != Z_STREAM_END)
-            throw Error(ErrorCode::unusable, "the compressed data are damaged or truncated");
-        m_isAtEnd = status == Z_STREAM_END;
-    }
-
-    bool m_isAtEnd = false; ///< of a member
-    std::span<const std::byte> m_rest;
-    z_stream m_stream{};
-};
 
 } // namespace
 
-NrrdLayout parseNrrd(std::span<const std::byte> file) {
+VolumeLayout parseNrrd(std::span<const std::byte> file) {
     const Header header = readHeader(file);
     const Fields fields(header);
     if (fields.numbers<int>(fields.get({"dimension"}), 1)[0] != 3)
         fields.fail("only three-dimensional NRRD volumes are supported");
+    VolumeLayout layout;
     const auto sizes = fields.numbers<long long>(fields.get({"sizes"}), 3);
-    std::uint64_t count = 1;
-    for (const long long n : sizes) {
-        if (n < 1 || n > std::numeric_limits<int>::max() / 4)
-            fields.fail("NRRD size out of range");
-        // Divided, not multiplied: the product of three sizes may wrap.
-        if (std::uint64_t(n) > std::uint64_t(volume::mostSamples) / count)
-            fields.fail("the NRRD volume is too large");
-        count *= std::uint64_t(n);
-    }
-    NrrdLayout layout;
-    layout.size = {int(sizes[0]), int(sizes[1]), int(sizes[2])};
+    layout.size = gridSize({sizes[0], sizes[1], sizes[2]});
     const std::string typeName = fields.get({"type"});
     const auto scalar = scalarOf(typeName);
     if (!scalar)
         fields.fail("NRRD type '" + typeName + "' is not supported");
     layout.scalar = *scalar;
     const std::string encoding = task::lowered(fields.get({"encoding"}));
-    layout.isGzip = encoding == "gzip" || encoding == "gz";
-    if (!layout.isGzip && encoding != "raw")
+    layout.isDeflated = encoding == "gzip" || encoding == "gz";
+    if (!layout.isDeflated && encoding != "raw")
         fields.fail("NRRD encoding '" + encoding + "' is not supported");
     if (decoder::bytesOf(*scalar) > 1) {
         const std::string endian = task::lowered(fields.get({"endian"}));
@@ -348,36 +255,10 @@ NrrdLayout parseNrrd(std::span<const std::byte> file) {
     } else if (!header.hasEnd) {
         fields.fail("is truncated");
     }
+    if (layout.dataFile.empty())
+        layout.at = header.bytes;
     parseLattice(fields, layout);
     return layout;
-}
-
-void readNrrdSamples(std::span<const std::byte> file, const NrrdSamples &samples,
-                     const std::function<void(std::span<const std::byte>, bool goesOn)> &take) {
-    if (samples.bytesEach < 1 || samples.bytesEach > 8 ||
-        partBytes % std::size_t(samples.bytesEach) != 0 ||
-        samples.bytes % std::uint64_t(samples.bytesEach) != 0)
-        throw Error(ErrorCode::usage, "is asked for in a way that the decoder does not know");
-    auto stored = file.subspan(samples.isBehindHeader ? readHeader(file).bytes : 0);
-    if (!samples.isGzip && stored.size() < samples.bytes)
-        throw Error(ErrorCode::unusable, "is truncated");
-    std::optional<Inflated> inflated;
-    if (samples.isGzip)
-        inflated.emplace(stored);
-    std::vector<std::byte> buffer(partBytes);
-    for (std::uint64_t done = 0; done < samples.bytes; done += buffer.size()) {
-        buffer.resize(std::min<std::uint64_t>(partBytes, samples.bytes - done));
-        if (inflated)
-            inflated->read(buffer);
-        else
-            std::memcpy(buffer.data(), stored.data() + done, buffer.size());
-        if (samples.isSwapped)
-            swapEach(buffer, samples.bytesEach);
-        const bool isLast = done + buffer.size() == samples.bytes;
-        take(buffer, isLast && (inflated ? inflated->goesOn()
-                                         : stored.size() >=
-                                               samples.bytes + std::uint64_t(samples.bytesEach)));
-    }
 }
 
 } // namespace pellucid::parse

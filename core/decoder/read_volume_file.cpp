@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/decoder/read_volume_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/decoder/decoder.h"
+#include "core/task/error.h"
+#include "core/task/memory.h"
+#include "core/volume/volume_file.h"
+
+namespace pellucid::decoder {
+
+namespace {
+
+namespace fs = std::filesystem;
+using task::Error;
+using task::ErrorCode;
+using volume::Lattice;
+using volume::Volume;
+using volume::VolumeNotes;
+
+// Of a file beside the header or below: one that names others is after something else.
+fs::path detachedData(const fs::path &header, const std::string &name) {
+    const fs::path relative = fs::path(name).lexically_normal();
+    if (name.find('\0') != std::string::npos || relative.is_absolute() || relative.empty() ||
+        *relative.begin() == "..")
+        throw Error(ErrorCode::unusable, "lists a file outside its folder", header);
+    const fs::path data = header.parent_path() / relative;
+    // A link leads elsewhere, too.
+    std::error_code unknown;
+    const fs::path folder = fs::weakly_canonical(
+        header.parent_path().empty() ? fs::path(".") : header.parent_path(), unknown);
+    const fs::path meant = fs::weakly_canonical(data, unknown).lexically_relative(folder);
+    if (unknown || meant.empty() || *meant.begin() == "..")
+        throw Error(ErrorCode::unusable, "lists a file outside its folder", header);
+    return data;
+}
+
+struct OpenVolume {
+    VolumeLayout layout;
+    VolumeFileHeader header;
+};
+
+OpenVolume open(const fs::path &path, const task::Progress &progress) {
+    OpenVolume file{Decoder::ofProgram().layout(path, progress), {}};
+    const VolumeLayout &layout = file.layout;
+    try {
+        file.header.lattice = Lattice::make(layout.size, {layout.originMm}, layout.stepsMm);
+    } catch (const Error &error) {
+        throw Error(error.code(), error.reason(), path);
+    }
+    file.header.volumes = layout.volumes;
+    const std::string name = path.filename().string();
+    file.header.notes.title = name.substr(0, name.size() - volume::volumeSuffix(path).size());
+    if (!layout.isOfPatient)
+        file.header.notes.warnings.emplace_back(
+            "names no space of the patient; taken for left-posterior-superior");
+    file.header.samplesFile = layout.dataFile.empty() ? path : detachedData(path, layout.dataFile);
+    return file;
+}
+
+// Before memory is asked for: a file cannot hold more than its bytes, deflated ones 1032 times
+// that (RFC 1951).
+void checkSize(const fs::path &path, const SampleRange &samples) {
+    std::error_code unknown;
+    const std::uint64_t there = fs::file_size(path, unknown);
+    const std::uint64_t wanted = samples.bytes + samples.skip;
+    const bool fits = samples.isDeflated ? wanted / 1032 <= there : wanted + samples.at <= there;
+    if (!unknown && !fits)
+        throw Error(ErrorCode::unusable,
+                    samples.isDeflated ? "the compressed data are damaged or truncated"
+                                       : "is truncated",
+                    path);
+}
+
+// Values of samples that are stored as type Stored, appended part by part.
+template <class Stored> class Values {
+public:
+    // What fits 16 bits stays so; of the unsigned ones that is known at the end.
+    using Kept = std::conditional_t<
+        sizeof(Stored) == 1 || std::is_same_v<Stored, std::int16_t>, std::int16_t,
+        std::conditional_t<std::is_same_v<Stored, std::uint16_t>, std::uint16_t, float>>;
+
+    explicit Values(std::size_t count) : m_values(count) {}
+
+    void add(std::span<const std::byte> part) {
+        for (std::size_t at = 0; at < part.size(); at += sizeof(Stored)) {
+            Stored value;
+            std::memcpy(&value, part.data() + at, sizeof(Stored));
+            if constexpr (std::is_same_v<Kept, float>)
+                narrow(double(value));
+            else
+                m_values[m_next++] = Kept(value);
+        }
+    }
+    Volume volume(const Lattice &lattice, VolumeNotes notes) {
+        const auto made = [&](auto values) {
+            return Volume(lattice, std::move(values), volume::ValueUnit::none, std::move(notes));
+        };
+        if constexpr (std::is_same_v<Kept, std::uint16_t>) {
+            for (const std::uint16_t value : m_values)
+                if (value > std::numeric_limits<std::int16_t>::max())
+                    return made(std::vector<float>(m_values.begin(), m_values.end()));
+            return made(std::vector<std::int16_t>(m_values.begin(), m_values.end()));
+        } else {
+            requireToldApart();
+            return made(std::move(m_values));
+        }
+    }
+
+    std::size_t notFinite = 0; ///< of the samples
+
+protected:
+    void narrow(double value) {
+        const auto kept = float(value);
+        if (std::isfinite(kept)) {
+            m_lost = std::max(m_lost, std::abs(value - double(kept)));
+            m_least = std::min(m_least, value);
+            m_most = std::max(m_most, value);
+        } else {
+            ++notFinite;
+        }
+        m_values[m_next++] = Kept(kept);
+    }
+
+    std::vector<Kept> m_values;
+
+private:
+    // Large values that differ by little would be other ones, and no window would show it.
+    void requireToldApart() const {
+        constexpr double mostLost = 1e-5; // of the range, a hundredth of the usual tolerance
+        if (m_most > m_least && m_lost > mostLost * (m_most - m_least))
+            throw Error(
+                ErrorCode::unusable,
+                fmt::format("its values, from {:.9g} to {:.9g}, differ by less than 24 bits "
+                            "can tell",
+                            m_least, m_most));
+    }
+
+    std::size_t m_next = 0;
+    double m_lost = 0.0, m_least = std::numeric_limits<double>::infinity(), m_most = -m_least;
+};
+
+// The same, rescaled.
+template <class Stored> class RescaledValues : public Values<double> {
+public:
+    RescaledValues(std::size_t count, double slope, double intercept)
+        : Values<double>(count), m_slope(slope), m_intercept(intercept) {}
+
+    void add(std::span<const std::byte> part) {
+        for (std::size_t at = 0; at < part.size(); at += sizeof(Stored)) {
+            Stored value;
+            std::memcpy(&value, part.data() + at, sizeof(Stored));
+            narrow(m_slope * double(value) + m_intercept);
+        }
+    }
+    // Hounsfield units, as a rule: whole numbers of 16 bits.
+    Volume volume(const Lattice &lattice, VolumeNotes notes) {
+        const bool areShort = std::is_integral_v<Stored> &&
+                              std::all_of(m_values.begin(), m_values.end(), [](float v) {
+                                  return std::abs(v) <= std::numeric_limits<std::int16_t>::max() &&
+                                         v == std::round(v);
+                              });
+        if (!areShort)
+            return Values<double>::volume(lattice, std::move(notes));
+        return Volume(lattice, std::vector<std::int16_t>(m_values.begin(), m_values.end()),
+                      volume::ValueUnit::none, std::move(notes));
+    }
+
+private:
+    double m_slope, m_intercept;
+};
+
+template <class Stored, class Taken>
+Volume taken(const OpenVolume &file, int which, Taken values, const task::Progress &progress) {
+    const VolumeLayout &layout = file.layout;
+    SampleRange samples{file.header.lattice.size().count() * sizeof(Stored),
+                        sizeof(Stored),
+                        layout.isDeflated,
+                        layout.isSwapped,
+                        layout.at,
+                        layout.skip};
+    samples.skip += std::uint64_t(which) * samples.bytes;
+    checkSize(file.header.samplesFile, samples);
+    std::uint64_t done = 0;
+    const bool hasMore = Decoder::ofProgram().samples(
+        file.header.samplesFile, samples,
+        [&](std::span<const std::byte> part) {
+            values.add(part);
+            done += part.size();
+            progress.report(double(done) / double(samples.bytes));
+        },
+        progress);
+    VolumeNotes notes = file.header.notes;
+    if (hasMore && which == layout.volumes - 1)
+        notes.warnings.emplace_back("holds more samples than its header says");
+    if (values.notFinite > 0)
+        notes.warnings.push_back(
+            fmt::format("samples that are no finite numbers: {}", values.notFinite));
+    return values.volume(file.header.lattice, std::move(notes));
+}
+
+template <class Stored>
+Volume read(const OpenVolume &file, int which, const task::Progress &progress) {
+    const VolumeLayout &layout = file.layout;
+    const std::size_t count = file.header.lattice.size().count();
+    using Kept = typename Values<Stored>::Kept;
+    const bool isRescaled = layout.slope != 1.0 || layout.intercept != 0.0;
+    // Values that may turn out to be of 16 bits are there twice, at the end.
+    const double bytesEach = isRescaled
+                                 ? sizeof(float) + 2.0
+                                 : sizeof(Kept) + (std::is_same_v<Kept, std::uint16_t> ? 4.0 : 0.0);
+    task::requireMemory(double(count) * bytesEach);
+    if (isRescaled)
+        return taken<Stored>(
+            file, which, RescaledValues<Stored>(count, layout.slope, layout.intercept), progress);
+    return taken<Stored>(file, which, Values<Stored>(count), progress);
+}
+
+Volume read(const OpenVolume &file, int which, const task::Progress &progress) {
+    switch (file.layout.scalar) {
+    case StoredScalar::i8:
+        return read<std::int8_t>(file, which, progress);
+    case StoredScalar::u8:
+        return read<std::uint8_t>(file, which, progress);
+    case StoredScalar::i16:
+        return read<std::int16_t>(file, which, progress);
+    case StoredScalar::u16:
+        return read<std::uint16_t>(file, which, progress);
+    case StoredScalar::i32:
+        return read<std::int32_t>(file, which, progress);
+    case StoredScalar::u32:
+        return read<std::uint32_t>(file, which, progress);
+    case StoredScalar::i64:
+        return read<std::int64_t>(file, which, progress);
+    case StoredScalar::u64:
+        return read<std::uint64_t>(file, which, progress);
+    case StoredScalar::f32:
+        return read<float>(file, which, progress);
+    case StoredScalar::f64:
+        break;
+    }
+    return read<double>(file, which, progress);
+}
+
+} // namespace
+
+VolumeFileHeader readVolumeFileHeader(const fs::path &path, const task::Progress &progress) {
+    return open(path, progress).header;
+}
+
+Volume readVolumeFile(const fs::path &path, const task::Progress &progress, int volume) {
+    // Header and samples are read one after the other, perhaps from two files.
+    const auto stateOf = [](const fs::path &file) {
+        std::error_code unknown;
+        return std::pair(fs::last_write_time(file, unknown), fs::file_size(file, unknown));
+    };
+    const auto before = stateOf(path);
+    const OpenVolume file = open(path, progress);
+    const fs::path &samples = file.header.samplesFile;
+    const auto samplesBefore = stateOf(samples);
+    try {
+        if (volume < 0 || volume >= file.layout.volumes)
+            throw Error(ErrorCode::unusable, "holds fewer volumes than before");
+        Volume read = decoder::read(file, volume, progress);
+        if (stateOf(path) != before || stateOf(samples) != samplesBefore)
+            throw Error(ErrorCode::unusable, "changed while it was read");
+        return read;
+    } catch (const std::bad_alloc &) {
+        throw Error(ErrorCode::outOfMemory, "not enough memory for the volume", path);
+    } catch (const Error &error) {
+        if (!error.path().empty())
+            throw;
+        throw Error(error.code(), error.reason(), path);
+    }
+}
+
+} // namespace pellucid::decoder

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace pellucid::parse {
+
+/// What the header of a JPEG or JPEG-LS frame says (ISO/IEC 10918-1, B.2.2; 14495-1, C.2.2).
+struct JpegFrame {
+    int rows = 0; ///< 0: it follows the first scan
+    int columns = 0, components = 0, precision = 0;
+    int process = 0; ///< the low byte of the marker: 0xC0 baseline, 0xC3 lossless, 0xF7 JPEG-LS ...
+};
+
+/// Nothing if there is no such header.
+std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame);
+
+/// Why a run-length frame does not give exactly rows x columns samples of so many bytes (PS3.5,
+/// annex G), or nothing if it does.
+std::optional<std::string> whyIncompleteRle(std::span<const std::byte> frame, int rows, int columns,
+                                            int bytesEach);
+
+} // namespace pellucid::parse

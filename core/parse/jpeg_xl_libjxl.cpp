@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parse/jpeg_xl.h"
+
+#include <cmath>
+#include <memory>
+#include <new>
+#include <string>
+
+#include <jxl/decode.h>
+
+#include "core/task/error.h"
+
+namespace pellucid::parse {
+
+namespace {
+
+[[noreturn]] void fail(const char *why) {
+    throw task::Error(task::ErrorCode::unusable, std::string("JPEG XL: ") + why);
+}
+
+struct Destroy {
+    void operator()(JxlDecoder *decoder) const { JxlDecoderDestroy(decoder); }
+};
+
+} // namespace
+
+JpegXlImage decodeJpegXl(std::span<const std::byte> data, int expectedRows, int expectedColumns) {
+    const std::unique_ptr<JxlDecoder, Destroy> decoder(JxlDecoderCreate(nullptr));
+    if (!decoder)
+        throw std::bad_alloc();
+    const auto must = [](JxlDecoderStatus status) {
+        if (status != JXL_DEC_SUCCESS)
+            fail("the decoder cannot be set up");
+    };
+    must(JxlDecoderSubscribeEvents(decoder.get(), JXL_DEC_BASIC_INFO | JXL_DEC_FULL_IMAGE));
+    // Turning is the viewer's, as for all other syntaxes.
+    must(JxlDecoderSetKeepOrientation(decoder.get(), JXL_TRUE));
+    must(JxlDecoderSetInput(decoder.get(), reinterpret_cast<const std::uint8_t *>(data.data()),
+                            data.size()));
+    JxlDecoderCloseInput(decoder.get());
+    const JxlPixelFormat format{1, JXL_TYPE_UINT16, JXL_NATIVE_ENDIAN, 0};
+    JpegXlImage image;
+    for (;;) {
+        switch (JxlDecoderProcessInput(decoder.get())) {
+        case JXL_DEC_BASIC_INFO: {
+            // The sizes are checked before the decoder asks for memory.
+            JxlBasicInfo info{};
+            must(JxlDecoderGetBasicInfo(decoder.get(), &info));
+            if (info.xsize != std::uint32_t(expectedColumns) ||
+                info.ysize != std::uint32_t(expectedRows) || info.num_color_channels != 1 ||
+                info.num_extra_channels != 0 || info.have_animation == JXL_TRUE ||
+                info.bits_per_sample < 1 || info.bits_per_sample > 16 ||
+                info.exponent_bits_per_sample != 0)
+                fail("the image is not what the header says");
+            image.precision = int(info.bits_per_sample);
+            break;
+        }
+        case JXL_DEC_NEED_IMAGE_OUT_BUFFER:
+            image.samples.resize(std::size_t(expectedRows) * std::size_t(expectedColumns));
+            must(JxlDecoderSetImageOutBuffer(decoder.get(), &format, image.samples.data(),
+                                             image.samples.size() * sizeof(std::uint16_t)));
+            break;
+        case JXL_DEC_FULL_IMAGE:
+            break;
+        case JXL_DEC_SUCCESS: {
+            if (image.samples.empty())
+                fail("holds no image");
+            // Integers come scaled to 16 bits.
+            const double top = std::exp2(image.precision) - 1.0;
+            if (image.precision < 16)
+                for (std::uint16_t &sample : image.samples)
+                    sample = std::uint16_t(std::lround(sample * (top / 65535.0)));
+            return image;
+        }
+        default:
+            fail("damaged or truncated");
+        }
+    }
+}
+
+} // namespace pellucid::parse

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/parse/mosaic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+
+#include <glm/geometric.hpp>
+
+namespace pellucid::parse {
+
+namespace {
+
+// Siemens' private header: named values, each a list of texts, little endian. Version 2 begins with
+// "SV10"; in version 1 the lengths of values are counted from that of the first.
+class CsaHeader {
+public:
+    explicit CsaHeader(std::span<const Uint8> bytes) : m_bytes(bytes) {}
+
+    std::vector<double> numbers(std::string_view name) const {
+        const bool isVersion2 = m_bytes.size() > 8 && std::memcmp(m_bytes.data(), "SV10", 4) == 0;
+        std::size_t at = isVersion2 ? 8 : 0;
+        const std::int64_t tags = integer(at);
+        at += 8;
+        constexpr std::int64_t mostTags = 1000, mostItems = 10000;
+        std::int64_t counted = 0;
+        for (std::int64_t tag = 0; tag < std::min(tags, mostTags) && at + 84 <= m_bytes.size();
+             ++tag) {
+            const auto *const text = reinterpret_cast<const char *>(m_bytes.data() + at);
+            const std::string_view found(text, ::strnlen(text, 64));
+            const std::int64_t items = integer(at + 76);
+            at += 84;
+            std::vector<double> values;
+            for (std::int64_t item = 0; item < std::min(items, mostItems); ++item) {
+                if (at + 16 > m_bytes.size())
+                    return {};
+                std::int64_t bytes = isVersion2 ? integer(at + 4) : integer(at);
+                if (!isVersion2) {
+                    if (tag == 0 && item == 0)
+                        counted = bytes;
+                    bytes -= counted;
+                }
+                at += 16;
+                if (bytes < 0 || std::size_t(bytes) > m_bytes.size() - at)
+                    return {};
+                if (found == name && bytes > 0) {
+                    const std::string value(reinterpret_cast<const char *>(m_bytes.data() + at),
+                                            std::size_t(bytes));
+                    values.push_back(std::strtod(value.c_str(), nullptr));
+                }
+                at += std::size_t(bytes + 3) / 4 * 4;
+            }
+            if (found == name)
+                return values;
+        }
+        return {};
+    }
+
+private:
+    std::int64_t integer(std::size_t at) const {
+        std::int32_t value = 0;
+        if (at + sizeof(value) <= m_bytes.size())
+            std::memcpy(&value, m_bytes.data() + at, sizeof(value));
+        return value;
+    }
+
+    std::span<const Uint8> m_bytes;
+};
+
+CsaHeader csaHeaderOf(DcmItem &dataset) {
+    const Uint8 *data = nullptr;
+    unsigned long count = 0;
+    if (dataset.findAndGetUint8Array(DcmTagKey(0x0029, 0x1010), data, &count).bad() ||
+        data == nullptr)
+        return CsaHeader({});
+    return CsaHeader({data, count});
+}
+
+} // namespace
+
+std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &header) {
+    if (header.frames.size() != 1 || header.frames[0].imageType.find("MOSAIC") == std::string::npos)
+        return std::nullopt;
+    const CsaHeader csa = csaHeaderOf(dataset);
+    Mosaic mosaic;
+    Uint16 count = 0;
+    if (dataset.findAndGetUint16(DcmTagKey(0x0019, 0x100A), count).good())
+        mosaic.slices = count;
+    else if (const auto numbers = csa.numbers("NumberOfImagesInMosaic"); !numbers.empty())
+        mosaic.slices = int(std::clamp(numbers[0], 0.0, 65535.0));
+    mosaic.side = int(std::ceil(std::sqrt(double(mosaic.slices))));
+    constexpr int largestSide = 100;
+    if (mosaic.slices < 1 || mosaic.side > largestSide || header.rows < mosaic.side ||
+        header.columns < mosaic.side || header.rows % mosaic.side != 0 ||
+        header.columns % mosaic.side != 0)
+        return std::nullopt;
+    const decoder::FrameHeader &frame = header.frames[0];
+    if (const auto n = csa.numbers("SliceNormalVector"); n.size() == 3)
+        mosaic.normal = {n[0], n[1], n[2]};
+    else if (frame.rowAxis && frame.columnAxis)
+        mosaic.normal = glm::cross(*frame.rowAxis, *frame.columnAxis);
+    if (const double length = glm::length(mosaic.normal); std::abs(length - 1.0) < 0.05)
+        mosaic.normal /= length;
+    else
+        mosaic.normal = glm::dvec3(0.0);
+    return mosaic;
+}
+
+void takeApart(decoder::InstanceHeader &header, const Mosaic &mosaic) {
+    const int rows = header.rows / mosaic.side, columns = header.columns / mosaic.side;
+    decoder::FrameHeader first = header.frames[0];
+    if (first.positionMm && first.rowAxis && first.columnAxis && first.spacingMm)
+        *first.positionMm +=
+            *first.rowAxis * (first.spacingMm->x * 0.5 * (header.columns - columns)) +
+            *first.columnAxis * (first.spacingMm->y * 0.5 * (header.rows - rows));
+    if (mosaic.normal == glm::dvec3(0.0) || first.sliceThicknessMm <= 0.0)
+        first.positionMm.reset();
+    header.frames.assign(std::size_t(mosaic.slices), first);
+    if (first.positionMm)
+        for (int n = 0; n < mosaic.slices; ++n)
+            *header.frames[std::size_t(n)].positionMm +=
+                double(n) * first.sliceThicknessMm * mosaic.normal;
+    header.mosaicSide = mosaic.side;
+    header.announcedFrames = mosaic.slices;
+    header.rows = rows;
+    header.columns = columns;
+}
+
+std::vector<std::uint16_t> tilesOf(std::span<const std::uint16_t> image, const Mosaic &mosaic,
+                                   int rows, int columns) {
+    const std::size_t plane = std::size_t(rows) * std::size_t(columns),
+                      width = std::size_t(columns) * std::size_t(mosaic.side);
+    std::vector<std::uint16_t> tiles(plane * std::size_t(mosaic.slices));
+    for (int n = 0; n < mosaic.slices; ++n)
+        for (int row = 0; row < rows; ++row)
+            std::copy_n(image.begin() +
+                            std::ptrdiff_t(std::size_t(n / mosaic.side * rows + row) * width +
+                                           std::size_t(n % mosaic.side) * std::size_t(columns)),
+                        columns,
+                        tiles.begin() + std::ptrdiff_t(std::size_t(n) * plane +
+                                                       std::size_t(row) * std::size_t(columns)));
+    return tiles;
+}
+
+} // namespace pellucid::parse

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "core/decoder/instance.h"
+#include "core/parse/parse.h"
+#include "core/parse/volume_formats.h"
+#include "core/task/error.h"
+
+namespace pellucid::parse {
+
+namespace {
+
+using task::Error;
+using task::ErrorCode;
+
+bool begins(std::span<const std::byte> file, std::string_view with) {
+    return file.size() >= with.size() && std::memcmp(file.data(), with.data(), with.size()) == 0;
+}
+
+} // namespace
+
+std::string trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t\r\n");
+    if (first == text.npos)
+        return {};
+    return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
+}
+
+volume::GridSize gridSize(const std::array<long long, 3> &sizes) {
+    std::uint64_t count = 1;
+    for (const long long n : sizes) {
+        if (n < 1 || n > std::numeric_limits<int>::max() / 4)
+            throw Error(ErrorCode::unusable, "the size of the volume is out of range");
+        // Divided, not multiplied: the product of three sizes may wrap.
+        if (std::uint64_t(n) > std::uint64_t(volume::mostSamples) / count)
+            throw Error(ErrorCode::unusable, "the volume is too large");
+        count *= std::uint64_t(n);
+    }
+    return {int(sizes[0]), int(sizes[1]), int(sizes[2])};
+}
+
+void requireLattice(const VolumeLayout &layout) {
+    // Which says what is wrong.
+    (void)volume::Lattice::make(layout.size, {layout.originMm}, layout.stepsMm);
+    if (glm::length(layout.originMm) > decoder::farthestMm)
+        throw Error(ErrorCode::unusable, "the origin is farther away than a kilometre");
+    for (const glm::dvec3 &step : layout.stepsMm)
+        if (glm::length(step) < decoder::smallestSpacingMm ||
+            glm::length(step) > decoder::largestSpacingMm)
+            throw Error(ErrorCode::unusable, "the samples are closer than a nanometre or farther "
+                                             "apart than ten metres");
+}
+
+VolumeLayout parseVolumeLayout(std::span<const std::byte> file) {
+    if (begins(file, "NRRD000"))
+        return parseNrrd(file);
+    if (begins(file, "\x1F\x8B")) {
+        const auto start = inflatedStart(file, niftiHeaderBytes);
+        if (looksLikeNifti(start))
+            return parseNifti(start, true);
+    } else if (looksLikeNifti(file)) {
+        return parseNifti(file, false);
+    } else if (begins(file, "ObjectType") || begins(file, "NDims") || begins(file, "Comment")) {
+        return parseMetaImage(file);
+    }
+    throw Error(ErrorCode::unusable, "is not a NRRD, NIfTI or MetaImage file");
+}
+
+} // namespace pellucid::parse
