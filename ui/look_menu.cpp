@@ -86,6 +86,7 @@ void LookMenu::addReconstructions(QMenu &menu) {
     };
     addOne(tr("&Cubic"), "cubicAction", Reconstruction::cubic);
     addOne(tr("&Linear"), "linearAction", Reconstruction::linear);
+    addOne(tr("S&pline"), "splineAction", Reconstruction::spline);
     addOne(tr("&Sharp (band-limited)"), "bandLimitedAction", Reconstruction::bandLimited);
 }
 

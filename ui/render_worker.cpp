@@ -32,9 +32,11 @@ RenderWorker::~RenderWorker() {
 }
 
 void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
-                             std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation) {
+                             std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation,
+                             std::shared_ptr<const render::ViewErrorModel> viewError) {
     const std::lock_guard lock(m_mutex);
     m_engine = std::move(engine);
+    m_viewError = std::move(viewError);
     m_onCard = std::move(onCard);
     m_generation = generation;
     m_next.reset();
@@ -52,8 +54,8 @@ std::uint64_t RenderWorker::request(const render::Camera &camera,
     const std::lock_guard lock(m_mutex);
     if (!m_engine)
         return m_number;
-    m_next = Request{m_engine, m_onCard,  m_generation, camera,   image,
-                     shading,  reduction, wantsTone,    compared, ++m_number};
+    m_next = Request{m_engine,  m_onCard,  m_generation, camera,     image,      shading,
+                     reduction, wantsTone, compared,     ++m_number, m_viewError};
     m_wake.notify_one();
     return m_number;
 }
@@ -212,6 +214,11 @@ void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
         request.engine->render(request.camera, request.image, request.shading, &frame.times);
     if (request.wantsTone)
         frame.automaticTone = render::toneRange(frame.image, {});
+    // Not while the picture moves: nobody reads figures then.
+    if (request.viewError && !frame.draft)
+        frame.error =
+            request.viewError->relativeError(frame.image, request.camera, request.image,
+                                             request.engine->parts().shares, request.shading);
 }
 
 } // namespace pellucid::ui

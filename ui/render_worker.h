@@ -13,6 +13,7 @@
 #include <QObject>
 
 #include "core/render/compose.h"
+#include "core/render/view_error.h"
 #include "gpu/gpu_engine.h"
 
 namespace pellucid::ui {
@@ -31,6 +32,8 @@ struct RenderedFrame {
     /// The same view of what it is compared with, if that was asked for.
     std::optional<render::ProjectionImage> compared;
     render::FrameTimes times;
+    /// Predicted of this picture, where that is known.
+    std::optional<double> error;
     std::uint64_t number = 0; ///< of the request it answers
     bool draft = false;
 };
@@ -45,8 +48,10 @@ public:
 
     /// `onCard`: its twin, or none, which is used until it fails. `generation`: what its frames
     /// will carry.
+    /// `viewError`: tells the error of its pictures, or none.
     void setEngine(std::shared_ptr<render::ProjectionEngine> engine,
-                   std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation);
+                   std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation,
+                   std::shared_ptr<const render::ViewErrorModel> viewError = nullptr);
     /// How a frame is made smaller than it is shown.
     struct Reduction {
         bool draft = false; ///< half the pixels a side: the central part of the same spectrum
@@ -89,6 +94,7 @@ private:
         bool wantsTone;
         std::optional<Compared> compared;
         std::uint64_t number;
+        std::shared_ptr<const render::ViewErrorModel> viewError;
     };
     /// What became of a frame on the card.
     struct CardFrame {
@@ -108,6 +114,7 @@ private:
 
     std::shared_ptr<render::ProjectionEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
+    std::shared_ptr<const render::ViewErrorModel> m_viewError;
     std::uint64_t m_generation = 0;
     std::mutex m_mutex;
     std::condition_variable_any m_wake;

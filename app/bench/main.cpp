@@ -51,8 +51,13 @@ pellucid::bench::Subject readSubject(const std::string &path) {
     return subject;
 }
 
+struct Search {
+    double minutes = 1.0;
+    std::uint64_t seed = 1;
+};
+
 void run(const std::string &suite, const pellucid::bench::Report &report,
-         const pellucid::bench::Subject *subject) {
+         const pellucid::bench::Subject *subject, const Search &search) {
     using namespace pellucid::bench;
     if (suite == "quick")
         runQuickSuite(report);
@@ -72,6 +77,8 @@ void run(const std::string &suite, const pellucid::bench::Report &report,
         runGpuSuite(report);
     else if (suite == "classes")
         runClassesSuite(report);
+    else if (suite == "search")
+        runSearchSuite(report, search.minutes, search.seed);
     else
         runTotsukaSuite(report);
 }
@@ -88,7 +95,11 @@ int main(int argc, char **argv) {
     app.add_option("--suite", suites, "What to measure; several with commas between")
         ->delimiter(',')
         ->check(CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka",
-                               "classes", "shading", "planes", "gpu"}));
+                               "classes", "shading", "planes", "gpu", "search"}));
+    Search search;
+    app.add_option("--minutes", search.minutes, "How long --suite search looks")
+        ->check(CLI::Range(0.01, 10000.0));
+    app.add_option("--seed", search.seed, "Where --suite search begins");
     app.add_option("--volume", file,
                    "An NRRD volume in place of the fields of the suites kernels and scaling");
     app.add_option("--json", json, "Write the rows as JSON");
@@ -122,7 +133,7 @@ int main(int argc, char **argv) {
         };
         const bench::Subject *const subject = given ? &*given : nullptr;
         for (const std::string &suite : suites)
-            run(suite, report, subject);
+            run(suite, report, subject, search);
         save(json, bench::jsonText(machine, rows));
         save(csv, bench::csvText(rows));
         if (!reportFolder.empty())

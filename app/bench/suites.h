@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ void runPlanesSuite(const Report &report);
 /// The engine on the graphics card at 128^3 to 512^3 beside the processor's and a ray sum on the
 /// same card. *Throws* Error{noSuchDevice}.
 void runGpuSuite(const Report &report);
+/// A search for fields and views whose error is larger than what was predicted, for so many
+/// minutes; each that is worse than all before is a row.
+void runSearchSuite(const Report &report, double minutes, std::uint64_t seed);
 /// Totsuka and Levoy 1993, table 1, and their adaptive filter.
 void runTotsukaSuite(const Report &report);
 

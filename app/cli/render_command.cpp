@@ -161,6 +161,10 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     }
     if (turn)
         turn->commit();
+    if (renderer.viewError() > scene.tolerance && renderer.predictedError() <= scene.tolerance)
+        warn(fmt::format("the tolerance of {:.2g} is met by pictures of the whole; {:.2g} is "
+                         "predicted for what this one shows",
+                         scene.tolerance, renderer.viewError()));
     if (!o.json)
         return;
     json skipped = json::array();
@@ -196,7 +200,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                   {"plan", renderer.planJson()},
                   {"tolerance", scene.tolerance},
                   {"predicted_error",
-                   {{"relative_l2", renderer.predictedError()},
+                   {{"relative_l2", renderer.viewError()},
                     {"maximum", renderer.predictedMaximum() ? json(*renderer.predictedMaximum())
                                                             : json(nullptr)}}},
                   {"warnings", warnings},

@@ -95,6 +95,8 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
         const render::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
         m_lattice = sources.fields.front().values.lattice();
         m_engine = render::makeEngine(sources, fields.color, plan, m_progress);
+        if (m_fitting.reduction == 1) // else detail is lost, wherever one looks from
+            m_viewModel.emplace(plan, summaries);
         m_fitting.reduced.reset();
         m_bytes = plan.bytes;
         m_predictedError = plan.predictedError;
@@ -137,7 +139,9 @@ void Renderer::use(const CardChoice &card) {
 render::ProjectionImage Renderer::image(const render::Camera &camera, render::FrameTimes &times) {
     if (m_card) {
         try {
-            return m_card->render(camera, m_scene.image, m_scene.shading, &times);
+            auto image = m_card->render(camera, m_scene.image, m_scene.shading, &times);
+            judge(image, camera);
+            return image;
         } catch (const task::Error &error) {
             // The card is gone, or too small for this image: the processor goes on, unless the
             // card was asked for.
@@ -148,12 +152,28 @@ render::ProjectionImage Renderer::image(const render::Camera &camera, render::Fr
             m_predictedError = m_fitting.plan.predictedError;
         }
     }
-    if (m_engine)
-        return m_engine->render(camera, m_scene.image, m_scene.shading, &times);
+    if (m_engine) {
+        auto image = m_engine->render(camera, m_scene.image, m_scene.shading, &times);
+        judge(image, camera);
+        return image;
+    }
     Stopwatch watch;
     render::ProjectionImage image = exactImage(camera);
     times = {watch.lapMs(), 0.0};
     return image;
+}
+
+void Renderer::judge(const render::ProjectionImage &image, const render::Camera &camera) {
+    if (!m_viewModel)
+        return;
+    const render::EngineParts parts = m_engine->parts();
+    // What the card's own filter adds, it adds to every view.
+    const double bound = m_fitting.plan.predictedError,
+                 added = std::max(0.0, m_predictedError * m_predictedError - bound * bound);
+    const double error = std::hypot(
+        m_viewModel->relativeError(image, camera, m_scene.image, parts.shares, m_scene.shading),
+        std::sqrt(added));
+    m_viewError = std::max(m_viewError.value_or(0.0), error);
 }
 
 render::ProjectionImage Renderer::exactImage(const render::Camera &camera) const {
@@ -204,6 +224,7 @@ json Renderer::planJson() const {
             {"padding", double(s.padded.i) / s.box.size().i},
             {"slice_grid", {grid.columns, grid.rows}},
             {"storage", fourier::storageName(s.storage)},
+            {"predicted_error", plan.predictedError},
             {"reason", plan.reason}};
 }
 

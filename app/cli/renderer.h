@@ -12,6 +12,7 @@
 #include "core/classify/shown_fields.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/prepared_engine.h"
+#include "core/render/view_error.h"
 #include "gpu/gpu_engine.h"
 
 namespace pellucid::cli {
@@ -55,8 +56,11 @@ public:
     std::size_t bytes() const { return m_bytes; }
     bool isReduced() const { return m_fitting.reduction > 1; }
     const std::string &reason() const { return m_fitting.plan.reason; }
-    /// The worst channel's: the picture's, all channels taken together, is no larger.
+    /// Of every view of the whole, at most: the worst channel's; the picture's, all channels taken
+    /// together, is no larger.
     double predictedError() const { return m_predictedError; }
+    /// Of the pictures made so far, as they are seen and cropped: the largest.
+    double viewError() const { return m_viewError.value_or(m_predictedError); }
     /// Of the engine only: the reference's lies below what a float image holds.
     std::optional<double> predictedMaximum() const;
 
@@ -68,6 +72,7 @@ private:
              const render::ShadedFields &shaded, const std::vector<render::FieldSummary> &summaries,
              const render::Budget &budget, const Context &context);
     render::ProjectionImage exactImage(const render::Camera &camera) const;
+    void judge(const render::ProjectionImage &image, const render::Camera &camera);
 
     const render::Scene &m_scene;
     const classify::ShownFields &m_fields;
@@ -77,6 +82,8 @@ private:
     render::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of what is rendered
     double m_predictedError = 0.0;
+    std::optional<double> m_viewError;
+    std::optional<render::ViewErrorModel> m_viewModel; ///< of the engine
     std::shared_ptr<render::CpuEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_card; ///< its twin, if that is used
     CardChoice m_choice;

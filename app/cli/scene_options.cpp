@@ -32,7 +32,8 @@ const std::map<std::string, render::StandardView> views{
 const std::map<std::string, render::Reconstruction> reconstructions{
     {"cubic", render::Reconstruction::cubic},
     {"linear", render::Reconstruction::linear},
-    {"band-limited", render::Reconstruction::bandLimited}};
+    {"band-limited", render::Reconstruction::bandLimited},
+    {"spline", render::Reconstruction::spline}};
 
 render::Scene readScene(const fs::path &path) {
     if (path.empty())

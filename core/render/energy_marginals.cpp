@@ -72,6 +72,8 @@ double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, dou
 struct Layer {
     std::vector<double> alongI, alongJ; // energies
     std::vector<double> blocks;         // energies, [block along j][block along i]
+    std::vector<double> blockMass, blockMost;
+    double least = 0.0;
     double radiusMm = 0.0;
 };
 
@@ -109,7 +111,117 @@ private:
     std::vector<glm::dvec3> m_directions = directions();
 };
 
+// Blocks by their distance from the middle of the mass.
+class BallProfile {
+public:
+    // `share`: of the mass.
+    void add(const glm::dvec3 &placeMm, double share, double most) {
+        m_blocks.push_back({placeMm, share, most});
+        m_middle += share * placeMm;
+    }
+
+    // See EnergySpread::peakedness. `mass`: the sum of the samples; `halfMm`: no sample of a block
+    // is farther from its middle.
+    double peakedness(double mass, double cellMm3, double halfMm) {
+        double radius = 0.0;
+        for (const Block &block : m_blocks)
+            radius = std::max(radius, glm::distance(block.placeMm, m_middle) + halfMm);
+        constexpr int bins = 64;
+        const double binMm = radius / bins;
+        std::array<double, bins> most{}, within{};
+        for (const Block &block : m_blocks) {
+            const double mm = glm::distance(block.placeMm, m_middle);
+            const int last = std::min(bins - 1, int((mm + halfMm) / binMm));
+            within[std::size_t(last)] += block.share;
+            for (int bin = std::max(0, int((mm - halfMm) / binMm)); bin <= last; ++bin)
+                most[std::size_t(bin)] = std::max(most[std::size_t(bin)], block.most);
+        }
+        // The largest integral along any line, by its distance from the middle.
+        double peak = 0.0;
+        for (int line = 0; line < bins; ++line) {
+            const double off = line * binMm;
+            const auto chord = [&](int edge) { // half of it, within the radius
+                const double r = edge * binMm;
+                return r > off ? std::sqrt(r * r - off * off) : 0.0;
+            };
+            double along = 0.0;
+            for (int bin = line; bin < bins; ++bin)
+                along += 2.0 * most[std::size_t(bin)] * (chord(bin + 1) - chord(bin));
+            peak = std::max(peak, along);
+        }
+        double share = 0.0, least = std::numeric_limits<double>::infinity();
+        for (int bin = 0; bin < bins; ++bin) {
+            share += within[std::size_t(bin)];
+            const double r = (bin + 1) * binMm;
+            if (share > 0.0)
+                least = std::min(least, std::numbers::pi * r * r / (share * share));
+        }
+        return std::max(1.0, peak * least / (mass * cellMm3));
+    }
+
+private:
+    struct Block {
+        glm::dvec3 placeMm;
+        double share, most;
+    };
+    std::vector<Block> m_blocks;
+    glm::dvec3 m_middle{0.0};
+};
+
+// Coarser than those above: what a plan looks at for each layout.
+std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::VoxelBox &box) {
+    const volume::GridSize lattice = field.lattice().size(), size = box.size();
+    const std::array<std::vector<BlockRange>, 3> ranges{blockRanges(size.i), blockRanges(size.j),
+                                                        blockRanges(size.k)};
+    const std::size_t across = ranges[0].size(), down = ranges[1].size(), deep = ranges[2].size();
+    std::vector<double> energy(across * down * deep), mass(energy.size());
+    field.visit([&](auto samples) {
+        tbb::parallel_for(std::size_t(0), deep, [&](std::size_t c) {
+            for (int k = ranges[2][c].first; k <= ranges[2][c].last; ++k)
+                for (std::size_t b = 0; b < down; ++b)
+                    for (int j = ranges[1][b].first; j <= ranges[1][b].last; ++j) {
+                        const auto *const row =
+                            samples.data() +
+                            (std::size_t(k + box.lo.k) * lattice.j + j + box.lo.j) * lattice.i +
+                            box.lo.i;
+                        for (std::size_t a = 0; a < across; ++a) {
+                            double squares = 0.0, sum = 0.0;
+                            for (int i = ranges[0][a].first; i <= ranges[0][a].last; ++i) {
+                                squares += double(row[i]) * double(row[i]);
+                                sum += double(row[i]);
+                            }
+                            energy[(c * down + b) * across + a] += squares;
+                            mass[(c * down + b) * across + a] += sum;
+                        }
+                    }
+        });
+    });
+    double allEnergy = 0.0, allMass = 0.0;
+    for (std::size_t n = 0; n < energy.size(); ++n) {
+        allEnergy += energy[n];
+        allMass += mass[n];
+    }
+    std::vector<FieldBlock> blocks;
+    for (std::size_t n = 0; n < energy.size(); ++n)
+        if (energy[n] > 0.0)
+            blocks.push_back({{std::uint8_t(n % across), std::uint8_t(n / across % down),
+                               std::uint8_t(n / across / down)},
+                              float(energy[n] / allEnergy),
+                              allMass != 0.0 ? float(mass[n] / allMass) : 0.0F});
+    return blocks;
+}
+
 } // namespace
+
+std::vector<BlockRange> blockRanges(int samples) {
+    constexpr int most = 20;
+    const int count = std::min(samples, most);
+    std::vector<BlockRange> ranges;
+    for (int n = 0; n < count; ++n)
+        ranges.push_back({int(std::int64_t(n) * samples / count),
+                          int(std::int64_t(n + 1) * samples / count) - 1});
+    return ranges;
+}
 
 double EnergySpread::roughnessAt(double pixelMm) const {
     const double scale =
@@ -169,6 +281,8 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
             layer.alongI.resize(size.i);
             layer.alongJ.resize(size.j);
             layer.blocks.resize(std::size_t(across) * down);
+            layer.blockMass.resize(layer.blocks.size());
+            layer.blockMost.resize(layer.blocks.size());
             for (int k = int(n) * side; k < std::min(size.k, int(n + 1) * side); ++k)
                 for (int j = 0; j < size.j; ++j) {
                     const auto *const row = samples.data() + rowStart(j, k);
@@ -177,6 +291,7 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
                     for (int i = 0; i < size.i; ++i) {
                         const double f = double(row[i]);
                         layer.alongI[i] += f * f;
+                        layer.least = std::min(layer.least, f);
                         rowSum += f;
                         alongY[std::size_t(k) * size.i + i] += f;
                         if (f != 0.0) {
@@ -185,10 +300,16 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
                         }
                     }
                     for (int block = 0; block < across; ++block) {
-                        double inBlock = 0.0;
-                        for (int i = block * side; i < std::min(size.i, (block + 1) * side); ++i)
+                        double inBlock = 0.0, mass = 0.0, most = 0.0;
+                        for (int i = block * side; i < std::min(size.i, (block + 1) * side); ++i) {
                             inBlock += double(row[i]) * double(row[i]);
-                        layer.blocks[std::size_t(j / side) * across + block] += inBlock;
+                            mass += double(row[i]);
+                            most = std::max(most, double(row[i]));
+                        }
+                        const std::size_t at = std::size_t(j / side) * across + block;
+                        layer.blocks[at] += inBlock;
+                        layer.blockMass[at] += mass;
+                        layer.blockMost[at] = std::max(layer.blockMost[at], most);
                         inRow += inBlock;
                     }
                     for (const int end : {first, last})
@@ -226,7 +347,9 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
     double total = 0.0;
     result.axis[0].resize(size.i);
     result.axis[1].resize(size.j);
+    double least = 0.0;
     for (const Layer &layer : layers) {
+        least = std::min(least, layer.least);
         std::transform(layer.alongI.begin(), layer.alongI.end(), result.axis[0].begin(),
                        result.axis[0].begin(), std::plus<>());
         std::transform(layer.alongJ.begin(), layer.alongJ.end(), result.axis[1].begin(),
@@ -241,6 +364,12 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
         for (auto &axis : result.axis)
             for (double &e : axis)
                 e /= total;
+    double mass = 0.0;
+    for (const Layer &layer : layers)
+        for (const double m : layer.blockMass)
+            mass += m;
+    const bool isPositive = least >= 0.0 && mass > 0.0;
+    BallProfile balls;
     for (std::size_t n = 0; n < layers.size(); ++n)
         for (int row = 0; row < down; ++row)
             for (int column = 0; column < across; ++column) {
@@ -253,8 +382,24 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
                 const volume::VoxelPoint at{{box.lo.i + middle(column, size.i),
                                              box.lo.j + middle(row, size.j),
                                              box.lo.k + middle(int(n), size.k)}};
-                profiles.add(places.patient(at).mm - center, energy / total);
+                const glm::dvec3 from = places.patient(at).mm - center;
+                profiles.add(from, energy / total);
+                const std::size_t block = std::size_t(row) * across + column;
+                if (isPositive)
+                    balls.add(from, layers[n].blockMass[block] / mass, layers[n].blockMost[block]);
             }
+    result.blocks = fieldBlocks(field, box);
+    result.massMm3 = 0.0;
+    for (const Layer &layer : layers)
+        for (const double m : layer.blockMass)
+            result.massMm3 += m * places.cellVolumeMm3();
+    result.energyMm3 = total * places.cellVolumeMm3();
+    if (isPositive)
+        spread.peakedness =
+            balls.peakedness(mass, places.cellVolumeMm3(),
+                             0.5 * side *
+                                 glm::length(glm::dvec3(places.spacingMm(0), places.spacingMm(1),
+                                                        places.spacingMm(2))));
     result.spread = std::make_shared<const EnergySpread>(std::move(spread));
     return result;
 }

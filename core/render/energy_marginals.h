@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -30,6 +32,11 @@ struct EnergySpread {
     /// The mean area of its shadow over all directions, mm^2, at most: a quarter of the surface of
     /// its box, or of the sphere it lies in.
     double shadowMm2 = 0.0;
+    /// Of a field without negative samples: the share of a projection's energy that a part of the
+    /// field has is at most this many times its share of the mass, seen from anywhere. With f_a the
+    /// part, <P f_a, P f> <= max(P f) * mass_a, and |P f|^2 >= m(R)^2 / (pi R^2) with m(R) the mass
+    /// in any ball of radius R. Infinite where negative samples may cancel others in some view.
+    double peakedness = std::numeric_limits<double>::infinity();
 
     /// The roughness in pixels of a size: the larger of the two sizes about it.
     double roughnessAt(double pixelMm) const;
@@ -38,10 +45,27 @@ struct EnergySpread {
 /// The spread of noise that fills a box.
 EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &box);
 
+/// The samples of an axis that a block reaches over, both included.
+struct BlockRange {
+    int first = 0, last = 0;
+};
+
+/// Where axes of a box are cut into blocks.
+std::vector<BlockRange> blockRanges(int samples);
+
+/// What a part of a field has of the whole.
+struct FieldBlock {
+    std::array<std::uint8_t, 3> at{}; ///< along each axis, see `blockRanges`
+    float energy = 0.0F, mass = 0.0F; ///< shares
+};
+
 /// All that the error of a field's images is predicted from.
 struct EnergyMarginals {
     /// Along each axis of its box; sums to 1. *Shape*: one entry per sample of the box.
     std::array<std::vector<double>, 3> axis;
+    std::vector<FieldBlock> blocks; ///< those that are not empty
+    /// The integrals of f and of f^2, mm^3.
+    double massMm3 = 0.0, energyMm3 = 0.0;
     std::shared_ptr<const EnergySpread> spread;
 };
 

@@ -15,11 +15,11 @@ namespace pellucid::render {
 
 namespace {
 
-// Single views scatter about what is expected; this much more energy than expected was the worst of
-// the views of the fields in the bench's hard suite.
+// Of fields with negative samples single views scatter about what is expected; this much more
+// energy was the worst of the views of the fields in the bench's hard suite.
 constexpr double viewMargin = 1.5;
-// The same of rounding, which a few cells can decide.
-constexpr double fewMargin = 3.0;
+// The same of rounding, which a few cells can decide; of what is bounded already, less.
+constexpr double fewMargin = 3.0, boundedMargin = 1.5;
 
 // Calls use(e, brightest, x): some forty positions x (in periods) along an axis are enough, since
 // the amplitudes change slowly; e their energies, and the largest of a sample of each.
@@ -38,14 +38,17 @@ template <class F> void forPositions(const std::vector<double> &energy, int padd
     }
 }
 
-// What the taps that a frequency on the grid reads make of a sample at x. `Any`: a Kernel or a
+// What the taps that a frequency t off the grid reads make of a sample at x. `Any`: a Kernel or a
 // MomentKernel.
-template <class Any> std::complex<double> onGrid(const Any &kernel, double x) {
-    const int width = kernel.width(), firstTap = -(width / 2);
+template <class Any> std::complex<double> offGrid(const Any &kernel, double x, double t) {
+    const double half = 0.5 * kernel.width();
     std::complex<double> sum = 0.0;
-    for (int tap = firstTap; tap < firstTap + width; ++tap)
+    for (double tap = std::ceil(-half - t) + t; tap < half; tap += 1.0)
         sum += kernel.value(tap) * std::polar(1.0, 2.0 * std::numbers::pi * tap * x);
     return sum;
+}
+template <class Any> std::complex<double> onGrid(const Any &kernel, double x) {
+    return offGrid(kernel, x, 0.0);
 }
 
 // The kernels' transforms fall at least as 1/m beyond.
@@ -53,24 +56,88 @@ constexpr std::array<int, 6> ghostPeriods{-3, -2, -1, 1, 2, 3};
 
 } // namespace
 
-AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
-    AxisError error;
-    double inverse = 0.0;
-    const double mostEnergy = *std::max_element(energy.begin(), energy.end());
-    forPositions(energy, padded, [&](double e, double brightest, double x) {
-        const double h = kernel.apodisation(x);
-        double squares = 0.0;
-        for (const int m : ghostPeriods) {
-            const double r = kernel.apodisation(x + m) / h;
-            squares += r * r;
+namespace {
+
+BlockAmplitudes amplitudesAt(const fourier::Kernel &kernel, double x) {
+    const double h = kernel.apodisation(x);
+    BlockAmplitudes of;
+    for (const int m : ghostPeriods) {
+        const double r = kernel.apodisation(x + m) / h;
+        of.ghosts += r * r;
+    }
+    const auto at = [&](double t) { return std::norm(offGrid(kernel, x, t) / h - 1.0); };
+    // Steps in common with the grid: every frequency on it, every second, every third.
+    const double whole = at(0.0);
+    of.inPhase =
+        std::max({of.ghosts, whole, 0.5 * (whole + at(0.5)), (whole + 2.0 * at(1.0 / 3.0)) / 3.0});
+    of.inverse = 1.0 / (h * h);
+    return of;
+}
+
+// The largest mean of a value over the parts of a field that their shares allow; or, with negative
+// samples, what is expected and a margin. The values are sorted into classes, each of which counts
+// as its largest.
+class LargestMean {
+public:
+    LargestMean(const EnergyMarginals &field) : m_field(field) {}
+
+    template <class F> double of(const F &value) const {
+        const double peakedness = m_field.spread->peakedness;
+        if (std::isinf(peakedness)) {
+            double sum = 0.0;
+            for (const FieldBlock &block : m_field.blocks)
+                sum += double(block.energy) * value(block.at);
+            return viewMargin * sum;
         }
-        error.ghosts += e * squares;
-        error.inPhase += e * std::norm(onGrid(kernel, x) / h - 1.0);
-        error.brightest = std::max(error.brightest, std::sqrt(squares * brightest / mostEnergy));
-        inverse += e / (h * h);
-    });
-    // Cells of a few samples' spectrum are alike and round alike: nothing averages out.
-    error.noise = energy.size() <= 4 ? 1.0 : kernel.energy() * inverse;
+        constexpr int classes = 256;
+        constexpr double octaves = 64.0, perOctave = classes / octaves;
+        std::array<double, classes> share{}, most{};
+        for (const FieldBlock &block : m_field.blocks) {
+            const double v = value(block.at);
+            const int n =
+                std::clamp(int(perOctave * (std::log2(std::max(v, 1e-18)) + 58.0)), 0, classes - 1);
+            share[std::size_t(n)] += peakedness * double(block.mass);
+            most[std::size_t(n)] = std::max(most[std::size_t(n)], v);
+        }
+        double sum = 0.0, left = 1.0;
+        for (int n = classes - 1; n >= 0 && left > 0.0; --n) {
+            const double part = std::min(left, share[std::size_t(n)]);
+            sum += part * most[std::size_t(n)];
+            left -= part;
+        }
+        return sum;
+    }
+
+private:
+    const EnergyMarginals &m_field;
+};
+
+} // namespace
+
+AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
+    const int samples = int(energy.size());
+    const double mostEnergy = *std::max_element(energy.begin(), energy.end());
+    AxisError error;
+    for (const BlockRange &range : blockRanges(samples)) {
+        double brightest = 0.0;
+        for (int n = range.first; n <= range.last; ++n)
+            brightest = std::max(brightest, energy[std::size_t(n)]);
+        // Amplitudes grow outward: both ends of a part bound it.
+        BlockAmplitudes worst;
+        for (const int n : {range.first, range.last}) {
+            const BlockAmplitudes at =
+                amplitudesAt(kernel, double(n - samples / 2) / padded); // NOLINT: whole
+            worst.ghosts = std::max(worst.ghosts, at.ghosts);
+            worst.inPhase = std::max(worst.inPhase, at.inPhase);
+            worst.inverse = std::max(worst.inverse, at.inverse);
+        }
+        if (mostEnergy > 0.0)
+            error.brightest =
+                std::max(error.brightest, std::sqrt(worst.ghosts * brightest / mostEnergy));
+        error.blocks.push_back(worst);
+    }
+    error.kernelEnergy = kernel.energy();
+    error.isShort = samples <= 4;
     return error;
 }
 
@@ -229,35 +296,68 @@ static double relativeRounding(fourier::Storage storage) {
     return storage == fourier::Storage::binary16 ? 2.1e-4 : 3e-7;
 }
 
+static double roundingNoise(const std::array<AxisError, 3> &axes, const EnergyMarginals &field) {
+    double energy = 1.0;
+    for (const AxisError &axis : axes)
+        energy *= axis.isShort ? 1.0 : axis.kernelEnergy;
+    return energy * LargestMean(field).of([&](const auto &at) {
+        double inverse = 1.0;
+        for (std::size_t d = 0; d < axes.size(); ++d)
+            inverse *= axes[d].isShort ? 1.0 : axes[d].blocks[at[d]].inverse;
+        return inverse;
+    });
+}
+
 double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                      const CueWeight &cue) {
-    double ghosts = 0.0, moment = 0.0, noise = 1.0;
+                      const EnergyMarginals &field, const CueWeight &cue) {
+    double ghosts = 0.0, moment = 0.0;
     for (std::size_t d = 0; d < axes.size(); ++d) {
         ghosts += axes[d].brightest;
         moment = std::max(moment, cue.moments[d] * axes[d].brightestMoment);
-        noise *= axes[d].noise;
     }
     const double rounding = relativeRounding(storage);
-    return cue.ghosts * (ghosts + 4.5 * std::sqrt(0.2 * rounding * rounding * noise)) + moment;
+    return cue.ghosts *
+               (ghosts + 4.5 * std::sqrt(0.2 * rounding * rounding * roundingNoise(axes, field))) +
+           moment;
 }
 
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                            const ImageShare &share, const CueWeight &cue) {
-    double all = 0.0, alongAxis = 0.0, noise = 1.0, moment = 0.0;
+                            const EnergyMarginals &field, const ImageShare &share,
+                            const CueWeight &cue) {
+    const LargestMean largest(field);
+    double ghosts = largest.of([&](const auto &at) {
+        double most = 0.0;
+        for (std::size_t along = 0; along < axes.size(); ++along) {
+            double sum = 0.0, apart = 0.0;
+            for (std::size_t d = 0; d < axes.size(); ++d) {
+                const BlockAmplitudes &block = axes[d].blocks[at[d]];
+                if (d == along || share.isInStep[d])
+                    sum += std::sqrt(block.inPhase);
+                else
+                    apart += block.ghosts;
+            }
+            most = std::max(most, sum * sum + apart);
+        }
+        return most;
+    });
+    double moment = 0.0;
     for (std::size_t d = 0; d < axes.size(); ++d) {
-        all += share.inImage[d] * axes[d].ghosts;
-        noise *= axes[d].noise;
+        // The two other axes' ghosts fall onto each other.
+        ghosts = std::max(ghosts, largest.of([&](const auto &at) {
+            const std::size_t a = (d + 1) % 3, b = (d + 2) % 3;
+            const double sum =
+                std::sqrt(axes[a].blocks[at[a]].ghosts) + std::sqrt(axes[b].blocks[at[b]].ghosts);
+            return axes[d].blocks[at[d]].ghosts + sum * sum;
+        }));
         // Depth is along one direction, so that one axis's moment stands for all.
         moment = std::max(moment, cue.moments[d] * cue.moments[d] * axes[d].moment);
     }
-    for (std::size_t d = 0; d < axes.size(); ++d)
-        alongAxis = std::max(alongAxis, std::max(axes[d].ghosts, axes[d].inPhase) + all -
-                                            share.inImage[d] * axes[d].ghosts);
     const double weight = cue.ghosts * cue.ghosts;
-    const double ghosts = viewMargin * (weight * alongAxis + moment);
     const double rounding = relativeRounding(storage);
+    const double margin = std::isinf(field.spread->peakedness) ? fewMargin : boundedMargin;
     // Rounding is spread as h^2 is, nearly all of it where the field is.
-    return std::sqrt(ghosts + weight * fewMargin * rounding * rounding * noise);
+    return std::sqrt((weight * ghosts + viewMargin * moment) / share.ofProjection +
+                     weight * margin * rounding * rounding * roundingNoise(axes, field));
 }
 
 } // namespace pellucid::render

@@ -11,18 +11,26 @@
 
 namespace pellucid::render {
 
-/// What one axis of a layout leaves, relative to the energy of the field.
-struct AxisError {
-    /// sum_x e(x) sum_m r^2 with r = h(x + m)/h(x), the amplitude of the ghost of x in period m.
+/// What the taps of an axis make of the samples of a block of it, at most. They make a(x, t) of a
+/// sample at x (in periods from the wrap voxel) where a frequency lies t off the grid.
+struct BlockAmplitudes {
+    /// sum_m r^2, r = h(x + m)/h(x) the amplitude of the ghost of x in period m: the mean of
+    /// |a - 1|^2 over all t.
     double ghosts = 0.0;
-    /// The same of a frequency on the grid of the axis, where the ghosts add up in phase:
-    /// sum_x e(x) |S(x)/h(x) - 1|^2 with S the transform of the taps.
+    /// Where the ghosts add up in phase: |a - 1|^2 over the few t that the frequencies of a view
+    /// along an axis may have, when the slice's steps and the grid's have a common one.
     double inPhase = 0.0;
+    double inverse = 0.0; ///< 1/h(x)^2
+};
+
+/// What one axis of a layout leaves.
+struct AxisError {
+    std::vector<BlockAmplitudes> blocks; ///< see `blockRanges`
     /// The brightest ghost: the largest amplitude r, times the square root of e relative to the
     /// brightest part of the axis.
     double brightest = 0.0;
-    /// integral H^2 times sum_x e(x)/h(x)^2: how rounding of the cells reaches the image.
-    double noise = 1.0;
+    double kernelEnergy = 1.0; ///< integral H^2
+    bool isShort = false;      ///< so few samples that their spectrum's cells round alike
     /// Of the moment kernel of a linear cue, with k its response and w^T C w the energies of
     /// `SlabProducts`: in views along the axis, w the difference of the sum over the taps and i x;
     /// close to it, w = k(x)/h(x) - x and k(x + m)/h(x); the larger of the two. And the largest of
@@ -57,25 +65,31 @@ struct CueWeight {
 CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
                     const fourier::SpectrumLayout &layout, const EnergyMarginals &energy);
 
-/// How much of what the ghosts spread over the period falls into the image, relative to the share
-/// of the projection's energy that the image holds.
+/// How much of the projection's energy the image holds, and which axes' frequencies have a step in
+/// common with the slice's in a view along another axis: there their ghosts add up in phase.
 struct ImageShare {
-    std::array<double, 3> inImage{1.0, 1.0, 1.0}; ///< of the ghosts along each axis
+    double ofProjection = 1.0;
+    std::array<bool, 3> isInStep{true, true, true};
 };
 
-/// The relative L2 error of an image from a direction that no axis is close to, or along an axis,
-/// whichever is worse. A ghost lies one or more padded periods away along its axis. Seen across the
-/// axis it lands anywhere in the slice's period, hence in the image by its share of the area; seen
-/// along the axis all of it falls onto the projection, in phase with the ghosts of the other
-/// periods. Rounding to binary16 leaves 2.1e-4 of each cell, spread evenly over the period;
-/// rounding to float and summing 3e-7.
+/// The relative L2 error of an image from any direction, at most. The error is the projection of
+/// f (a - 1). For parts f_b of a field without negative samples
+///   |P(f w)|^2 <= sum_b max_b(w)^2 <P f_b, P f>, since <P f_a, P f_b> >= 0,
+/// and each <P f_b, P f> / |P f|^2 is at most `EnergySpread::peakedness` times the part's share of
+/// the mass: the worst parts have as much as they can have. Of a field with negative samples, which
+/// can cancel, it is what is expected, and a margin. Ghosts of several axes add up in energy, but
+/// for two cases: seen along a diagonal of two axes, those of both fall onto each other; seen along
+/// an axis, its own fall onto the projection, and those of axes in step as well. Rounding to
+/// binary16 leaves 2.1e-4 of each cell, spread evenly over the period; rounding to float and
+/// summing 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                            const ImageShare &share, const CueWeight &cue = {});
+                            const EnergyMarginals &field, const ImageShare &share,
+                            const CueWeight &cue = {});
 
 /// The largest error of a pixel relative to the largest pixel, roughly: the brightest ghosts of the
 /// axes, and the rounding at 4.5 standard deviations of an image whose mean square is a fifth of
 /// its peak's. Beside metal it says what the relative L2 error hides.
 double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                      const CueWeight &cue = {});
+                      const EnergyMarginals &field, const CueWeight &cue = {});
 
 } // namespace pellucid::render

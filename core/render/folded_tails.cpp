@@ -11,7 +11,7 @@ namespace {
 // The worst of some views of the bench's fields over what is expected, as energy: noise scatters by
 // 1.3, regular patterns have their lines at the edge of some views' bands; and a field that lies in
 // one block, which a few frequencies decide.
-constexpr double viewMargin = 2.1, pointMargin = 3.0;
+constexpr double viewMargin = 2.1, pointMargin = 6.0;
 
 // The part of a point's energy that lies more than r pixels away along an image axis, on one of its
 // two sides, averaged over both. The cubic and the quotient fit the integral of the square of the
@@ -45,7 +45,7 @@ double foldedTailEnergy(const EnergySpread &spread, double rollOff, double pixel
         most = std::max(most, sum);
     }
     const double margin = viewMargin + (pointMargin - viewMargin) * spread.concentration;
-    return margin * spread.roughnessAt(pixelMm) * most;
+    return margin * most;
 }
 
 double shareInImage(const Camera &camera, const EnergySpread &spread) {
@@ -60,10 +60,6 @@ double predictFoldedTails(const ImageDefinition &image, const Camera &camera, in
         foldedTailEnergy(spread, image.rollOff, camera.pixelMm, columns, camera.width, pan.x) +
         foldedTailEnergy(spread, image.rollOff, camera.pixelMm, rows, camera.height, pan.y);
     return std::sqrt(folded / shareInImage(camera, spread));
-}
-
-double ringingPixels(double rollOff) {
-    return 4.0 / std::max(1.0 / 64.0, rollOff);
 }
 
 } // namespace pellucid::render

@@ -26,8 +26,4 @@ double shareInImage(const Camera &camera, const EnergySpread &spread);
 double predictFoldedTails(const ImageDefinition &image, const Camera &camera, int columns, int rows,
                           const EnergySpread &spread);
 
-/// A length that the response of a raised-cosine edge over a share F of the band has faded after,
-/// in samples of that band: 4/F, and never more than 256.
-double ringingPixels(double rollOff);
-
 } // namespace pellucid::render

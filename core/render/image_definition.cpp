@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/render/image_definition.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,9 +33,29 @@ double reconstructionFactor(const ImageDefinition &definition, double q) {
     case Reconstruction::bandLimited:
         return rollOffFactor(definition.rollOff, 2.0 * std::abs(q));
     case Reconstruction::cubic:
+        return s * s * (3.0 * s * s - 2.0 * sinc(2.0 * q));
+    case Reconstruction::spline:
         break;
     }
     return 3.0 * s * s * s * s / (2.0 + std::cos(2.0 * std::numbers::pi * q));
+}
+
+double reconstructionReach(const ImageDefinition &definition) {
+    switch (definition.reconstruction) {
+    case Reconstruction::linear:
+        return 1.0;
+    case Reconstruction::cubic:
+        return 2.0;
+    case Reconstruction::bandLimited:
+        return 0.5 * ringingPixels(definition.rollOff);
+    case Reconstruction::spline:
+        break;
+    }
+    return 6.0;
+}
+
+double ringingPixels(double rollOff) {
+    return 4.0 / std::max(1.0 / 64.0, rollOff);
 }
 
 } // namespace pellucid::render

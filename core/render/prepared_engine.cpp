@@ -130,13 +130,17 @@ PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fi
         progress.part(0.0, 0.1));
     const std::size_t light = bytesForLight(
         scene.shading, fields.channels.front().values.lattice().size(), fields.channels.size());
-    FittingPlan fitting = planWithin(scene, shaded, summarise(shaded, scene.shading.cue),
+    const auto summaries = summarise(shaded, scene.shading.cue);
+    FittingPlan fitting = planWithin(scene, shaded, summaries,
                                      {budget.bytes > light ? budget.bytes - light : 0}, progress);
+    std::shared_ptr<const ViewErrorModel> viewError;
+    if (!fitting.reduced)
+        viewError = std::make_shared<const ViewErrorModel>(fitting.plan, summaries);
     auto engine = makeEngine(fitting.reduced ? *fitting.reduced : shaded, fields.color,
                              fitting.plan, progress.part(0.1, 1.0));
     const std::size_t bytes = engine->bytes();
     const bool takesLight = engine->takesLight();
-    return {std::move(engine), std::move(fitting.plan), bytes, takesLight};
+    return {std::move(engine), std::move(fitting.plan), bytes, takesLight, std::move(viewError)};
 }
 
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
@@ -147,7 +151,7 @@ PreparedEngine withoutLight(const PreparedEngine &prepared) {
     const std::size_t bytes = engine->bytes();
     RenderPlan plan = prepared.plan;
     plan.bytes -= prepared.bytes - bytes;
-    return {std::move(engine), std::move(plan), bytes, false};
+    return {std::move(engine), std::move(plan), bytes, false, prepared.viewError};
 }
 
 } // namespace pellucid::render

@@ -9,6 +9,7 @@
 #include "core/classify/shown_fields.h"
 #include "core/render/cpu_engine.h"
 #include "core/render/shaded_fields.h"
+#include "core/render/view_error.h"
 
 namespace pellucid::render {
 
@@ -38,6 +39,8 @@ struct PreparedEngine {
     RenderPlan plan;
     std::size_t bytes = 0; ///< of its spectra
     bool takesLight = false;
+    /// Tells the error of single pictures; none where detail is lost wherever one looks from.
+    std::shared_ptr<const ViewErrorModel> viewError;
 };
 
 /// An engine for the channels of a look whose spectra, of one layout, are prepared by a plan.

@@ -100,19 +100,18 @@ public:
             std::optional<fourier::MomentKernel> moment;
             if (m_cued)
                 moment.emplace(kernel, double(padded) / m_samples);
-            AxisError error{0.0, 0.0, 0.0, 0.0};
+            // The worst of the fields; the amplitudes of blocks are the kernel's alone.
+            AxisError error;
             for (const FieldSummary &field : m_fields) {
                 AxisError e = axisError(kernel, padded, field.energy.axis[m_axis]);
                 if (moment)
                     addMomentError(e, kernel, *moment, padded,
                                    field.slabs ? (*field.slabs)[m_axis]
                                                : evenSlabProducts(field.energy.axis[m_axis]));
-                error = {std::max(error.ghosts, e.ghosts),
-                         std::max(error.inPhase, e.inPhase),
-                         std::max(error.brightest, e.brightest),
-                         std::max(error.noise, e.noise),
-                         std::max(error.moment, e.moment),
-                         std::max(error.brightestMoment, e.brightestMoment)};
+                e.brightest = std::max(error.brightest, e.brightest);
+                e.moment = std::max(error.moment, e.moment);
+                e.brightestMoment = std::max(error.brightestMoment, e.brightestMoment);
+                error = std::move(e);
             }
             slot = std::make_unique<Candidate>(Candidate{std::move(kernel), padded, error});
         }
@@ -128,22 +127,11 @@ private:
     std::map<std::pair<std::string, double>, std::unique_ptr<Candidate>> m_made;
 };
 
-double wrappedShare(const Camera &camera, const SliceGrid &grid,
-                    std::span<const FieldSummary> fields) {
-    const double image = double(camera.width) * camera.height;
-    const double period = double(grid.columns) * grid.rows;
-    double least = 1.0;
-    for (const FieldSummary &field : fields)
-        least = std::min(least, shareInImage(camera, *field.energy.spread));
-    return std::min(1.0, image / period) / least;
-}
-
 // A slice grid and what the tails that fold back into it leave.
 struct PlannedGrid {
     SliceGrid grid;
     SliceRoom room;
     double folded = 0.0;
-    double wrappedShare = 0.0;
     double cells() const { return double(grid.columns) * grid.rows; }
 };
 
@@ -164,22 +152,44 @@ std::vector<PlannedGrid> planGrids(const Scene &scene, std::span<const FieldSumm
         for (const auto &spread : room.spreads)
             folded = std::max(
                 folded, predictFoldedTails(scene.image, camera, grid.columns, grid.rows, *spread));
-        grids.push_back({grid, room, folded, wrappedShare(camera, grid, fields)});
+        grids.push_back({grid, room, folded});
     }
     return grids;
 }
 
-// A ghost lies a padded period away; what does not fall into the image at once may still wrap into
-// it.
-ImageShare imageShare(const Camera &camera, const FieldSummary &field,
-                      const fourier::SpectrumLayout &layout, const PlannedGrid &planned) {
-    const std::array<int, 3> padded{layout.padded.i, layout.padded.j, layout.padded.k};
-    const double half = 0.25 * (camera.width + camera.height) * camera.pixelMm;
+// The worst of the fields.
+ImageShare imageShare(const Camera &camera, std::span<const FieldSummary> fields) {
     ImageShare share;
-    for (int d = 0; d < 3; ++d)
-        share.inImage[d] = std::max(planned.wrappedShare,
-                                    std::min(1.0, half / (padded[d] * field.lattice.spacingMm(d))));
+    for (const FieldSummary &field : fields)
+        share.ofProjection =
+            std::min(share.ofProjection, shareInImage(camera, *field.energy.spread));
     return share;
+}
+
+// Whether the slice's step times a small number is a whole number of an axis's cells.
+std::array<bool, 3> inStep(const Camera &camera, const volume::Lattice &lattice,
+                           const fourier::SpectrumLayout &layout, const SliceGrid &grid) {
+    const std::array<int, 3> padded{layout.padded.i, layout.padded.j, layout.padded.k};
+    std::array<bool, 3> result{};
+    for (int d = 0; d < 3; ++d)
+        for (const int cells : {grid.columns, grid.rows}) {
+            const double ratio =
+                padded[std::size_t(d)] * lattice.spacingMm(d) / (double(cells) * camera.pixelMm);
+            // Closer than that, frequencies to the edge of the band stay in phase.
+            for (const int small : {1, 2, 3})
+                result[std::size_t(d)] =
+                    result[std::size_t(d)] ||
+                    std::abs(ratio * small - std::round(ratio * small)) * cells < 2.0 * small;
+        }
+    return result;
+}
+
+// Of an axis's ghosts where they are strongest.
+double strength(const AxisError &error) {
+    double most = 0.0;
+    for (const BlockAmplitudes &block : error.blocks)
+        most = std::max(most, block.ghosts);
+    return most;
 }
 
 template <class T>
@@ -267,11 +277,26 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
         }
         return worst;
     };
+    const ImageShare inImage = imageShare(scene.camera, fields);
     const auto predict = [&](const fourier::SpectrumLayout &layout,
-                             const std::array<AxisError, 3> &errors, const PlannedGrid &grid) {
-        return predictRelativeError(errors, layout.storage,
-                                    imageShare(scene.camera, field, layout, grid),
-                                    weightOf(layout));
+                             const std::array<AxisError, 3> &errors,
+                             const std::array<bool, 3> &isInStep) {
+        const CueWeight weight = weightOf(layout);
+        ImageShare share = inImage;
+        share.isInStep = isInStep;
+        double worst = 0.0;
+        for (const FieldSummary &one : fields)
+            worst = std::max(
+                worst, predictRelativeError(errors, layout.storage, one.energy, share, weight));
+        return worst;
+    };
+    const auto maximum = [&](const fourier::SpectrumLayout &layout,
+                             const std::array<AxisError, 3> &errors) {
+        double worst = 0.0;
+        for (const FieldSummary &one : fields)
+            worst = std::max(worst,
+                             predictMaximum(errors, layout.storage, one.energy, weightOf(layout)));
+        return worst;
     };
     // Kernels that no padding makes good enough are left out at first: making one takes
     // milliseconds.
@@ -279,7 +304,7 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
         std::array<AxisError, 3> errors;
         const std::size_t most = paddings.size() - 1;
         const auto layout = layoutAt(choice, storage, {most, most, most}, errors);
-        return std::hypot(predict(layout, errors, grids.back()), leastFolded) > scene.tolerance;
+        return std::hypot(predict(layout, errors, {}), leastFolded) > scene.tolerance;
     };
     const auto consider = [&](const fourier::KernelChoice &choice, fourier::Storage storage) {
         Levels level{};
@@ -294,6 +319,9 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
             const std::size_t spectrumBytes =
                 layout.peakBytes() + (fields.size() - 1) * layout.bytes();
             bool fits = false;
+            // Of grids in the same step as before nothing changes.
+            std::optional<std::array<bool, 3>> step;
+            double ofGhosts = 0.0;
             for (const PlannedGrid &planned : grids) {
                 const std::size_t bytes =
                     spectrumBytes + std::size_t(channels) * frameBytes(planned.grid, scene.camera) +
@@ -304,21 +332,20 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
                     break; // wider grids take more
                 }
                 fits = true;
-                const double predicted =
-                    std::hypot(predict(layout, errors, planned), planned.folded);
+                if (const auto now = inStep(scene.camera, field.lattice, layout, planned.grid);
+                    !step || *step != now) {
+                    step = now;
+                    ofGhosts = predict(layout, errors, now);
+                }
+                const double predicted = std::hypot(ofGhosts, planned.folded);
                 const double time = frameTime(planned.grid, scene.camera, field.lattice, layout);
                 const bool meets = predicted <= scene.tolerance;
                 const bool unmet = std::isinf(bestTime);
                 if (meets ? time < bestTime
                           : unmet && (!best || predicted < best->predictedError)) {
                     best = RenderPlan{
-                        layout,
-                        planned.room,
-                        predicted,
-                        predictMaximum(errors, storage, weightOf(layout)) + planned.folded,
-                        0.0,
-                        bytes,
-                        {}};
+                        layout, planned.room, predicted, maximum(layout, errors) + planned.folded,
+                        0.0,    bytes,        {}};
                     if (meets)
                         bestTime = time;
                 }
@@ -333,7 +360,7 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
             int worst = -1;
             for (int d = 0; d < 3; ++d)
                 if (level[d] + 1 < paddings.size() &&
-                    (worst < 0 || errors[d].ghosts > errors[worst].ghosts))
+                    (worst < 0 || strength(errors[d]) > strength(errors[worst])))
                     worst = d;
             if (worst < 0)
                 return;

@@ -69,7 +69,7 @@ inline constexpr std::array<NamedTolerance, 5> namedTolerances{{{"draft", 3e-2},
 /// Throws Error{usage} if a value of the scene is out of its range; the message names it.
 void validate(const Scene &scene);
 
-/// The scene as JSON, `"schema": "pellucid-scene/1"`.
+/// The scene as JSON, `"schema": "pellucid-scene/2"`; version 1 is read, too.
 std::string toJson(const Scene &scene);
 /// *Throws* Error{usage} with the key and the reason.
 Scene sceneFromJson(const std::string &text);

@@ -15,13 +15,15 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char *schema = "pellucid-scene/1";
+// In version 1 "cubic", the default, was what is "spline" now: such scenes keep their pictures.
+constexpr const char *schema = "pellucid-scene/2", *firstSchema = "pellucid-scene/1";
 
 const std::map<std::string, Reconstruction> &reconstructionNames() {
     static const std::map<std::string, Reconstruction> names = {
         {"cubic", Reconstruction::cubic},
         {"linear", Reconstruction::linear},
-        {"band-limited", Reconstruction::bandLimited}};
+        {"band-limited", Reconstruction::bandLimited},
+        {"spline", Reconstruction::spline}};
     return names;
 }
 
@@ -79,7 +81,8 @@ Scene sceneFromJson(const std::string &text) {
     Scene scene;
     try {
         const json in = json::parse(text);
-        if (in.at("schema") != schema)
+        const bool isFirst = in.at("schema") == firstSchema;
+        if (in.at("schema") != schema && !isFirst)
             throw task::Error(task::ErrorCode::usage,
                               "the scene's schema is not " + std::string(schema));
         const json &camera = in.at("camera");
@@ -111,7 +114,8 @@ Scene sceneFromJson(const std::string &text) {
         if (it == reconstructionNames().end())
             throw task::Error(task::ErrorCode::usage,
                               "unknown reconstruction '" + reconstruction + "' in the scene");
-        scene.image.reconstruction = it->second;
+        scene.image.reconstruction =
+            isFirst && it->second == Reconstruction::cubic ? Reconstruction::spline : it->second;
         scene.image.rollOff = in.value("roll_off", scene.image.rollOff);
         scene.tolerance = in.value("tolerance", scene.tolerance);
         const std::string plannedFor = in.value("planned_for", "picture");

@@ -17,20 +17,6 @@ namespace {
 // Larger slices take more memory than any image is worth.
 constexpr int largestSliceGrid = 65536;
 
-// How far a sample's footprint reaches, in samples: the tent ends after one; the cardinal B-spline
-// has fallen to 4e-4 after six; the tapered sinc rings.
-double footprint(const ImageDefinition &image) {
-    switch (image.reconstruction) {
-    case Reconstruction::linear:
-        return 1.0;
-    case Reconstruction::bandLimited:
-        return 0.5 * ringingPixels(image.rollOff);
-    case Reconstruction::cubic:
-        break;
-    }
-    return 6.0;
-}
-
 // How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
 double reachPixels(const Camera &camera, const SliceRoom &room, const volume::Lattice &lattice,
                    const ImageDefinition &image) {
@@ -39,7 +25,7 @@ double reachPixels(const Camera &camera, const SliceRoom &room, const volume::La
     double radiusMm = 0.0;
     for (const auto &spread : room.spreads)
         radiusMm = std::max(radiusMm, spread->radiusMm);
-    return (radiusMm + footprint(image) * longest) / camera.pixelMm;
+    return (radiusMm + reconstructionReach(image) * longest) / camera.pixelMm;
 }
 
 } // namespace

@@ -2334,6 +2334,10 @@
         <source>&amp;Sharp (band-limited)</source>
         <translation>銳利（頻帶限制）(&amp;S)</translation>
     </message>
+    <message>
+        <source>S&amp;pline</source>
+        <translation>樣條(&amp;P)</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::LookPreparer</name>
@@ -2912,10 +2916,6 @@
         <translation>誤差</translation>
     </message>
     <message>
-        <source>Relative error of the picture, predicted</source>
-        <translation>預測的影像相對誤差</translation>
-    </message>
-    <message>
         <source>Largest</source>
         <translation>最大</translation>
     </message>
@@ -2978,6 +2978,22 @@
     <message>
         <source>%1, draft</source>
         <translation>%1，草圖</translation>
+    </message>
+    <message>
+        <source>Spline</source>
+        <translation>樣條</translation>
+    </message>
+    <message>
+        <source>Relative error of a picture from any side, predicted; that of the picture shown is beside it</source>
+        <translation>任何方向影像的預測相對誤差；目前影像的誤差顯示於其旁</translation>
+    </message>
+    <message>
+        <source>not known yet</source>
+        <translation>尚未可知</translation>
+    </message>
+    <message>
+        <source>at most %1</source>
+        <translation>至多 %1</translation>
     </message>
 </context>
 <context>

@@ -47,30 +47,47 @@ float rollOffFactor(float rollOff, float q) {
     return raisedCosine((q - (1.0 - steep)) / steep);
 }
 
-const int cubic = 0, linear = 1, bandLimited = 2;
+const int cubic = 0, linear = 1, bandLimited = 2, spline = 3;
+
+// Of three axes at once, as of one.
+vec3 sincSquared(vec3 p) {
+    vec3 x = pi2 * p;
+    vec3 sum = vec3(-32768.0 / 20922789888000.0);
+    sum = sum * x + 8192.0 / 87178291200.0;
+    sum = sum * x - 2048.0 / 479001600.0;
+    sum = sum * x + 512.0 / 3628800.0;
+    sum = sum * x - 128.0 / 40320.0;
+    sum = sum * x + 32.0 / 720.0;
+    sum = sum * x - 8.0 / 24.0;
+    return sum * x + 1.0;
+}
+
+// sinc(2 r) for |r| <= 1/2 from its series in p = r^2, to 1e-8.
+vec3 sincOfTurn(vec3 p) {
+    vec3 x = 4.0 * pi2 * p;
+    vec3 sum = vec3(1.0 / 355687428096000.0);
+    sum = sum * x - 1.0 / 1307674368000.0;
+    sum = sum * x + 1.0 / 6227020800.0;
+    sum = sum * x - 1.0 / 39916800.0;
+    sum = sum * x + 1.0 / 362880.0;
+    sum = sum * x - 1.0 / 5040.0;
+    sum = sum * x + 1.0 / 120.0;
+    sum = sum * x - 1.0 / 6.0;
+    return sum * x + 1.0;
+}
 
 // The product of K(q) over the axes, q = a_d.s in cycles per sample.
 float reconstructionFactor(int reconstruction, bool wraps, float rollOff, vec3 q) {
-    float numerator = 1.0, denominator = 1.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (reconstruction == bandLimited) {
-            numerator *= rollOffFactor(rollOff, 2.0 * abs(q[axis]));
-            continue;
-        }
-        float r = wraps ? q[axis] - round(q[axis]) : q[axis];
-        float p = r * r, sinc = sincSquared(p), top = sinc;
-        if (wraps && abs(q[axis]) > 0.5) {
-            // sinc^2(q) = sinc^2(r) r^2/q^2
-            float below = q[axis] * q[axis];
-            top = sinc * p;
-            denominator *= reconstruction == cubic ? below * below : below;
-        }
-        if (reconstruction == cubic) {
-            // 2 + cos 2 pi q = 3 - 2 sin^2 pi q
-            top *= top;
-            denominator *= 1.0 - 2.0 / 3.0 * pi2 * p * sinc;
-        }
-        numerator *= top;
-    }
-    return numerator / denominator;
+    if (reconstruction == bandLimited)
+        return rollOffFactor(rollOff, 2.0 * abs(q.x)) * rollOffFactor(rollOff, 2.0 * abs(q.y)) *
+               rollOffFactor(rollOff, 2.0 * abs(q.z));
+    // sinc q = sinc r r/q with r the rest of q, and q = r near 0.
+    vec3 r = wraps ? q - round(q) : q;
+    vec3 ratio = mix(vec3(1.0), r / q, greaterThan(abs(q), vec3(0.5)));
+    vec3 p = r * r, near = sincSquared(p), square = near * ratio * ratio, factor = square;
+    if (reconstruction == cubic)
+        factor = square * (3.0 * square - 2.0 * ratio * sincOfTurn(p));
+    else if (reconstruction == spline) // 2 + cos 2 pi q = 3 - 2 sin^2 pi q
+        factor = square * square / (1.0 - 2.0 / 3.0 * pi2 * p * near);
+    return factor.x * factor.y * factor.z;
 }

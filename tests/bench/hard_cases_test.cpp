@@ -17,10 +17,8 @@ std::string nameOf(const testing::TestParamInfo<std::size_t> &info) {
 
 class HardCase : public testing::TestWithParam<std::size_t> {};
 
-// A plan that accepts a tolerance keeps it, on fields that break projectors. What it predicts is an
-// estimate of the worst view: never too low by more than a quarter where that breaks no promise. It
-// may be high by up to ten for fields of a few voxels and below the rounding of binary16, or it
-// would be no better than fear.
+// A plan that accepts a tolerance keeps it, on fields that break projectors. What it predicts
+// bounds every view of the whole.
 TEST_P(HardCase, KeepsTheToleranceItAccepts) {
     const auto &hard = bench::hardSubjects()[GetParam()];
     const bench::Subject subject{hard.name, hard.make()};
@@ -36,9 +34,10 @@ TEST_P(HardCase, KeepsTheToleranceItAccepts) {
         if (*row.predictedError <= tolerance) {
             EXPECT_LE(*row.relativeL2, tolerance);
         }
-        EXPECT_LE(*row.relativeL2, 1.25 * *row.predictedError);
+        EXPECT_LE(*row.relativeL2, *row.predictedError);
         if (*row.relativeL2 > 0.0) { // an empty field's image is empty
-            EXPECT_LE(*row.predictedError, 10.0 * *row.relativeL2 + 2e-4);
+            // The bound is of every view; that of the view stands beside the picture.
+            EXPECT_LE(*row.predictedError, 100.0 * *row.relativeL2);
         }
     }
 }

@@ -57,7 +57,11 @@ protected:
         return {{test::noiseField(test::tiltedLattice({36, 30, 21}, {0.8, 1.0, 2.1}, 20.0))}, {}};
     }
     static render::Scene sceneOf(const classify::ShownFields &fields) {
-        return {.camera = render::defaultCamera(fields.channels.front().values.lattice())};
+        render::Scene scene;
+        scene.camera = render::defaultCamera(fields.channels.front().values.lattice());
+        // A software renderer compiles wider slices for minutes; `EveryWidth` has them all.
+        scene.interpolation.kernel = fourier::kernelFromName("LS4");
+        return scene;
     }
 };
 
@@ -116,8 +120,8 @@ TEST_F(GpuEngine, EveryReconstructionAndFraming) {
             << camera.height << ", pan " << camera.panMm.x;
     };
     using render::Reconstruction;
-    for (const auto reconstruction :
-         {Reconstruction::cubic, Reconstruction::linear, Reconstruction::bandLimited}) {
+    for (const auto reconstruction : {Reconstruction::cubic, Reconstruction::linear,
+                                      Reconstruction::bandLimited, Reconstruction::spline}) {
         for (const double rollOff : {0.0, 1.0})
             expectAlike(whole, {reconstruction, rollOff});
         for (const render::Camera &camera : {whole, fine, moved, wide, tiny})
@@ -178,6 +182,7 @@ TEST_F(GpuEngine, LayersWithMovingShares) {
     for (unsigned n = 0; n < 16; ++n)
         fields.push_back(test::noiseField(lattice, n));
     render::Scene scene{.camera = render::defaultCamera(lattice)};
+    scene.interpolation.kernel = fourier::kernelFromName("LS4"); // as in sceneOf
     const auto plan = render::planRender(scene, render::summarise(fields), 3);
     render::EngineSpectra spectra;
     for (const auto &field : fields)

@@ -72,6 +72,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
                               tr("What lies between the samples of the volume"));
     m_reconstruction->addItem(tr("Cubic"), int(render::Reconstruction::cubic));
     m_reconstruction->addItem(tr("Linear"), int(render::Reconstruction::linear));
+    m_reconstruction->addItem(tr("Spline"), int(render::Reconstruction::spline));
     m_reconstruction->addItem(tr("Sharp (band-limited)"), int(render::Reconstruction::bandLimited));
     m_kernel = addBox(form, tr("Kernel"), "kernelBox", tr("How the spectrum is interpolated"));
     m_kernel->addItem(tr("As needed"), QString());
@@ -89,8 +90,10 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_storage->addItem(tr("16 bit"), QString("f16"));
     m_storage->addItem(tr("32 bit"), QString("f32"));
     m_time = addFigure(form, tr("Frame"), "frameTimeLabel", tr("Time that the last frame took"));
-    m_error = addFigure(form, tr("Error"), "predictedErrorLabel",
-                        tr("Relative error of the picture, predicted"));
+    m_error = addFigure(
+        form, tr("Error"), "predictedErrorLabel",
+        tr("Relative error of a picture from any side, predicted; that of the picture shown is "
+           "beside it"));
     m_largest = addFigure(form, tr("Largest"), "predictedMaximumLabel",
                           tr("Largest error of a pixel over the brightest pixel, predicted"));
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
@@ -238,8 +241,11 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     const render::RenderPlan &plan = shown.prepared.plan;
     const auto &spectrum = plan.spectrum;
     const bool missed = shown.predictedError > m_document.scene().tolerance;
-    m_error->setText(percent(shown.predictedError));
-    m_largest->setText(percent(plan.predictedMaximum));
+    // Of the study a coarse picture lacks detail that no plan knows of.
+    const bool isOfStudy = stage == EngineStage::full || stage == EngineStage::settled;
+    const QString unknown = tr("not known yet");
+    m_error->setText(isOfStudy ? tr("at most %1").arg(percent(shown.predictedError)) : unknown);
+    m_largest->setText(isOfStudy ? percent(plan.predictedMaximum) : unknown);
     const volume::GridSize box = spectrum.box.size();
     const auto padding = [&](int d) {
         return QString::number(double(spectrum.padded[d]) / box[d], 'f', 2);

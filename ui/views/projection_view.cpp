@@ -105,7 +105,7 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     if (stage != EngineStage::live || m_stage != EngineStage::live)
         ++m_generation;
     m_stage = stage;
-    m_worker.setEngine(m_engine, shown.onCard, m_generation);
+    m_worker.setEngine(m_engine, shown.onCard, m_generation, shown.prepared.viewError);
     m_onCard = shown.onCard;
     m_engineReason = shown.reason;
     requestFrame(false);
@@ -272,7 +272,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     if (m_tone.isWanted() && !frame->automaticTone)
         return;
     m_frame = frame;
-    m_frameError = m_predictedError;
+    m_frameError = frame->error.value_or(m_predictedError);
     m_frameStage = m_stage;
     m_pending = m_rest.isActive() || frame->number != m_requested;
     if (!frame->draft)

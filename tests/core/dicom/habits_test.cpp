@@ -5,11 +5,13 @@
 #include <jxl/encode.h>
 
 #include <cstring>
+#include <ctime>
 #include <functional>
 #include <memory>
-#include <set>
+#include <span>
 
 #include "core/dicom/write_series.h"
+#include "core/parse/parse.h"
 #include "core/phantom/phantom.h"
 #include "core/volume/nrrd.h"
 #include "tests/core/dicom/outcome.h"
@@ -460,6 +462,30 @@ TEST(Habits, WhatIsUnusuallyLargeIsOpenedWhenItIsAskedFor) {
     const auto taken = dicom::scan({folder.path()}, {}, {.takesHuge = true});
     EXPECT_TRUE(taken.skipped.empty());
     EXPECT_EQ(dicom::defaultSelection(taken).volume->geometry.lattice.size().i, 20000);
+}
+
+// Ten times the frames take ten times as long, twice that beyond the caches; not a hundred times.
+TEST(Habits, HeadersTakeTimeInProportionToTheirFrames) {
+    const auto seconds = [](int frames) {
+        SeriesKnobs knobs{.slices = 1, .rows = 1, .columns = 1};
+        DicomWriter w = test::sliceOf(knobs, 0);
+        w.put({0x0028, 0x0008}, "IS", std::to_string(frames));
+        DicomWriter position, group;
+        position.putNumbers({0x0020, 0x0032}, {0.0, 0.0, 1.0});
+        group.putSequence({0x0020, 0x9113}, {position});
+        w.putSequence({0x5200, 0x9230}, std::vector<DicomWriter>(std::size_t(frames), group));
+        w.put(DicomWriter::pixelData, "OW", std::string(std::size_t(2 * frames), '\0'));
+        const std::string file = w.file(Form());
+        double fastest = 1e9;
+        for (int round = 0; round < 3; ++round) {
+            const std::clock_t start = std::clock(); // of this process, whatever runs beside it
+            const auto header = parse::parseHeader(std::as_bytes(std::span(file)));
+            fastest = std::min(fastest, double(std::clock() - start));
+            EXPECT_EQ(header.frames.size(), std::size_t(frames));
+        }
+        return fastest;
+    };
+    EXPECT_LT(seconds(20000), 40.0 * seconds(2000));
 }
 
 } // namespace pellucid

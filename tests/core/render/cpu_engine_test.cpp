@@ -69,6 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
         AccuracyCase{"thickSlicesLinear", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::linear},
         AccuracyCase{
             "thickSlicesBandLimited", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::bandLimited},
+        AccuracyCase{"isotropicSpline", {24, 24, 24}, {1, 1, 1}, 0, Reconstruction::spline},
+        AccuracyCase{"thickSlicesSpline", {26, 22, 7}, {0.8, 0.8, 5}, 0, Reconstruction::spline},
         AccuracyCase{"tilted", {20, 22, 15}, {0.9, 0.9, 2}, 30, Reconstruction::cubic},
         AccuracyCase{"veryThick", {24, 24, 5}, {0.4, 0.4, 8}, 0, Reconstruction::cubic},
         AccuracyCase{"oddSizes", {19, 23, 17}, {1, 1.3, 0.7}, 0, Reconstruction::cubic},

@@ -22,8 +22,8 @@ TEST(ImageDefinition, RollOffIsOneThenFallsToZero) {
 
 // A reconstruction passes constants: K(0) = 1 and K(q) = 0 at every other whole q.
 TEST(ImageDefinition, ReconstructionsKeepConstants) {
-    for (const auto r :
-         {Reconstruction::cubic, Reconstruction::linear, Reconstruction::bandLimited}) {
+    for (const auto r : {Reconstruction::cubic, Reconstruction::linear, Reconstruction::bandLimited,
+                         Reconstruction::spline}) {
         EXPECT_NEAR(render::reconstructionFactor({r, 0.05}, 0.0), 1.0, 1e-12);
         for (const double q : {1.0, -2.0, 3.0})
             EXPECT_NEAR(render::reconstructionFactor({r, 0.05}, q), 0.0, 1e-12);
@@ -42,9 +42,32 @@ TEST(ImageDefinition, LinearIsTheTransformOfTheTent) {
     }
 }
 
+// Keys 1981, eq. 15 with a = -1/2: pieces of third order, which Simpson's rule integrates to the
+// fourth power of its step: 1e-12 here.
+TEST(ImageDefinition, CubicIsTheTransformOfKeysConvolution) {
+    const auto keys = [](double x) {
+        return x < 1.0 ? (1.5 * x - 2.5) * x * x + 1.0 : ((-0.5 * x + 2.5) * x - 4.0) * x + 2.0;
+    };
+    for (const double q : {0.0, 1e-6, 1e-3, 0.02, 0.1, 0.37, 0.5, 0.8, 1.0, 1.6, 2.5}) {
+        double sum = 0.0;
+        constexpr int steps = 4000;
+        for (const double piece : {0.0, 1.0})
+            for (int n = 0; n <= steps; ++n) {
+                const double x = piece + double(n) / steps;
+                const double weight = n == 0 || n == steps ? 1.0 : n % 2 == 1 ? 4.0 : 2.0;
+                sum += 2.0 * weight / (3.0 * steps) * keys(x) *
+                       std::cos(2.0 * std::numbers::pi * q * x);
+            }
+        EXPECT_NEAR(render::reconstructionFactor({Reconstruction::cubic, 0.05}, q), sum, 1e-11)
+            << q;
+        EXPECT_EQ(render::reconstructionFactor({Reconstruction::cubic, 0.05}, -q),
+                  render::reconstructionFactor({Reconstruction::cubic, 0.05}, q));
+    }
+}
+
 // Interpolating: the sum of K over all periods is 1, so that samples keep their values.
 TEST(ImageDefinition, CubicAndLinearInterpolate) {
-    for (const auto r : {Reconstruction::cubic, Reconstruction::linear})
+    for (const auto r : {Reconstruction::cubic, Reconstruction::linear, Reconstruction::spline})
         for (const double q : {0.05, 0.3, 0.5}) {
             double sum = 0.0;
             for (int period = -4000; period <= 4000; ++period)

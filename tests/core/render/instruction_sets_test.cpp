@@ -40,7 +40,7 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     std::array<render::AxisError, 3> axes;
     for (int d = 0; d < 3; ++d)
         axes[d] = render::axisError(kernel, layout.padded[d], energy.axis[d]);
-    const double predicted = render::predictRelativeError(axes, storage, {});
+    const double predicted = render::predictRelativeError(axes, storage, energy, {});
     const auto room = render::roomOfBox(field.values.lattice(), field.support);
     EXPECT_LT(error, std::hypot(predicted, room.foldedTails)) << predicted;
 
@@ -56,7 +56,8 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     const double cuedError =
         test::relativeL2(engine.render(camera, {}, {.cue = cue}).samples, exactCued);
     const double predictedCued = render::predictRelativeError(
-        axes, storage, {}, render::cueWeight(cue, lattice, lattice.radiusMm(), layout, energy));
+        axes, storage, energy, {},
+        render::cueWeight(cue, lattice, lattice.radiusMm(), layout, energy));
     EXPECT_LT(cuedError, std::hypot(predictedCued, room.foldedTails)) << predictedCued;
 }
 

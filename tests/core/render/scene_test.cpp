@@ -62,6 +62,22 @@ TEST(Scene, PlanningForTheVolumeForgetsTheView) {
     EXPECT_GE(camera.width * camera.pixelMm, 2.0 * lattice.radiusMm() - camera.pixelMm);
 }
 
+// The first version's cubic is the spline, whether it was written or meant.
+TEST(Scene, ScenesOfTheFirstVersionKeepTheirReconstruction) {
+    const auto first = [](const std::string &reconstruction) {
+        std::string text = render::toJson({});
+        text.replace(text.find("pellucid-scene/2"), 16, "pellucid-scene/1");
+        const std::string line = "\"reconstruction\": \"cubic\",";
+        text.replace(text.find(line), line.size(), reconstruction);
+        return render::sceneFromJson(text).image.reconstruction;
+    };
+    EXPECT_EQ(first(""), render::Reconstruction::spline);
+    EXPECT_EQ(first("\"reconstruction\": \"cubic\","), render::Reconstruction::spline);
+    EXPECT_EQ(first("\"reconstruction\": \"linear\","), render::Reconstruction::linear);
+    EXPECT_EQ(render::sceneFromJson(render::toJson({})).image.reconstruction,
+              render::Reconstruction::cubic);
+}
+
 TEST(Scene, RefusesBadJsonWithTheReason) {
     const std::string good = render::toJson({});
     EXPECT_THROW(render::sceneFromJson("{"), task::Error);
@@ -72,7 +88,7 @@ TEST(Scene, RefusesBadJsonWithTheReason) {
         return text;
     };
     EXPECT_THROW(render::sceneFromJson(replaced("\"cubic\"", "\"quintic\"")), task::Error);
-    EXPECT_THROW(render::sceneFromJson(replaced("pellucid-scene/1", "other")), task::Error);
+    EXPECT_THROW(render::sceneFromJson(replaced("pellucid-scene/2", "other")), task::Error);
     for (const char *look :
          {R"("transfer_function": [1.0])", R"("transfer_function": [1.0, 9.0])",
           R"("transfer_function": "x")", R"("classes": [{"name": "a"}])",

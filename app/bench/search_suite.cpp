@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "app/bench/error_search.h"
+#include "app/bench/suites.h"
+
+namespace pellucid::bench {
+
+void runSearchSuite(const Report &report, double minutes, std::uint64_t seed) {
+    const auto row = [&](const std::string &name, const Verdict &verdict, const std::string &note) {
+        Row one;
+        one.suite = "search";
+        one.name = name;
+        one.predictedError = verdict.predicted;
+        one.relativeL2 = verdict.measured;
+        one.note = note;
+        report(one);
+    };
+    const SearchResult result = searchCounterexample(
+        {.seed = seed, .seconds = 60.0 * minutes}, [&](const Trial &trial, const Verdict &verdict) {
+            row(trial.name, verdict,
+                fmt::format("measured {:.3f} of the prediction", verdict.ratio()));
+        });
+    row(trialOf(result.worst).name, result.verdict,
+        fmt::format("the worst of {} trials, seed {}: measured {:.3f} of the prediction",
+                    result.trials, seed, result.verdict.ratio()));
+}
+
+} // namespace pellucid::bench

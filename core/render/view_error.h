@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/render/cpu_engine.h"
+#include "core/render/render_plan.h"
+
+namespace pellucid::render {
+
+/// What of a plan and its fields tells the error of a single picture: coarse fields and what the
+/// plan's kernels make of each of their blocks.
+class ViewErrorModel {
+public:
+    /// *Shape*: one summary for each field of the plan.
+    ViewErrorModel(const RenderPlan &plan, std::span<const FieldSummary> fields);
+
+    /// The relative L2 error of a picture that an engine of the plan made, plain or with a cue,
+    /// with the energies and the ghosts as they are seen from there, in the window that it has;
+    /// never more than the plan's bound for a picture of the whole. Lights are counted by that
+    /// bound. `shares`: of each field in the picture's channels.
+    double relativeError(const ProjectionImage &picture, const Camera &camera,
+                         const ImageDefinition &image, std::span<const ChannelShares> shares,
+                         const shading::Shading &shading) const;
+
+private:
+    struct Block {
+        glm::dvec3 fromCentreMm{0.0};
+        std::array<float, 6> ghosts{}; ///< amplitudes along each axis, of the periods -1 and 1
+        float inverse = 1.0F;          ///< 1/h^2 of all axes
+    };
+    struct Part { ///< of a field in a block
+        std::uint32_t block = 0;
+        float mass = 0.0F, energy = 0.0F;
+    };
+    /// Energies of one channel, in the picture's units.
+    struct Energies {
+        double image = 0.0, error = 0.0;
+    };
+    Energies channelEnergies(const ProjectionImage &picture, int channel, const Camera &camera,
+                             const ImageDefinition &image, std::span<const double> weights,
+                             const shading::DepthCue &cue) const;
+
+    volume::Lattice m_lattice;
+    std::array<glm::dvec3, 3> m_periods{}; ///< of the ghosts, mm
+    std::vector<Block> m_blocks;
+    std::vector<std::vector<Part>> m_fields;
+    std::vector<std::shared_ptr<const EnergySpread>> m_spreads;
+    SliceRoom m_room;
+    double m_kernelEnergy = 1.0, m_rounding = 0.0, m_bound = 0.0, m_depthRadiusMm = 1.0,
+           m_blockMm = 1.0;
+};
+
+} // namespace pellucid::render

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Short searches for a stated error that is below the measured one; `pellucid-bench --suite search`
+// looks for as long as one likes.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "app/bench/error_search.h"
+#include "core/reference/wide_kernel.h"
+#include "core/render/cpu_engine.h"
+#include "core/render/render_plan.h"
+
+namespace pellucid {
+
+namespace {
+
+TEST(ErrorSearch, NoFieldAndViewExceedTheBound) {
+    const auto result =
+        bench::searchCounterexample({.seed = 20261123, .seconds = 300, .trials = 40});
+    EXPECT_LE(result.verdict.ratio(), 1.0)
+        << bench::trialOf(result.worst).name << ": predicted " << result.verdict.predicted
+        << ", measured " << result.verdict.measured;
+    EXPECT_GT(result.verdict.ratio(), 0.0);
+}
+
+// Beside a picture stands its own error: never less than measured, and close to it.
+TEST(ErrorSearch, TheErrorOfAViewIsCloseToWhatIsMeasured) {
+    const std::vector<double> factors = bench::viewPredictionFactors(40, 20261123);
+    EXPECT_GE(factors.front(), 1.0);
+    EXPECT_LE(factors[factors.size() * 95 / 100], 4.0); // 95 % of 120 others: 3.3
+    EXPECT_LT(factors[factors.size() / 2], 2.6);
+}
+
+render::Scene sceneFor(const volume::Lattice &lattice, const glm::dquat &view, double tolerance) {
+    render::Scene scene;
+    scene.camera = render::defaultCamera(lattice);
+    scene.camera.orientation = view;
+    scene.tolerance = tolerance;
+    return scene;
+}
+
+bench::Verdict judged(const volume::Lattice &lattice, std::vector<float> samples,
+                      const glm::dquat &view, double tolerance) {
+    bench::Trial trial{
+        "",
+        classify::densityField(volume::Volume(lattice, std::move(samples), volume::ValueUnit::none),
+                               {0.0, 1.0}),
+        sceneFor(lattice, view, tolerance)};
+    return bench::judge(trial);
+}
+
+// What exceeded predictions once: two bright samples in opposite corners, seen at 45 degrees, where
+// the ghosts of two axes fall onto each other.
+TEST(ErrorSearch, TwoSamplesInOppositeCorners) {
+    const auto lattice = volume::Lattice::centred({48, 48, 48}, {1, 1, 1});
+    std::vector<float> samples(lattice.size().count(), 0.0F);
+    samples.front() = samples.back() = 1.0F;
+    for (const double azimuth : {45.0, 135.0, 0.0})
+        for (const double tolerance : {1e-2, 1.1e-3}) {
+            const auto verdict = judged(
+                lattice, samples,
+                render::viewOrientation(render::StandardView::front, {azimuth, 0, 0}), tolerance);
+            EXPECT_LE(verdict.predicted, tolerance) << azimuth;
+            EXPECT_LE(verdict.measured, verdict.predicted) << azimuth << ' ' << tolerance;
+            EXPECT_LE(verdict.measured, verdict.ofView) << azimuth << ' ' << tolerance;
+        }
+}
+
+// And a thin oblique sheet off the centre, seen edge on: all of its picture is at the band's edge.
+TEST(ErrorSearch, AThinSheetSeenEdgeOn) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(1.0, 0.37, 0.21));
+    std::vector<float> samples;
+    for (int k = 0; k < 40; ++k)
+        for (int j = 0; j < 40; ++j)
+            for (int i = 0; i < 40; ++i) {
+                const double far =
+                    glm::dot(lattice.patient(volume::VoxelIndex{i, j, k}).mm, normal) - 11.0;
+                samples.push_back(float(std::exp(-far * far)));
+            }
+    const glm::dvec3 w = glm::normalize(glm::cross(normal, glm::dvec3(0, 0, 1))),
+                     u = glm::normalize(normal);
+    const glm::dquat view = glm::quat_cast(glm::dmat3(u, glm::cross(w, u), w));
+    for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+        const auto verdict = judged(lattice, samples, view, tolerance);
+        EXPECT_LE(verdict.measured, verdict.predicted) << tolerance;
+        EXPECT_LE(verdict.measured, verdict.ofView) << tolerance;
+    }
+}
+
+} // namespace
+} // namespace pellucid
