@@ -17,7 +17,7 @@ namespace {
 
 // What coarse blocks and mean energies leave out, as energy; more of a field of a few samples,
 // whose ghosts and whose rounding nothing averages.
-constexpr double margin = 2.1, pointMargin = 3.6;
+constexpr double margin = 2.35, pointMargin = 3.8;
 // Cells of a few samples' spectrum are alike and round alike: less averages out.
 constexpr int fewSamples = 10;
 

@@ -93,7 +93,7 @@ struct Framing {
 
 // The plan's prediction bounds the pictures of the whole from any side: these two are not the
 // worst. Beside each picture stands its own, also of crops, which have their copies' tails from the
-// whole projection: at most four times too high.
+// whole projection: at most four and a half times too high.
 TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
     for (const auto size : {volume::GridSize{32, 32, 32}, {40, 24, 12}})
         for (const Framing &framing :
@@ -122,7 +122,7 @@ TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
                 const double ofView = model.relativeError(image, scene.camera, scene.image,
                                                           engine.parts().shares, {});
                 EXPECT_GE(ofView, e) << framing.pixel << ' ' << framing.side << ' ' << framing.pan;
-                EXPECT_LE(ofView, 4.0 * e)
+                EXPECT_LE(ofView, 4.5 * e)
                     << framing.pixel << ' ' << framing.side << ' ' << framing.pan;
                 measured = std::max(measured, e);
             }
