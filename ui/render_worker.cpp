@@ -216,9 +216,8 @@ void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
         frame.automaticTone = render::toneRange(frame.image, {});
     // Not while the picture moves: nobody reads figures then.
     if (request.viewError && !frame.draft)
-        frame.error =
-            request.viewError->relativeError(frame.image, request.camera, request.image,
-                                             request.engine->parts().shares, request.shading);
+        frame.error = request.viewError->relativeError(frame.image, request.camera, request.image,
+                                                       request.engine->parts(), request.shading);
 }
 
 } // namespace pellucid::ui

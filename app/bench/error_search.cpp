@@ -12,16 +12,16 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
-#include "core/render/cpu_engine.h"
-#include "core/render/render_plan.h"
+#include "core/render/prepared_engine.h"
 #include "core/render/view_error.h"
 
 namespace pellucid::bench {
 
 namespace {
 
-constexpr std::size_t geneCount = 32;
+constexpr std::size_t geneCount = 48;
 
 // Reads genes one after the other.
 class Genes {
@@ -200,9 +200,43 @@ glm::dquat viewOf(Genes &genes, const volume::Lattice &lattice, const glm::dvec3
     return facing(w, roll);
 }
 
+// A part of the picture, off its middle.
+void cropPicture(Genes &genes, render::Camera &camera) {
+    const auto side = [&](int pixels) {
+        return std::max(8, 2 * int(0.5 * pixels * genes.between(0.3, 1.0)));
+    };
+    const int width = side(camera.width), height = side(camera.height);
+    camera.panMm = 0.5 * camera.pixelMm *
+                   glm::dvec2((camera.width - width) * genes.between(-0.7, 0.7),
+                              (camera.height - height) * genes.between(-0.7, 0.7));
+    camera.width = width;
+    camera.height = height;
+}
+
+shading::Shading shadingOf(Genes &genes) {
+    using shading::CueKind;
+    constexpr std::array cues{CueKind::linear, CueKind::sine, CueKind::curve};
+    shading::Shading result;
+    const bool isCued = genes.next() < 0.6, isLit = !isCued || genes.next() < 0.4;
+    if (isCued)
+        result.cue = {cues[std::size_t(genes.choice(int(cues.size())))],
+                      genes.between(0.1, 1.0),
+                      {0.2, 1.0, 0.4}};
+    if (isLit) {
+        result.ambient = genes.between(0.1, 0.8);
+        result.lights.push_back({genes.direction()});
+        if (genes.next() < 0.3) {
+            result.lights.front().color = {1.0, 0.6, 0.2};
+            result.lights.push_back({genes.direction()});
+            result.lights.back().color = {0.1, 0.3, 1.0};
+        }
+    }
+    return result;
+}
+
 } // namespace
 
-Trial trialOf(const Candidate &candidate) {
+Trial trialOf(const Candidate &candidate, Asked asked) {
     Genes genes(candidate);
     constexpr std::array<double, 4> tolerances{1e-2, 1.1e-3, 1e-4, 1e-5};
     const int kind = genes.choice(int(kinds.size()));
@@ -235,51 +269,68 @@ Trial trialOf(const Candidate &candidate) {
     render::Camera &camera = trial.scene.camera;
     camera.pixelMm *= zoom;
     camera.width = camera.height = 2 * int(std::ceil(0.5 * camera.width / zoom));
-    trial.name =
-        fmt::format("{}, {}x{}x{}, {}, pixel {:.2f} mm, tolerance {:.2g}", kinds[std::size_t(kind)],
-                    size.i, size.j, size.k, view, camera.pixelMm, tolerance);
+    std::string more;
+    if (asked == Asked::anyPicture) {
+        if (genes.next() < 0.3) {
+            cropPicture(genes, camera);
+            more += ", cropped";
+        }
+        if (genes.next() < 0.4) {
+            trial.scene.shading = shadingOf(genes);
+            more += trial.scene.shading.isLit() ? ", lit" : ", with a cue";
+        }
+    }
+    trial.name = fmt::format("{}, {}x{}x{}, {}{}, pixel {:.2f} mm, tolerance {:.2g}",
+                             kinds[std::size_t(kind)], size.i, size.j, size.k, view, more,
+                             camera.pixelMm, tolerance);
     return trial;
 }
 
 Verdict judge(const Trial &trial) {
-    const classify::DensityField &field = trial.field;
-    const auto summary = render::summarise(field);
-    const auto plan = render::planRender(trial.scene, summary);
-    render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
-                                 fourier::Spectrum::prepare(field.values, plan.spectrum)),
-                             plan.room);
-    const auto image = engine.render(trial.scene.camera, trial.scene.image);
-    const auto truth = reference::WideKernel(field.values, field.support)
-                           .image(trial.scene.camera, trial.scene.image);
+    const render::Scene &scene = trial.scene;
+    const classify::ShownFields fields{{trial.field}, {}};
+    const auto shaded = render::shadedFields(fields.channels, scene.shading,
+                                             shading::shadingScale(trial.field.values.lattice()));
+    const auto summaries = render::summarise(shaded, scene.shading.cue);
+    const auto plan = render::planRender(scene, summaries, render::imagesOf(1, scene.shading));
+    const auto engine = render::makeEngine(shaded, {}, plan);
+    const auto image = engine->render(scene.camera, scene.image, scene.shading);
+    const auto truth =
+        scene.shading.isPlain()
+            ? reference::WideKernel(trial.field.values, trial.field.support)
+                  .image(scene.camera, scene.image)
+            : reference::shadedImage(fields, scene.shading, scene.camera, scene.image);
     double difference = 0.0, energy = 0.0;
     for (std::size_t n = 0; n < truth.size(); ++n) {
         const double off = double(image.samples[n]) - truth[n];
         difference += off * off;
         energy += truth[n] * truth[n];
     }
-    const std::array<render::ChannelShares, 1> grey{{{1.0, 1.0, 1.0}}};
-    Verdict verdict{plan.predictedError, energy > 0.0 ? std::sqrt(difference / energy) : 0.0,
-                    render::ViewErrorModel(plan, {&summary, 1})
-                        .relativeError(image, trial.scene.camera, trial.scene.image, grey, {}),
-                    true};
+    Verdict verdict{
+        plan.predictedError, energy > 0.0 ? std::sqrt(difference / energy) : 0.0,
+        render::ViewErrorModel(plan, summaries)
+            .relativeError(image, scene.camera, scene.image, engine->parts(), scene.shading),
+        true};
     verdict.keepsTolerance = plan.predictedError <= trial.scene.tolerance;
     return verdict;
 }
 
-std::vector<double> viewPredictionFactors(int count, std::uint64_t seed) {
+std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
-    std::vector<double> factors;
+    std::vector<PictureFactor> factors;
     while (int(factors.size()) < count) {
         Candidate candidate;
         for (std::size_t n = 0; n < geneCount; ++n)
             candidate.genes.push_back(uniform(random));
         candidate.genes[1] = 0.3; // the usual tolerance
-        const Verdict verdict = judge(trialOf(candidate));
+        const Trial trial = trialOf(candidate, Asked::anyPicture);
+        const Verdict verdict = judge(trial);
         if (verdict.measured > 0.0)
-            factors.push_back(verdict.ofView / verdict.measured);
+            factors.push_back({trial.name, verdict.ofView / verdict.measured});
     }
-    std::sort(factors.begin(), factors.end());
+    std::sort(factors.begin(), factors.end(),
+              [](const auto &a, const auto &b) { return a.factor < b.factor; });
     return factors;
 }
 
@@ -316,7 +367,7 @@ searchCounterexample(const SearchOptions &options,
                                ? uniform(random)
                                : std::clamp(gene + 0.1 * normal(random), 0.0, 0.999999);
         }
-        const Trial trial = trialOf(candidate);
+        const Trial trial = trialOf(candidate, Asked::wholePicture);
         const Verdict verdict = judge(trial);
         ++result.trials;
         ++island.failures;

@@ -23,7 +23,10 @@ struct Trial {
     classify::DensityField field;
     render::Scene scene;
 };
-Trial trialOf(const Candidate &candidate);
+/// Whole pictures without cue and light, of which the plan's error is a bound; or of any kind and
+/// any part, beside each of which stands an error of its own.
+enum class Asked { wholePicture, anyPicture };
+Trial trialOf(const Candidate &candidate, Asked asked);
 
 /// Predicted error of the plan and measured error of the image against the exact one. *Units*:
 /// relative L2.
@@ -37,9 +40,14 @@ struct Verdict {
 };
 Verdict judge(const Trial &trial);
 
-/// Predictions of pictures over their measured errors, of random candidates whose tolerance is the
-/// usual one, sorted. *Shape*: as many as were asked for.
-std::vector<double> viewPredictionFactors(int count, std::uint64_t seed);
+/// The error that stands beside a picture over the measured one.
+struct PictureFactor {
+    std::string name;
+    double factor = 0.0;
+};
+/// Of random pictures of any kind whose tolerance is the usual one, the smallest factor first.
+/// *Shape*: as many as were asked for.
+std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t seed);
 
 struct SearchOptions {
     std::uint64_t seed = 1;

@@ -53,6 +53,7 @@ pellucid::bench::Subject readSubject(const std::string &path) {
 
 struct Search {
     double minutes = 1.0;
+    int pictures = 300;
     std::uint64_t seed = 1;
 };
 
@@ -79,6 +80,8 @@ void run(const std::string &suite, const pellucid::bench::Report &report,
         runClassesSuite(report);
     else if (suite == "search")
         runSearchSuite(report, search.minutes, search.seed);
+    else if (suite == "pictures")
+        runPicturesSuite(report, search.pictures, search.seed);
     else
         runTotsukaSuite(report);
 }
@@ -95,11 +98,13 @@ int main(int argc, char **argv) {
     app.add_option("--suite", suites, "What to measure; several with commas between")
         ->delimiter(',')
         ->check(CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka",
-                               "classes", "shading", "planes", "gpu", "search"}));
+                               "classes", "shading", "planes", "gpu", "search", "pictures"}));
     Search search;
     app.add_option("--minutes", search.minutes, "How long --suite search looks")
         ->check(CLI::Range(0.01, 10000.0));
-    app.add_option("--seed", search.seed, "Where --suite search begins");
+    app.add_option("--pictures", search.pictures, "How many pictures --suite pictures makes")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--seed", search.seed, "Where the suites search and pictures begin");
     app.add_option("--volume", file,
                    "An NRRD volume in place of the fields of the suites kernels and scaling");
     app.add_option("--json", json, "Write the rows as JSON");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "app/bench/error_search.h"
@@ -21,9 +23,25 @@ void runSearchSuite(const Report &report, double minutes, std::uint64_t seed) {
             row(trial.name, verdict,
                 fmt::format("measured {:.3f} of the prediction", verdict.ratio()));
         });
-    row(trialOf(result.worst).name, result.verdict,
+    row(trialOf(result.worst, Asked::wholePicture).name, result.verdict,
         fmt::format("the worst of {} trials, seed {}: measured {:.3f} of the prediction",
                     result.trials, seed, result.verdict.ratio()));
+}
+
+void runPicturesSuite(const Report &report, int pictures, std::uint64_t seed) {
+    const std::vector<PictureFactor> factors = picturePredictionFactors(pictures, seed);
+    const auto at = [&](const char *what, std::size_t n) {
+        Row row;
+        row.suite = "pictures";
+        row.name = factors[n].name;
+        row.note = fmt::format("{} of {}: the prediction is {:.3f} times the measured error", what,
+                               factors.size(), factors[n].factor);
+        report(row);
+    };
+    at("the least", 0);
+    at("the median", factors.size() / 2);
+    at("95 % are below", (factors.size() - 1) * 95 / 100);
+    at("the largest", factors.size() - 1);
 }
 
 } // namespace pellucid::bench

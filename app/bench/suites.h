@@ -39,6 +39,9 @@ void runGpuSuite(const Report &report);
 /// A search for fields and views whose error is larger than what was predicted, for so many
 /// minutes; each that is worse than all before is a row.
 void runSearchSuite(const Report &report, double minutes, std::uint64_t seed);
+/// The error stated beside random pictures over the measured one: the least, the median, where 95 %
+/// are below, the largest.
+void runPicturesSuite(const Report &report, int pictures, std::uint64_t seed);
 /// Totsuka and Levoy 1993, table 1, and their adaptive filter.
 void runTotsukaSuite(const Report &report);
 

@@ -46,6 +46,15 @@ bool isEmpty(const classify::DensityField &field) {
     return field.support.size().count() == 1 && field.values.value(field.support.lo) == 0.0;
 }
 
+// Whether what a picture shows misses the tolerance that the plan keeps, and a closer plan may
+// help.
+bool mayPlanCloser(const Renderer &renderer, const render::Scene &scene) {
+    return renderer.lastViewError() > scene.tolerance &&
+           renderer.predictedError() <= scene.tolerance && !renderer.isReduced() &&
+           scene.interpolation == render::Interpolation() &&
+           scene.plannedFor != render::PlannedFor::volume;
+}
+
 void run(const Options &o, const CLI::App &command, const Context &context) {
     const fs::path out(o.out);
     // Refused before any work is done.
@@ -92,9 +101,14 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (command.count("--memory") > 0)
         budget.bytes = std::min(budget.bytes, std::size_t(o.memory - held));
     const double fieldMs = watch.lapMs();
-    const auto prepared = [&] {
+    render::Scene planned = scene; // with a closer tolerance, if a part of the picture needs one
+    std::optional<Renderer> made;
+    const auto prepare = [&]() -> Renderer & {
         try {
-            return Renderer(scene, fields, budget, context);
+            made.reset();
+            Renderer &renderer = made.emplace(planned, fields, budget, context);
+            renderer.use(card);
+            return renderer;
         } catch (const Error &error) {
             if (error.code() != ErrorCode::outOfMemory || command.count("--memory") == 0)
                 throw;
@@ -104,16 +118,15 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                         o.input.path);
         }
     };
-    Renderer renderer = prepared();
-    renderer.use(card);
+    Renderer *renderer = &prepare();
     const double prepareMs = watch.lapMs();
     std::vector<std::string> warnings = volume.notes().warnings;
     const auto warn = [&](const std::string &text) {
         warnings.push_back(text);
         cli::warn(text);
     };
-    if (renderer.isReduced())
-        warn(renderer.reason());
+    if (renderer->isReduced())
+        warn(renderer->reason());
     const bool hasClasses = !scene.look.classes.empty();
     if (hasClasses && command.count("--bezier") > 0)
         warn("--bezier weighs the whole volume; beside --class it is not seen");
@@ -125,9 +138,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (const auto preset = presetFor(o.scene))
         if (const std::string why = presets::mismatch(*preset, volume); !why.empty())
             warn(why);
-    if (renderer.predictedError() > scene.tolerance)
+    if (renderer->predictedError() > scene.tolerance)
         warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
-                         renderer.predictedError()));
+                         renderer->predictedError()));
     if (std::all_of(fields.channels.begin(), fields.channels.end(), isEmpty))
         warn(scene.look.classes.empty()
                  ? fmt::format("the field is empty: no value lies above {} within a window of {} "
@@ -136,7 +149,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                  : std::string("the field is empty: no value belongs to a class that is shown"));
 
     render::FrameTimes times;
-    double writeMs = 0.0;
+    double writeMs = 0.0, viewError = 0.0;
     const int frames = std::max(1, o.frames);
     dicom::CaptureLabels labels =
         o.isDeidentified ? dicom::deidentified(input.labels) : input.labels;
@@ -151,7 +164,15 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         turned.camera.orientation =
             glm::angleAxis(glm::radians(360.0 * frame / frames), glm::dvec3(0, 0, 1)) *
             scene.camera.orientation;
-        const auto image = renderer.image(turned.camera, times);
+        auto image = renderer->image(turned.camera, times);
+        // The plan is for the picture of the whole. Of a part that holds less than its share, the
+        // error is known once it is seen.
+        for (int tries = 0; tries < 3 && mayPlanCloser(*renderer, scene); ++tries) {
+            planned.tolerance *= 0.8 * scene.tolerance / renderer->lastViewError();
+            renderer = &prepare();
+            image = renderer->image(turned.camera, times);
+        }
+        viewError = std::max(viewError, renderer->lastViewError());
         task::Progress(context.stop).check();
         watch.lapMs();
         labels.instanceNumber = frame + 1;
@@ -161,10 +182,10 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     }
     if (turn)
         turn->commit();
-    if (renderer.viewError() > scene.tolerance && renderer.predictedError() <= scene.tolerance)
+    if (viewError > scene.tolerance && renderer->predictedError() <= scene.tolerance)
         warn(fmt::format("the tolerance of {:.2g} is met by pictures of the whole; {:.2g} is "
                          "predicted for what this one shows",
-                         scene.tolerance, renderer.viewError()));
+                         scene.tolerance, viewError));
     if (!o.json)
         return;
     json skipped = json::array();
@@ -172,13 +193,13 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         skipped.push_back({{"path", s.path.string()}, {"reason", s.reason}});
     const volume::Lattice &l = volume.lattice();
     std::puts(
-        jsonText({{"engine", renderer.description()},
-                  {"device", renderer.isOnCard() ? "gpu" : "cpu"},
-                  {"engine_reason", renderer.engineReason()},
+        jsonText({{"engine", renderer->description()},
+                  {"device", renderer->isOnCard() ? "gpu" : "cpu"},
+                  {"engine_reason", renderer->engineReason()},
                   {"size", {scene.camera.width, scene.camera.height}},
                   {"pixel_mm", scene.camera.pixelMm},
                   {"frames", frames},
-                  {"channels", renderer.channelCount()},
+                  {"channels", renderer->channelCount()},
                   {"volume",
                    {{"size", sizeJson(l.size())},
                     {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
@@ -195,14 +216,14 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                     {"transform", times.transformMs},
                     {"frame", times.totalMs()},
                     {"write", writeMs}}},
-                  {"bytes", renderer.bytes()},
-                  {"card_bytes", renderer.cardBytes()},
-                  {"plan", renderer.planJson()},
+                  {"bytes", renderer->bytes()},
+                  {"card_bytes", renderer->cardBytes()},
+                  {"plan", renderer->planJson()},
                   {"tolerance", scene.tolerance},
                   {"predicted_error",
-                   {{"relative_l2", renderer.viewError()},
-                    {"maximum", renderer.predictedMaximum() ? json(*renderer.predictedMaximum())
-                                                            : json(nullptr)}}},
+                   {{"relative_l2", viewError},
+                    {"maximum", renderer->predictedMaximum() ? json(*renderer->predictedMaximum())
+                                                             : json(nullptr)}}},
                   {"warnings", warnings},
                   {"skipped", skipped}})
             .c_str());

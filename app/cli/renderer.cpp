@@ -10,6 +10,7 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "core/reference/shaded_field.h"
+#include "core/render/frame_model.h"
 #include "core/render/planning_scene.h"
 #include "core/task/error.h"
 #include "gpu/surfaceless_context.h"
@@ -170,10 +171,9 @@ void Renderer::judge(const render::ProjectionImage &image, const render::Camera 
     // What the card's own filter adds, it adds to every view.
     const double bound = m_fitting.plan.predictedError,
                  added = std::max(0.0, m_predictedError * m_predictedError - bound * bound);
-    const double error = std::hypot(
-        m_viewModel->relativeError(image, camera, m_scene.image, parts.shares, m_scene.shading),
-        std::sqrt(added));
-    m_viewError = std::max(m_viewError.value_or(0.0), error);
+    m_viewError =
+        std::hypot(m_viewModel->relativeError(image, camera, m_scene.image, parts, m_scene.shading),
+                   std::sqrt(added));
 }
 
 render::ProjectionImage Renderer::exactImage(const render::Camera &camera) const {
@@ -217,7 +217,23 @@ json Renderer::planJson() const {
     const render::SliceGrid grid =
         render::sliceGrid(m_scene.camera, plan.room, m_lattice, m_scene.image);
     const int w = s.width();
-    return {{"kernel", s.kernels[0].name()},
+    const render::FrameModel model =
+        render::modelFrame(plan, m_scene, int(m_fields.channels.size()),
+                           m_fields.channels.size() == 1 && !m_fields.isGrey(), m_lattice);
+    json leftOut = json::array();
+    for (const render::LeftOut what : model.leftOut)
+        leftOut.push_back(render::leftOutText(what));
+    const json modelled = {
+        {"spectra", {{"fields", model.fields}, {"gradients", model.gradients}}},
+        {"slices", model.slices},
+        {"images", model.images},
+        {"combination", render::combinationText(model.combination)},
+        {"multiply_adds", model.multiplyAdds},
+        {"transform_operations", model.transformOperations},
+        {"bytes", {{"spectra", model.spectrumBytes}, {"frame", model.frameBytes}}},
+        {"left_out", leftOut}};
+    return {{"model", modelled},
+            {"kernel", s.kernels[0].name()},
             {"taps", w * w * w},
             {"padded", sizeJson(s.padded)},
             {"box", sizeJson(s.box.size())},

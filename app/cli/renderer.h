@@ -59,8 +59,8 @@ public:
     /// Of every view of the whole, at most: the worst channel's; the picture's, all channels taken
     /// together, is no larger.
     double predictedError() const { return m_predictedError; }
-    /// Of the pictures made so far, as they are seen and cropped: the largest.
-    double viewError() const { return m_viewError.value_or(m_predictedError); }
+    /// Of the last picture, as it is seen and cropped.
+    double lastViewError() const { return m_viewError.value_or(m_predictedError); }
     /// Of the engine only: the reference's lies below what a float image holds.
     std::optional<double> predictedMaximum() const;
 

@@ -40,6 +40,7 @@ const StepParameter &parameterOf(const StepKind &kind, const std::string &name) 
 } // namespace
 
 const std::vector<StepKind> &stepKinds() {
+    static const StepParameter byItk{"itk", "", 0.0, 1.0, 0.0, true, "1: by ITK's filters, slower"};
     static const std::vector<StepKind> kinds{
         {"gaussian",
          StepEffect::values,
@@ -68,15 +69,20 @@ const std::vector<StepKind> &stepKinds() {
          "Canny edges, shown with a density of one",
          {{"sigma_mm", "mm", 0.0, 20.0, 1.0, false, "Smoothing beforehand"},
           {"low", "value units per mm", 0.0, open, 20.0, false, "An edge goes on above this"},
-          {"high", "value units per mm", 0.0, open, 60.0, false, "An edge starts above this"}}},
+          {"high", "value units per mm", 0.0, open, 60.0, false, "An edge starts above this"},
+          byItk}},
+        {"binarise",
+         StepEffect::region,
+         "A density of one from a value on, and none below",
+         {{"from", "value units", -open, open, 0.0, false, "Least value"}}},
         {"opening",
          StepEffect::region,
          "Removes what is thinner than a ball",
-         {{"radius_mm", "mm", 0.1, 30.0, 2.0, false, "Radius of the ball"}}},
+         {{"radius_mm", "mm", 0.1, 30.0, 2.0, false, "Radius of the ball"}, byItk}},
         {"closing",
          StepEffect::region,
          "Fills what a ball does not fit into",
-         {{"radius_mm", "mm", 0.1, 30.0, 2.0, false, "Radius of the ball"}}},
+         {{"radius_mm", "mm", 0.1, 30.0, 2.0, false, "Radius of the ball"}, byItk}},
         {"largest",
          StepEffect::region,
          "Only the largest connected part, or all that are not much smaller",

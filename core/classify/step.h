@@ -27,7 +27,7 @@ struct StepKind {
     std::vector<StepParameter> parameters;
 };
 
-/// gaussian, median, diffusion, gradient; threshold, edges, opening, closing, largest,
+/// gaussian, median, diffusion, gradient; threshold, edges, binarise, opening, closing, largest,
 /// body, skin.
 const std::vector<StepKind> &stepKinds();
 /// *Throws* Error{usage} with the names there are.

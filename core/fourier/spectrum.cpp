@@ -74,14 +74,21 @@ Complex conjugate(Complex cell) {
     return std::conj(cell);
 }
 
+std::complex<float> asComplex(std::uint32_t cell) {
+    return {fromBinary16(std::uint16_t(cell)), fromBinary16(std::uint16_t(cell >> 16))};
+}
+Complex asComplex(Complex cell) {
+    return cell;
+}
+
 // The transform along z of the rows y and -y, which give each other's cells beyond the half, and
 // their lines in the final layout.
 template <class Cell> class RowPair {
 public:
     RowPair(const SpectrumLayout &layout, const CellLayout &cells, const StripTransform &transform,
-            const float *intermediate, float scale, std::byte *out)
+            const float *intermediate, float scale, std::byte *out, std::complex<float> *rounding)
         : m_layout(layout), m_cells(cells), m_transform(transform), m_intermediate(intermediate),
-          m_scale(scale), m_out(out),
+          m_scale(scale), m_out(out), m_rounding(rounding),
           m_rowCells(std::size_t(cells.step) * (cells.columns - 1) + 2 * CellLayout::columnCells +
                      std::size_t(cells.apron)),
           m_strips(2 * std::size_t(layout.padded.k) * stripFloats),
@@ -115,6 +122,27 @@ private:
             const float *const result = m_transform.run(strips, beside);
             storeExchanged(result, padded, m_scale, rows + m_cells.apron + block * stripLanes,
                            m_rowCells);
+            if (block == 0)
+                keepRounding(y, result, rows);
+        }
+    }
+
+    // Each row has a place of its own.
+    void keepRounding(int y, const float *exact, const Cell *rows) const {
+        constexpr int reach = Spectrum::roundingReach, side = 2 * reach + 1;
+        const int q = y <= m_layout.padded.j / 2 ? y : y - m_layout.padded.j;
+        if (m_rounding == nullptr || std::abs(q) > reach)
+            return;
+        for (int r = -reach; r <= reach; ++r) {
+            const int z = modulo(r, m_layout.padded.k);
+            for (int p = 0; p <= reach; ++p) {
+                const float *const of = exact + std::size_t(z) * stripFloats + p;
+                const std::complex<float> stored =
+                    asComplex(rows[std::size_t(z) * m_rowCells + m_cells.apron + p]);
+                m_rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
+                    stored -
+                    m_scale * std::complex<float>(of[stripLanes], of[0]); // they are exchanged
+            }
         }
     }
 
@@ -154,6 +182,7 @@ private:
     const float *m_intermediate;
     float m_scale;
     std::byte *m_out;
+    std::complex<float> *m_rounding; ///< see Spectrum; none if nothing is rounded
     std::size_t m_rowCells;
     Scratch<float> m_strips;
     Scratch<Cell> m_rows;
@@ -300,12 +329,17 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
             rowPair.run(y);
         });
     };
+    constexpr std::size_t side = 2 * roundingReach + 1;
+    const bool holdsReach = std::min({padded.i, padded.j, padded.k}) > int(side);
+    if (layout.storage == Storage::binary16 && holdsReach)
+        spectrum.m_rounding.resize(side * side * (roundingReach + 1));
     if (layout.storage == Storage::binary16)
         finish(RowPair<std::uint32_t>(layout, spectrum.m_cellLayout, alongZ, intermediate,
-                                      float(scale), spectrum.m_cells.get()));
+                                      float(scale), spectrum.m_cells.get(),
+                                      holdsReach ? spectrum.m_rounding.data() : nullptr));
     else
         finish(RowPair<Complex>(layout, spectrum.m_cellLayout, alongZ, intermediate, 1.0F,
-                                spectrum.m_cells.get()));
+                                spectrum.m_cells.get(), nullptr));
     progress.report(1.0);
     return spectrum;
 }
@@ -321,6 +355,16 @@ std::complex<double> Spectrum::value(int p, int q, int r) const {
     const std::uint32_t pair = reinterpret_cast<const std::uint32_t *>(m_cells.get())[at];
     return m_unit * std::complex<double>(fromBinary16(std::uint16_t(pair)),
                                          fromBinary16(std::uint16_t(pair >> 16)));
+}
+
+std::complex<double> Spectrum::rounding(int p, int q, int r) const {
+    if (m_rounding.empty())
+        return {};
+    if (p < 0)
+        return std::conj(rounding(-p, -q, -r));
+    constexpr int side = 2 * roundingReach + 1;
+    const int at = ((q + roundingReach) * side + r + roundingReach) * (roundingReach + 1) + p;
+    return m_unit * std::complex<double>(m_rounding[std::size_t(at)]);
 }
 
 } // namespace pellucid::fourier

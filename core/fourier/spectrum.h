@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "core/fourier/kernel.h"
 #include "core/fourier/storage.h"
@@ -84,6 +85,11 @@ public:
     /// The value at a grid index: p in -apron..padded/2 + apron, q and r within apron of
     /// +-padded/2.
     std::complex<double> value(int p, int q, int r) const;
+    /// What storing changed the value at a grid index by, |p|, |q| and |r| at most `roundingReach`:
+    /// of most fields a few cells about frequency 0 hold nearly all, and how they happen to round
+    /// decides. 0 with float cells. *Shape*: as of `value`.
+    std::complex<double> rounding(int p, int q, int r) const;
+    static constexpr int roundingReach = 5;
     std::size_t bytes() const { return m_layout.bytes(); }
 
 private:
@@ -96,6 +102,8 @@ private:
     std::shared_ptr<std::byte[]> m_cells;
     double m_unit = 1.0, m_mass = 0.0;
     std::array<double, 3> m_moments{};
+    /// [q][r][p], q and r from -roundingReach, p from 0, in stored units; none with float cells.
+    std::vector<std::complex<float>> m_rounding;
 };
 
 } // namespace pellucid::fourier

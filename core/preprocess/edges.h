@@ -24,4 +24,11 @@ struct CannyOptions {
 Mask cannyEdges(const volume::Volume &volume, const CannyOptions &options,
                 const task::Progress &progress = {});
 
+/// The same by ITK's recursive Gaussian derivatives, zero crossings and double threshold, in mm.
+/// The same samples on isotropic lattices and on thick slices, nearly the same in noise; but seven
+/// times as slow, blind to a tilt, and nothing below four slices: hence not the usual method.
+/// *Throws* as above, and Error{usage} for fewer than four samples along an axis or no smoothing.
+Mask cannyEdgesByItk(const volume::Volume &volume, const CannyOptions &options,
+                     const task::Progress &progress = {});
+
 } // namespace pellucid::preprocess

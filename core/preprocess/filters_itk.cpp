@@ -4,19 +4,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <string>
 
 #include <itkBinaryFillholeImageFilter.h>
+#include <itkBinaryMorphologicalClosingImageFilter.h>
+#include <itkBinaryMorphologicalOpeningImageFilter.h>
 #include <itkConnectedComponentImageFilter.h>
 #include <itkCurvatureAnisotropicDiffusionImageFilter.h>
 #include <itkDiscreteGaussianImageFilter.h>
+#include <itkDoubleThresholdImageFilter.h>
+#include <itkFlatStructuringElement.h>
+#include <itkGradientRecursiveGaussianImageFilter.h>
+#include <itkHessianRecursiveGaussianImageFilter.h>
+#include <itkHistogram.h>
 #include <itkImage.h>
 #include <itkMedianImageFilter.h>
+#include <itkOtsuThresholdCalculator.h>
 #include <itkSliceBySliceImageFilter.h>
+#include <itkZeroCrossingImageFilter.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "core/preprocess/edges.h"
 #include "core/task/error.h"
 #include "core/volume/statistics.h"
 
@@ -204,37 +215,32 @@ double airThreshold(const volume::Volume &volume) {
     // Otsu's threshold of the histogram without its outermost quantiles, which spikes would
     // stretch.
     const auto ends = volume::quantiles(volume, {0.005, 0.995});
-    constexpr int bins = 256;
+    constexpr unsigned bins = 256;
     if (!(ends[1] > ends[0]))
         return ends[0];
-    std::array<double, bins> counts{};
+    using Histogram = itk::Statistics::Histogram<double>;
+    const auto histogram = Histogram::New();
+    histogram->SetMeasurementVectorSize(1);
+    Histogram::SizeType size(1);
+    size.Fill(bins);
+    Histogram::MeasurementVectorType low(1), high(1);
+    low.Fill(ends[0]);
+    high.Fill(ends[1]);
+    histogram->Initialize(size, low, high);
+    std::vector<std::uint64_t> counts(bins);
     volume.visit([&](auto samples) {
         for (const auto sample : samples) {
             const double at = (double(sample) - ends[0]) / (ends[1] - ends[0]) * bins;
             if (at >= 0.0 && at < bins) // not NaN
-                counts[std::size_t(at)] += 1.0;
+                ++counts[std::size_t(at)];
         }
     });
-    double total = 0.0, moment = 0.0;
-    for (int b = 0; b < bins; ++b) {
-        total += counts[std::size_t(b)];
-        moment += b * counts[std::size_t(b)];
-    }
-    double below = 0.0, momentBelow = 0.0, best = -1.0;
-    int threshold = 0;
-    for (int b = 0; b < bins - 1; ++b) {
-        below += counts[std::size_t(b)];
-        momentBelow += b * counts[std::size_t(b)];
-        if (below == 0.0 || below == total)
-            continue;
-        const double apart = momentBelow / below - (moment - momentBelow) / (total - below);
-        const double between = below * (total - below) * apart * apart;
-        if (between > best) {
-            best = between;
-            threshold = b;
-        }
-    }
-    return ends[0] + (threshold + 1.0) / bins * (ends[1] - ends[0]);
+    for (unsigned bin = 0; bin < bins; ++bin)
+        histogram->SetFrequency(bin, counts[bin]);
+    const auto otsu = itk::OtsuThresholdCalculator<Histogram, double>::New();
+    otsu->SetInput(histogram);
+    otsu->Update();
+    return otsu->GetThreshold();
 }
 
 // Connected parts, by faces: 1 to `count`, 0 where nothing is.
@@ -409,6 +415,133 @@ Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
     for (std::size_t n = 0; n < shell.size(); ++n)
         shell[n] = std::uint8_t(shell[n] & ~deep[n] & 1);
     return shell;
+}
+
+namespace {
+
+// A ball of a radius in mm, as samples of the lattice whose middles it reaches.
+itk::FlatStructuringElement<3> ballOf(const volume::Lattice &lattice, double radiusMm) {
+    using Element = itk::FlatStructuringElement<3>;
+    Element::RadiusType radius;
+    for (unsigned d = 0; d < 3; ++d)
+        radius[d] = itk::SizeValueType(radiusMm / lattice.spacingMm(int(d)) * (1.0 + 1e-6));
+    Element ball;
+    ball.SetRadius(radius);
+    auto at = ball.Begin();
+    for (unsigned n = 0; at != ball.End(); ++at, ++n) {
+        double squares = 0.0;
+        for (unsigned d = 0; d < 3; ++d) {
+            const double off = double(ball.GetOffset(n)[d]) * lattice.spacingMm(int(d));
+            squares += off * off;
+        }
+        *at = squares <= radiusMm * radiusMm * (1.0 + 1e-5);
+    }
+    return ball;
+}
+
+template <class Filter>
+Mask morphology(Filter &filter, const char *step, const volume::Lattice &lattice, const Mask &mask,
+                double radiusMm, const task::Progress &progress) {
+    filter.SetKernel(ballOf(lattice, radiusMm));
+    filter.SetForegroundValue(1);
+    filter.SetInput(imageOver<MaskImage>(lattice, mask.data()));
+    runFilter(filter, step, progress);
+    return samplesOf(*filter.GetOutput());
+}
+
+} // namespace
+
+Mask openingByItk(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+                  const task::Progress &progress) {
+    using Kernel = itk::FlatStructuringElement<3>;
+    auto filter = itk::BinaryMorphologicalOpeningImageFilter<MaskImage, MaskImage, Kernel>::New();
+    return morphology(*filter, "opening", lattice, mask, radiusMm, progress);
+}
+
+Mask closingByItk(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
+                  const task::Progress &progress) {
+    using Kernel = itk::FlatStructuringElement<3>;
+    auto filter = itk::BinaryMorphologicalClosingImageFilter<MaskImage, MaskImage, Kernel>::New();
+    filter->SetSafeBorder(true);
+    return morphology(*filter, "closing", lattice, mask, radiusMm, progress);
+}
+
+Mask cannyEdgesByItk(const volume::Volume &volume, const CannyOptions &options,
+                     const task::Progress &progress) {
+    const volume::Lattice &lattice = volume.lattice();
+    const volume::GridSize size = lattice.size();
+    if (std::min({size.i, size.j, size.k}) < 4)
+        throw Error(ErrorCode::usage,
+                    "edges by ITK need four samples along each axis; the fast method does not");
+    if (!(options.sigmaMm > 0.0))
+        throw Error(ErrorCode::usage, "edges by ITK need a sigma_mm above 0");
+    const std::vector<float> input = finiteSamples(volume);
+    const auto image = imageOver<FloatImage>(lattice, input.data());
+    auto gradient = itk::GradientRecursiveGaussianImageFilter<FloatImage>::New();
+    gradient->SetSigma(options.sigmaMm);
+    gradient->SetInput(image);
+    runFilter(*gradient, "edges", progress.part(0.0, 0.3));
+    auto hessian = itk::HessianRecursiveGaussianImageFilter<FloatImage>::New();
+    hessian->SetSigma(options.sigmaMm);
+    hessian->SetInput(image);
+    runFilter(*hessian, "edges", progress.part(0.3, 0.8));
+    const auto *const gradients = gradient->GetOutput()->GetBufferPointer();
+    const auto *const hessians = hessian->GetOutput()->GetBufferPointer();
+    // The second derivative along the gradient, times its square: the sign is all that counts.
+    std::vector<float> along(input.size()), magnitude(input.size());
+    tbb::parallel_for(std::size_t(0), input.size(), [&](std::size_t n) {
+        double second = 0.0, square = 0.0;
+        for (unsigned a = 0; a < 3; ++a) {
+            square += double(gradients[n][a]) * double(gradients[n][a]);
+            for (unsigned b = 0; b < 3; ++b)
+                second +=
+                    double(gradients[n][a]) * double(hessians[n](a, b)) * double(gradients[n][b]);
+        }
+        along[n] = float(second);
+        magnitude[n] = float(std::sqrt(square));
+    });
+    auto zeros = itk::ZeroCrossingImageFilter<FloatImage, MaskImage>::New();
+    zeros->SetForegroundValue(1);
+    zeros->SetBackgroundValue(0);
+    zeros->SetInput(imageOver<FloatImage>(lattice, along.data()));
+    runFilter(*zeros, "edges", progress.part(0.8, 0.9));
+    const std::uint8_t *const crosses = zeros->GetOutput()->GetBufferPointer();
+    // Of maxima only: there it falls along the gradient.
+    std::vector<float> strength(input.size());
+    tbb::parallel_for(0, size.k, [&](int k) {
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i) {
+                const std::array<int, 3> at{i, j, k};
+                const std::array<std::size_t, 3> strides{1, std::size_t(size.i),
+                                                         std::size_t(size.i) * size.j};
+                const std::size_t n = strides[2] * k + strides[1] * j + i;
+                if (crosses[n] == 0)
+                    continue;
+                double change = 0.0;
+                for (unsigned d = 0; d < 3; ++d) {
+                    const std::size_t before = at[d] > 0 ? n - strides[d] : n,
+                                      after = at[d] + 1 < size[int(d)] ? n + strides[d] : n;
+                    change += double(gradients[n][d]) *
+                              (double(along[after]) - double(along[before])) /
+                              lattice.spacingMm(int(d));
+                }
+                strength[n] = change < 0.0 ? magnitude[n] : 0.0F;
+            }
+    });
+    auto link = itk::DoubleThresholdImageFilter<FloatImage, MaskImage>::New();
+    const float open = std::numeric_limits<float>::max();
+    // Above the thresholds, not at them.
+    const auto above = [&](double value) { return std::nextafter(float(value), open); };
+    link->SetThreshold1(above(options.low));
+    link->SetThreshold2(above(options.high));
+    link->SetThreshold3(open);
+    link->SetThreshold4(open);
+    link->SetInsideValue(1);
+    link->SetOutsideValue(0);
+    link->SetFullyConnected(true);
+    link->SetInput(imageOver<FloatImage>(lattice, strength.data()));
+    runFilter(*link, "edges", progress.part(0.9, 1.0));
+    return samplesOf(*link->GetOutput());
 }
 
 } // namespace pellucid::preprocess

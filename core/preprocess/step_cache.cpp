@@ -141,9 +141,20 @@ std::vector<Region> foundRegions(const volume::Volume &values, const Step &step,
                                  const TissueClass &tissue, const Regions &before,
                                  const task::Progress &progress) {
     const volume::Lattice &lattice = values.lattice();
-    if (step.kind == "edges")
-        return insideOf(
-            cannyEdges(values, {step.at("sigma_mm"), step.at("low"), step.at("high")}, progress));
+    if (step.kind == "edges") {
+        const CannyOptions options{step.at("sigma_mm"), step.at("low"), step.at("high")};
+        return insideOf(step.at("itk") == 1.0 ? cannyEdgesByItk(values, options, progress)
+                                              : cannyEdges(values, options, progress));
+    }
+    if (step.kind == "binarise") {
+        Mask mask(lattice.size().count());
+        const double from = step.at("from");
+        values.visit([&](auto samples) {
+            for (std::size_t n = 0; n < mask.size(); ++n)
+                mask[n] = double(samples[n]) >= from;
+        });
+        return insideOf(mask);
+    }
     if (step.kind == "body")
         return insideOf(body(values, step.at("margin_mm"), progress));
     if (step.kind == "skin")
@@ -160,9 +171,14 @@ std::vector<Region> foundRegions(const volume::Volume &values, const Step &step,
     const Mask now = belonging(values, tissue, before);
     if (step.kind == "largest")
         return partOf(lattice, now, largestPart(lattice, now, step.at("share"), progress), before);
+    const double radius = step.at("radius_mm");
     if (step.kind == "opening")
-        return partOf(lattice, now, opening(lattice, now, step.at("radius_mm"), progress), before);
-    const Mask closed = closing(lattice, now, step.at("radius_mm"), progress);
+        return partOf(lattice, now,
+                      step.at("itk") == 1.0 ? openingByItk(lattice, now, radius, progress)
+                                            : opening(lattice, now, radius, progress),
+                      before);
+    const Mask closed = step.at("itk") == 1.0 ? closingByItk(lattice, now, radius, progress)
+                                              : closing(lattice, now, radius, progress);
     std::vector<Region> regions =
         before ? *before : std::vector<Region>(closed.size(), Region::inside);
     for (std::size_t n = 0; n < closed.size(); ++n)
@@ -277,7 +293,7 @@ ClassSamples StepCache::run(const volume::Volume &volume, const TissueClass &tis
             // What looks at the class has seen the regions before it.
             result.regions = looksAtClass(step) ? found : both(result.regions, found);
             regionsKey += text;
-            if (step.kind == "edges")
+            if (step.kind == "edges" || step.kind == "binarise")
                 result.density = DensityKind::one;
         }
     } catch (const std::bad_alloc &) {

@@ -2,12 +2,15 @@
 #include "core/render/energy_marginals.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
+
+#include "core/render/line_integral_bound.h"
 
 namespace pellucid::render {
 
@@ -17,45 +20,6 @@ namespace {
 constexpr int blocksAlong = 64;
 // Distances from the centre are told apart to the radius over this.
 constexpr int distanceSteps = 64;
-
-// A projection along an axis of the lattice.
-struct AxisProjection {
-    std::vector<double> sums;
-    int columns, rows;
-    double columnMm, rowMm;
-
-    // Its means over pixels of a size, or the samples where those are larger.
-    AxisProjection inPixels(double pixelMm) const {
-        const int across = std::max(1, int(std::lround(pixelMm / columnMm)));
-        const int down = std::max(1, int(std::lround(pixelMm / rowMm)));
-        if (across == 1 && down == 1)
-            return *this;
-        AxisProjection coarse{{}, (columns + across - 1) / across, (rows + down - 1) / down, 1, 1};
-        coarse.sums.resize(std::size_t(coarse.columns) * coarse.rows);
-        for (int row = 0; row < rows; ++row)
-            for (int column = 0; column < columns; ++column)
-                coarse.sums[std::size_t(row / down) * coarse.columns + column / across] +=
-                    sums[std::size_t(row) * columns + column];
-        return coarse;
-    }
-
-    double roughness() const {
-        const auto at = [&](int column, int row) {
-            return column < 0 || row < 0 || column >= columns || row >= rows
-                       ? 0.0
-                       : sums[std::size_t(row) * columns + column];
-        };
-        double differences = 0.0, energy = 0.0;
-        for (int row = 0; row <= rows; ++row)
-            for (int column = 0; column <= columns; ++column) {
-                const double here = at(column, row), across = here - at(column - 1, row),
-                             down = here - at(column, row - 1);
-                energy += here * here;
-                differences += across * across + down * down;
-            }
-        return energy > 0.0 ? std::min(1.0, differences / (4.0 * energy)) : 1.0;
-    }
-};
 
 // A quarter of the surface of the box, or of the sphere where that is smaller.
 double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, double radiusMm) {
@@ -72,7 +36,8 @@ double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, dou
 struct Layer {
     std::vector<double> alongI, alongJ; // energies
     std::vector<double> blocks;         // energies, [block along j][block along i]
-    std::vector<double> blockMass, blockMost;
+    std::vector<double> blockMass;
+    std::vector<float> mostOfRows; // [block along j][sample along i]
     double least = 0.0;
     double radiusMm = 0.0;
 };
@@ -115,39 +80,24 @@ private:
 class BallProfile {
 public:
     // `share`: of the mass.
-    void add(const glm::dvec3 &placeMm, double share, double most) {
-        m_blocks.push_back({placeMm, share, most});
+    void add(const glm::dvec3 &placeMm, double share) {
+        m_blocks.push_back({placeMm, share});
         m_middle += share * placeMm;
     }
 
-    // See EnergySpread::peakedness. `mass`: the sum of the samples; `halfMm`: no sample of a block
+    // The least pi R^2/m(R)^2, m(R) the share of the mass in a ball of radius R: the projection's
+    // energy is at least one over it times the square of the mass. `halfMm`: no sample of a block
     // is farther from its middle.
-    double peakedness(double mass, double cellMm3, double halfMm) {
+    double leastArea(double halfMm) const {
         double radius = 0.0;
         for (const Block &block : m_blocks)
             radius = std::max(radius, glm::distance(block.placeMm, m_middle) + halfMm);
         constexpr int bins = 64;
         const double binMm = radius / bins;
-        std::array<double, bins> most{}, within{};
+        std::array<double, bins> within{};
         for (const Block &block : m_blocks) {
-            const double mm = glm::distance(block.placeMm, m_middle);
-            const int last = std::min(bins - 1, int((mm + halfMm) / binMm));
-            within[std::size_t(last)] += block.share;
-            for (int bin = std::max(0, int((mm - halfMm) / binMm)); bin <= last; ++bin)
-                most[std::size_t(bin)] = std::max(most[std::size_t(bin)], block.most);
-        }
-        // The largest integral along any line, by its distance from the middle.
-        double peak = 0.0;
-        for (int line = 0; line < bins; ++line) {
-            const double off = line * binMm;
-            const auto chord = [&](int edge) { // half of it, within the radius
-                const double r = edge * binMm;
-                return r > off ? std::sqrt(r * r - off * off) : 0.0;
-            };
-            double along = 0.0;
-            for (int bin = line; bin < bins; ++bin)
-                along += 2.0 * most[std::size_t(bin)] * (chord(bin + 1) - chord(bin));
-            peak = std::max(peak, along);
+            const double mm = glm::distance(block.placeMm, m_middle) + halfMm;
+            within[std::size_t(std::min(bins - 1, int(mm / binMm)))] += block.share;
         }
         double share = 0.0, least = std::numeric_limits<double>::infinity();
         for (int bin = 0; bin < bins; ++bin) {
@@ -156,13 +106,13 @@ public:
             if (share > 0.0)
                 least = std::min(least, std::numbers::pi * r * r / (share * share));
         }
-        return std::max(1.0, peak * least / (mass * cellMm3));
+        return least;
     }
 
 private:
     struct Block {
         glm::dvec3 placeMm;
-        double share, most;
+        double share;
     };
     std::vector<Block> m_blocks;
     glm::dvec3 m_middle{0.0};
@@ -211,6 +161,66 @@ std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::V
     return blocks;
 }
 
+// Between the directions that `leastProjectionEnergy` looks along, energies fall less than this:
+// aligned parts make narrow peaks of it, not narrow valleys.
+constexpr double leastSeen = 0.85;
+
+// The least energy of the projection of a field without negative samples over some directions, of
+// a field whose mass is 1, from the masses of blocks: spread out over them it is less than it is.
+double leastProjectionEnergy(const std::vector<FieldBlock> &blocks, const volume::Lattice &lattice,
+                             const volume::VoxelBox &box) {
+    constexpr int views = 64, most = 128;
+    const volume::GridSize size = box.size();
+    std::array<std::vector<BlockRange>, 3> ranges;
+    double pixelMm = 0.0, radiusMm = 0.0;
+    for (int d = 0; d < 3; ++d) {
+        ranges[std::size_t(d)] = blockRanges(size[d]);
+        pixelMm = std::max(pixelMm,
+                           lattice.spacingMm(d) * size[d] / double(ranges[std::size_t(d)].size()));
+    }
+    const glm::dvec3 middle =
+        lattice
+            .patient(volume::VoxelPoint{0.5 * (glm::dvec3(box.lo.i, box.lo.j, box.lo.k) +
+                                               glm::dvec3(box.hi.i, box.hi.j, box.hi.k) - 1.0)})
+            .mm;
+    std::vector<glm::dvec3> places;
+    for (const FieldBlock &block : blocks) {
+        glm::dvec3 at(box.lo.i, box.lo.j, box.lo.k);
+        for (int d = 0; d < 3; ++d) {
+            const BlockRange &range = ranges[std::size_t(d)][block.at[std::size_t(d)]];
+            at[d] += 0.5 * (range.first + range.last);
+        }
+        places.push_back(lattice.patient(volume::VoxelPoint{at}).mm - middle);
+        radiusMm = std::max(radiusMm, glm::length(places.back()));
+    }
+    pixelMm = std::max(pixelMm, 2.0 * radiusMm / (most - 3));
+    const int side = int(2.0 * radiusMm / pixelMm) + 3;
+    std::array<double, views> energies{};
+    tbb::parallel_for(0, views, [&](int n) {
+        // Evenly over half a sphere, along a spiral.
+        const double z = (n + 0.5) / views, angle = n * std::numbers::pi * (3.0 - std::sqrt(5.0)),
+                     r = std::sqrt(1.0 - z * z);
+        const glm::dvec3 w(r * std::cos(angle), r * std::sin(angle), z),
+            u = glm::normalize(glm::cross(w, glm::dvec3(0.0, 1.0, 0.0))), v = glm::cross(w, u);
+        std::vector<double> picture(std::size_t(side) * std::size_t(side));
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            const double x = glm::dot(places[b], u) / pixelMm + 0.5 * (side - 1),
+                         y = glm::dot(places[b], v) / pixelMm + 0.5 * (side - 1);
+            const double column = std::floor(x), row = std::floor(y), right = x - column,
+                         down = y - row, mass = double(blocks[b].mass);
+            double *const at =
+                picture.data() + std::size_t(row) * std::size_t(side) + std::size_t(column);
+            at[0] += mass * (1.0 - right) * (1.0 - down);
+            at[1] += mass * right * (1.0 - down);
+            at[side] += mass * (1.0 - right) * down;
+            at[side + 1] += mass * right * down;
+        }
+        for (const double sum : picture)
+            energies[std::size_t(n)] += sum * sum / (pixelMm * pixelMm);
+    });
+    return *std::min_element(energies.begin(), energies.end());
+}
+
 } // namespace
 
 std::vector<BlockRange> blockRanges(int samples) {
@@ -221,13 +231,6 @@ std::vector<BlockRange> blockRanges(int samples) {
         ranges.push_back({int(std::int64_t(n) * samples / count),
                           int(std::int64_t(n + 1) * samples / count) - 1});
     return ranges;
-}
-
-double EnergySpread::roughnessAt(double pixelMm) const {
-    const double scale =
-        std::clamp(std::log2(pixelMm / shortestStepMm), 0.0, double(roughness.size() - 1));
-    return std::max(roughness[std::size_t(std::floor(scale))],
-                    roughness[std::size_t(std::ceil(scale))]);
 }
 
 EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &box) {
@@ -242,7 +245,6 @@ EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &
                center;
     };
     EnergySpread spread;
-    spread.shortestStepMm = lattice.shortestStepMm();
     for (const double i : {0.0, 1.0})
         for (const double j : {0.0, 1.0})
             for (const double k : {0.0, 1.0})
@@ -272,9 +274,15 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
     EnergyMarginals result;
     EnergySpread spread;
     result.axis[2].resize(size.k);
-    std::vector<double> alongX(std::size_t(size.j) * size.k), alongY(std::size_t(size.i) * size.k),
-        alongZ(std::size_t(size.i) * size.j);
     std::vector<Layer> layers(blocksOf(size.k));
+    std::array<LayerMaxima, 3> maxima;
+    for (int d = 0; d < 3; ++d) {
+        LayerMaxima &of = maxima[std::size_t(d)];
+        of.samples = size[d];
+        of.columns = blocksOf(size[(d + 1) % 3]);
+        of.rows = blocksOf(size[(d + 2) % 3]);
+        of.most.resize(std::size_t(of.samples) * std::size_t(of.columns) * std::size_t(of.rows));
+    }
     field.visit([&](auto samples) {
         tbb::parallel_for(std::size_t(0), layers.size(), [&](std::size_t n) {
             Layer &layer = layers[n];
@@ -282,34 +290,38 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
             layer.alongJ.resize(size.j);
             layer.blocks.resize(std::size_t(across) * down);
             layer.blockMass.resize(layer.blocks.size());
-            layer.blockMost.resize(layer.blocks.size());
+            layer.mostOfRows.resize(std::size_t(size.i) * down);
             for (int k = int(n) * side; k < std::min(size.k, int(n + 1) * side); ++k)
                 for (int j = 0; j < size.j; ++j) {
                     const auto *const row = samples.data() + rowStart(j, k);
-                    double inRow = 0.0, rowSum = 0.0;
+                    double inRow = 0.0;
                     int first = size.i, last = -1;
+                    float *const mostOfRows =
+                        layer.mostOfRows.data() + std::size_t(j / side) * std::size_t(size.i);
                     for (int i = 0; i < size.i; ++i) {
                         const double f = double(row[i]);
                         layer.alongI[i] += f * f;
+                        mostOfRows[i] = std::max(mostOfRows[i], float(row[i]));
                         layer.least = std::min(layer.least, f);
-                        rowSum += f;
-                        alongY[std::size_t(k) * size.i + i] += f;
                         if (f != 0.0) {
                             first = std::min(first, i);
                             last = i;
                         }
                     }
                     for (int block = 0; block < across; ++block) {
-                        double inBlock = 0.0, mass = 0.0, most = 0.0;
+                        double inBlock = 0.0, mass = 0.0;
+                        float most = 0.0F;
                         for (int i = block * side; i < std::min(size.i, (block + 1) * side); ++i) {
                             inBlock += double(row[i]) * double(row[i]);
                             mass += double(row[i]);
-                            most = std::max(most, double(row[i]));
+                            most = std::max(most, float(row[i]));
                         }
                         const std::size_t at = std::size_t(j / side) * across + block;
                         layer.blocks[at] += inBlock;
                         layer.blockMass[at] += mass;
-                        layer.blockMost[at] = std::max(layer.blockMost[at], most);
+                        for (float *const square :
+                             {&maxima[1].at(j, block, int(n)), &maxima[2].at(k, j / side, block)})
+                            *square = std::max(*square, most);
                         inRow += inBlock;
                     }
                     for (const int end : {first, last})
@@ -318,31 +330,15 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
                             layer.radiusMm = std::max(layer.radiusMm,
                                                       glm::distance(center, places.patient(at).mm));
                         }
-                    alongX[std::size_t(k) * size.j + j] = rowSum;
                     layer.alongJ[j] += inRow;
                     result.axis[2][k] += inRow;
                 }
-        });
-        tbb::parallel_for(0, size.j, [&](int j) {
-            for (int k = 0; k < size.k; ++k)
+            for (int row = 0; row < down; ++row)
                 for (int i = 0; i < size.i; ++i)
-                    alongZ[std::size_t(j) * size.i + i] += double(samples[rowStart(j, k) + i]);
+                    maxima[0].at(i, int(n), row) =
+                        layer.mostOfRows[std::size_t(row) * std::size_t(size.i) + i];
         });
     });
-    spread.shortestStepMm = places.shortestStepMm();
-    const double i = places.spacingMm(0), j = places.spacingMm(1), k = places.spacingMm(2);
-    const std::array<AxisProjection, 3> projections{
-        AxisProjection{std::move(alongX), size.j, size.k, j, k},
-        AxisProjection{std::move(alongY), size.i, size.k, i, k},
-        AxisProjection{std::move(alongZ), size.i, size.j, i, j}};
-    for (std::size_t scale = 0; scale < spread.roughness.size(); ++scale) {
-        spread.roughness[scale] = 0.0;
-        for (const AxisProjection &projection : projections)
-            spread.roughness[scale] = std::max(
-                spread.roughness[scale],
-                projection.inPixels(std::ldexp(spread.shortestStepMm, int(scale))).roughness());
-    }
-
     // Layers are added in their order: the same sums for any number of threads.
     double total = 0.0;
     result.axis[0].resize(size.i);
@@ -386,20 +382,18 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
                 profiles.add(from, energy / total);
                 const std::size_t block = std::size_t(row) * across + column;
                 if (isPositive)
-                    balls.add(from, layers[n].blockMass[block] / mass, layers[n].blockMost[block]);
+                    balls.add(from, layers[n].blockMass[block] / mass);
             }
     result.blocks = fieldBlocks(field, box);
-    result.massMm3 = 0.0;
-    for (const Layer &layer : layers)
-        for (const double m : layer.blockMass)
-            result.massMm3 += m * places.cellVolumeMm3();
+    result.massMm3 = mass * places.cellVolumeMm3();
     result.energyMm3 = total * places.cellVolumeMm3();
-    if (isPositive)
-        spread.peakedness =
-            balls.peakedness(mass, places.cellVolumeMm3(),
-                             0.5 * side *
-                                 glm::length(glm::dvec3(places.spacingMm(0), places.spacingMm(1),
-                                                        places.spacingMm(2))));
+    if (isPositive) {
+        const glm::dvec3 cell(places.spacingMm(0), places.spacingMm(1), places.spacingMm(2));
+        const double inBall = 1.0 / balls.leastArea(0.5 * side * glm::length(cell));
+        const double seen = leastSeen * leastProjectionEnergy(result.blocks, places, box);
+        spread.peakedness = std::max(1.0, largestLineIntegral(maxima, side, places) /
+                                              (result.massMm3 * std::max(inBall, seen)));
+    }
     result.spread = std::make_shared<const EnergySpread>(std::move(spread));
     return result;
 }

@@ -22,11 +22,6 @@ struct EnergySpread {
     /// The sum of the squared shares of blocks of samples: 1 for a point, one over their number for
     /// an even field.
     double concentration = 1.0;
-    /// How rough its projections along x, y and z are, the roughest of them, seen in pixels of 1,
-    /// 2, 4 and 8 times the shortest step: the mean square of the differences of neighbours over
-    /// twice the mean square. 1 for a point or noise without a mean, far less for anatomy.
-    std::array<double, 4> roughness{1.0, 1.0, 1.0, 1.0};
-    double shortestStepMm = 1.0;
     /// How far from the centre of the lattice a sample is not zero, mm.
     double radiusMm = 0.0;
     /// The mean area of its shadow over all directions, mm^2, at most: a quarter of the surface of
@@ -34,12 +29,11 @@ struct EnergySpread {
     double shadowMm2 = 0.0;
     /// Of a field without negative samples: the share of a projection's energy that a part of the
     /// field has is at most this many times its share of the mass, seen from anywhere. With f_a the
-    /// part, <P f_a, P f> <= max(P f) * mass_a, and |P f|^2 >= m(R)^2 / (pi R^2) with m(R) the mass
-    /// in any ball of radius R. Infinite where negative samples may cancel others in some view.
+    /// part, <P f_a, P f> <= max(P f) * mass_a, where max(P f) is `largestLineIntegral`; and
+    /// |P f|^2 is at least m(R)^2 / (pi R^2) with m(R) the mass in any ball of radius R, or close
+    /// to the least of what coarse projections from all around have. Infinite where negative
+    /// samples may cancel others in some view.
     double peakedness = std::numeric_limits<double>::infinity();
-
-    /// The roughness in pixels of a size: the larger of the two sizes about it.
-    double roughnessAt(double pixelMm) const;
 };
 
 /// The spread of noise that fills a box.

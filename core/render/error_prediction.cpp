@@ -322,33 +322,15 @@ double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage sto
 }
 
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                            const EnergyMarginals &field, const ImageShare &share,
-                            const CueWeight &cue) {
-    const LargestMean largest(field);
-    double ghosts = largest.of([&](const auto &at) {
-        double most = 0.0;
-        for (std::size_t along = 0; along < axes.size(); ++along) {
-            double sum = 0.0, apart = 0.0;
-            for (std::size_t d = 0; d < axes.size(); ++d) {
-                const BlockAmplitudes &block = axes[d].blocks[at[d]];
-                if (d == along || share.isInStep[d])
-                    sum += std::sqrt(block.inPhase);
-                else
-                    apart += block.ghosts;
-            }
-            most = std::max(most, sum * sum + apart);
-        }
-        return most;
+                            const EnergyMarginals &field, double share, const CueWeight &cue) {
+    const double ghosts = LargestMean(field).of([&](const auto &at) {
+        double sum = 0.0;
+        for (std::size_t d = 0; d < axes.size(); ++d)
+            sum += std::sqrt(axes[d].blocks[at[d]].inPhase);
+        return sum * sum;
     });
     double moment = 0.0;
     for (std::size_t d = 0; d < axes.size(); ++d) {
-        // The two other axes' ghosts fall onto each other.
-        ghosts = std::max(ghosts, largest.of([&](const auto &at) {
-            const std::size_t a = (d + 1) % 3, b = (d + 2) % 3;
-            const double sum =
-                std::sqrt(axes[a].blocks[at[a]].ghosts) + std::sqrt(axes[b].blocks[at[b]].ghosts);
-            return axes[d].blocks[at[d]].ghosts + sum * sum;
-        }));
         // Depth is along one direction, so that one axis's moment stands for all.
         moment = std::max(moment, cue.moments[d] * cue.moments[d] * axes[d].moment);
     }
@@ -356,7 +338,7 @@ double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Stora
     const double rounding = relativeRounding(storage);
     const double margin = std::isinf(field.spread->peakedness) ? fewMargin : boundedMargin;
     // Rounding is spread as h^2 is, nearly all of it where the field is.
-    return std::sqrt((weight * ghosts + viewMargin * moment) / share.ofProjection +
+    return std::sqrt((weight * ghosts + viewMargin * moment) / share +
                      weight * margin * rounding * rounding * roundingNoise(axes, field));
 }
 

@@ -65,26 +65,17 @@ struct CueWeight {
 CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
                     const fourier::SpectrumLayout &layout, const EnergyMarginals &energy);
 
-/// How much of the projection's energy the image holds, and which axes' frequencies have a step in
-/// common with the slice's in a view along another axis: there their ghosts add up in phase.
-struct ImageShare {
-    double ofProjection = 1.0;
-    std::array<bool, 3> isInStep{true, true, true};
-};
-
 /// The relative L2 error of an image from any direction, at most. The error is the projection of
 /// f (a - 1). For parts f_b of a field without negative samples
 ///   |P(f w)|^2 <= sum_b max_b(w)^2 <P f_b, P f>, since <P f_a, P f_b> >= 0,
 /// and each <P f_b, P f> / |P f|^2 is at most `EnergySpread::peakedness` times the part's share of
 /// the mass: the worst parts have as much as they can have. Of a field with negative samples, which
-/// can cancel, it is what is expected, and a margin. Ghosts of several axes add up in energy, but
-/// for two cases: seen along a diagonal of two axes, those of both fall onto each other; seen along
-/// an axis, its own fall onto the projection, and those of axes in step as well. Rounding to
-/// binary16 leaves 2.1e-4 of each cell, spread evenly over the period; rounding to float and
-/// summing 3e-7.
+/// can cancel, it is what is expected, and a margin. Ghosts of several axes add up in amplitude, as
+/// where they fall onto each other or onto the projection: for any slice grid there are views close
+/// to it. `share`: how much of the projection's energy the image holds. Rounding to binary16
+/// leaves 2.1e-4 of each cell, spread evenly over the period; rounding to float and summing 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
-                            const EnergyMarginals &field, const ImageShare &share,
-                            const CueWeight &cue = {});
+                            const EnergyMarginals &field, double share, const CueWeight &cue = {});
 
 /// The largest error of a pixel relative to the largest pixel, roughly: the brightest ghosts of the
 /// axes, and the rounding at 4.5 standard deviations of an image whose mean square is a fifth of

@@ -25,22 +25,26 @@ double tailEnergy(double rollOff, double r) {
 
 } // namespace
 
-double foldedTailEnergy(const EnergySpread &spread, double rollOff, double pixelMm, int period,
-                        int side, double pan) {
-    const double reach = period - 0.5 * side - std::abs(pan);
+double tailInImage(double rollOff, int period, int side, double offset) {
+    const double reach = period - 0.5 * side;
     // Copies come from both sides, and land within the image: a part of the ring, and of the depth
     // over which the response falls.
     const auto tail = [&](double pixels) {
         const double r = std::max(1.0, pixels);
         return tailEnergy(rollOff, r) * side / (side + 2.0 * r) * side / (side + 0.12 * r);
     };
+    return 0.5 * (tail(reach - offset) + tail(reach + offset));
+}
+
+double foldedTailEnergy(const EnergySpread &spread, double rollOff, double pixelMm, int period,
+                        int side, double pan) {
     double most = 0.0;
     for (const auto &shares : spread.byDistance) {
         double sum = 0.0;
         for (std::size_t n = 0; n < shares.size(); ++n)
             if (shares[n] > 0.0) {
                 const double x = (double(n) + 0.5) * spread.distanceStepMm / pixelMm;
-                sum += shares[n] * 0.5 * (tail(reach - x) + tail(reach + x));
+                sum += shares[n] * tailInImage(rollOff, period, side, x + std::abs(pan));
             }
         most = std::max(most, sum);
     }

@@ -7,6 +7,11 @@
 
 namespace pellucid::render {
 
+/// The energy, relative to its own, that the tails of a point's copies leave in an image of `side`
+/// pixels, `offset` pixels from whose middle the point lies; its copies lie `period` pixels apart.
+/// On average over what samples may lie there.
+double tailInImage(double rollOff, int period, int side, double offset);
+
 /// The energy, relative to the whole projection's, that the tails of the roll-off leave when they
 /// fold back along one axis of an image of `side` pixels, panned by `pan` pixels, from copies of
 /// the projection `period` pixels away. It is what the worst direction leaves on average, and a

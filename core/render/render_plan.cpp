@@ -158,30 +158,11 @@ std::vector<PlannedGrid> planGrids(const Scene &scene, std::span<const FieldSumm
 }
 
 // The worst of the fields.
-ImageShare imageShare(const Camera &camera, std::span<const FieldSummary> fields) {
-    ImageShare share;
+double imageShare(const Camera &camera, std::span<const FieldSummary> fields) {
+    double share = 1.0;
     for (const FieldSummary &field : fields)
-        share.ofProjection =
-            std::min(share.ofProjection, shareInImage(camera, *field.energy.spread));
+        share = std::min(share, shareInImage(camera, *field.energy.spread));
     return share;
-}
-
-// Whether the slice's step times a small number is a whole number of an axis's cells.
-std::array<bool, 3> inStep(const Camera &camera, const volume::Lattice &lattice,
-                           const fourier::SpectrumLayout &layout, const SliceGrid &grid) {
-    const std::array<int, 3> padded{layout.padded.i, layout.padded.j, layout.padded.k};
-    std::array<bool, 3> result{};
-    for (int d = 0; d < 3; ++d)
-        for (const int cells : {grid.columns, grid.rows}) {
-            const double ratio =
-                padded[std::size_t(d)] * lattice.spacingMm(d) / (double(cells) * camera.pixelMm);
-            // Closer than that, frequencies to the edge of the band stay in phase.
-            for (const int small : {1, 2, 3})
-                result[std::size_t(d)] =
-                    result[std::size_t(d)] ||
-                    std::abs(ratio * small - std::round(ratio * small)) * cells < 2.0 * small;
-        }
-    return result;
 }
 
 // Of an axis's ghosts where they are strongest.
@@ -277,17 +258,14 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
         }
         return worst;
     };
-    const ImageShare inImage = imageShare(scene.camera, fields);
+    const double inImage = imageShare(scene.camera, fields);
     const auto predict = [&](const fourier::SpectrumLayout &layout,
-                             const std::array<AxisError, 3> &errors,
-                             const std::array<bool, 3> &isInStep) {
+                             const std::array<AxisError, 3> &errors) {
         const CueWeight weight = weightOf(layout);
-        ImageShare share = inImage;
-        share.isInStep = isInStep;
         double worst = 0.0;
         for (const FieldSummary &one : fields)
             worst = std::max(
-                worst, predictRelativeError(errors, layout.storage, one.energy, share, weight));
+                worst, predictRelativeError(errors, layout.storage, one.energy, inImage, weight));
         return worst;
     };
     const auto maximum = [&](const fourier::SpectrumLayout &layout,
@@ -304,7 +282,7 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
         std::array<AxisError, 3> errors;
         const std::size_t most = paddings.size() - 1;
         const auto layout = layoutAt(choice, storage, {most, most, most}, errors);
-        return std::hypot(predict(layout, errors, {}), leastFolded) > scene.tolerance;
+        return std::hypot(predict(layout, errors), leastFolded) > scene.tolerance;
     };
     const auto consider = [&](const fourier::KernelChoice &choice, fourier::Storage storage) {
         Levels level{};
@@ -319,9 +297,7 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
             const std::size_t spectrumBytes =
                 layout.peakBytes() + (fields.size() - 1) * layout.bytes();
             bool fits = false;
-            // Of grids in the same step as before nothing changes.
-            std::optional<std::array<bool, 3>> step;
-            double ofGhosts = 0.0;
+            const double ofGhosts = predict(layout, errors);
             for (const PlannedGrid &planned : grids) {
                 const std::size_t bytes =
                     spectrumBytes + std::size_t(channels) * frameBytes(planned.grid, scene.camera) +
@@ -332,11 +308,6 @@ RenderPlan planRender(const Scene &scene, std::span<const FieldSummary> fields, 
                     break; // wider grids take more
                 }
                 fits = true;
-                if (const auto now = inStep(scene.camera, field.lattice, layout, planned.grid);
-                    !step || *step != now) {
-                    step = now;
-                    ofGhosts = predict(layout, errors, now);
-                }
                 const double predicted = std::hypot(ofGhosts, planned.folded);
                 const double time = frameTime(planned.grid, scene.camera, field.lattice, layout);
                 const bool meets = predicted <= scene.tolerance;

@@ -19,12 +19,11 @@ public:
     /// *Shape*: one summary for each field of the plan.
     ViewErrorModel(const RenderPlan &plan, std::span<const FieldSummary> fields);
 
-    /// The relative L2 error of a picture that an engine of the plan made, plain or with a cue,
+    /// The relative L2 error of a picture that an engine of the plan made, with cue and light,
     /// with the energies and the ghosts as they are seen from there, in the window that it has;
-    /// never more than the plan's bound for a picture of the whole. Lights are counted by that
-    /// bound. `shares`: of each field in the picture's channels.
+    /// never more than the plan's bound for a picture of the whole.
     double relativeError(const ProjectionImage &picture, const Camera &camera,
-                         const ImageDefinition &image, std::span<const ChannelShares> shares,
+                         const ImageDefinition &image, const EngineParts &engine,
                          const shading::Shading &shading) const;
 
 private:
@@ -37,13 +36,22 @@ private:
         std::uint32_t block = 0;
         float mass = 0.0F, energy = 0.0F;
     };
+    /// What a field counts in a channel.
+    struct Weight {
+        double mass = 0.0, energy = 0.0;
+    };
     /// Energies of one channel, in the picture's units.
     struct Energies {
         double image = 0.0, error = 0.0;
+        bool isWhole = true; ///< nothing of the field lies beside the picture
     };
+    /// Of what is within reach of `Spectrum::rounding`: the energy in the picture, and of what
+    /// rounding has made of it.
+    Energies centralEnergies(const Camera &camera, const SliceGrid &grid,
+                             std::span<const Weight> weights, const EngineParts &engine) const;
     Energies channelEnergies(const ProjectionImage &picture, int channel, const Camera &camera,
-                             const ImageDefinition &image, std::span<const double> weights,
-                             const shading::DepthCue &cue) const;
+                             const ImageDefinition &image, std::span<const Weight> weights,
+                             const EngineParts &engine, const shading::Shading &shading) const;
 
     volume::Lattice m_lattice;
     std::array<glm::dvec3, 3> m_periods{}; ///< of the ghosts, mm

@@ -2995,6 +2995,46 @@
         <source>at most %1</source>
         <translation>至多 %1</translation>
     </message>
+    <message>
+        <source>Frame of</source>
+        <translation>影格內容</translation>
+    </message>
+    <message>
+        <source>Spectra, slices of them, images, and the multiplications of a frame</source>
+        <translation>每一影格的頻譜、切片、影像與乘法次數</translation>
+    </message>
+    <message>
+        <source>Without</source>
+        <translation>省略</translation>
+    </message>
+    <message>
+        <source>What the scene does not need, and no frame pays for</source>
+        <translation>場景不需要、因此不計算的部分</translation>
+    </message>
+    <message>
+        <source>%1 spectra, %2 slices, %3 images, %4 million</source>
+        <translation>%1 個頻譜、%2 個切片、%3 張影像、%4 百萬次</translation>
+    </message>
+    <message>
+        <source>light</source>
+        <translation>光源</translation>
+    </message>
+    <message>
+        <source>depth cue</source>
+        <translation>深度提示</translation>
+    </message>
+    <message>
+        <source>colours</source>
+        <translation>顏色</translation>
+    </message>
+    <message>
+        <source>empty space</source>
+        <translation>空白區域</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>無</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::RenderWorker</name>

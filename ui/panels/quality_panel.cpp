@@ -12,6 +12,7 @@
 #include <QPushButton>
 #include <QStyle>
 
+#include "core/render/frame_model.h"
 #include "ui/commands.h"
 #include "ui/document.h"
 #include "ui/overlay.h"
@@ -99,6 +100,11 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
     m_padded = addFigure(form, tr("Padded"), "paddingLabel",
                          tr("Padded size over size, along columns, rows and slices"));
+    m_model = addFigure(form, tr("Frame of"), "modelLabel",
+                        tr("Spectra, slices of them, images, and the multiplications of a frame"));
+    m_leftOut = addFigure(form, tr("Without"), "leftOutLabel",
+                          tr("What the scene does not need, and no frame pays for"));
+    m_leftOut->setWordWrap(true);
     m_reason = new QLabel;
     m_reason->setObjectName("planReasonLabel");
     m_reason->setProperty("role", "muted");
@@ -111,8 +117,8 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_more->setProperty("role", "link");
     m_more->setCheckable(true);
     m_more->setToolTip(tr("What the plan chooses, to be chosen by hand"));
-    const std::array<QWidget *, 6> expert{m_kernel,  m_padding, m_storage,
-                                          m_largest, m_padded,  m_tolerance};
+    const std::array<QWidget *, 8> expert{m_kernel, m_padding,   m_storage, m_largest,
+                                          m_padded, m_tolerance, m_model,   m_leftOut};
     const auto showExpert = [form, expert](bool isShown) {
         for (QWidget *widget : expert)
             form->setRowVisible(widget, isShown);
@@ -231,7 +237,7 @@ void QualityPanel::showScene() {
 }
 
 void QualityPanel::clearPlan() {
-    for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padded})
+    for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_leftOut})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
 }
@@ -255,12 +261,51 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
                         .arg(QString::fromStdString(spectrum.kernels[0].name()))
                         .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
                         .arg(spectrum.bytes() >> 20));
+    showModel(shown);
     const QString reason = spoken(plan.reason);
     say(coarse                       ? tr("A first, coarse picture; the full one follows")
         : stage == EngineStage::live ? tr("The parts of the look, summed while they change")
         : missed                     ? tr("More error than allowed: %1").arg(reason)
                                      : tr("It is %1").arg(reason),
         missed && (stage == EngineStage::full || stage == EngineStage::settled));
+}
+
+void QualityPanel::showModel(const ShownEngine &shown) {
+    if (!m_document.volume())
+        return;
+    const render::EngineParts parts = shown.prepared.engine->parts();
+    const bool isTinted = parts.spectra.fields.size() == 1 && !render::areGrey(parts.shares);
+    render::Scene scene = m_document.scene();
+    if (parts.spectra.gradients.empty())
+        scene.shading.lights.clear();
+    const render::FrameModel model =
+        render::modelFrame(shown.prepared.plan, scene, int(parts.spectra.fields.size()), isTinted,
+                           m_document.volume()->lattice());
+    m_model->setText(tr("%1 spectra, %2 slices, %3 images, %4 million")
+                         .arg(model.fields + model.gradients)
+                         .arg(model.slices)
+                         .arg(model.images)
+                         .arg(1e-6 * model.multiplyAdds, 0, 'f', 1));
+    QStringList leftOut;
+    for (const render::LeftOut what : model.leftOut)
+        switch (what) {
+        case render::LeftOut::light:
+            leftOut << tr("light");
+            break;
+        case render::LeftOut::depthCue:
+            leftOut << tr("depth cue");
+            break;
+        case render::LeftOut::color:
+            leftOut << tr("colours");
+            break;
+        case render::LeftOut::emptySpace:
+            leftOut << tr("empty space");
+            break;
+        case render::LeftOut::secondHalf: // of every plan
+        case render::LeftOut::cornersOfBand:
+            break;
+        }
+    m_leftOut->setText(leftOut.isEmpty() ? tr("nothing") : leftOut.join(", "));
 }
 
 void QualityPanel::say(const QString &text, bool isWarning) {

@@ -35,6 +35,7 @@ signals:
 private:
     void showScene();
     void clearPlan();
+    void showModel(const ShownEngine &shown);
     void say(const QString &text, bool isWarning);
     void chooseTolerance(int index);
     void typeTolerance();
@@ -44,7 +45,7 @@ private:
     QPushButton *m_more;
     QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_padding, *m_storage;
     QLineEdit *m_tolerance;
-    QLabel *m_time, *m_error, *m_largest, *m_plan, *m_padded, *m_reason;
+    QLabel *m_time, *m_error, *m_largest, *m_plan, *m_padded, *m_model, *m_leftOut, *m_reason;
 };
 
 } // namespace pellucid::ui

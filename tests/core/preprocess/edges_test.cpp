@@ -70,6 +70,57 @@ TEST(CannyEdges, AreThoseOfItkOnIsotropicLattices) {
     }
 }
 
+double dice(const Mask &a, const Mask &b) {
+    double both = 0.0, all = 0.0;
+    for (std::size_t n = 0; n < a.size(); ++n) {
+        both += a[n] & b[n];
+        all += a[n] + b[n];
+    }
+    return 2.0 * both / all;
+}
+
+// The method that ITK's derivatives, zero crossings and double threshold make finds the same
+// edges, on thick slices too.
+TEST(CannyEdges, AreThoseOfTheMethodOfItk) {
+    for (const double thickness : {1.0, 3.0}) {
+        const auto lattice = volume::Lattice::centred({48, 48, int(48 / thickness)},
+                                                      glm::dvec3(1.0, 1.0, thickness));
+        const auto volume = test::volumeOf(lattice, [&](glm::dvec3 p) {
+            return 400.0 / (1.0 + std::exp(1.5 * (glm::length(p) - 15.0)));
+        });
+        const preprocess::CannyOptions options{1.5 * thickness, 5.0, 15.0};
+        const Mask fast = preprocess::cannyEdges(volume, options),
+                   itk = preprocess::cannyEdgesByItk(volume, options);
+        EXPECT_GT(std::count(itk.begin(), itk.end(), 1), 300) << thickness;
+        EXPECT_GT(dice(fast, itk), 0.9) << thickness;
+    }
+}
+
+TEST(CannyEdges, OfItkNeedFourSlices) {
+    const auto volume = test::volumeOf(volume::Lattice::centred({16, 16, 3}, {1, 1, 1}),
+                                       [](glm::dvec3 p) { return p.x; });
+    EXPECT_THROW(preprocess::cannyEdgesByItk(volume, {1.0, 1.0, 2.0}), task::Error);
+    EXPECT_NO_THROW(preprocess::cannyEdges(volume, {1.0, 1.0, 2.0}));
+}
+
+TEST(Morphology, OfItkIsThatOfDistances) {
+    const auto lattice = volume::Lattice::centred({30, 30, 15}, {1, 1, 2});
+    std::mt19937 random(5);
+    Mask mask(lattice.size().count());
+    for (int k = 3; k < 12; ++k)
+        for (int j = 6; j < 24; ++j)
+            for (int i = 6; i < 24; ++i)
+                mask[(std::size_t(k) * 30 + j) * 30 + i] = random() % 20 != 0;
+    for (const double radius : {1.0, 2.3}) {
+        EXPECT_EQ(preprocess::openingByItk(lattice, mask, radius),
+                  preprocess::opening(lattice, mask, radius))
+            << radius;
+        EXPECT_EQ(preprocess::closingByItk(lattice, mask, radius),
+                  preprocess::closing(lattice, mask, radius))
+            << radius;
+    }
+}
+
 TEST(CannyEdges, DoNotDependOnTheScaleOfTheValues) {
     const auto lattice = volume::Lattice::centred({32, 32, 24}, {1, 1, 1.5});
     std::mt19937 random(5);

@@ -85,6 +85,22 @@ TEST(StepCache, EdgesAreShownWithADensityOfOneWithinTheRange) {
     EXPECT_GT(ones, 500);
 }
 
+TEST(StepCache, BinariseGivesNothingButZeroAndOne) {
+    preprocess::StepCache cache(0);
+    TissueClass dense{"dense", -1000, 4000, 0};
+    dense.steps = {{"binarise", {{"from", 200.0}}}};
+    const auto volume = head();
+    const auto field = classify::classField(volume, {-900, 2000}, dense, &cache);
+    int ones = 0;
+    for (int n = 0; n < 40 * 40 * 24; ++n) {
+        const volume::VoxelIndex at{n % 40, n / 40 % 40, n / 1600};
+        const double expected = volume.value(at) >= 200.0 ? 1.0 : 0.0;
+        EXPECT_EQ(field.values.value(at), expected);
+        ones += expected == 1.0;
+    }
+    EXPECT_GT(ones, 500);
+}
+
 TEST(StepCache, OpeningKeepsTheSoftRimAndClosingFills) {
     preprocess::StepCache cache(0);
     const auto plain = classify::classField(head(), {-900, 2000}, bone({}), nullptr);

@@ -161,9 +161,9 @@ TEST(LayerSet, IsReducedToTheBudgetOrRefused) {
     const render::Scene scene = sceneOf(head().lattice(), fourier::Storage::binary16);
     const auto whole = layersOf(scene, {});
     EXPECT_EQ(whole->reduction(), 1);
-    const auto half = layersOf(scene, {}, {whole->bytes() * 3 / 4});
+    const auto half = layersOf(scene, {}, {whole->bytes() / 2});
     EXPECT_GT(half->reduction(), 1);
-    EXPECT_LT(half->bytes(), whole->bytes() * 3 / 4);
+    EXPECT_LT(half->bytes(), whole->bytes() / 2);
     EXPECT_THROW(layersOf(scene, {}, {1000}), task::Error);
 }
 

@@ -119,8 +119,8 @@ TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
                 const auto image = engine.render(scene.camera, scene.image);
                 const double e =
                     test::relativeL2(image.samples, wide.image(scene.camera, scene.image));
-                const double ofView = model.relativeError(image, scene.camera, scene.image,
-                                                          engine.parts().shares, {});
+                const double ofView =
+                    model.relativeError(image, scene.camera, scene.image, engine.parts(), {});
                 EXPECT_GE(ofView, e) << framing.pixel << ' ' << framing.side << ' ' << framing.pan;
                 EXPECT_LE(ofView, 4.5 * e)
                     << framing.pixel << ' ' << framing.side << ' ' << framing.pan;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/render/render_plan.h"
+
+namespace pellucid::render {
+
+/// How the images of a frame come about.
+enum class Combination {
+    one,     ///< one spectrum, one grey image
+    tinted,  ///< one image, which takes its colour pixel by pixel
+    channels ///< an image each for red, green and blue, of weighted sums of slices
+};
+
+/// What a frame does not need, and is not done.
+enum class LeftOut {
+    secondHalf,   ///< of the spectrum: that of real values is its mirror image
+    emptySpace,   ///< samples of the volume beyond the part that is not empty
+    light,        ///< without light there is no spectrum of gradients
+    depthCue,     ///< without a cue there is one slice of a spectrum, not several
+    color,        ///< of grey there is one image, not three
+    cornersOfBand ///< frequencies beyond the largest circle
+};
+
+/// What a frame of a plan is made of, and what it costs.
+struct FrameModel {
+    int fields = 1;    ///< spectra of densities: of the whole look, or one for each colour
+    int gradients = 0; ///< spectra of the length of their gradients
+    int slices = 1;    ///< of spectra, in a frame
+    int images = 1;    ///< two-dimensional transforms, in a frame
+    Combination combination = Combination::one;
+    double multiplyAdds = 0.0; ///< of reals, to take the slices
+    /// Additions and multiplications of reals in the transforms: 2.5 N log2 N of each image of N
+    /// frequencies, as a real transform of any split radix about has.
+    double transformOperations = 0.0;
+    std::size_t spectrumBytes = 0, frameBytes = 0;
+    std::vector<LeftOut> leftOut;
+};
+
+/// Of a look's fields, as many as `fields`, tinted or grey. *Shape*: the lattice is that of the
+/// volume.
+FrameModel modelFrame(const RenderPlan &plan, const Scene &scene, int fields, bool isTinted,
+                      const volume::Lattice &lattice);
+
+/// A line each, for scripts and for the user.
+std::string leftOutText(LeftOut what);
+std::string combinationText(Combination how);
+
+} // namespace pellucid::render

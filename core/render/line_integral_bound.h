@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/volume/lattice.h"
+
+namespace pellucid::render {
+
+/// A field without negative samples as lines see it that run mainly along one axis d of its
+/// lattice: its layers across d, cut into squares of a few samples a side.
+struct LayerMaxima {
+    int samples = 0;           ///< along d
+    int columns = 0, rows = 0; ///< squares along the axes d + 1 and d + 2 (mod 3)
+    /// The largest sample of each square. *Shape*: [sample along d][row][column].
+    std::vector<float> most;
+
+    float &at(int sample, int row, int column) {
+        return most[(std::size_t(sample) * std::size_t(rows) + std::size_t(row)) *
+                        std::size_t(columns) +
+                    std::size_t(column)];
+    }
+};
+
+/// No integral along a line through the field is larger. *Shape*: one entry for each axis d;
+/// *Units*: squares are `side` samples wide; the field times mm.
+double largestLineIntegral(const std::array<LayerMaxima, 3> &layers, int side,
+                           const volume::Lattice &lattice);
+
+} // namespace pellucid::render
