@@ -62,8 +62,8 @@ Truth::Truth(const Subject &subject, const render::Camera &camera, int views) : 
     for (int view = 0; view < views; ++view) {
         m_cameras.push_back(camera);
         m_cameras.back().orientation =
-            view == 0   ? render::viewOrientation(render::StandardView::front)
-            : view == 1 ? render::viewOrientation(render::StandardView::top)
+            view == 1   ? render::viewOrientation(render::StandardView::front)
+            : view == 2 ? render::viewOrientation(render::StandardView::top)
                         : random[std::size_t(view)];
     }
 }

@@ -32,6 +32,7 @@ ImageError compare(const std::vector<float> &image, const std::vector<double> &t
 /// few random ones. Made when first asked for.
 class Truth {
 public:
+    /// General views, the first among them, and from two on the front, from three on the top.
     Truth(const Subject &subject, const render::Camera &camera, int views);
 
     int views() const { return int(m_cameras.size()); }
