@@ -41,6 +41,15 @@ render::Scene planningScene(const volume::Volume &volume, const PreparedFor &wan
     return render::planningScene(scene, volume.lattice());
 }
 
+render::AxisProjections projectionsOf(const render::ShadedFields &shaded,
+                                      const task::Progress &progress) {
+    render::AxisProjections projections;
+    for (const auto *const fields : {&shaded.fields, &shaded.gradients})
+        for (const classify::DensityField &field : *fields)
+            projections.add(field, progress);
+    return projections;
+}
+
 classify::FieldWindow windowOf(const volume::Volume &volume, const PreparedFor &wanted) {
     return wanted.window.value_or(classify::defaultFieldWindow(volume));
 }
@@ -249,9 +258,13 @@ void LookPreparer::followWeights(const PreparedFor &wanted) {
 
 void LookPreparer::showLayers() {
     m_shown = EngineStage::live;
+    // What was made of a small volume, or of fewer samples, lacks detail.
     emit engineReady({std::make_shared<render::MixtureEngine>(
                           m_layers, classify::mixtureOf(m_document.scene().look).shares),
-                      m_layers->plan(), m_layers->bytes()},
+                      m_layers->plan(), m_layers->bytes(), false, m_layers->viewError(),
+                      m_layersAreCoarse || m_layers->reduction() > 1,
+                      m_layersAreCoarse ? nullptr : m_layers->detailLoss(),
+                      render::SpectrumOf::layer},
                      EngineStage::live);
 }
 
@@ -279,6 +292,7 @@ void LookPreparer::startLayers(const PreparedFor &wanted) {
                 job.deliver([this, layers, wanted, isLast] {
                     m_layers = layers;
                     m_layersOf = wanted;
+                    m_layersAreCoarse = !isLast;
                     if (isLast)
                         m_layersUnderway.reset();
                     const PreparedFor now(m_document);
@@ -328,10 +342,9 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
                 task::ErrorCode::outOfMemory,
                 tr("the fields of the look need %1 MB").arg(needed >> 20).toStdString());
         const classify::FieldWindow window = windowOf(volume, wanted);
-        const auto announce = [&](const classify::ShownFields &f, bool isLast,
-                                  const task::Progress &p) {
-            const auto prepared = render::prepareEngine(scene, f, {task::availableMemoryBytes()}, p,
-                                                        shading::shadingScale(volume.lattice()));
+        const bool isShownTwice = coarseFirst && isLarge(volume);
+        const shading::ShadingScale scale = shading::shadingScale(volume.lattice());
+        const auto announce = [&](const render::PreparedEngine &prepared, bool isLast) {
             job.deliver([this, prepared, isLast, wanted] {
                 m_coarseToCome = false;
                 if (!isLast) {
@@ -360,19 +373,42 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
                     startPreparing(true);
             });
         };
+        const auto fieldsOf = [&](const volume::Volume &of, const task::Progress &p) {
+            return classify::cropped(classify::shownFields(of, window, wanted.look, steps.get(), p),
+                                     wanted.crop);
+        };
+        const auto budget = [&](const classify::ShownFields &fields) {
+            const std::size_t free = task::availableMemoryBytes(),
+                              light = render::bytesForLight(
+                                  scene.shading, fields.channels.front().values.lattice().size(),
+                                  fields.channels.size());
+            return render::Budget{free > light ? free - light : 0};
+        };
         // First of a small volume, on which steps take no time.
-        if (coarseFirst && isLarge(volume)) {
-            const volume::Volume small = classify::coarseVolume(volume, coarseSide);
-            announce(
-                classify::cropped(classify::shownFields(small, window, wanted.look, steps.get()),
-                                  wanted.crop),
-                false, progress.part(0.0, 0.1));
+        std::optional<render::PreparedEngine> first;
+        render::AxisProjections coarse;
+        if (isShownTwice) {
+            const auto fields = fieldsOf(classify::coarseVolume(volume, coarseSide), {});
+            const auto shaded = render::shadedFields(fields.channels, scene.shading, scale);
+            first = render::prepareEngine(scene, shaded, fields.color, budget(fields),
+                                          progress.part(0.0, 0.1));
+            first->isCoarse = true;
+            announce(*first, false);
+            coarse = projectionsOf(shaded, progress);
         }
-        const auto fields =
-            classify::cropped(classify::shownFields(volume, window, wanted.look, steps.get(),
-                                                    progress.part(0.1, 0.3)),
-                              wanted.crop);
-        announce(fields, true, progress.part(0.3, 1.0));
+        const auto fields = fieldsOf(volume, progress.part(0.1, 0.3));
+        const render::Budget whole = budget(fields);
+        const auto shaded =
+            render::shadedFields(fields.channels, scene.shading, scale, progress.part(0.3, 0.35));
+        if (first) {
+            // The error of the small picture, while it is shown.
+            first->detailLoss = std::make_shared<const render::DetailLoss>(
+                projectionsOf(shaded, progress), coarse, fields.channels.size(), scale.stepMm);
+            announce(*first, false);
+        }
+        announce(
+            render::prepareEngine(scene, shaded, fields.color, whole, progress.part(0.35, 1.0)),
+            true);
     };
 }
 

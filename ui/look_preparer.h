@@ -119,6 +119,7 @@ private:
     std::optional<render::PreparedEngine> m_full;
     /// The layers that are there, of which look; and those on their way or given up.
     std::shared_ptr<render::LayerSet> m_layers;
+    bool m_layersAreCoarse = false; ///< of a small volume
     std::optional<PreparedFor> m_layersOf, m_layersUnderway, m_layersGivenUp;
 };
 

@@ -34,12 +34,14 @@
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/phase_bar.h"
 #include "ui/panels/presets_panel.h"
+#include "ui/panels/spectrum_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
 #include "ui/preferences_dialog.h"
 #include "ui/projection_keys.h"
 #include "ui/reopening.h"
 #include "ui/shortcuts.h"
+#include "ui/spectrum_sampler.h"
 #include "ui/study_pair.h"
 #include "ui/tools_menu.h"
 #include "ui/view_menu.h"
@@ -62,6 +64,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     createStudyDock();
     createMeasurementsDock();
     createHistoryDock();
+    createSpectrumDock();
     m_look = new LookDocks(*this, m_bench.document, m_bench.preparer, m_bench.copier, *m_projection,
                            m_theme);
     connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
@@ -199,6 +202,18 @@ void MainWindow::createHistoryDock() {
     dock->hide();
 }
 
+void MainWindow::createSpectrumDock() {
+    auto *sampler = new SpectrumSampler(m_bench.document, this);
+    auto *panel = new SpectrumPanel(m_theme);
+    connect(&m_bench.copier, &CardCopier::engineReady, sampler, &SpectrumSampler::setEngine);
+    connect(sampler, &SpectrumSampler::sampled, panel, &SpectrumPanel::showSlice);
+    connect(sampler, &SpectrumSampler::cleared, panel, &SpectrumPanel::clear);
+    connect(panel, &SpectrumPanel::visibilityChanged, sampler, &SpectrumSampler::setActive);
+    QDockWidget *dock = makeDock(tr("SPECTRUM"), "spectrumDock", panel, nullptr);
+    addDockWidget(Qt::LeftDockWidgetArea, dock);
+    dock->hide();
+}
+
 QAction *MainWindow::command(QMenu &menu, const QString &text, const char *name,
                              const QKeySequence &key, const std::function<void()> &run) {
     return addCommand(menu, text, name, key, this, run);
@@ -257,6 +272,8 @@ void MainWindow::createEditMenu() {
 void MainWindow::createViewMenu() {
     m_view = new ViewMenu(*menuBar()->addMenu(tr("&View")), *this,
                           {m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
+    m_view->addPane(*findChild<QDockWidget *>("spectrumDock")->toggleViewAction(), tr("Spectr&um"),
+                    "spectrumAction", QKeySequence("Shift+S"));
     connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
     connect(m_view, &ViewMenu::linkRequested, m_pair, &StudyPair::toggleLink);
     connect(m_view, &ViewMenu::closeBesideRequested, m_pair, &StudyPair::closeBeside);

@@ -68,6 +68,7 @@ private:
     void createStudyDock();
     void createMeasurementsDock();
     void createHistoryDock();
+    void createSpectrumDock();
     void createFileMenu();
     void createEditMenu();
     void createViewMenu();

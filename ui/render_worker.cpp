@@ -31,17 +31,16 @@ RenderWorker::~RenderWorker() {
         m_card.wait();
 }
 
-void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
-                             std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation,
-                             std::shared_ptr<const render::ViewErrorModel> viewError) {
+void RenderWorker::setEngine(const std::optional<render::PreparedEngine> &prepared,
+                             std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation) {
     const std::lock_guard lock(m_mutex);
-    m_engine = std::move(engine);
-    m_viewError = std::move(viewError);
+    m_prepared = prepared;
     m_onCard = std::move(onCard);
+    if (m_generation != generation)
+        m_next.reset();
     m_generation = generation;
-    m_next.reset();
     m_last.reset();
-    if (!m_engine) {
+    if (!m_prepared) {
         m_dropsCard = true;
         m_wake.notify_one();
     }
@@ -50,12 +49,13 @@ void RenderWorker::setEngine(std::shared_ptr<render::ProjectionEngine> engine,
 std::uint64_t RenderWorker::request(const render::Camera &camera,
                                     const render::ImageDefinition &image,
                                     const shading::Shading &shading, const Reduction &reduction,
-                                    bool wantsTone, const std::optional<Compared> &compared) {
+                                    bool wantsTone, bool wantsError,
+                                    const std::optional<Compared> &compared) {
     const std::lock_guard lock(m_mutex);
-    if (!m_engine)
+    if (!m_prepared)
         return m_number;
-    m_next = Request{m_engine,  m_onCard,  m_generation, camera,     image,      shading,
-                     reduction, wantsTone, compared,     ++m_number, m_viewError};
+    m_next = Request{*m_prepared, m_onCard,  m_generation, camera,   image,     shading,
+                     reduction,   wantsTone, wantsError,   compared, ++m_number};
     m_wake.notify_one();
     return m_number;
 }
@@ -143,8 +143,16 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
         gpu::CardTimes times;
         frame->onCard =
             request.onCard->renderOnCard(request.camera, request.image, request.shading, &times);
-        if (request.wantsTone)
-            frame->automaticTone = render::toneRange(frame->onCard->download(), {});
+        // The loss of detail depends on the part that is shown.
+        const bool wantsError = request.wantsError && request.prepared.isCoarse;
+        if (request.wantsTone || wantsError) {
+            const render::ProjectionImage image = frame->onCard->download();
+            if (request.wantsTone)
+                frame->automaticTone = render::toneRange(image, {});
+            if (wantsError)
+                frame->error = render::errorOf(request.prepared, image, request.camera,
+                                               request.image, request.shading);
+        }
         frame->times = {times.sliceMs, times.transformMs};
         answer.frame = std::move(frame);
     } catch (const task::Error &error) {
@@ -210,14 +218,13 @@ bool RenderWorker::take(const CardFrame &answer, std::shared_ptr<RenderedFrame> 
 }
 
 void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
-    frame.image =
-        request.engine->render(request.camera, request.image, request.shading, &frame.times);
+    frame.image = request.prepared.engine->render(request.camera, request.image, request.shading,
+                                                  &frame.times);
     if (request.wantsTone)
         frame.automaticTone = render::toneRange(frame.image, {});
-    // Not while the picture moves: nobody reads figures then.
-    if (request.viewError && !frame.draft)
-        frame.error = request.viewError->relativeError(frame.image, request.camera, request.image,
-                                                       request.engine->parts(), request.shading);
+    if (request.wantsError)
+        frame.error = render::errorOf(request.prepared, frame.image, request.camera, request.image,
+                                      request.shading);
 }
 
 } // namespace pellucid::ui

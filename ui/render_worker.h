@@ -13,7 +13,7 @@
 #include <QObject>
 
 #include "core/render/compose.h"
-#include "core/render/view_error.h"
+#include "core/render/prepared_engine.h"
 #include "gpu/gpu_engine.h"
 
 namespace pellucid::ui {
@@ -32,7 +32,7 @@ struct RenderedFrame {
     /// The same view of what it is compared with, if that was asked for.
     std::optional<render::ProjectionImage> compared;
     render::FrameTimes times;
-    /// Predicted of this picture, where that is known.
+    /// Of this picture against the study, where that was asked for and is known.
     std::optional<double> error;
     std::uint64_t number = 0; ///< of the request it answers
     bool draft = false;
@@ -46,12 +46,11 @@ public:
     explicit RenderWorker(QObject *parent = nullptr);
     ~RenderWorker() override;
 
-    /// `onCard`: its twin, or none, which is used until it fails. `generation`: what its frames
-    /// will carry.
-    /// `viewError`: tells the error of its pictures, or none.
-    void setEngine(std::shared_ptr<render::ProjectionEngine> engine,
-                   std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation,
-                   std::shared_ptr<const render::ViewErrorModel> viewError = nullptr);
+    /// Sets the engine that makes the frames, or none. `onCard`: the same engine on the graphics
+    /// card, or none; it is used until it fails. `generation`: the number that its frames will
+    /// carry; a pending request of another generation is dropped.
+    void setEngine(const std::optional<render::PreparedEngine> &prepared,
+                   std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation);
     /// How a frame is made smaller than it is shown.
     struct Reduction {
         bool draft = false; ///< half the pixels a side: the central part of the same spectrum
@@ -64,10 +63,12 @@ public:
         render::ImageDefinition image;
         shading::Shading shading;
     };
-    /// The number of the request, which its frame will carry.
+    /// Returns the number of the request, which its frame will carry. `wantsError`: not while the
+    /// view moves, as computing the error takes longer than the frame.
     std::uint64_t request(const render::Camera &camera, const render::ImageDefinition &image,
                           const shading::Shading &shading, const Reduction &reduction,
-                          bool wantsTone, const std::optional<Compared> &compared = {});
+                          bool wantsTone, bool wantsError,
+                          const std::optional<Compared> &compared = {});
     /// A picture of one's own, before the next frame: engines render on this thread alone. *Throws*
     /// what rendering throws, and std::future_error if the worker ends before.
     std::future<render::ProjectionImage> picture(std::shared_ptr<render::ProjectionEngine> engine,
@@ -84,17 +85,16 @@ signals:
 
 private:
     struct Request {
-        std::shared_ptr<render::ProjectionEngine> engine;
+        render::PreparedEngine prepared;
         std::shared_ptr<gpu::GpuEngine> onCard;
         std::uint64_t generation;
         render::Camera camera;
         render::ImageDefinition image;
         shading::Shading shading;
         Reduction reduction;
-        bool wantsTone;
+        bool wantsTone, wantsError;
         std::optional<Compared> compared;
         std::uint64_t number;
-        std::shared_ptr<const render::ViewErrorModel> viewError;
     };
     /// What became of a frame on the card.
     struct CardFrame {
@@ -112,9 +112,8 @@ private:
     CardFrame askCard(const Request &request);
     bool take(const CardFrame &answer, std::shared_ptr<RenderedFrame> &frame);
 
-    std::shared_ptr<render::ProjectionEngine> m_engine;
+    std::optional<render::PreparedEngine> m_prepared;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
-    std::shared_ptr<const render::ViewErrorModel> m_viewError;
     std::uint64_t m_generation = 0;
     std::mutex m_mutex;
     std::condition_variable_any m_wake;

@@ -33,7 +33,7 @@ ViewMenu::ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, Graph
         [this] { emit preparationRequested(); });
     menu.addSeparator();
     addLayouts();
-    menu.addSeparator();
+    m_afterPanes = menu.addSeparator();
     addEngineMenu(*menu.addMenu(tr("Projection &engine")), card);
     menu.addSeparator();
     QAction *full = add(tr("&Full screen"), "fullScreenAction", QKeySequence("F11"), [&window] {
@@ -98,6 +98,14 @@ void ViewMenu::addLayouts() {
 
 QList<QAction *> ViewMenu::layouts() const {
     return m_layouts->actions();
+}
+
+void ViewMenu::addPane(QAction &toggle, const QString &text, const char *name,
+                       const QKeySequence &key) {
+    toggle.setText(text);
+    toggle.setObjectName(name);
+    toggle.setShortcut(key);
+    m_menu.insertAction(m_afterPanes, &toggle);
 }
 
 void ViewMenu::setBeside(bool isThere) {

@@ -25,6 +25,8 @@ public:
     ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, GraphicsCard &card);
 
     QList<QAction *> layouts() const;
+    /// A pane that is shown and hidden, below the layouts.
+    void addPane(QAction &toggle, const QString &text, const char *name, const QKeySequence &key);
     /// Whether there is a study beside; it is linked first.
     void setBeside(bool isThere);
     void setLinked(bool isLinked);
@@ -45,6 +47,7 @@ private:
     QMenu &m_menu;
     Viewer m_viewer;
     QActionGroup *m_layouts;
+    QAction *m_afterPanes = nullptr;
     QAction *m_link = nullptr, *m_closeBeside = nullptr;
 };
 

@@ -9,6 +9,25 @@
 
 namespace pellucid::bench {
 
+namespace {
+
+// In turns: the clock of a machine may change within a second.
+constexpr int runsOfView = 3;
+
+// How often a kept sample is in the whole slice: the other half mirrors all but the first column.
+double timesInSlice(const AdaptiveSlice::Slice &slice, std::size_t sample) {
+    return sample % (std::size_t(slice.size) / 2 + 1) == 0 ? 1.0 : 2.0;
+}
+
+double energyOf(const AdaptiveSlice::Slice &slice) {
+    double energy = 0.0;
+    for (std::size_t n = 0; n < slice.samples.size(); ++n)
+        energy += timesInSlice(slice, n) * double(std::norm(slice.samples[n]));
+    return energy;
+}
+
+} // namespace
+
 AdaptiveSlice::AdaptiveSlice(const fourier::Spectrum &spectrum)
     : m_spectrum(spectrum), m_apron(spectrum.cellLayout().apron),
       m_columns(spectrum.layout().padded.i / 2 + 1 + 2 * m_apron),
@@ -55,27 +74,68 @@ void AdaptiveSlice::mark(float threshold) {
     }
 }
 
+// Corrected bound: relative error <= T sum|H2 - H1| / rms of the slice, with T the largest weak
+// cell; the sums of |H2| and of |H1| over the taps in 3D bound that of their difference.
+float AdaptiveSlice::threshold(const Slice &exact, double tolerance) const {
+    double wide = 1.0;
+    for (const fourier::Kernel &kernel : m_spectrum.layout().kernels) {
+        double sumOfTaps = 0.0;
+        for (int tap = 0; tap < kernel.width(); ++tap)
+            sumOfTaps += std::abs(kernel.value(tap - 0.5 * (kernel.width() - 1)));
+        wide *= sumOfTaps;
+    }
+    // As if the first column had its mirror image too: the bound is safe, and the code short.
+    const double frequencies = 2.0 * double(exact.frequencies);
+    return float(tolerance * std::sqrt(energyOf(exact) / frequencies) / (wide + 1.0));
+}
+
+// The wide kernel's value at a place of the stored half. *Shape*: cells.
+std::complex<float> AdaptiveSlice::wideSample(const std::array<double, 3> &g) const {
+    const auto &layout = m_spectrum.layout();
+    const int width = layout.width();
+    std::array<int, 3> first{};
+    std::array<std::array<float, 8>, 3> weight{};
+    for (int d = 0; d < 3; ++d) {
+        first[d] = int(std::ceil(g[d] - 0.5 * width));
+        const double c = first[d] - g[d] + 0.5 * width - 0.5;
+        // The kernel's own polynomials, as the engine evaluates them.
+        const auto &kernel = layout.kernels[d];
+        const int terms = kernel.terms();
+        const float *pair = kernel.pairs().data();
+        const auto cc = float(c * c), cf = float(c);
+        for (int k = 0; k < (width + 1) / 2; ++k, pair += 2 * terms) {
+            float even = 0.0F, odd = 0.0F;
+            for (int n = terms - 1; n >= 0; --n) {
+                even = even * cc + pair[n];
+                odd = odd * cc + pair[terms + n];
+            }
+            weight[d][k] = even + cf * odd;
+            weight[d][width - 1 - k] = 2 * k == width - 1 ? weight[d][k] : even - cf * odd;
+        }
+    }
+    std::complex<float> sum = 0.0F;
+    for (int z = 0; z < width; ++z)
+        for (int y = 0; y < width; ++y) {
+            const auto *cells = m_cells.data() + at(first[0], first[1] + y, first[2] + z);
+            std::complex<float> line = 0.0F;
+            for (int x = 0; x < width; ++x)
+                line += weight[0][x] * cells[x];
+            sum += weight[1][y] * weight[2][z] * line;
+        }
+    return sum;
+}
+
 AdaptiveSlice::Slice AdaptiveSlice::extract(const render::Camera &camera, int size,
                                             double tolerance) {
     const auto &layout = m_spectrum.layout();
     const volume::Lattice &lattice = m_spectrum.lattice();
-    const int width = layout.width();
+    const std::size_t taps = std::size_t(layout.width()) * layout.width() * layout.width();
     const glm::dmat3 axes = camera.axes();
     const double ds = 1.0 / (size * camera.pixelMm);
-    Slice slice;
+    Slice slice{.size = size};
     slice.samples.assign(std::size_t(size) * (size / 2 + 1), {});
-    // Corrected bound: relative error <= T sum|H2 - H1| / rms of the slice, with T the largest
-    // weak cell; the sum of |H| over the taps in 3D and the single tap bound it.
-    if (tolerance > 0.0) {
-        const Slice exact = extract(camera, size, 0.0);
-        double energy = 0.0, sumOfTaps = 0.0;
-        for (const auto &value : exact.samples)
-            energy += double(std::norm(value));
-        for (int tap = 0; tap < width; ++tap)
-            sumOfTaps += std::abs(layout.kernels[0].value(tap - 0.5 * (width - 1)));
-        const double difference = std::pow(sumOfTaps, 3) + 1.0;
-        mark(float(tolerance * std::sqrt(energy / double(exact.frequencies)) / difference));
-    }
+    if (tolerance > 0.0)
+        mark(threshold(extract(camera, size, 0.0), tolerance));
     const double start = millisecondsNow();
     for (int row = -size / 2 + 1; row < size / 2; ++row)
         for (int column = 0; column < size / 2; ++column) {
@@ -95,46 +155,77 @@ AdaptiveSlice::Slice AdaptiveSlice::extract(const render::Camera &camera, int si
             const std::size_t nearest =
                 at(int(std::lround(g[0])), int(std::lround(g[1])), int(std::lround(g[2])));
             if (tolerance > 0.0 && m_weak[nearest] != 0) {
+                // As it is: other weights, that of the middle of the volume and the one that is
+                // best for a field that fills the box's ellipsoid, read more cells at -40 dB.
                 sum = m_cells[nearest];
                 ++slice.cellsRead;
             } else {
-                std::array<int, 3> first{};
-                std::array<std::array<float, 8>, 3> weight{};
-                for (int d = 0; d < 3; ++d) {
-                    first[d] = int(std::ceil(g[d] - 0.5 * width));
-                    const double c = first[d] - g[d] + 0.5 * width - 0.5;
-                    // The kernel's own polynomials, as the engine evaluates them.
-                    const auto &kernel = layout.kernels[d];
-                    const int terms = kernel.terms();
-                    const float *pair = kernel.pairs().data();
-                    const auto cc = float(c * c), cf = float(c);
-                    for (int k = 0; k < (width + 1) / 2; ++k, pair += 2 * terms) {
-                        float even = 0.0F, odd = 0.0F;
-                        for (int n = terms - 1; n >= 0; --n) {
-                            even = even * cc + pair[n];
-                            odd = odd * cc + pair[terms + n];
-                        }
-                        weight[d][k] = even + cf * odd;
-                        weight[d][width - 1 - k] =
-                            2 * k == width - 1 ? weight[d][k] : even - cf * odd;
-                    }
-                }
-                for (int z = 0; z < width; ++z)
-                    for (int y = 0; y < width; ++y) {
-                        const auto *cells =
-                            m_cells.data() + at(first[0], first[1] + y, first[2] + z);
-                        std::complex<float> line = 0.0F;
-                        for (int x = 0; x < width; ++x)
-                            line += weight[0][x] * cells[x];
-                        sum += weight[1][y] * weight[2][z] * line;
-                    }
-                slice.cellsRead += std::size_t(width) * width * width;
+                sum = wideSample(g);
+                slice.cellsRead += taps;
             }
             slice.samples[std::size_t(row < 0 ? row + size : row) * (size / 2 + 1) + column] =
                 mirrored ? std::conj(sum) : sum;
         }
     slice.milliseconds = millisecondsNow() - start;
     return slice;
+}
+
+double relativeL2(const AdaptiveSlice::Slice &slice, const AdaptiveSlice::Slice &exact) {
+    AdaptiveSlice::Slice difference = slice;
+    for (std::size_t n = 0; n < exact.samples.size(); ++n)
+        difference.samples[n] -= exact.samples[n];
+    return std::sqrt(energyOf(difference) / energyOf(exact));
+}
+
+AdaptiveComparison compareFilters(AdaptiveSlice &slices, const render::Camera &camera, int size,
+                                  std::span<const glm::dquat> views, double bound) {
+    AdaptiveComparison comparison{.bound = bound};
+    std::vector<double> wideMs, adaptiveMs;
+    render::Camera turned = camera;
+    for (const glm::dquat &view : views) {
+        turned.orientation = view;
+        const auto wide = slices.extract(turned, size, 0.0),
+                   adaptive = slices.extract(turned, size, bound);
+        double fastestWide = wide.milliseconds, fastestAdaptive = adaptive.milliseconds;
+        for (int again = 1; again < runsOfView; ++again) {
+            fastestWide = std::min(fastestWide, slices.extract(turned, size, 0.0).milliseconds);
+            fastestAdaptive =
+                std::min(fastestAdaptive, slices.extract(turned, size, bound).milliseconds);
+        }
+        wideMs.push_back(fastestWide);
+        adaptiveMs.push_back(fastestAdaptive);
+        comparison.frequencies += double(wide.frequencies) / double(views.size());
+        comparison.wideCells += double(wide.cellsRead) / double(views.size());
+        comparison.adaptiveCells += double(adaptive.cellsRead) / double(views.size());
+        comparison.relativeL2 = std::max(comparison.relativeL2, relativeL2(adaptive, wide));
+    }
+    comparison.wideMs = median(wideMs);
+    comparison.adaptiveMs = median(adaptiveMs);
+    return comparison;
+}
+
+AdaptiveComparison compareFiltersAt(AdaptiveSlice &slices, const render::Camera &camera, int size,
+                                    std::span<const glm::dquat> views, double relativeL2) {
+    const auto at = [&](double bound) {
+        return compareFilters(slices, camera, size, views, bound);
+    };
+    // The bound holds, so the error at a bound of `relativeL2` is not above it.
+    AdaptiveComparison within = at(relativeL2), beyond = within;
+    while (beyond.relativeL2 <= relativeL2) {
+        within = beyond;
+        if (within.adaptiveCells == within.frequencies) // the narrow filter alone is good enough
+            return within;
+        beyond = at(10.0 * within.bound);
+    }
+    while (beyond.bound > 1.02 * within.bound) {
+        AdaptiveComparison between = at(std::sqrt(within.bound * beyond.bound));
+        (between.relativeL2 <= relativeL2 ? within : beyond) = between;
+    }
+    return within;
+}
+
+double multiplyAdds(double cellsRead, bool cued) {
+    return 2.0 * (cued ? 2.0 : 1.0) * cellsRead;
 }
 
 } // namespace pellucid::bench

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/fourier/spectrum.h"
@@ -21,7 +23,8 @@ public:
     explicit AdaptiveSlice(const fourier::Spectrum &spectrum);
 
     struct Slice {
-        std::vector<std::complex<float>> samples; ///< rows x columns, s_u >= 0 half
+        int size = 0;
+        std::vector<std::complex<float>> samples; ///< size x (size/2 + 1), the half s_u >= 0
         std::size_t cellsRead = 0, frequencies = 0;
         double milliseconds = 0.0;
     };
@@ -32,6 +35,8 @@ public:
 private:
     std::size_t at(int p, int q, int r) const;
     void mark(float threshold);
+    float threshold(const Slice &exact, double tolerance) const;
+    std::complex<float> wideSample(const std::array<double, 3> &g) const;
 
     const fourier::Spectrum &m_spectrum;
     int m_apron, m_columns, m_rows, m_planes;
@@ -39,5 +44,36 @@ private:
     std::vector<std::uint8_t> m_weak;
     float m_threshold = -1.0F;
 };
+
+/// How far apart the images of two slices are, as a relative L2 error of the first: by Parseval's
+/// theorem on the whole slice, of which all columns but the first are kept once. *Shape*: of one
+/// size.
+double relativeL2(const AdaptiveSlice::Slice &slice, const AdaptiveSlice::Slice &exact);
+
+/// The adaptive filter beside the wide one from the same views.
+struct AdaptiveComparison {
+    double bound = 0.0;                    ///< the `tolerance` of the slices
+    double relativeL2 = 0.0;               ///< of the filter alone, from the worst of the views
+    double wideMs = 0.0, adaptiveMs = 0.0; ///< medians of the fastest of each view
+    /// Means of a slice: its frequencies, and the cells read for them.
+    double frequencies = 0.0, wideCells = 0.0, adaptiveCells = 0.0;
+
+    double share() const { return adaptiveCells / wideCells; }
+    double speedUp() const { return wideMs / adaptiveMs; }
+};
+
+/// The two filters from several views. `size`: as of AdaptiveSlice::extract.
+AdaptiveComparison compareFilters(AdaptiveSlice &slices, const render::Camera &camera, int size,
+                                  std::span<const glm::dquat> views, double bound);
+
+/// The comparison at the loosest bound, within a fiftieth, whose measured error is not above
+/// `relativeL2`; where the narrow filter alone is as good as that, the one that reads fewest cells.
+AdaptiveComparison compareFiltersAt(AdaptiveSlice &slices, const render::Camera &camera, int size,
+                                    std::span<const glm::dquat> views, double relativeL2);
+
+/// The number of real multiply-adds in a frame's slices. Weighting a complex cell by a real tap
+/// takes two. With a linear cue (`cued`) each cell is weighted twice: by the kernel and by the
+/// moment kernel.
+double multiplyAdds(double cellsRead, bool cued);
 
 } // namespace pellucid::bench

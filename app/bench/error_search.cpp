@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t geneCount = 48;
 
-// Reads genes one after the other.
+// Reads the genes in order.
 class Genes {
 public:
     explicit Genes(const Candidate &candidate) : m_genes(candidate.genes) {}
@@ -63,8 +63,8 @@ volume::Lattice latticeOf(Genes &genes) {
                                   step / std::cos(tilt) * glm::dvec3(0, 0, 1)});
 }
 
-// A field by the coordinates of its lattice, each within -1..1, and what it is seen along at its
-// worst, in them.
+// A field as a function of lattice coordinates, each in -1..1, and the direction, in the same
+// coordinates, of its worst view.
 struct Shape {
     std::function<double(const glm::dvec3 &)> value;
     glm::dvec3 along{0.0, 0.0, 1.0};
@@ -81,7 +81,7 @@ Shape shapeOf(int kind, Genes &genes, const volume::Lattice &lattice) {
         glm::cross(normal, std::abs(normal.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
     const auto gauss = [](double x) { return std::exp(-x * x); };
     switch (kind) {
-    case 2: // rods, oblique or along an axis, with something diffuse in the middle
+    case 2: // a rod, oblique or along an axis, with a diffuse blob in the middle
         return {[=](const glm::dvec3 &x) {
                     const glm::dvec3 axis = more < 0.5 ? normal : glm::dvec3(0, 0, 1);
                     const glm::dvec3 off = x - place;
@@ -89,11 +89,11 @@ Shape shapeOf(int kind, Genes &genes, const volume::Lattice &lattice) {
                     return gauss(far / width) + 0.3 * other * gauss(2.0 * glm::length(x));
                 },
                 more < 0.5 ? normal : glm::dvec3(0, 0, 1)};
-    case 3: // a sheet, edge on
+    case 3: // a sheet, worst seen edge on
         return {
             [=](const glm::dvec3 &x) { return gauss(glm::dot(x - 0.7 * place, normal) / width); },
             across};
-    case 4: // a shell that may leave the lattice
+    case 4: // a shell that may extend beyond the lattice
         return {[=](const glm::dvec3 &x) {
                     return gauss((glm::length(x - 0.4 * place) - 0.3 - 0.9 * other) / width);
                 },
@@ -104,13 +104,13 @@ Shape shapeOf(int kind, Genes &genes, const volume::Lattice &lattice) {
                     return wave > 1.8 * more - 0.9 ? 1.0 : 0.0;
                 },
                 across};
-    case 6: // ever finer waves
+    case 6: // a chirp: ever finer waves
         return {[=](const glm::dvec3 &x) {
                     const double t = glm::dot(x - 0.5 * place, normal);
                     return 0.5 + 0.5 * std::sin((5.0 + 30.0 * other) * t * t);
                 },
                 across};
-    case 7: // a body that the lattice cuts, with bone in it
+    case 7: // a body with bone, cut by the lattice
         return {
             [=](const glm::dvec3 &x) {
                 const glm::dvec3 y = (x - 0.5 * place) / glm::dvec3(0.6 + other, 0.9, 0.6 + more);
@@ -130,7 +130,7 @@ Shape shapeOf(int kind, Genes &genes, const volume::Lattice &lattice) {
     }
 }
 
-// Values that no formula of the place gives: single samples, and noise of a colour.
+// Samples that are no function of position: single bright ones, and coloured noise.
 void addSamples(int kind, Genes &genes, const volume::GridSize &size, std::vector<float> &samples) {
     const auto at = [&](int i, int j, int k) -> float & {
         return samples[(std::size_t(k) * size.j + j) * size.i + i];
@@ -150,7 +150,7 @@ void addSamples(int kind, Genes &genes, const volume::GridSize &size, std::vecto
         const int i = end(size.i), j = end(size.j), k = end(size.k);
         at(i, j, k) = 1.0F;
         at(size.i - 1 - i, size.j - 1 - j, size.k - 1 - k) = float(genes.between(0.3, 1.0));
-    } else if (kind == 8) { // positive, from white to smooth
+    } else if (kind == 8) { // positive noise, from white to smooth
         std::minstd_rand random(unsigned(1.0 + 1e6 * genes.next()));
         std::uniform_real_distribution<float> value(0.0F, 1.0F);
         const float keep = float(genes.between(0.0, 0.95));
@@ -160,7 +160,7 @@ void addSamples(int kind, Genes &genes, const volume::GridSize &size, std::vecto
     }
 }
 
-// [U V W] with W along a direction, turned about it.
+// The view [U V W] with W along a direction, rolled about it.
 glm::dquat facing(const glm::dvec3 &w, double roll) {
     const glm::dvec3 helper = std::abs(w.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(helper, w)), v = glm::cross(w, u);
@@ -200,7 +200,7 @@ glm::dquat viewOf(Genes &genes, const volume::Lattice &lattice, const glm::dvec3
     return facing(w, roll);
 }
 
-// A part of the picture, off its middle.
+// Crops the picture, off centre.
 void cropPicture(Genes &genes, render::Camera &camera) {
     const auto side = [&](int pixels) {
         return std::max(8, 2 * int(0.5 * pixels * genes.between(0.3, 1.0)));
@@ -259,13 +259,13 @@ Trial trialOf(const Candidate &candidate, Asked asked) {
                 samples.push_back(std::max(0.0F, float(shape.value(x))));
             }
     addSamples(kind, genes, size, samples);
-    // What is next to nothing is nothing: fields have a support.
+    // Values below 1e-4 of the maximum become 0, so that the field has a bounded support.
     const float most = *std::max_element(samples.begin(), samples.end());
     for (float &sample : samples)
         sample = sample < 1e-4F * most ? 0.0F : sample / std::max(most, 1e-30F);
     trial.field = classify::densityField(
         volume::Volume(lattice, std::move(samples), volume::ValueUnit::none), {0.0, 1.0});
-    // Whole pictures, of other pixels.
+    // The zoom changes the pixel size; the picture still holds the whole field.
     render::Camera &camera = trial.scene.camera;
     camera.pixelMm *= zoom;
     camera.width = camera.height = 2 * int(std::ceil(0.5 * camera.width / zoom));
@@ -323,7 +323,7 @@ std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t see
         Candidate candidate;
         for (std::size_t n = 0; n < geneCount; ++n)
             candidate.genes.push_back(uniform(random));
-        candidate.genes[1] = 0.3; // the usual tolerance
+        candidate.genes[1] = 0.3; // the default tolerance, 1.1e-3
         const Trial trial = trialOf(candidate, Asked::anyPicture);
         const Verdict verdict = judge(trial);
         if (verdict.measured > 0.0)
@@ -342,7 +342,7 @@ searchCounterexample(const SearchOptions &options,
     std::mt19937_64 random(options.seed);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     std::normal_distribution<double> normal(0.0, 1.0);
-    // A few islands: the best of one kind of field does not drive out the others.
+    // Several islands keep the best candidate of one kind of field from displacing the others.
     struct Island {
         Candidate best;
         double ratio = -1.0;

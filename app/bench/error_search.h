@@ -11,48 +11,49 @@
 
 namespace pellucid::bench {
 
-/// A field, a view and a tolerance, all made of numbers within 0..1, so that a search can move in
-/// them: the kind of field, its lattice, its places and widths, the kind of view and its angles.
+/// A field, a view and a tolerance, encoded as numbers in 0..1 so that a search can vary them: the
+/// kind of field, its lattice, positions and widths, the kind of view and its angles.
 struct Candidate {
     std::vector<double> genes;
 };
 
-/// What a candidate stands for.
+/// A decoded candidate: a field, and a scene with view and tolerance.
 struct Trial {
     std::string name; ///< kind of field, size, view and tolerance
     classify::DensityField field;
     render::Scene scene;
 };
-/// Whole pictures without cue and light, of which the plan's error is a bound; or of any kind and
-/// any part, beside each of which stands an error of its own.
+/// The pictures to search. `wholePicture`: uncropped, without cue and light; the plan's error
+/// bounds each of them. `anyPicture`: any cue, light and crop; each picture has its own predicted
+/// error.
 enum class Asked { wholePicture, anyPicture };
 Trial trialOf(const Candidate &candidate, Asked asked);
 
-/// Predicted error of the plan and measured error of the image against the exact one. *Units*:
-/// relative L2.
+/// The error that the plan predicts and the error of the image, measured against the exact image.
+/// *Units*: relative L2.
 struct Verdict {
     double predicted = 0.0, measured = 0.0;
-    double ofView = 0.0;        ///< what is said beside the picture itself
-    bool keepsTolerance = true; ///< as the plan says
+    double ofView = 0.0;        ///< the prediction for this picture alone
+    bool keepsTolerance = true; ///< according to the plan
     double ratio() const {
         return predicted > 0.0 ? measured / predicted : measured > 0.0 ? 1e9 : 0;
     }
 };
 Verdict judge(const Trial &trial);
 
-/// The error that stands beside a picture over the measured one.
+/// The error predicted for a single picture, divided by the measured error.
 struct PictureFactor {
     std::string name;
     double factor = 0.0;
 };
-/// Of random pictures of any kind whose tolerance is the usual one, the smallest factor first.
-/// *Shape*: as many as were asked for.
+/// The factors of random pictures of any kind at the default tolerance, in ascending order.
+/// *Shape*: `count` entries.
 std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t seed);
 
 struct SearchOptions {
     std::uint64_t seed = 1;
-    double seconds = 60.0;      ///< it ends after so long,
-    int trials = 1'000'000'000; ///< or after so many
+    double seconds = 60.0;      ///< the search ends after this time
+    int trials = 1'000'000'000; ///< or after this many trials
 };
 
 struct SearchResult {
@@ -61,9 +62,9 @@ struct SearchResult {
     Verdict verdict;
 };
 
-/// Looks for the candidate whose measured error is largest beside its prediction: random ones, the
-/// best of which are changed a little, again and again. `found`: each that is worse than all
-/// before.
+/// Searches for the candidate with the largest ratio of measured to predicted error. It starts from
+/// random candidates and repeatedly changes the best ones a little. It calls `found` for each
+/// candidate that is worse than all earlier ones.
 SearchResult
 searchCounterexample(const SearchOptions &options,
                      const std::function<void(const Trial &, const Verdict &)> &found = {});

@@ -77,6 +77,9 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
                             layers->plan(), subject.scene, 0);
     summed.prepareMs = millisecondsNow() - start;
     summed.bytes = double(layers->bytes());
+    if (const auto &loss = layers->detailLoss())
+        summed.predictedError =
+            std::hypot(*summed.predictedError, loss->relativeError(mixture.shares, {}));
     Row kept = summed;
     kept.name = name + ", weights move";
     render::MixtureEngine engine(layers, mixture.shares);
@@ -110,6 +113,37 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
     kept.note = fmt::format("{}{}the first change at a view {:.1f} ms", note,
                             note.empty() ? "" : "; ", median(first));
     report(kept);
+}
+
+std::vector<shading::Light> threeLights(bool colored) {
+    std::vector<shading::Light> lights{{{1, 0, 0}}, {{-0.5, 0.866, 0}}, {{-0.5, -0.866, 0}}};
+    if (colored) {
+        lights[0].color = {1, 0, 0};
+        lights[1].color = {0, 1, 0};
+        lights[2].color = {0, 0, 1};
+    }
+    return lights;
+}
+
+ShadedFrames measureShaded(const std::string &suite, const std::string &name,
+                           const classify::ShownFields &fields, const render::Scene &scene,
+                           render::ProjectionEngine &plain) {
+    const double start = millisecondsNow();
+    ShadedFrames frames{{}, render::prepareEngine(scene, fields, {})};
+    const double prepareMs = millisecondsNow() - start;
+    render::ProjectionEngine &engine = *frames.prepared.engine;
+    Row row = plannedRow(suite, name, fields.channels.front().values.lattice().size(),
+                         frames.prepared.plan, scene, 0);
+    row.prepareMs = prepareMs;
+    row.bytes = double(frames.prepared.bytes);
+    const double plainMs = fillTimesInTurns(row, engine, plain, scene, views);
+    row.note = ratioText(row, plainMs);
+    render::Camera camera = scene.camera;
+    camera.orientation = randomViews(1, 11).front();
+    fillError(row, compare(engine.render(camera, scene.image, scene.shading).samples,
+                           reference::shadedImage(fields, scene.shading, camera, scene.image)));
+    frames.row = row;
+    return frames;
 }
 
 } // namespace pellucid::bench

@@ -34,12 +34,17 @@ class Truth {
 public:
     /// General views, the first among them, and from two on the front, from three on the top.
     Truth(const Subject &subject, const render::Camera &camera, int views);
+    /// Views in given directions.
+    Truth(const Subject &subject, const render::Camera &camera,
+          const std::vector<glm::dquat> &orientations);
 
     int views() const { return int(m_cameras.size()); }
     const render::Camera &camera(int view) const { return m_cameras[std::size_t(view)]; }
     const std::vector<double> &image(int view, const render::ImageDefinition &definition);
     /// What the two peers in space take for this subject, and the ray sum's error against the
-    /// `linear` truth; measured when first asked for.
+    /// `linear` truth; measured when first asked for. The error is the worst of the general views:
+    /// along an axis the trilinear field has kinks in every sample's plane, which the pixel's band
+    /// limit takes out of the truth and no ray sum can.
     struct Peers {
         double raySumMs = 0.0, raySumMsamplesPerSecond = 0.0, raySumRelativeL2 = 0.0,
                shearWarpMs = 0.0;
@@ -58,6 +63,8 @@ private:
 /// What is rendered, and how often.
 struct Measurement {
     render::Scene scene; ///< its camera is what all views share but the orientation
+    /// In place of the plan's, which keeps copies of the projection out of the image.
+    std::optional<render::SliceRoom> room = std::nullopt;
     int views = 64;
     int threads = 0;       ///< 0: all
     bool transform = true; ///< time FFTW's own transform of the padded size too

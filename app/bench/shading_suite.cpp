@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/bench/look_rows.h"
-#include "core/reference/shaded_field.h"
 #include "core/render/prepared_engine.h"
 
 namespace pellucid::bench {
@@ -8,27 +7,14 @@ namespace pellucid::bench {
 namespace {
 
 using shading::CueKind;
-using shading::Light;
 using shading::Shading;
 
-constexpr int views = 48;
 constexpr glm::dvec3 across{1, 0, 0}, oblique{1, 1, 0.7};
 
 struct Case {
     const char *name;
     Shading shading;
 };
-
-// Lights across the view, 120 degrees apart: figure 8 of Totsuka 1993.
-std::vector<Light> threeLights(bool colored) {
-    std::vector<Light> lights{{{1, 0, 0}}, {{-0.5, 0.866, 0}}, {{-0.5, -0.866, 0}}};
-    if (colored) {
-        lights[0].color = {1, 0, 0};
-        lights[1].color = {0, 1, 0};
-        lights[2].color = {0, 0, 1};
-    }
-    return lights;
-}
 
 std::vector<Case> cases() {
     const shading::DepthCue linear{CueKind::linear, 1.0}, half{CueKind::linear, 0.5};
@@ -57,20 +43,7 @@ void runShadingSuite(const Report &report) {
         for (const auto &[name, shading] : cases()) {
             render::Scene scene = subject.scene;
             scene.shading = shading;
-            const double start = millisecondsNow();
-            const auto prepared = render::prepareEngine(scene, fields, {});
-            Row row = plannedRow("shading", name, subject.volume.lattice().size(), prepared.plan,
-                                 scene, 0);
-            row.prepareMs = millisecondsNow() - start;
-            row.bytes = double(prepared.bytes);
-            const double plainMs =
-                fillTimesInTurns(row, *prepared.engine, *plain.engine, scene, views);
-            scene.camera.orientation = randomViews(1, 11).front();
-            fillError(row,
-                      compare(prepared.engine->render(scene.camera, scene.image, shading).samples,
-                              reference::shadedImage(fields, shading, scene.camera, scene.image)));
-            row.note = ratioText(row, plainMs);
-            report(row);
+            report(measureShaded("shading", name, fields, scene, *plain.engine).row);
         }
     }
 }

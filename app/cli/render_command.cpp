@@ -14,10 +14,10 @@
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
 #include "app/cli/renderer.h"
+#include "app/cli/scene_fields.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/terminal.h"
 #include "core/files/file_set.h"
-#include "core/preprocess/step_cache.h"
 #include "core/task/error.h"
 #include "core/task/memory.h"
 
@@ -38,13 +38,6 @@ struct Options {
     std::uint64_t memory = 0;
     bool turntable = false, json = false, isDeidentified = false;
 };
-
-// A picture asks for each step once; two classes may share one.
-constexpr std::size_t budgetOfSteps = std::size_t(1) << 30;
-
-bool isEmpty(const classify::DensityField &field) {
-    return field.support.size().count() == 1 && field.values.value(field.support.lo) == 0.0;
-}
 
 // Whether what a picture shows misses the tolerance that the plan keeps, and a closer plan may
 // help.
@@ -78,8 +71,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     // The scene file may have brought colours.
     checkOutput(out, classify::isGrey(scene.look) && scene.shading.isGrey());
     Stopwatch watch;
-    const classify::FieldWindow window =
-        scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
+    const classify::FieldWindow window = windowFor(scene, volume);
     const std::size_t samples = volume.lattice().size().count();
     const std::size_t forLight = render::bytesForLight(scene.shading, volume.lattice().size(),
                                                        classify::mixesColors(scene.look) ? 3 : 1);
@@ -90,11 +82,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                     fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
                                 o.memory >> 20),
                     o.input.path);
-    preprocess::StepCache steps(budgetOfSteps);
-    const auto fields = classify::cropped(
-        classify::shownFields(volume, window, scene.look, &steps, task::Progress(context.stop)),
-        scene.crop);
-    steps.trim(0); // the picture asks for nothing twice
+    const classify::ShownFields fields = fieldsFor(scene, volume, context);
     // Asking for more than there is would end in the system killing the program.
     render::Budget budget{task::availableMemoryBytes()};
     budget.bytes -= std::min(budget.bytes, forLight); // still to be asked for
@@ -119,7 +107,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         }
     };
     Renderer *renderer = &prepare();
-    const double prepareMs = watch.lapMs();
+    double prepareMs = watch.lapMs();
     std::vector<std::string> warnings = volume.notes().warnings;
     const auto warn = [&](const std::string &text) {
         warnings.push_back(text);
@@ -127,26 +115,13 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     };
     if (renderer->isReduced())
         warn(renderer->reason());
-    const bool hasClasses = !scene.look.classes.empty();
-    if (hasClasses && command.count("--bezier") > 0)
-        warn("--bezier weighs the whole volume; beside --class it is not seen");
-    if (command.count("--preset") > 0 &&
-        (command.count("--class") > 0 || command.count("--bezier") > 0))
-        warn("what is shown is --class or --bezier; of the preset its window and light are left");
-    if (command.count("--class") > 0 && volume.unit() != volume::ValueUnit::hounsfield)
-        warn("the ranges of --class are Hounsfield units, which the values are not known to be");
-    if (const auto preset = presetFor(o.scene))
-        if (const std::string why = presets::mismatch(*preset, volume); !why.empty())
-            warn(why);
+    for (const std::string &text : lookWarnings(o.scene, command, scene, volume))
+        warn(text);
+    if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
+        warn(why);
     if (renderer->predictedError() > scene.tolerance)
         warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
                          renderer->predictedError()));
-    if (std::all_of(fields.channels.begin(), fields.channels.end(), isEmpty))
-        warn(scene.look.classes.empty()
-                 ? fmt::format("the field is empty: no value lies above {} within a window of {} "
-                               "to {}",
-                               window.low, window.low, window.high)
-                 : std::string("the field is empty: no value belongs to a class that is shown"));
 
     render::FrameTimes times;
     double writeMs = 0.0, viewError = 0.0;
@@ -169,7 +144,9 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         // error is known once it is seen.
         for (int tries = 0; tries < 3 && mayPlanCloser(*renderer, scene); ++tries) {
             planned.tolerance *= 0.8 * scene.tolerance / renderer->lastViewError();
+            watch.lapMs();
             renderer = &prepare();
+            prepareMs += watch.lapMs();
             image = renderer->image(turned.camera, times);
         }
         viewError = std::max(viewError, renderer->lastViewError());

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 namespace {
 
-// What is said where the card was asked for: it is too small, or else not there for us.
+// The error for a user who requires the card: the card is too small, or we cannot use one.
 task::Error cardRefused(const task::Error &error) {
     const bool isTooSmall = error.code() == task::ErrorCode::outOfMemory;
     return {isTooSmall ? error.code() : task::ErrorCode::noSuchDevice,
@@ -88,7 +88,7 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
     for (std::size_t c = 0; c < m_channels; ++c)
         exactBytes += reference::WideKernel::bytes(summaries.front().support) +
                       reference::sliceBytes(m_lattice, scene.camera, scene.image);
-    if (!scene.shading.isPlain()) // the field, larger, and its shaded twin
+    if (!scene.shading.isPlain()) // the enlarged field and its shaded copy
         exactBytes += 2 * m_lattice.size().count() * sizeof(float);
     if (plan.predictedError <= scene.tolerance || scene.interpolation != render::Interpolation() ||
         scene.plannedFor == render::PlannedFor::volume || m_fitting.reduction > 1 ||
@@ -96,7 +96,7 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
         const render::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
         m_lattice = sources.fields.front().values.lattice();
         m_engine = render::makeEngine(sources, fields.color, plan, m_progress);
-        if (m_fitting.reduction == 1) // else detail is lost, wherever one looks from
+        if (m_fitting.reduction == 1) // otherwise every view loses detail
             m_viewModel.emplace(plan, summaries);
         m_fitting.reduced.reset();
         m_bytes = plan.bytes;
@@ -107,8 +107,8 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
         for (const classify::DensityField &field : fields.channels)
             m_references.emplace_back(field.values, field.support, m_progress);
     m_bytes = exactBytes;
-    // Double precision leaves rounding, about 1e-10, or that of a shaded field's samples; and what
-    // is left of the roll-off's tails.
+    // Two errors remain: rounding, about 1e-10 in double precision or that of a shaded field's
+    // float samples, and the tails of the roll-off.
     const double rounding = m_references.empty() ? 6e-8 : 1e-10;
     for (const render::FieldSummary &summary : summaries)
         m_predictedError = std::max(
@@ -144,8 +144,8 @@ render::ProjectionImage Renderer::image(const render::Camera &camera, render::Fr
             judge(image, camera);
             return image;
         } catch (const task::Error &error) {
-            // The card is gone, or too small for this image: the processor goes on, unless the
-            // card was asked for.
+            // The card was lost, or is too small for this image: the processor takes over, unless
+            // the user requires the card.
             if (m_choice.isAsked)
                 throw cardRefused(error);
             m_choice.reason = error.reason();
@@ -168,7 +168,7 @@ void Renderer::judge(const render::ProjectionImage &image, const render::Camera 
     if (!m_viewModel)
         return;
     const render::EngineParts parts = m_engine->parts();
-    // What the card's own filter adds, it adds to every view.
+    // The card's own texture filter adds the same error to every view.
     const double bound = m_fitting.plan.predictedError,
                  added = std::max(0.0, m_predictedError * m_predictedError - bound * bound);
     m_viewError =
@@ -217,14 +217,21 @@ json Renderer::planJson() const {
     const render::SliceGrid grid =
         render::sliceGrid(m_scene.camera, plan.room, m_lattice, m_scene.image);
     const int w = s.width();
-    const render::FrameModel model =
-        render::modelFrame(plan, m_scene, int(m_fields.channels.size()),
-                           m_fields.channels.size() == 1 && !m_fields.isGrey(), m_lattice);
-    json leftOut = json::array();
+    const auto fields = int(m_fields.channels.size());
+    const render::FrameModel model = render::modelFrame(
+        plan, m_scene,
+        {fields, fields > 1 ? render::SpectrumOf::channel : render::SpectrumOf::look,
+         !m_fields.isGrey()},
+        m_lattice);
+    json spectra = json::array(), leftOut = json::array();
+    for (const render::FrameModel::Spectra &kind : model.spectra)
+        spectra.push_back({{"of", render::spectrumText(kind.of)},
+                           {"count", kind.count},
+                           {"because", render::reasonText(kind.of)}});
     for (const render::LeftOut what : model.leftOut)
         leftOut.push_back(render::leftOutText(what));
     const json modelled = {
-        {"spectra", {{"fields", model.fields}, {"gradients", model.gradients}}},
+        {"spectra", spectra},
         {"slices", model.slices},
         {"images", model.images},
         {"combination", render::combinationText(model.combination)},

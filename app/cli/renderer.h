@@ -17,51 +17,54 @@
 
 namespace pellucid::cli {
 
-/// The graphics card that images are to be made on, if it is one.
+/// Whether to make the images on a graphics card, and on which one.
 struct CardChoice {
-    bool isAsked = false;
-    std::shared_ptr<gpu::FramePasses> passes; ///< none: the processor makes them
-    std::string reason;                       ///< why it is that one, a line
+    bool isAsked = false;                     ///< the user requires the card
+    std::shared_ptr<gpu::FramePasses> passes; ///< null: the processor makes the images
+    std::string reason;                       ///< why this engine was chosen, one line
 };
-/// `engine`: "auto", "cpu" or "gpu". Left to itself the card is taken if it is none of software and
-/// there is more than one image to make: a single one is over on the processor before a card has
-/// its spectra. *Throws* Error{noSuchDevice} with the reason if the card is asked for and there is
-/// none.
+/// Chooses between processor and graphics card. `engine`: "auto", "cpu" or "gpu". "auto" takes the
+/// card if it is not a software renderer and there is more than one image to make: the processor
+/// finishes a single image before the spectra have reached the card. *Throws* Error{noSuchDevice}
+/// with the reason if "gpu" is requested and there is no card.
 CardChoice chooseCard(const std::string &engine, int frames);
 
-/// Images of one scene within a tolerance: by the engine, or by the exact reference where no plan
-/// keeps the tolerance, unless the memory is short or the scene fixes the interpolation.
+/// Renders images of one scene within its tolerance. The engine makes them; where no plan keeps the
+/// tolerance, the exact reference does, unless memory is short, the scene fixes the interpolation,
+/// or the plan is for the whole volume.
 class Renderer {
 public:
     /// The scene and the fields must outlive it. *Throws* Error{outOfMemory}, Cancelled.
     Renderer(const render::Scene &scene, const classify::ShownFields &fields,
              const render::Budget &budget, const Context &context);
 
-    /// Makes the images on the card. *Throws* Error{noSuchDevice}, Error{outOfMemory} with the
-    /// reason if it was asked for and cannot be used.
+    /// Makes the images on the card from now on. *Throws* Error{noSuchDevice}, Error{outOfMemory}
+    /// with the reason if the user requires the card and it cannot be used.
     void use(const CardChoice &card);
-    /// Why it is that engine, a line.
+    /// Why this engine was chosen, one line.
     const std::string &engineReason() const { return m_choice.reason; }
     bool isOnCard() const { return m_card != nullptr; }
-    /// Of the spectra on the card.
+    /// Bytes of the spectra on the card; 0 without a card.
     std::size_t cardBytes() const { return m_card ? m_card->textures().bytes() : 0; }
 
-    /// `times`: of this image, all channels.
+    /// `times` receives the times of this image, all channels together.
     render::ProjectionImage image(const render::Camera &camera, render::FrameTimes &times);
 
-    /// What makes the images, one line.
+    /// Describes the engine that makes the images, one line.
     std::string description() const;
     nlohmann::json planJson() const;
     std::size_t channelCount() const { return m_channels; }
     std::size_t bytes() const { return m_bytes; }
     bool isReduced() const { return m_fitting.reduction > 1; }
     const std::string &reason() const { return m_fitting.plan.reason; }
-    /// Of every view of the whole, at most: the worst channel's; the picture's, all channels taken
-    /// together, is no larger.
+    /// An upper bound on the error of any view of the whole volume. It is the worst channel's
+    /// bound; the error of the picture, all channels taken together, is no larger.
     double predictedError() const { return m_predictedError; }
-    /// Of the last picture, as it is seen and cropped.
+    /// The predicted error of the last picture, for its own view and crop; `predictedError` if the
+    /// picture has none of its own.
     double lastViewError() const { return m_viewError.value_or(m_predictedError); }
-    /// Of the engine only: the reference's lies below what a float image holds.
+    /// The predicted largest error of a pixel. None for the exact reference, whose error is below
+    /// the precision of a float image.
     std::optional<double> predictedMaximum() const;
 
 private:
@@ -80,14 +83,15 @@ private:
     std::size_t m_channels, m_bytes = 0;
     bool m_isGrey;
     render::FittingPlan m_fitting;
-    volume::Lattice m_lattice; ///< of what is rendered
+    volume::Lattice m_lattice; ///< of the rendered fields
     double m_predictedError = 0.0;
     std::optional<double> m_viewError;
-    std::optional<render::ViewErrorModel> m_viewModel; ///< of the engine
+    std::optional<render::ViewErrorModel> m_viewModel; ///< for the engine at full resolution
     std::shared_ptr<render::CpuEngine> m_engine;
-    std::shared_ptr<gpu::GpuEngine> m_card; ///< its twin, if that is used
+    std::shared_ptr<gpu::GpuEngine> m_card; ///< the same engine on the card, if used
     CardChoice m_choice;
-    /// One each channel, in place of an engine; made for every image where each is shaded anew.
+    /// One for each channel, in place of an engine. Empty under shading, where each image computes
+    /// its own exact field.
     std::vector<reference::WideKernel> m_references;
 };
 

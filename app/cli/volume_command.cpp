@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -6,6 +7,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
 #include "app/cli/scene_options.h"
+#include "app/cli/spectrum_picture.h"
 #include "core/classify/shown_fields.h"
 #include "core/preprocess/step_cache.h"
 #include "core/task/error.h"
@@ -17,21 +19,39 @@ namespace {
 
 struct Options {
     InputOptions input;
-    std::string out, window, tissue;
-    bool field = false, edges = false, gzip = false;
+    SceneOptions scene;
+    std::string out;
+    bool field = false, edges = false, spectrum = false, gzip = false, json = false;
 };
 
+// The classes as a look has them: a name alone has the weight 1.
+SceneOptions withWeights(SceneOptions scene, bool edges) {
+    if (edges)
+        scene.classes = {"edges"};
+    for (std::string &text : scene.classes)
+        if (text.find('=') == std::string::npos)
+            text += "=1";
+    return scene;
+}
+
 void run(const Options &o, const CLI::App &command, const Context &context) {
+    if (o.spectrum) {
+        checkSpectrum(o.out, command);
+        writeSpectrum(o.out, o.input, withWeights(o.scene, o.edges), command, o.json, context);
+        return;
+    }
     if (std::filesystem::path(o.out).extension() != ".nrrd")
         throw task::Error(task::ErrorCode::usage, "-o: '" + o.out + "' must end in .nrrd");
-    if (command.count("--window") > 0 && !o.field && o.tissue.empty() && !o.edges)
+    if (command.count("--window") > 0 && !o.field && o.scene.classes.empty() && !o.edges)
         throw task::Error(task::ErrorCode::usage, "--window needs --field or --class");
+    if (o.scene.classes.size() > 1)
+        throw task::Error(task::ErrorCode::usage, "--class: one class is written at a time");
     std::optional<classify::TissueClass> tissue;
     if (command.count("--class") > 0 || o.edges)
-        tissue = classNamed(o.edges ? "edges" : o.tissue);
+        tissue = classNamed(o.edges ? "edges" : o.scene.classes.front());
     std::optional<classify::FieldWindow> window;
     if (command.count("--window") > 0)
-        window = parseWindow(o.window);
+        window = parseWindow(o.scene.window);
     const Input input = openInput(o.input, {o.out}, context);
     const volume::Volume &volume = input.loaded.volume;
     const auto encoding = o.gzip ? volume::NrrdEncoding::gzip : volume::NrrdEncoding::raw;
@@ -51,20 +71,38 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 
 void addVolumeCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
-    CLI::App *c =
-        app.add_subcommand("volume", "Write a volume, or the field that is projected, as NRRD");
+    CLI::App *c = app.add_subcommand("volume", "Write a volume, or the field that is projected, as "
+                                               "NRRD; or a picture of its spectrum");
     addInputOptions(*c, o->input);
-    c->add_option("-o,--output", o->out, "The NRRD file")->required();
+    c->add_option("-o,--output", o->out, "The NRRD file; with --spectrum a .png or .npy")
+        ->required();
     CLI::Option *field =
         c->add_flag("--field", o->field, "Write the field f in 0..1 instead of the values");
-    CLI::Option *tissue = c->add_option("--class", o->tissue,
-                                        "Write the field of a standard class, as --field otherwise")
-                              ->excludes(field);
-    c->add_flag("--edges", o->edges, "Write the Canny edges, the standard class 'edges'")
+    CLI::Option *edges =
+        c->add_flag("--edges", o->edges, "Write the Canny edges, the standard class 'edges'")
+            ->excludes(field);
+    CLI::Option *gzip = c->add_flag("--gzip", o->gzip, "Compress the samples");
+    CLI::Option *spectrum =
+        c->add_flag(
+             "--spectrum", o->spectrum,
+             "Write the slice of the spectrum that a view takes, in decibels below the value "
+             "at frequency 0: as grey from 0 to -100 dB (.png), or as numbers (.npy)")
+            ->excludes(field)
+            ->excludes(gzip);
+    const auto before = c->get_options();
+    addSceneOptions(*c, o->scene);
+    for (CLI::Option *option : c->get_options())
+        if (std::find(before.begin(), before.end(), option) == before.end() &&
+            option->get_name() != "--window" && option->get_name() != "--class")
+            option->needs(spectrum)->group("With --spectrum");
+    for (const char *name : shadingOptions)
+        c->get_option(name)->group(""); // refused, and so not offered
+    c->get_option("--class")
+        ->description("Write the field of a standard class, as --field otherwise; with --spectrum "
+                      "NAME[=WEIGHT[:#rrggbb]], which is repeated for several")
         ->excludes(field)
-        ->excludes(tissue);
-    c->add_option("--window", o->window, "The field's window LO,HI in value units");
-    c->add_flag("--gzip", o->gzip, "Compress the samples");
+        ->excludes(edges);
+    c->add_flag("--json", o->json, "Print one JSON object about what was done")->needs(spectrum);
     c->callback([o, c, context] { naming(o->input.path, [&] { run(*o, *c, context); }); });
 }
 

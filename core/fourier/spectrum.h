@@ -85,11 +85,14 @@ public:
     /// The value at a grid index: p in -apron..padded/2 + apron, q and r within apron of
     /// +-padded/2.
     std::complex<double> value(int p, int q, int r) const;
-    /// What storing changed the value at a grid index by, |p|, |q| and |r| at most `roundingReach`:
-    /// of most fields a few cells about frequency 0 hold nearly all, and how they happen to round
-    /// decides. 0 with float cells. *Shape*: as of `value`.
+    /// The rounding error of the stored value at a grid index: stored minus exact. Most fields have
+    /// nearly all their energy in a few cells around frequency 0, so the rounding of those cells
+    /// decides the error. 0 unless `keepsRounding`. *Requires*: |p|, |q| and |r| are at most
+    /// `roundingReach`. *Units*: as `value`.
     std::complex<double> rounding(int p, int q, int r) const;
     static constexpr int roundingReach = 5;
+    /// Whether `rounding` is known: with 16-bit cells, on a grid of more than 11 cells a side.
+    bool keepsRounding() const { return !m_rounding.empty(); }
     std::size_t bytes() const { return m_layout.bytes(); }
 
 private:

@@ -46,16 +46,20 @@ private:
     std::unique_ptr<Plan> m_plan;
 };
 
-/// Complex-to-real inverse 2D transform in double, exp(+i 2 pi ...), unnormalised, of one size:
-/// planned once, run often, from any thread. The input is overwritten.
-/// *Shape*: in: rows x (columns/2 + 1), out: rows x columns, contiguous; any alignment.
-class InverseTransform2d {
+/// How a plan is chosen: by rule, or by trying, which takes longer and runs faster.
+enum class Planning { estimate, measure };
+
+/// Complex-to-real inverse 2D transform, exp(+i 2 pi ...), unnormalised, of one size: planned once,
+/// run often, from any thread. The input is overwritten.
+/// *Shape*: in: rows x (columns/2 + 1), out: rows x columns, contiguous, aligned as by `new`.
+template <class Real> class InverseTransform2d { // float or double
 public:
-    InverseTransform2d(int rows, int columns);
+    /// A plan that measures is for one thread.
+    InverseTransform2d(int rows, int columns, Planning planning = Planning::estimate);
     ~InverseTransform2d();
     InverseTransform2d(const InverseTransform2d &) = delete;
     InverseTransform2d &operator=(const InverseTransform2d &) = delete;
-    void run(std::complex<double> *in, double *out) const;
+    void run(std::complex<Real> *in, Real *out) const;
 
 private:
     struct Plan;

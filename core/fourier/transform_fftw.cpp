@@ -50,6 +50,9 @@ template <> struct Fftw<float> {
             fftwf_plan_with_nthreads(count);
     }
     static constexpr auto planForward = &fftwf_plan_many_dft_r2c;
+    static constexpr auto planInverse = &fftwf_plan_dft_c2r_2d;
+    static constexpr auto runInverse = &fftwf_execute_dft_c2r;
+    static constexpr auto destroy = &fftwf_destroy_plan;
 };
 
 template <> struct Fftw<double> {
@@ -65,6 +68,9 @@ template <> struct Fftw<double> {
             fftw_plan_with_nthreads(count);
     }
     static constexpr auto planForward = &fftw_plan_many_dft_r2c;
+    static constexpr auto planInverse = &fftw_plan_dft_c2r_2d;
+    static constexpr auto runInverse = &fftw_execute_dft_c2r;
+    static constexpr auto destroy = &fftw_destroy_plan;
 };
 
 template <class Real>
@@ -201,30 +207,38 @@ void ForwardTransform1d::run(const float *in, std::complex<float> *out) const {
                           reinterpret_cast<fftwf_complex *>(out));
 }
 
-struct InverseTransform2d::Plan {
-    fftw_plan plan;
-};
+template <class Real> struct InverseTransform2d<Real>::Plan { typename Fftw<Real>::Plan plan; };
 
-InverseTransform2d::InverseTransform2d(int rows, int columns) : m_plan(new Plan{}) {
+template <class Real>
+InverseTransform2d<Real>::InverseTransform2d(int rows, int columns, Planning planning)
+    : m_plan(new Plan{}) {
+    using F = Fftw<Real>;
+    const bool isMeasured = planning == Planning::measure;
     // Below 512^2 handing out parts costs more than it saves.
-    const int threads = std::size_t(rows) * columns >= 512 * 512 ? parts : 1;
-    // UNALIGNED lets the plan run on any arrays later; it is only told that in and out differ.
-    std::vector<double> out(2);
-    std::vector<std::complex<double>> in(2);
+    const int threads = !isMeasured && std::size_t(rows) * columns >= 512 * 512 ? parts : 1;
+    // Only measuring reads and writes the arrays; an estimate needs their addresses to differ.
+    const std::size_t samples = isMeasured ? std::size_t(rows) * columns : 2,
+                      cells = isMeasured ? std::size_t(rows) * (std::size_t(columns) / 2 + 1) : 2;
+    std::vector<Real> out(samples);
+    std::vector<std::complex<Real>> in(cells);
     const std::lock_guard lock(plannerMutex());
-    Fftw<double>::useThreads(threads);
-    m_plan->plan =
-        fftw_plan_dft_c2r_2d(rows, columns, reinterpret_cast<fftw_complex *>(in.data()), out.data(),
-                             FFTW_ESTIMATE | FFTW_DESTROY_INPUT | FFTW_UNALIGNED);
+    F::useThreads(threads);
+    m_plan->plan = F::planInverse(rows, columns, reinterpret_cast<typename F::Complex *>(in.data()),
+                                  out.data(),
+                                  FFTW_DESTROY_INPUT | (isMeasured ? FFTW_MEASURE : FFTW_ESTIMATE));
 }
 
-InverseTransform2d::~InverseTransform2d() {
+template <class Real> InverseTransform2d<Real>::~InverseTransform2d() {
     const std::lock_guard lock(plannerMutex());
-    fftw_destroy_plan(m_plan->plan);
+    Fftw<Real>::destroy(m_plan->plan);
 }
 
-void InverseTransform2d::run(std::complex<double> *in, double *out) const {
-    fftw_execute_dft_c2r(m_plan->plan, reinterpret_cast<fftw_complex *>(in), out);
+template <class Real> void InverseTransform2d<Real>::run(std::complex<Real> *in, Real *out) const {
+    using F = Fftw<Real>;
+    F::runInverse(m_plan->plan, reinterpret_cast<typename F::Complex *>(in), out);
 }
+
+template class InverseTransform2d<float>;
+template class InverseTransform2d<double>;
 
 } // namespace pellucid::fourier

@@ -2,10 +2,7 @@
 #include "core/preprocess/filters.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <new>
 #include <string>
 
 #include <itkBinaryFillholeImageFilter.h>
@@ -14,31 +11,20 @@
 #include <itkConnectedComponentImageFilter.h>
 #include <itkCurvatureAnisotropicDiffusionImageFilter.h>
 #include <itkDiscreteGaussianImageFilter.h>
-#include <itkDoubleThresholdImageFilter.h>
 #include <itkFlatStructuringElement.h>
-#include <itkGradientRecursiveGaussianImageFilter.h>
-#include <itkHessianRecursiveGaussianImageFilter.h>
 #include <itkHistogram.h>
 #include <itkImage.h>
 #include <itkMedianImageFilter.h>
 #include <itkOtsuThresholdCalculator.h>
 #include <itkSliceBySliceImageFilter.h>
-#include <itkZeroCrossingImageFilter.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include "core/preprocess/edges.h"
-#include "core/task/error.h"
+#include "core/preprocess/itk_images_itk.inc"
 #include "core/volume/statistics.h"
 
 namespace pellucid::preprocess {
 
 namespace {
-
-using task::Error;
-using task::ErrorCode;
-using FloatImage = itk::Image<float, 3>;
-using MaskImage = itk::Image<std::uint8_t, 3>;
 
 // Thinner than the arms of children, thicker than the shells of couches.
 constexpr double couchRadiusMm = 4.0;
@@ -46,74 +32,6 @@ constexpr double couchRadiusMm = 4.0;
 // within the second: roughness hangs together all around.
 constexpr double longestThinPartMm = 130.0, roughnessMm = 2.0;
 constexpr double airBelowHu = -400.0;
-
-// An image over samples that stay where they are and must outlive it.
-template <class Image, class T>
-typename Image::Pointer imageOver(const volume::Lattice &lattice, const T *samples) {
-    auto image = Image::New();
-    typename Image::SizeType size;
-    typename Image::SpacingType spacing;
-    for (unsigned d = 0; d < 3; ++d) {
-        size[d] = itk::SizeValueType(lattice.size()[int(d)]);
-        spacing[d] = lattice.spacingMm(int(d));
-    }
-    image->SetRegions(typename Image::RegionType(size));
-    image->SetSpacing(spacing);
-    image->GetPixelContainer()->SetImportPointer(const_cast<T *>(samples), lattice.size().count(),
-                                                 false);
-    return image;
-}
-
-// NaN and infinities would spread over their neighbourhoods: they become 0 and the largest numbers
-// that sums survive.
-std::vector<float> finiteSamples(const volume::Volume &volume) {
-    constexpr float largest = 1e15F;
-    std::vector<float> result(volume.lattice().size().count());
-    volume.visit([&](auto samples) {
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, result.size(), 1 << 16), [&](const auto &range) {
-                for (std::size_t n = range.begin(); n != range.end(); ++n) {
-                    const float value = float(samples[n]);
-                    result[n] = std::isnan(value) ? 0.0F : std::clamp(value, -largest, largest);
-                }
-            });
-    });
-    return result;
-}
-
-// Runs a filter, with progress, cancel, and its exceptions as ours.
-template <class Filter>
-void runFilter(Filter &filter, const std::string &name, const task::Progress &progress) {
-    filter.SetNumberOfWorkUnits(static_cast<itk::ThreadIdType>(
-        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
-    filter.AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
-        if (progress.stopRequested())
-            filter.AbortGenerateDataOn();
-        else
-            progress.report(std::clamp(double(filter.GetProgress()), 0.0, 1.0));
-    });
-    progress.check();
-    try {
-        filter.Update();
-    } catch (const itk::ProcessAborted &) {
-        throw task::Cancelled();
-    } catch (const itk::MemoryAllocationError &) {
-        throw Error(ErrorCode::outOfMemory, "not enough memory for the step '" + name + "'");
-    } catch (const itk::ExceptionObject &error) {
-        progress.check(); // some report an abort as a failure
-        throw Error(ErrorCode::internal,
-                    "the step '" + name + "' failed: " + error.GetDescription());
-    } catch (const std::bad_alloc &) {
-        throw Error(ErrorCode::outOfMemory, "not enough memory for the step '" + name + "'");
-    }
-    progress.check();
-}
-
-template <class Image> auto samplesOf(const Image &image) {
-    const auto *const first = image.GetBufferPointer();
-    return std::vector<std::remove_cv_t<std::remove_pointer_t<decltype(first)>>>(
-        first, first + image.GetBufferedRegion().GetNumberOfPixels());
-}
 
 template <class Filter>
 volume::Volume filtered(const volume::Volume &volume, Filter &filter, const std::string &name,
@@ -464,84 +382,6 @@ Mask closingByItk(const volume::Lattice &lattice, const Mask &mask, double radiu
     auto filter = itk::BinaryMorphologicalClosingImageFilter<MaskImage, MaskImage, Kernel>::New();
     filter->SetSafeBorder(true);
     return morphology(*filter, "closing", lattice, mask, radiusMm, progress);
-}
-
-Mask cannyEdgesByItk(const volume::Volume &volume, const CannyOptions &options,
-                     const task::Progress &progress) {
-    const volume::Lattice &lattice = volume.lattice();
-    const volume::GridSize size = lattice.size();
-    if (std::min({size.i, size.j, size.k}) < 4)
-        throw Error(ErrorCode::usage,
-                    "edges by ITK need four samples along each axis; the fast method does not");
-    if (!(options.sigmaMm > 0.0))
-        throw Error(ErrorCode::usage, "edges by ITK need a sigma_mm above 0");
-    const std::vector<float> input = finiteSamples(volume);
-    const auto image = imageOver<FloatImage>(lattice, input.data());
-    auto gradient = itk::GradientRecursiveGaussianImageFilter<FloatImage>::New();
-    gradient->SetSigma(options.sigmaMm);
-    gradient->SetInput(image);
-    runFilter(*gradient, "edges", progress.part(0.0, 0.3));
-    auto hessian = itk::HessianRecursiveGaussianImageFilter<FloatImage>::New();
-    hessian->SetSigma(options.sigmaMm);
-    hessian->SetInput(image);
-    runFilter(*hessian, "edges", progress.part(0.3, 0.8));
-    const auto *const gradients = gradient->GetOutput()->GetBufferPointer();
-    const auto *const hessians = hessian->GetOutput()->GetBufferPointer();
-    // The second derivative along the gradient, times its square: the sign is all that counts.
-    std::vector<float> along(input.size()), magnitude(input.size());
-    tbb::parallel_for(std::size_t(0), input.size(), [&](std::size_t n) {
-        double second = 0.0, square = 0.0;
-        for (unsigned a = 0; a < 3; ++a) {
-            square += double(gradients[n][a]) * double(gradients[n][a]);
-            for (unsigned b = 0; b < 3; ++b)
-                second +=
-                    double(gradients[n][a]) * double(hessians[n](a, b)) * double(gradients[n][b]);
-        }
-        along[n] = float(second);
-        magnitude[n] = float(std::sqrt(square));
-    });
-    auto zeros = itk::ZeroCrossingImageFilter<FloatImage, MaskImage>::New();
-    zeros->SetForegroundValue(1);
-    zeros->SetBackgroundValue(0);
-    zeros->SetInput(imageOver<FloatImage>(lattice, along.data()));
-    runFilter(*zeros, "edges", progress.part(0.8, 0.9));
-    const std::uint8_t *const crosses = zeros->GetOutput()->GetBufferPointer();
-    // Of maxima only: there it falls along the gradient.
-    std::vector<float> strength(input.size());
-    tbb::parallel_for(0, size.k, [&](int k) {
-        for (int j = 0; j < size.j; ++j)
-            for (int i = 0; i < size.i; ++i) {
-                const std::array<int, 3> at{i, j, k};
-                const std::array<std::size_t, 3> strides{1, std::size_t(size.i),
-                                                         std::size_t(size.i) * size.j};
-                const std::size_t n = strides[2] * k + strides[1] * j + i;
-                if (crosses[n] == 0)
-                    continue;
-                double change = 0.0;
-                for (unsigned d = 0; d < 3; ++d) {
-                    const std::size_t before = at[d] > 0 ? n - strides[d] : n,
-                                      after = at[d] + 1 < size[int(d)] ? n + strides[d] : n;
-                    change += double(gradients[n][d]) *
-                              (double(along[after]) - double(along[before])) /
-                              lattice.spacingMm(int(d));
-                }
-                strength[n] = change < 0.0 ? magnitude[n] : 0.0F;
-            }
-    });
-    auto link = itk::DoubleThresholdImageFilter<FloatImage, MaskImage>::New();
-    const float open = std::numeric_limits<float>::max();
-    // Above the thresholds, not at them.
-    const auto above = [&](double value) { return std::nextafter(float(value), open); };
-    link->SetThreshold1(above(options.low));
-    link->SetThreshold2(above(options.high));
-    link->SetThreshold3(open);
-    link->SetThreshold4(open);
-    link->SetInsideValue(1);
-    link->SetOutsideValue(0);
-    link->SetFullyConnected(true);
-    link->SetInput(imageOver<FloatImage>(lattice, strength.data()));
-    runFilter(*link, "edges", progress.part(0.9, 1.0));
-    return samplesOf(*link->GetOutput());
 }
 
 } // namespace pellucid::preprocess

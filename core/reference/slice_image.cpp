@@ -93,7 +93,7 @@ std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::La
             slice[std::size_t(r) * stride + at[n]] = weight[n] * values[n] * std::polar(1.0, angle);
         }
     });
-    const fourier::InverseTransform2d inverse(rows, columns);
+    const fourier::InverseTransform2d<double> inverse(rows, columns);
     std::vector<double> plane(std::size_t(rows) * columns);
     inverse.run(slice.data(), plane.data());
     std::vector<double> result(std::size_t(camera.height) * camera.width);

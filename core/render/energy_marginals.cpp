@@ -16,23 +16,23 @@ namespace pellucid::render {
 
 namespace {
 
-// The field is cut into at most so many blocks along an axis; each is worked on alone.
+// The largest number of blocks along an axis; layers of blocks are processed independently.
 constexpr int blocksAlong = 64;
-// Distances from the centre are told apart to the radius over this.
+// The number of bins that distances from the centre are sorted into, up to the radius.
 constexpr int distanceSteps = 64;
 
-// A quarter of the surface of the box, or of the sphere where that is smaller.
+// A quarter of the surface of the box, or of the enclosing sphere if that is smaller.
 double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, double radiusMm) {
     const volume::GridSize size = box.size();
     const double i = size.i * lattice.spacingMm(0), j = size.j * lattice.spacingMm(1),
                  k = size.k * lattice.spacingMm(2);
-    // A sample is as wide as a step.
+    // A sample is as wide as a step, so it reaches half a step beyond its centre.
     const double reach = radiusMm + 0.5 * std::max({lattice.spacingMm(0), lattice.spacingMm(1),
                                                     lattice.spacingMm(2)});
     return std::min(0.5 * (i * j + j * k + k * i), std::numbers::pi * reach * reach);
 }
 
-// What the samples of one layer of blocks, a few planes k, add up to.
+// Sums and extremes of the samples of one layer of blocks, which is a few planes k.
 struct Layer {
     std::vector<double> alongI, alongJ; // energies
     std::vector<double> blocks;         // energies, [block along j][block along i]
@@ -42,7 +42,7 @@ struct Layer {
     double radiusMm = 0.0;
 };
 
-// Thirteen directions that no view is far from.
+// Thirteen directions, one of them close to any view.
 std::vector<glm::dvec3> directions() {
     std::vector<glm::dvec3> result;
     for (int x = -1; x <= 1; ++x)
@@ -53,7 +53,7 @@ std::vector<glm::dvec3> directions() {
     return result;
 }
 
-// Adds up shares of energy by their distance along each direction.
+// Histograms of the energy shares by distance along each direction.
 class DistanceProfiles {
 public:
     explicit DistanceProfiles(EnergySpread &spread) : m_spread(spread) {
@@ -66,7 +66,7 @@ public:
         for (std::size_t d = 0; d < m_directions.size(); ++d) {
             const double steps =
                 std::abs(glm::dot(fromCenterMm, m_directions[d])) / m_spread.distanceStepMm;
-            // Middles of blocks may lie beyond the outermost samples.
+            // The middle of a block may be farther out than the outermost nonzero sample.
             m_spread.byDistance[d][std::size_t(std::min(steps, distanceSteps - 1.0))] += share;
         }
     }
@@ -76,18 +76,18 @@ private:
     std::vector<glm::dvec3> m_directions = directions();
 };
 
-// Blocks by their distance from the middle of the mass.
+// The mass of blocks by distance from the centre of mass.
 class BallProfile {
 public:
-    // `share`: of the mass.
+    // `share`: the block's share of the mass.
     void add(const glm::dvec3 &placeMm, double share) {
         m_blocks.push_back({placeMm, share});
         m_middle += share * placeMm;
     }
 
-    // The least pi R^2/m(R)^2, m(R) the share of the mass in a ball of radius R: the projection's
-    // energy is at least one over it times the square of the mass. `halfMm`: no sample of a block
-    // is farther from its middle.
+    // The minimum of pi R^2/m(R)^2 over R, where m(R) is the share of the mass in a ball of radius
+    // R. The projection's energy is at least the square of the mass divided by this area. No sample
+    // of a block is farther than `halfMm` from the block's middle.
     double leastArea(double halfMm) const {
         double radius = 0.0;
         for (const Block &block : m_blocks)
@@ -118,7 +118,7 @@ private:
     glm::dvec3 m_middle{0.0};
 };
 
-// Coarser than those above: what a plan looks at for each layout.
+// Coarser blocks than those above: the planner visits all of them for each layout.
 std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::VoxelBox &box) {
     const volume::GridSize lattice = field.lattice().size(), size = box.size();
     const std::array<std::vector<BlockRange>, 3> ranges{blockRanges(size.i), blockRanges(size.j),
@@ -161,12 +161,13 @@ std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::V
     return blocks;
 }
 
-// Between the directions that `leastProjectionEnergy` looks along, energies fall less than this:
-// aligned parts make narrow peaks of it, not narrow valleys.
+// Between the directions that `leastProjectionEnergy` samples, the energy does not fall below this
+// share of the minimum found: aligned parts make narrow peaks of the energy, not narrow valleys.
 constexpr double leastSeen = 0.85;
 
-// The least energy of the projection of a field without negative samples over some directions, of
-// a field whose mass is 1, from the masses of blocks: spread out over them it is less than it is.
+// The smallest energy of the projections of a field along some directions, for a field of mass 1
+// without negative samples. It is computed from the masses of blocks; spreading each mass over its
+// block lowers the energy, so the result is below the true one.
 double leastProjectionEnergy(const std::vector<FieldBlock> &blocks, const volume::Lattice &lattice,
                              const volume::VoxelBox &box) {
     constexpr int views = 64, most = 128;
@@ -197,7 +198,7 @@ double leastProjectionEnergy(const std::vector<FieldBlock> &blocks, const volume
     const int side = int(2.0 * radiusMm / pixelMm) + 3;
     std::array<double, views> energies{};
     tbb::parallel_for(0, views, [&](int n) {
-        // Evenly over half a sphere, along a spiral.
+        // Directions evenly over half a sphere, along a spiral.
         const double z = (n + 0.5) / views, angle = n * std::numbers::pi * (3.0 - std::sqrt(5.0)),
                      r = std::sqrt(1.0 - z * z);
         const glm::dvec3 w(r * std::cos(angle), r * std::sin(angle), z),
@@ -339,7 +340,7 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
                         layer.mostOfRows[std::size_t(row) * std::size_t(size.i) + i];
         });
     });
-    // Layers are added in their order: the same sums for any number of threads.
+    // Layers are added in order, so the sums do not depend on the number of threads.
     double total = 0.0;
     result.axis[0].resize(size.i);
     result.axis[1].resize(size.j);

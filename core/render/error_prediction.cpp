@@ -18,8 +18,15 @@ namespace {
 // Of fields with negative samples single views scatter about what is expected; this much more
 // energy was the worst of the views of the fields in the bench's hard suite.
 constexpr double viewMargin = 1.5;
-// The same of rounding, which a few cells can decide; of what is bounded already, less.
+// The same of rounding, which a few cells can decide; of what is bounded already, less. All cells
+// of a field of a few samples are alike and round alike, so theirs averages out as little.
 constexpr double fewMargin = 3.0, boundedMargin = 1.5;
+
+double roundingMargin(const EnergySpread &spread) {
+    const double alike =
+        std::isinf(spread.peakedness) ? 1.0 : std::min(1.0, 2.5 * spread.concentration);
+    return boundedMargin + (fewMargin - boundedMargin) * alike;
+}
 
 // Calls use(e, brightest, x): some forty positions x (in periods) along an axis are enough, since
 // the amplitudes change slowly; e their energies, and the largest of a sample of each.
@@ -336,10 +343,10 @@ double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Stora
     }
     const double weight = cue.ghosts * cue.ghosts;
     const double rounding = relativeRounding(storage);
-    const double margin = std::isinf(field.spread->peakedness) ? fewMargin : boundedMargin;
     // Rounding is spread as h^2 is, nearly all of it where the field is.
     return std::sqrt((weight * ghosts + viewMargin * moment) / share +
-                     weight * margin * rounding * rounding * roundingNoise(axes, field));
+                     weight * roundingMargin(*field.spread) * rounding * rounding *
+                         roundingNoise(axes, field));
 }
 
 } // namespace pellucid::render

@@ -26,12 +26,30 @@ enum class LeftOut {
     cornersOfBand ///< frequencies beyond the largest circle
 };
 
+/// What a spectrum represents, which is also the reason for it.
+enum class SpectrumOf {
+    look,    ///< the density of the whole look
+    channel, ///< the density of one of red, green and blue
+    layer,   ///< a class or a point of the transfer function, whose weight may change
+    gradient ///< the length of the gradient of one of those
+};
+
+/// The densities that an engine holds the spectra of.
+struct FrameFields {
+    int count = 1;
+    SpectrumOf of = SpectrumOf::look;
+    bool isColored = false; ///< the look is not grey
+};
+
 /// What a frame of a plan is made of, and what it costs.
 struct FrameModel {
-    int fields = 1;    ///< spectra of densities: of the whole look, or one for each colour
-    int gradients = 0; ///< spectra of the length of their gradients
-    int slices = 1;    ///< of spectra, in a frame
-    int images = 1;    ///< two-dimensional transforms, in a frame
+    struct Spectra {
+        SpectrumOf of = SpectrumOf::look;
+        int count = 0;
+    };
+    std::vector<Spectra> spectra; ///< one entry for each kind
+    int slices = 1;               ///< of spectra, in a frame
+    int images = 1;               ///< two-dimensional transforms, in a frame
     Combination combination = Combination::one;
     double multiplyAdds = 0.0; ///< of reals, to take the slices
     /// Additions and multiplications of reals in the transforms: 2.5 N log2 N of each image of N
@@ -41,12 +59,13 @@ struct FrameModel {
     std::vector<LeftOut> leftOut;
 };
 
-/// Of a look's fields, as many as `fields`, tinted or grey. *Shape*: the lattice is that of the
-/// volume.
-FrameModel modelFrame(const RenderPlan &plan, const Scene &scene, int fields, bool isTinted,
+/// The frame that the scene's camera asks for. *Shape*: the lattice is that of the volume.
+FrameModel modelFrame(const RenderPlan &plan, const Scene &scene, const FrameFields &fields,
                       const volume::Lattice &lattice);
 
 /// A line each, for scripts and for the user.
+std::string spectrumText(SpectrumOf what); ///< what it represents
+std::string reasonText(SpectrumOf what);   ///< why it is needed
 std::string leftOutText(LeftOut what);
 std::string combinationText(Combination how);
 

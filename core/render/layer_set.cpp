@@ -29,22 +29,22 @@ int leastReduction(const volume::GridSize &size) {
 
 } // namespace
 
-LayerSet::LayerSet(std::shared_ptr<CpuEngine> engine, RenderPlan plan, int reduction)
-    : m_engine(std::move(engine)), m_plan(std::move(plan)), m_reduction(reduction) {}
+LayerSet::LayerSet(std::shared_ptr<CpuEngine> engine, RenderPlan plan, int reduction,
+                   std::shared_ptr<const ViewErrorModel> viewError,
+                   std::shared_ptr<const DetailLoss> detailLoss)
+    : m_engine(std::move(engine)), m_plan(std::move(plan)), m_reduction(reduction),
+      m_viewError(std::move(viewError)), m_detailLoss(std::move(detailLoss)) {}
 
 std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t count,
                                             const FieldOf &fieldOf, const Budget &budget,
                                             const task::Progress &progress,
                                             const std::optional<shading::ShadingScale> &given) {
     std::vector<classify::DensityField> fields;
-    std::vector<double> lost(count, 0.0); // of each, by joining samples
+    AxisProjections fine; // of the layers before samples are joined
     int reduction = 1, longest = 0;
     shading::ShadingScale scale; // of the volume, however coarse its layers become
     const auto reduce = [&](std::size_t n) {
-        classify::DensityField coarse =
-            classify::coarseField(fields[n], (longest + reduction - 1) / reduction);
-        lost[n] = std::hypot(lost[n], lostDetail(fields[n], coarse));
-        fields[n] = std::move(coarse);
+        fields[n] = classify::coarseField(fields[n], (longest + reduction - 1) / reduction);
     };
     const auto held = [&] {
         std::size_t sum = 0;
@@ -61,6 +61,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t coun
             scale = given.value_or(shading::shadingScale(fields.back().values.lattice()));
             reduction = leastReduction(size);
         }
+        fine.add(fields.back(), progress);
         if (reduction > 1)
             reduce(n);
         // The fields alone may not take what their spectra need.
@@ -77,8 +78,8 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t coun
         progress.check();
         const std::size_t taken = held() + keptBytes;
         try {
-            RenderPlan plan = planRender(scene, summarise({fields, {}, scale}, scene.shading.cue),
-                                         FrameJob::mostChannels,
+            const auto summaries = summarise({fields, {}, scale}, scene.shading.cue);
+            RenderPlan plan = planRender(scene, summaries, FrameJob::mostChannels,
                                          {budget.bytes > taken ? budget.bytes - taken : 0});
             EngineSpectra spectra{{}, {}, scale};
             for (std::size_t n = 0; n < count; ++n) {
@@ -87,12 +88,18 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const Scene &scene, std::size_t coun
                     fourier::Spectrum::prepare(fields[n].values, plan.spectrum,
                                                progress.part(done, done + 0.5 / double(count)))));
             }
-            const double worst = *std::max_element(lost.begin(), lost.end());
-            plan.predictedError = std::hypot(plan.predictedError, worst);
-            plan.predictedMaximum = std::max(plan.predictedMaximum, worst);
             auto engine = std::make_shared<CpuEngine>(std::move(spectra), plan.room);
-            return std::shared_ptr<LayerSet>(
-                new LayerSet(std::move(engine), std::move(plan), reduction));
+            auto viewError = std::make_shared<const ViewErrorModel>(plan, summaries);
+            std::shared_ptr<const DetailLoss> loss;
+            if (reduction > 1) {
+                AxisProjections coarse;
+                for (const classify::DensityField &field : fields)
+                    coarse.add(field, progress);
+                loss = std::make_shared<const DetailLoss>(fine, coarse, count, scale.stepMm);
+            }
+            return std::shared_ptr<LayerSet>(new LayerSet(std::move(engine), std::move(plan),
+                                                          reduction, std::move(viewError),
+                                                          std::move(loss)));
         } catch (const task::Error &error) {
             if (error.code() != task::ErrorCode::outOfMemory ||
                 longest / (reduction + 1) < fewestSamples)

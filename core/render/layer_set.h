@@ -29,10 +29,15 @@ public:
             const task::Progress &progress = {},
             const std::optional<shading::ShadingScale> &scale = std::nullopt);
 
-    /// What holds for each layer alone: the error is that of the worst.
+    /// What holds for each layer alone, without what joining samples lost: the error is that of the
+    /// worst.
     const RenderPlan &plan() const { return m_plan; }
     /// How many samples an axis are one here; 1: none were joined.
     int reduction() const { return m_reduction; }
+    /// Tells the error of pictures of the layers that are held, and what joining samples lost, if
+    /// any were joined.
+    const std::shared_ptr<const ViewErrorModel> &viewError() const { return m_viewError; }
+    const std::shared_ptr<const DetailLoss> &detailLoss() const { return m_detailLoss; }
     std::size_t count() const { return m_engine->fieldCount(); }
     std::size_t bytes() const { return m_engine->bytes(); }
 
@@ -48,13 +53,17 @@ public:
     EngineParts parts(const std::vector<ChannelShares> &shares) const;
 
 private:
-    LayerSet(std::shared_ptr<CpuEngine> engine, RenderPlan plan, int reduction);
+    LayerSet(std::shared_ptr<CpuEngine> engine, RenderPlan plan, int reduction,
+             std::shared_ptr<const ViewErrorModel> viewError,
+             std::shared_ptr<const DetailLoss> detailLoss);
     void keep(std::size_t layer);
     ProjectionImage sumOfKept(const std::vector<ChannelShares> &shares) const;
 
     std::shared_ptr<CpuEngine> m_engine;
     RenderPlan m_plan;
     int m_reduction;
+    std::shared_ptr<const ViewErrorModel> m_viewError;
+    std::shared_ptr<const DetailLoss> m_detailLoss;
     /// The view of the last frame, and the projections of the layers in it, those that were needed.
     struct Kept {
         Camera camera;

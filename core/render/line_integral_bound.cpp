@@ -12,9 +12,9 @@ namespace pellucid::render {
 
 namespace {
 
-// The blocks of `side` layers, side x side samples each. A line that runs mainly along the axis
-// stays within two by two of them while it crosses such layers, so what counts is what a layer has
-// at most within two by two.
+// Sums over blocks of side x side x side samples: `side` layers and a square of each. A line that
+// runs mainly along the axis stays within two by two blocks while it crosses `side` layers, so each
+// layer contributes at most its maximum over two by two squares.
 class BlockSums {
 public:
     BlockSums(const LayerMaxima &layers, int side)
@@ -52,13 +52,14 @@ public:
     int columns() const { return m_columns; }
     int rows() const { return m_rows; }
 
-    // No line that crosses a layer within these blocks, both ends included, gathers more.
+    // An upper bound on what a line gathers in a layer of blocks while it stays within these rows
+    // and columns, both ends included.
     float most(int layer, int firstRow, int lastRow, int firstColumn, int lastColumn) const {
         if (firstRow >= m_rows || firstColumn >= m_columns || lastRow < 0 || lastColumn < 0)
             return 0.0F;
         firstRow = std::max(0, firstRow);
         firstColumn = std::max(0, firstColumn);
-        // A sum stands for the block after its own as well.
+        // Each sum also covers the next block.
         lastRow = std::max(firstRow, std::min(m_rows - 1, lastRow) - 1);
         lastColumn = std::max(firstColumn, std::min(m_columns - 1, lastColumn) - 1);
         const int width = std::max(lastRow - firstRow, lastColumn - firstColumn) + 1;
@@ -80,7 +81,7 @@ private:
     }
 
     int m_layers, m_columns, m_rows;
-    std::vector<std::vector<float>> m_levels; // the most of squares of 1, 2, 4 .. of them
+    std::vector<std::vector<float>> m_levels; // maxima over squares of 1, 2, 4 .. sums a side
 };
 
 struct Interval {
@@ -88,9 +89,10 @@ struct Interval {
     double width() const { return hi - lo; }
 };
 
-// Lines that run mainly along an axis: where they are in the middle of the box, and how far they
-// move for each sample along the axis. *Units*: samples from the corner of the box, where each
-// holds from its place on to the next: values between samples are means of what such lines gather.
+// A set of lines that run mainly along an axis, given by their position in the middle of the box
+// and their shift for each sample along the axis. *Units*: samples from the corner of the box. Here
+// a sample's value holds from its position up to the next sample: interpolated values are means
+// over such lines.
 struct Bundle {
     std::array<Interval, 2> middle, slope;
     double bound = 0.0;
@@ -113,7 +115,7 @@ public:
         return bundle;
     }
 
-    // In two, where it is widest in blocks at the ends of the box.
+    // Halves the interval that spreads the lines most at the ends of the box.
     std::array<Bundle, 2> halves(const Bundle &bundle) const {
         std::array<Bundle, 2> both{bundle, bundle};
         double widest = -1.0;
@@ -138,14 +140,14 @@ public:
 
 private:
     void judge(Bundle &bundle) const {
-        double longest = 0.0; // of a step along the axis, mm
+        double longest = 0.0; // of a line from one layer to the next, mm
         for (const double a : {bundle.slope[0].lo, bundle.slope[0].hi})
             for (const double b : {bundle.slope[1].lo, bundle.slope[1].hi})
                 longest =
                     std::max(longest, glm::length(m_along + a * m_across[0] + b * m_across[1]));
         double sum = 0.0;
         for (int layer = 0; layer < m_blocks.layers(); ++layer) {
-            // Places of the layer's first and last samples from the middle.
+            // Offsets of the first and last samples of this layer of blocks from the middle.
             const double from = layer * m_side - 0.5 * (m_samples - 1),
                          to = std::min(m_samples, (layer + 1) * m_side) - 1 - 0.5 * (m_samples - 1);
             std::array<int, 2> first{}, last{};
@@ -171,8 +173,8 @@ private:
 
 double largestLineIntegral(const std::array<LayerMaxima, 3> &layers, int side,
                            const volume::Lattice &lattice) {
-    // Branch and bound: the bundle with the largest bound is halved again and again, and what is
-    // left when the work is over still holds for all.
+    // Branch and bound: each step halves the bundle with the largest bound. Whenever the search
+    // stops, the largest remaining bound holds for all lines.
     constexpr int halvings = 1500;
     std::array<double, 3> largest{};
     tbb::parallel_for(std::size_t(0), largest.size(), [&](std::size_t axis) {

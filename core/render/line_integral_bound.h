@@ -9,11 +9,12 @@
 
 namespace pellucid::render {
 
-/// A field without negative samples as lines see it that run mainly along one axis d of its
-/// lattice: its layers across d, cut into squares of a few samples a side.
+/// The maxima of a field without negative samples, for bounding integrals along lines that run
+/// mainly along one axis d of its lattice. Each layer across d is cut into squares of a few samples
+/// a side.
 struct LayerMaxima {
-    int samples = 0;           ///< along d
-    int columns = 0, rows = 0; ///< squares along the axes d + 1 and d + 2 (mod 3)
+    int samples = 0;           ///< number of layers along d
+    int columns = 0, rows = 0; ///< number of squares along the axes d + 1 and d + 2 (mod 3)
     /// The largest sample of each square. *Shape*: [sample along d][row][column].
     std::vector<float> most;
 
@@ -24,8 +25,8 @@ struct LayerMaxima {
     }
 };
 
-/// No integral along a line through the field is larger. *Shape*: one entry for each axis d;
-/// *Units*: squares are `side` samples wide; the field times mm.
+/// An upper bound on the integral of the field along any line. *Shape*: one entry of `layers` for
+/// each axis d; squares are `side` samples wide. *Units*: the field times mm.
 double largestLineIntegral(const std::array<LayerMaxima, 3> &layers, int side,
                            const volume::Lattice &lattice);
 

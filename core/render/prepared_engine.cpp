@@ -121,26 +121,66 @@ std::shared_ptr<CpuEngine> makeEngine(const ShadedFields &channels, const classi
     return engine;
 }
 
-PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fields,
-                             const Budget &budget, const task::Progress &progress,
-                             const std::optional<shading::ShadingScale> &scale) {
-    const ShadedFields shaded = shadedFields(
-        fields.channels, scene.shading,
-        scale.value_or(shading::shadingScale(fields.channels.front().values.lattice())),
-        progress.part(0.0, 0.1));
-    const std::size_t light = bytesForLight(
-        scene.shading, fields.channels.front().values.lattice().size(), fields.channels.size());
-    const auto summaries = summarise(shaded, scene.shading.cue);
-    FittingPlan fitting = planWithin(scene, shaded, summaries,
-                                     {budget.bytes > light ? budget.bytes - light : 0}, progress);
+PreparedEngine prepareEngine(const Scene &scene, const ShadedFields &fields,
+                             const classify::Color &color, const Budget &budget,
+                             const task::Progress &progress) {
+    const auto summaries = summarise(fields, scene.shading.cue);
+    FittingPlan fitting = planWithin(scene, fields, summaries, budget, progress);
     std::shared_ptr<const ViewErrorModel> viewError;
     if (!fitting.reduced)
         viewError = std::make_shared<const ViewErrorModel>(fitting.plan, summaries);
-    auto engine = makeEngine(fitting.reduced ? *fitting.reduced : shaded, fields.color,
-                             fitting.plan, progress.part(0.1, 1.0));
+    auto engine =
+        makeEngine(fitting.reduced ? *fitting.reduced : fields, color, fitting.plan, progress);
     const std::size_t bytes = engine->bytes();
     const bool takesLight = engine->takesLight();
-    return {std::move(engine), std::move(fitting.plan), bytes, takesLight, std::move(viewError)};
+    const SpectrumOf of = fields.fields.size() > 1 ? SpectrumOf::channel : SpectrumOf::look;
+    return {std::move(engine),
+            std::move(fitting.plan),
+            bytes,
+            takesLight,
+            std::move(viewError),
+            false,
+            {},
+            of};
+}
+
+PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fields,
+                             const Budget &budget, const task::Progress &progress,
+                             const std::optional<shading::ShadingScale> &scale) {
+    const volume::Lattice &lattice = fields.channels.front().values.lattice();
+    const ShadedFields shaded =
+        shadedFields(fields.channels, scene.shading, scale.value_or(shading::shadingScale(lattice)),
+                     progress.part(0.0, 0.1));
+    const std::size_t light = bytesForLight(scene.shading, lattice.size(), fields.channels.size());
+    return prepareEngine(scene, shaded, fields.color,
+                         {budget.bytes > light ? budget.bytes - light : 0},
+                         progress.part(0.1, 1.0));
+}
+
+std::optional<double> errorOf(const PreparedEngine &prepared, const ProjectionImage &picture,
+                              const Camera &camera, const ImageDefinition &image,
+                              const shading::Shading &shading) {
+    if (prepared.isCoarse && !prepared.detailLoss)
+        return std::nullopt;
+    const EngineParts parts = prepared.engine->parts();
+    const double ofFields =
+        prepared.viewError
+            ? prepared.viewError->relativeError(picture, camera, image, parts, shading)
+            : prepared.plan.predictedError;
+    return prepared.isCoarse
+               ? std::hypot(ofFields,
+                            prepared.detailLoss->relativeError(picture, parts.shares, shading))
+               : ofFields;
+}
+
+std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double ofFields,
+                                        const shading::Shading &shading) {
+    if (!prepared.isCoarse)
+        return ofFields;
+    if (!prepared.detailLoss)
+        return std::nullopt;
+    return std::hypot(ofFields,
+                      prepared.detailLoss->relativeError(prepared.engine->parts().shares, shading));
 }
 
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
@@ -151,7 +191,8 @@ PreparedEngine withoutLight(const PreparedEngine &prepared) {
     const std::size_t bytes = engine->bytes();
     RenderPlan plan = prepared.plan;
     plan.bytes -= prepared.bytes - bytes;
-    return {std::move(engine), std::move(plan), bytes, false, prepared.viewError};
+    return {std::move(engine), std::move(plan),     bytes,      false, prepared.viewError,
+            prepared.isCoarse, prepared.detailLoss, prepared.of};
 }
 
 } // namespace pellucid::render

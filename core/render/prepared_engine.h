@@ -8,6 +8,8 @@
 
 #include "core/classify/shown_fields.h"
 #include "core/render/cpu_engine.h"
+#include "core/render/detail_loss.h"
+#include "core/render/frame_model.h"
 #include "core/render/shaded_fields.h"
 #include "core/render/view_error.h"
 
@@ -39,19 +41,38 @@ struct PreparedEngine {
     RenderPlan plan;
     std::size_t bytes = 0; ///< of its spectra
     bool takesLight = false;
-    /// Tells the error of single pictures; none where detail is lost wherever one looks from.
+    /// Tells the error of single pictures of the fields that were prepared; none where the plan has
+    /// joined samples, which its own error counts.
     std::shared_ptr<const ViewErrorModel> viewError;
+    /// Whether those fields are coarser than the study. Then `detailLoss` tells the error that
+    /// results; it is null until that has been computed.
+    bool isCoarse = false;
+    std::shared_ptr<const DetailLoss> detailLoss;
+    SpectrumOf of = SpectrumOf::look;
 };
 
 /// An engine for the channels of a look whose spectra, of one layout, are prepared by a plan.
 std::shared_ptr<CpuEngine> makeEngine(const ShadedFields &channels, const classify::Color &color,
                                       const RenderPlan &plan, const task::Progress &progress = {});
 
-/// Makes what the scene's light needs, plans within the budget and prepares the spectra. `scale`:
-/// of the volume, if the fields are of a coarser one. *Throws* Error{outOfMemory}, Cancelled.
+/// Plans within the budget and prepares the spectra. *Throws* Error{outOfMemory}, Cancelled.
+PreparedEngine prepareEngine(const Scene &scene, const ShadedFields &fields,
+                             const classify::Color &color, const Budget &budget,
+                             const task::Progress &progress = {});
+/// Makes what the scene's light needs first. `scale`: of the volume, if the fields are of a coarser
+/// one. *Throws* as above.
 PreparedEngine prepareEngine(const Scene &scene, const classify::ShownFields &fields,
                              const Budget &budget, const task::Progress &progress = {},
                              const std::optional<shading::ShadingScale> &scale = std::nullopt);
+
+/// The relative L2 error of a picture against that of the study. No value until the loss of detail
+/// has been computed.
+std::optional<double> errorOf(const PreparedEngine &prepared, const ProjectionImage &picture,
+                              const Camera &camera, const ImageDefinition &image,
+                              const shading::Shading &shading);
+/// The same for a whole picture whose error against the fields that were prepared is known.
+std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double ofFields,
+                                        const shading::Shading &shading);
 
 /// The same engine after the lights went out; its error is what it was with them, at most.
 PreparedEngine withoutLight(const PreparedEngine &prepared);

@@ -7,21 +7,22 @@
 #include <span>
 #include <vector>
 
+#include "core/render/central_rounding.h"
 #include "core/render/cpu_engine.h"
 #include "core/render/render_plan.h"
 
 namespace pellucid::render {
 
-/// What of a plan and its fields tells the error of a single picture: coarse fields and what the
-/// plan's kernels make of each of their blocks.
+/// Predicts the error of single pictures from a plan and its fields: it keeps coarse fields and the
+/// aliases that the plan's kernels make of each of their blocks.
 class ViewErrorModel {
 public:
     /// *Shape*: one summary for each field of the plan.
     ViewErrorModel(const RenderPlan &plan, std::span<const FieldSummary> fields);
 
     /// The relative L2 error of a picture that an engine of the plan made, with cue and light,
-    /// with the energies and the ghosts as they are seen from there, in the window that it has;
-    /// never more than the plan's bound for a picture of the whole.
+    /// with the energies and the ghosts as they are seen from there, in the window that it has.
+    /// For a whole picture of one field a channel it is never more than the plan's bound.
     double relativeError(const ProjectionImage &picture, const Camera &camera,
                          const ImageDefinition &image, const EngineParts &engine,
                          const shading::Shading &shading) const;
@@ -36,22 +37,20 @@ private:
         std::uint32_t block = 0;
         float mass = 0.0F, energy = 0.0F;
     };
-    /// What a field counts in a channel.
+    /// The weights of a field's mass and energy in a channel.
     struct Weight {
         double mass = 0.0, energy = 0.0;
+        bool isGradient = false;
     };
     /// Energies of one channel, in the picture's units.
     struct Energies {
         double image = 0.0, error = 0.0;
         bool isWhole = true; ///< nothing of the field lies beside the picture
     };
-    /// Of what is within reach of `Spectrum::rounding`: the energy in the picture, and of what
-    /// rounding has made of it.
-    Energies centralEnergies(const Camera &camera, const SliceGrid &grid,
-                             std::span<const Weight> weights, const EngineParts &engine) const;
     Energies channelEnergies(const ProjectionImage &picture, int channel, const Camera &camera,
-                             const ImageDefinition &image, std::span<const Weight> weights,
-                             const EngineParts &engine, const shading::Shading &shading) const;
+                             const ImageDefinition &image, const SliceGrid &grid,
+                             std::span<const Weight> weights, const CentralEnergies &central,
+                             const shading::Shading &shading) const;
 
     volume::Lattice m_lattice;
     std::array<glm::dvec3, 3> m_periods{}; ///< of the ghosts, mm

@@ -412,6 +412,26 @@
         <source>Own range</source>
         <translation>自訂範圍</translation>
     </message>
+    <message>
+        <source>Chest: tissues and edges</source>
+        <translation>胸部：組織與邊緣</translation>
+    </message>
+    <message>
+        <source>Bonsai: branches</source>
+        <translation>盆栽：樹枝</translation>
+    </message>
+    <message>
+        <source>Bonsai: leaves</source>
+        <translation>盆栽：樹葉</translation>
+    </message>
+    <message>
+        <source>Branches</source>
+        <translation>樹枝</translation>
+    </message>
+    <message>
+        <source>Leaves</source>
+        <translation>樹葉</translation>
+    </message>
 </context>
 <context>
     <name>OverlayTexts</name>
@@ -534,6 +554,46 @@
     <message>
         <source>%1 %</source>
         <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>All that is shown has one colour, so it adds up to one field</source>
+        <translation>顯示的內容只有一種顏色，因此合成一個場</translation>
+    </message>
+    <message>
+        <source>Colours are mixed, so red, green and blue have a field each</source>
+        <translation>顏色互相混合，因此紅、綠、藍各有一個場</translation>
+    </message>
+    <message>
+        <source>Weights are being changed, so each layer keeps a spectrum of its own</source>
+        <translation>正在調整權重，因此每個圖層保留各自的頻譜</translation>
+    </message>
+    <message>
+        <source>Light shines on the gradient, which has a spectrum of its own</source>
+        <translation>光照作用於梯度，梯度有自己的頻譜</translation>
+    </message>
+    <message>
+        <source>error %1 %</source>
+        <translation>誤差 %1 %</translation>
+    </message>
+    <message>
+        <source>%1 look spectrum</source>
+        <translation>%1 個外觀頻譜</translation>
+    </message>
+    <message>
+        <source>%1 colour spectra</source>
+        <translation>%1 個色彩頻譜</translation>
+    </message>
+    <message>
+        <source>%1 layer spectra</source>
+        <translation>%1 個圖層頻譜</translation>
+    </message>
+    <message>
+        <source>%1 gradient spectra</source>
+        <translation>%1 個梯度頻譜</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1，%2</translation>
     </message>
 </context>
 <context>
@@ -1570,6 +1630,10 @@
         <source>its values, from %1 to %2, differ by less than 24 bits can tell</source>
         <translation>其值自 %1 至 %2，差異小於 24 位元所能分辨</translation>
     </message>
+    <message>
+        <source>nothing of the study is visible, so there is no spectrum to show</source>
+        <translation>頻譜於頻率 0 為零：沒有可顯示的內容</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>
@@ -2448,6 +2512,14 @@
         <source>More</source>
         <translation>更多</translation>
     </message>
+    <message>
+        <source>SPECTRUM</source>
+        <translation>頻譜</translation>
+    </message>
+    <message>
+        <source>Spectr&amp;um</source>
+        <translation>頻譜(&amp;U)</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::MeasurementStore</name>
@@ -2781,20 +2853,8 @@
         <translation>已取消：按 F5 準備</translation>
     </message>
     <message>
-        <source>coarse</source>
-        <translation>粗略</translation>
-    </message>
-    <message>
-        <source>live</source>
-        <translation>即時</translation>
-    </message>
-    <message>
         <source>error not known yet</source>
         <translation>誤差未定</translation>
-    </message>
-    <message>
-        <source>error %1 %</source>
-        <translation>誤差 %1 %</translation>
     </message>
     <message>
         <source>draft</source>
@@ -2803,6 +2863,14 @@
     <message>
         <source>not prepared: F5 tries again</source>
         <translation>未能準備：按 F5 重試</translation>
+    </message>
+    <message>
+        <source>coarse</source>
+        <translation>粗略</translation>
+    </message>
+    <message>
+        <source>live</source>
+        <translation>即時</translation>
     </message>
 </context>
 <context>
@@ -3012,10 +3080,6 @@
         <translation>場景不需要、因此不計算的部分</translation>
     </message>
     <message>
-        <source>%1 spectra, %2 slices, %3 images, %4 million</source>
-        <translation>%1 個頻譜、%2 個切片、%3 張影像、%4 百萬次</translation>
-    </message>
-    <message>
         <source>light</source>
         <translation>光源</translation>
     </message>
@@ -3034,6 +3098,18 @@
     <message>
         <source>nothing</source>
         <translation>無</translation>
+    </message>
+    <message>
+        <source>about %1</source>
+        <translation>約 %1</translation>
+    </message>
+    <message>
+        <source>%1; %2 slices, %3 images, %4 million multiplications</source>
+        <translation>%1；%2 個切片、%3 幅影像、%4 百萬次乘法</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>、</translation>
     </message>
 </context>
 <context>
@@ -3176,6 +3252,48 @@
     <message>
         <source>Direction of a light</source>
         <translation>光源的方向</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::SpectrumPanel</name>
+    <message>
+        <source>Frequency and strength below the mouse</source>
+        <translation>滑鼠所指的頻率與強度</translation>
+    </message>
+    <message>
+        <source>The spectrum of the view that the projection shows.</source>
+        <translation>投影目前檢視的頻譜。</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::SpectrumPlot</name>
+    <message>
+        <source>Spectrum of the view</source>
+        <translation>檢視的頻譜</translation>
+    </message>
+    <message>
+        <source>The slice of the spectrum that this view takes, in decibels below the value at frequency 0; the circle is the band of the picture, at most that of the samples</source>
+        <translation>此檢視所取的頻譜截面，以相對於頻率 0 的分貝值表示；圓圈為影像的頻帶，至多為取樣的頻帶</translation>
+    </message>
+    <message>
+        <source>Up to %1 cycles per mm</source>
+        <translation>至每 mm %1 週期</translation>
+    </message>
+    <message>
+        <source>cycles/mm</source>
+        <translation>週期/mm</translation>
+    </message>
+    <message>
+        <source>%1 dB</source>
+        <translation>%1 dB</translation>
+    </message>
+    <message>
+        <source>%1 cycles/mm (period %2 mm): %3</source>
+        <translation>%1 週期/mm（週期長 %2 mm）：%3</translation>
+    </message>
+    <message>
+        <source>0 cycles/mm: %1</source>
+        <translation>0 週期/mm：%1</translation>
     </message>
 </context>
 <context>

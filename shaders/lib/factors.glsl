@@ -49,17 +49,9 @@ float rollOffFactor(float rollOff, float q) {
 
 const int cubic = 0, linear = 1, bandLimited = 2, spline = 3;
 
-// Of three axes at once, as of one.
+// One axis in each component.
 vec3 sincSquared(vec3 p) {
-    vec3 x = pi2 * p;
-    vec3 sum = vec3(-32768.0 / 20922789888000.0);
-    sum = sum * x + 8192.0 / 87178291200.0;
-    sum = sum * x - 2048.0 / 479001600.0;
-    sum = sum * x + 512.0 / 3628800.0;
-    sum = sum * x - 128.0 / 40320.0;
-    sum = sum * x + 32.0 / 720.0;
-    sum = sum * x - 8.0 / 24.0;
-    return sum * x + 1.0;
+    return vec3(sincSquared(p.x), sincSquared(p.y), sincSquared(p.z));
 }
 
 // sinc(2 r) for |r| <= 1/2 from its series in p = r^2, to 1e-8.

@@ -62,7 +62,7 @@ protected:
             found = picture.download();
         });
         std::vector<double> expected;
-        const fourier::InverseTransform2d exact(grid.rows, grid.columns);
+        const fourier::InverseTransform2d<double> exact(grid.rows, grid.columns);
         for (int image = 0; image < images; ++image) {
             std::vector<std::complex<double>> half(std::size_t(grid.rows) *
                                                    std::size_t(halfColumns + 1));

@@ -15,6 +15,7 @@
 #include <QTreeView>
 
 #include "ui/file_menu.h"
+#include "ui/spectrum_sampler.h"
 #include "ui/views/mpr_view.h"
 #include "ui/workstation.h"
 
@@ -94,6 +95,10 @@ private slots:
         dialog("preferencesDialog", "panel_preferences");
         of<QAction>("aboutAction")->trigger();
         dialog("aboutDialog", "panel_about");
+        of<QAction>("spectrumAction")->trigger();
+        const auto *sampler = window().findChild<ui::SpectrumSampler *>();
+        QTRY_VERIFY_WITH_TIMEOUT(!sampler->isBehind(), patienceMs);
+        compare(of<QDockWidget>("spectrumDock")->grab().toImage(), "panel_spectrum", {});
     }
 
 private:

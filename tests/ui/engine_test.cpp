@@ -157,10 +157,10 @@ private slots:
                     frames.push_back(frame);
                 });
         connect(&worker, &ui::RenderWorker::cardFailed, &receiver, [&] { ++failures; });
-        worker.setEngine(prepared.engine, gpu::copyToCard(card, *prepared.engine), 1);
+        worker.setEngine(prepared, gpu::copyToCard(card, *prepared.engine), 1);
         const auto next = [&]() -> std::shared_ptr<const ui::RenderedFrame> {
             frames.clear();
-            worker.request(scene.camera, scene.image, {}, {}, true);
+            worker.request(scene.camera, scene.image, {}, {}, true, true);
             return QTest::qWaitFor([&] { return !frames.empty(); }, patienceMs) ? frames.front()
                                                                                 : nullptr;
         };

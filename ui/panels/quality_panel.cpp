@@ -12,7 +12,6 @@
 #include <QPushButton>
 #include <QStyle>
 
-#include "core/render/frame_model.h"
 #include "ui/commands.h"
 #include "ui/document.h"
 #include "ui/overlay.h"
@@ -36,6 +35,34 @@ QComboBox *addBox(QFormLayout *form, const QString &text, const char *name, cons
     box->setToolTip(tip);
     form->addRow(text, box);
     return box;
+}
+
+QString spectraName(render::SpectrumOf what) {
+    switch (what) {
+    case render::SpectrumOf::look:
+        return QObject::tr("%1 look spectrum");
+    case render::SpectrumOf::channel:
+        return QObject::tr("%1 colour spectra");
+    case render::SpectrumOf::layer:
+        return QObject::tr("%1 layer spectra");
+    case render::SpectrumOf::gradient:
+        return QObject::tr("%1 gradient spectra");
+    }
+    return {};
+}
+
+QString whySpectra(render::SpectrumOf what) {
+    switch (what) {
+    case render::SpectrumOf::look:
+        return QObject::tr("All that is shown has one colour, so it adds up to one field");
+    case render::SpectrumOf::channel:
+        return QObject::tr("Colours are mixed, so red, green and blue have a field each");
+    case render::SpectrumOf::layer:
+        return QObject::tr("Weights are being changed, so each layer keeps a spectrum of its own");
+    case render::SpectrumOf::gradient:
+        return QObject::tr("Light shines on the gradient, which has a spectrum of its own");
+    }
+    return {};
 }
 
 QLabel *addFigure(QFormLayout *form, const QString &text, const char *name, const QString &tip) {
@@ -102,6 +129,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
                          tr("Padded size over size, along columns, rows and slices"));
     m_model = addFigure(form, tr("Frame of"), "modelLabel",
                         tr("Spectra, slices of them, images, and the multiplications of a frame"));
+    m_model->setWordWrap(true);
     m_leftOut = addFigure(form, tr("Without"), "leftOutLabel",
                           tr("What the scene does not need, and no frame pays for"));
     m_leftOut->setWordWrap(true);
@@ -240,6 +268,7 @@ void QualityPanel::clearPlan() {
     for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_leftOut})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
+    m_frameOf.reset();
 }
 
 void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
@@ -247,11 +276,17 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     const render::RenderPlan &plan = shown.prepared.plan;
     const auto &spectrum = plan.spectrum;
     const bool missed = shown.predictedError > m_document.scene().tolerance;
-    // Of the study a coarse picture lacks detail that no plan knows of.
-    const bool isOfStudy = stage == EngineStage::full || stage == EngineStage::settled;
+    // A coarse picture lacks detail of the study, which no plan knows of.
+    const bool isCoarse = shown.prepared.isCoarse;
     const QString unknown = tr("not known yet");
-    m_error->setText(isOfStudy ? tr("at most %1").arg(percent(shown.predictedError)) : unknown);
-    m_largest->setText(isOfStudy ? percent(plan.predictedMaximum) : unknown);
+    const std::optional<double> error =
+        render::errorAgainstStudy(shown.prepared, shown.predictedError, m_document.scene().shading);
+    // No bound is known for a sum of layers, only for each layer.
+    const bool isBound = !isCoarse && shown.prepared.of != render::SpectrumOf::layer;
+    m_error->setText(!error    ? unknown
+                     : isBound ? tr("at most %1").arg(percent(*error))
+                               : tr("about %1").arg(percent(*error)));
+    m_largest->setText(isCoarse ? unknown : percent(plan.predictedMaximum));
     const volume::GridSize box = spectrum.box.size();
     const auto padding = [&](int d) {
         return QString::number(double(spectrum.padded[d]) / box[d], 'f', 2);
@@ -261,31 +296,40 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
                         .arg(QString::fromStdString(spectrum.kernels[0].name()))
                         .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
                         .arg(spectrum.bytes() >> 20));
-    showModel(shown);
+    const render::EngineParts parts = shown.prepared.engine->parts();
+    m_frameOf = {
+        plan,
+        {int(parts.spectra.fields.size()), shown.prepared.of, !render::areGrey(parts.shares)},
+        !parts.spectra.gradients.empty()};
+    showModel();
     const QString reason = spoken(plan.reason);
-    say(coarse                       ? tr("A first, coarse picture; the full one follows")
-        : stage == EngineStage::live ? tr("The parts of the look, summed while they change")
-        : missed                     ? tr("More error than allowed: %1").arg(reason)
-                                     : tr("It is %1").arg(reason),
+    const bool isSum = shown.prepared.of == render::SpectrumOf::layer;
+    say(isSum ? tr("The parts of the look, summed while they change")
+        : coarse || stage == EngineStage::live ? tr("A first, coarse picture; the full one follows")
+        : missed                               ? tr("More error than allowed: %1").arg(reason)
+                                               : tr("It is %1").arg(reason),
         missed && (stage == EngineStage::full || stage == EngineStage::settled));
 }
 
-void QualityPanel::showModel(const ShownEngine &shown) {
-    if (!m_document.volume())
+void QualityPanel::showModel() {
+    if (!m_document.volume() || !m_frameOf)
         return;
-    const render::EngineParts parts = shown.prepared.engine->parts();
-    const bool isTinted = parts.spectra.fields.size() == 1 && !render::areGrey(parts.shares);
     render::Scene scene = m_document.scene();
-    if (parts.spectra.gradients.empty())
+    if (!m_frameOf->isLit)
         scene.shading.lights.clear();
-    const render::FrameModel model =
-        render::modelFrame(shown.prepared.plan, scene, int(parts.spectra.fields.size()), isTinted,
-                           m_document.volume()->lattice());
-    m_model->setText(tr("%1 spectra, %2 slices, %3 images, %4 million")
-                         .arg(model.fields + model.gradients)
+    const render::FrameModel model = render::modelFrame(m_frameOf->plan, scene, m_frameOf->fields,
+                                                        m_document.volume()->lattice());
+    QStringList spectra, reasons;
+    for (const render::FrameModel::Spectra &kind : model.spectra) {
+        spectra << spectraName(kind.of).arg(kind.count);
+        reasons << whySpectra(kind.of);
+    }
+    m_model->setText(tr("%1; %2 slices, %3 images, %4 million multiplications")
+                         .arg(spectra.join(tr(", ")))
                          .arg(model.slices)
                          .arg(model.images)
                          .arg(1e-6 * model.multiplyAdds, 0, 'f', 1));
+    m_model->setToolTip(reasons.join('\n'));
     QStringList leftOut;
     for (const render::LeftOut what : model.leftOut)
         switch (what) {
@@ -317,6 +361,8 @@ void QualityPanel::say(const QString &text, bool isWarning) {
 void QualityPanel::showFrame(const render::FrameTimes &times, bool draft) {
     const QString text = millisecondsText(times.totalMs());
     m_time->setText(draft ? tr("%1, draft").arg(text) : text);
+    if (!draft) // the pane may have another size
+        showModel();
 }
 
 } // namespace pellucid::ui

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include <QWidget>
 
+#include "core/render/frame_model.h"
 #include "ui/look_preparer.h"
 #include "ui/shown_engine.h"
 
@@ -35,13 +37,21 @@ signals:
 private:
     void showScene();
     void clearPlan();
-    void showModel(const ShownEngine &shown);
+    void showModel();
     void say(const QString &text, bool isWarning);
     void chooseTolerance(int index);
     void typeTolerance();
     void change(const QString &what, const std::function<void(render::Scene &)> &edit);
 
+    /// What the frames shown are made of.
+    struct FrameOf {
+        render::RenderPlan plan;
+        render::FrameFields fields;
+        bool isLit = false;
+    };
+
     Document &m_document;
+    std::optional<FrameOf> m_frameOf;
     QPushButton *m_more;
     QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_padding, *m_storage;
     QLineEdit *m_tolerance;

@@ -27,6 +27,17 @@ constexpr int restMs = 120;
 // Beyond this a finer picture shows the reconstruction's smoothness, not the patient.
 constexpr double samplesPerPixel = 4.0;
 
+// No more digits than are known.
+QString errorText(double error) {
+    const double percent = 100.0 * error;
+    return QObject::tr("error %1 %")
+        .arg(percent < 1.0 ? QString::number(percent, 'f', 3) : QString::number(percent, 'g', 2));
+}
+
+QString withError(const QString &stage, const QString &error) {
+    return error.isEmpty() ? stage : QObject::tr("%1, %2").arg(stage, error);
+}
+
 } // namespace
 
 ProjectionView::ProjectionView(Document &document, QWidget *parent)
@@ -52,9 +63,9 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
         if (m_document.volume() && m_document.isPreview())
             return;
         // What was projected belongs to another volume.
-        m_engine.reset();
+        m_prepared.reset();
         m_onCard.reset();
-        m_worker.setEngine(nullptr, nullptr, ++m_generation);
+        m_worker.setEngine(std::nullopt, nullptr, ++m_generation);
         m_planState = PlanState::holds;
         m_measure.cancel();
         m_comparison.forget();
@@ -90,8 +101,16 @@ ProjectionView::~ProjectionView() {
 }
 
 void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
-    m_engine = shown.prepared.engine;
-    m_takesLight = shown.prepared.takesLight;
+    if (m_prepared && m_prepared->engine == shown.prepared.engine && m_onCard == shown.onCard &&
+        m_stage == stage && m_engineReason == shown.reason) {
+        // The same engine comes again when the detail that it lacks is known: only the figure
+        // changes, so frames that are underway remain valid.
+        m_prepared = shown.prepared;
+        m_worker.setEngine(shown.prepared, shown.onCard, m_generation);
+        requestFrame(m_rest.isActive());
+        return;
+    }
+    m_prepared = shown.prepared;
     m_predictedError = shown.predictedError;
     m_message.clear();
     // Weights that move change the brightness, and are meant to; another field, or the fine one
@@ -105,19 +124,19 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     if (stage != EngineStage::live || m_stage != EngineStage::live)
         ++m_generation;
     m_stage = stage;
-    m_worker.setEngine(m_engine, shown.onCard, m_generation, shown.prepared.viewError);
+    m_worker.setEngine(shown.prepared, shown.onCard, m_generation);
     m_onCard = shown.onCard;
     m_engineReason = shown.reason;
     requestFrame(false);
 }
 
 void ProjectionView::jobEnded() {
-    if (m_document.volume() && !m_engine && m_message == tr("Preparing the projection"))
+    if (m_document.volume() && !m_prepared && m_message == tr("Preparing the projection"))
         setMessage(tr("Cancelled: there is no projection"));
 }
 
 void ProjectionView::jobStarted() {
-    if (m_document.volume() && !m_engine && m_message == tr("Cancelled: there is no projection"))
+    if (m_document.volume() && !m_prepared && m_message == tr("Cancelled: there is no projection"))
         setMessage(tr("Preparing the projection"));
 }
 
@@ -243,13 +262,14 @@ void ProjectionView::showComparison() {
 }
 
 void ProjectionView::requestFrame(bool moving) {
-    if (!m_engine)
+    if (!m_prepared)
         return;
     const bool draft = moving && m_fullFrameMs > smoothFrameMs;
     m_pending = true;
     const double finest = m_document.volume()->lattice().shortestStepMm() / samplesPerPixel;
     shading::Shading shading = m_document.scene().shading;
-    if (shading.isLit() && !m_takesLight) // it is being prepared: all stays as it is till then
+    if (shading.isLit() &&
+        !m_prepared->takesLight) // it is being prepared: all stays as it is till then
         shading = m_drawnShading;
     else
         m_tone.follow(shading);
@@ -257,22 +277,23 @@ void ProjectionView::requestFrame(bool moving) {
     std::optional<RenderWorker::Compared> compared;
     if (const auto &before = m_comparison.before(); m_isComparing && before)
         compared = {before->engine, before->image, before->shading};
-    m_requested =
-        m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
-                         {.draft = draft, .finestPixelMm = finest}, m_tone.isWanted(), compared);
+    m_requested = m_worker.request(m_document.scene().camera, m_document.scene().image, shading,
+                                   {.draft = draft, .finestPixelMm = finest}, m_tone.isWanted(),
+                                   !moving, compared);
     if (moving)
         m_rest.start();
 }
 
 void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame) {
-    if (!m_engine ||
+    if (!m_prepared ||
         frame->generation != m_generation) // of a volume that was closed, or the coarse one's
         return;
     // Asked for before the brightness was to be taken anew: the next one tells it.
     if (m_tone.isWanted() && !frame->automaticTone)
         return;
     m_frame = frame;
-    m_frameError = frame->error.value_or(m_predictedError);
+    // A full frame from the card has only the plan's error.
+    m_frameError = frame->onCard && !m_prepared->isCoarse ? m_predictedError : frame->error;
     m_frameStage = m_stage;
     m_pending = m_rest.isActive() || frame->number != m_requested;
     if (!frame->draft)
@@ -287,14 +308,14 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     showTexts();
     emit frameShown(frame->times, frame->draft);
     const std::string engine =
-        frame->onCard && m_onCard ? m_onCard->description() : m_engine->description();
+        frame->onCard && m_onCard ? m_onCard->description() : m_prepared->engine->description();
     emit engineDescribed(tr("%1: %2").arg(
         spoken(engine), frame->refusal.isEmpty() ? m_engineReason : frame->refusal));
     if (showsFinalImage()) {
         if (m_planState == PlanState::holds) {
             m_document.setBrightness(m_tone.range());
-            m_comparison.settled(
-                {m_engine, m_document.scene().image, m_drawnShading, shownTone(), m_lookName});
+            m_comparison.settled({m_prepared->engine, m_document.scene().image, m_drawnShading,
+                                  shownTone(), m_lookName});
         }
         emit finalImageShown();
     }
@@ -334,10 +355,11 @@ render::Scene ProjectionView::sceneOfPicture(int scale) const {
 }
 
 std::function<render::ProjectionImage(const render::Camera &)> ProjectionView::pictureRenderer() {
-    return [this, engine = m_engine, image = m_document.scene().image,
-            shading = m_drawnShading](const render::Camera &camera) {
-        return m_worker.picture(engine, camera, image, shading).get();
-    };
+    return
+        [this, engine = m_prepared ? m_prepared->engine : nullptr, image = m_document.scene().image,
+         shading = m_drawnShading](const render::Camera &camera) {
+            return m_worker.picture(engine, camera, image, shading).get();
+        };
 }
 
 void ProjectionView::paintAnnotations(QPainter &painter, const render::Camera &camera,
@@ -413,7 +435,7 @@ void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
         m_overlay->update();
         return;
     }
-    if (!m_engine || delta.isNull())
+    if (!m_prepared || delta.isNull())
         return;
     if (m_button == Qt::LeftButton)
         orbit(delta);
@@ -511,15 +533,18 @@ void ProjectionView::keyPressEvent(QKeyEvent *event) {
 void ProjectionView::showTexts() {
     ProjectionOverlay::Texts texts{m_lookName, m_message, {}};
     if (m_frame) {
-        // The error is that of the picture, which may still be the former engine's.
+        // The error is that of the picture, which may still be the former engine's. It is not
+        // computed while the view moves.
+        const QString error = m_frameError ? errorText(*m_frameError)
+                              : m_pending  ? QString()
+                                           : tr("error not known yet");
         const QString quality =
             m_planState == PlanState::cancelled   ? tr("cancelled: F5 prepares it")
             : m_planState == PlanState::failed    ? tr("not prepared: F5 tries again")
-            : m_frameStage == EngineStage::coarse ? tr("coarse")
-            : m_frameStage == EngineStage::live   ? tr("live")
-            : m_planState == PlanState::underway
-                ? tr("error not known yet")
-                : tr("error %1 %").arg(100.0 * m_frameError, 0, 'f', 3);
+            : m_frameStage == EngineStage::coarse ? withError(tr("coarse"), error)
+            : m_frameStage == EngineStage::live   ? withError(tr("live"), error)
+            : m_planState == PlanState::underway  ? tr("error not known yet")
+                                                  : error;
         texts.figures = QString("%1  %2  %3")
                             .arg(m_frame->onCard ? "GPU" : "CPU")
                             .arg(millisecondsText(m_frame->times.totalMs()))

@@ -130,19 +130,19 @@ private:
     RenderWorker m_worker;
     LookComparison m_comparison;
     QTimer m_rest;
-    std::shared_ptr<render::ProjectionEngine> m_engine;
+    std::optional<render::PreparedEngine> m_prepared;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
     QString m_engineReason;
     /// What is shown, and what made it: a new engine has to make its first picture yet.
     std::shared_ptr<const RenderedFrame> m_frame;
-    double m_frameError = 0.0;
+    std::optional<double> m_frameError; ///< against the study, if anyone knows
     EngineStage m_frameStage = EngineStage::coarse;
     AutomaticTone m_tone;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last frame that was asked for
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
     EngineStage m_stage = EngineStage::coarse;
-    bool m_pending = false, m_takesLight = false;
+    bool m_pending = false;
     bool m_orbitsCrosshair = false, m_isComparing = false;
     PlanState m_planState = PlanState::holds;
     std::uint64_t m_requested = 0, m_generation = 0;

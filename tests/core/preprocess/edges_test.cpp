@@ -18,7 +18,7 @@ namespace {
 
 using preprocess::Mask;
 
-// What ITK's own filter says of the same samples.
+// The edges that ITK's own filter finds in the same samples.
 Mask itkEdges(const volume::Volume &volume, double variance, double low, double high) {
     using Image = itk::Image<float, 3>;
     const volume::GridSize n = volume.lattice().size();
@@ -65,7 +65,7 @@ TEST(CannyEdges, AreThoseOfItkOnIsotropicLattices) {
             different += ours[n] != theirs[n];
         }
         EXPECT_GT(count, 1000U);
-        // Sums in another order move a sample or two across a threshold or a tie.
+        // Sums in a different order move a sample or two across a threshold or a tie.
         EXPECT_LE(different, count / 500) << "spacing " << spacing;
     }
 }
@@ -79,7 +79,7 @@ double dice(const Mask &a, const Mask &b) {
     return 2.0 * both / all;
 }
 
-// The method that ITK's derivatives, zero crossings and double threshold make finds the same
+// A detector built from ITK's derivatives, zero crossings and double threshold finds the same
 // edges, on thick slices too.
 TEST(CannyEdges, AreThoseOfTheMethodOfItk) {
     for (const double thickness : {1.0, 3.0}) {
@@ -128,7 +128,7 @@ TEST(CannyEdges, DoNotDependOnTheScaleOfTheValues) {
     const auto large = test::volumeOf(lattice, [&](glm::dvec3 p) {
         return (glm::length(p) < 9.0 ? 300.0 : 0.0) + noise(random);
     });
-    // A power of two: the numbers differ in their exponents alone.
+    // Scaling by a power of two changes only the exponents.
     constexpr float scale = 1.0F / 16384.0F;
     std::vector<float> samples;
     large.visit([&](auto values) {
@@ -141,8 +141,8 @@ TEST(CannyEdges, DoNotDependOnTheScaleOfTheValues) {
     EXPECT_EQ(preprocess::cannyEdges(small, {1.0, 15.0 * scale, 40.0 * scale}), edges);
 }
 
-// The surface of a ball in thick, tilted slices: every direction is found alike, because the
-// derivatives are per mm, not per sample.
+// The surface of a ball in thick, tilted slices. The derivatives are per mm, not per sample, so
+// edges are found equally well in every direction.
 TEST(CannyEdges, LieOnABallInThickTiltedSlices) {
     const auto lattice = test::tiltedLattice({80, 80, 26}, {0.8, 0.8, 2.4}, 20.0);
     constexpr double radius = 22.0;
@@ -162,7 +162,7 @@ TEST(CannyEdges, LieOnABallInThickTiltedSlices) {
         for (int d = 0; d < 3; ++d)
             along[std::size_t(d)] += std::abs(p[d]) > 0.8 * radius;
     }
-    // Half a step of the lattice at most, along its longest axis.
+    // At most half a step of the lattice along its longest axis.
     EXPECT_LE(worst, 0.5 * lattice.spacingMm(2) + 0.05);
     for (const int caps : along)
         EXPECT_GT(caps, 100);
@@ -175,7 +175,7 @@ TEST(GradientMagnitude, OfALinearFieldIsItsSlopeOnAnyLattice) {
         const auto volume =
             test::volumeOf(lattice, [&](glm::dvec3 p) { return glm::dot(slope, p); });
         const auto gradient = preprocess::gradientMagnitude(volume);
-        // Inside: differences at the border reach only half as far.
+        // Only inside: differences at the border span half the distance.
         for (int k = 1; k < 6; ++k)
             EXPECT_NEAR(gradient.value({4, 4, k}), glm::length(slope), 1e-4);
     }

@@ -32,14 +32,14 @@ TEST(StepCache, ComputesByContentOnce) {
     const TissueClass smooth = bone({{"gaussian", {{"sigma_mm", 2.0}}}, {"largest", {}}});
     const auto first = cache.run(head(), smooth, {});
     EXPECT_EQ(cache.computedCount(), 2U);
-    // The same series, loaded again, and a class that differs in weight and colour.
+    // The series is loaded again; the class differs in weight and colour only.
     TissueClass again = smooth;
     again.weight = 0.3;
     again.color = {1.0, 0.0, 0.0};
     const auto second = cache.run(head(), again, {});
     EXPECT_EQ(cache.computedCount(), 2U);
     EXPECT_EQ(first.regions, second.regions);
-    // The range changes what is largest, not what is smooth.
+    // The range affects the largest part, not the smoothing.
     again.low = 300.0;
     cache.run(head(), again, {});
     EXPECT_EQ(cache.computedCount(), 3U);
@@ -55,7 +55,7 @@ TEST(StepCache, DropsWhatWasUsedLongestAgo) {
     cache.run(head(), with(1.0), {});
     cache.run(head(), with(2.0), {});
     cache.run(head(), with(1.0), {});
-    cache.run(head(), with(3.0), {}); // 2 goes
+    cache.run(head(), with(3.0), {}); // drops 2.0
     EXPECT_LE(cache.bytes(), 2 * one);
     cache.run(head(), with(1.0), {});
     EXPECT_EQ(cache.computedCount(), 3U);
@@ -122,7 +122,7 @@ TEST(StepCache, OpeningKeepsTheSoftRimAndClosingFills) {
     EXPECT_GT(filled, 0);
 }
 
-// Steps one after the other: each leaves what the one before left, or less; gaps stay filled.
+// Each step keeps a subset of what the previous step kept; filled gaps stay filled.
 TEST(StepCache, StepsOfRegionsFollowEachOther) {
     preprocess::StepCache cache(0);
     const auto regions = [&](std::vector<classify::Step> steps) {

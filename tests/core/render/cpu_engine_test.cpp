@@ -31,7 +31,7 @@ render::Camera cameraFor(const volume::Lattice &lattice, StandardView view,
     return camera;
 }
 
-// The promise of the default quality: relative L2 error at most 1.1e-3 against the exact image.
+// The default quality promises a relative L2 error of at most 1.1e-3 against the exact image.
 constexpr double promisedError = 1.1e-3;
 
 struct AccuracyCase {
@@ -44,7 +44,8 @@ struct AccuracyCase {
 
 class Accuracy : public testing::TestWithParam<AccuracyCase> {};
 
-// Noise up to the faces of the lattice is the worst field there is: flat spectrum, no margin.
+// Noise up to the faces of the lattice is the worst field: its spectrum is flat and it has no
+// margin.
 TEST_P(Accuracy, NoiseThatFillsTheLatticeAgainstTheDirectSum) {
     const AccuracyCase &c = GetParam();
     const auto field = test::noiseField(test::tiltedLattice(c.size, c.spacingMm, c.tiltDeg));
@@ -79,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         AccuracyCase{"twoVoxels", {2, 1, 2}, {1, 1, 1}, 0, Reconstruction::cubic}),
     [](const auto &parameter) { return std::string(parameter.param.name); });
 
-// The roll-off belongs to the image's definition at any width of it; a table with linear
+// The roll-off is part of the image's definition, whatever its width; a table with linear
 // interpolation would miss the corners of a band limit.
 TEST(CpuEngine, RollOffsFromNarrowToWhole) {
     const auto field = test::noiseField(test::tiltedLattice({22, 20, 9}, {1, 1, 2.5}, 12));
@@ -137,7 +138,8 @@ TEST(CpuEngine, ASmallerImageIsACropAndNeverWraps) {
     const auto field = test::noiseField(test::tiltedLattice({24, 20, 12}, {1, 1, 2}, 10));
     auto engine = engineFor(field);
     auto camera = cameraFor(field.values.lattice(), StandardView::front, {20, 10, 0});
-    // Another slice grid folds the roll-off's tails elsewhere: a whole roll-off has next to none.
+    // A different slice grid folds the roll-off's tails elsewhere; a roll-off over the whole band
+    // has hardly any.
     const render::ImageDefinition image{Reconstruction::cubic, 1.0};
     const auto whole = engine.render(camera, image);
     auto part = camera;
@@ -148,7 +150,7 @@ TEST(CpuEngine, ASmallerImageIsACropAndNeverWraps) {
     for (int r = 0; r < part.height; ++r)
         for (int c = 0; c < part.width; ++c)
             expected.push_back(whole.samples[std::size_t(r + 15) * camera.width + c + 12]);
-    // The ghosts of both, each within what the plan left the kernel, in the crop's own norm.
+    // Both images have aliasing within the plan's error, here relative to the crop's own norm.
     EXPECT_LT(test::relativeL2(crop.samples, expected), promisedError);
 }
 
@@ -165,7 +167,7 @@ TEST(CpuEngine, PanMovesTheImage) {
             a.push_back(after.samples[std::size_t(r) * camera.width + c]);
             b.push_back(before.samples[std::size_t(r + 2) * camera.width + c + 3]);
         }
-    // Two slice grids, each with its own ghosts.
+    // Two slice grids, each with its own aliasing.
     EXPECT_LT(test::relativeL2(a, b), promisedError);
 }
 
@@ -192,7 +194,8 @@ TEST(CpuEngine, AnImageWiderThanThePeriodStaysEmptyOutside) {
         (std::abs(c - 200) < 8 ? inside : outside) =
             std::max(std::abs(c - 200) < 8 ? inside : outside, p);
     }
-    // What is left outside is the cubic spline's ringing next to the edge: 0.27 of a noise step.
+    // Only the interpolation's ringing next to the edge remains outside, 0.27 of a noise step for
+    // the cubic spline.
     EXPECT_LT(outside, 0.2F * inside);
     EXPECT_LT(std::abs(image.samples[5 * std::size_t(camera.width) + 60]), 2e-3F * inside);
     EXPECT_LT(std::abs(image.samples[5 * std::size_t(camera.width) + 340]), 2e-3F * inside);

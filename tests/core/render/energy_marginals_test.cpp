@@ -17,7 +17,7 @@ double sum(const std::vector<double> &values) {
 TEST(EnergyMarginals, OnePointIsWhereItIs) {
     const auto lattice = volume::Lattice::centred({21, 21, 21}, {1, 1, 2});
     std::vector<float> samples(lattice.size().count(), 0.0F);
-    samples[(std::size_t(10) * 21 + 10) * 21 + 16] = 3.0F; // 6 mm right of the centre
+    samples[(std::size_t(10) * 21 + 10) * 21 + 16] = 3.0F; // 6 mm from the centre along x
     const volume::Volume field(lattice, samples, volume::ValueUnit::none);
     const auto energy = render::energyMarginals(field, lattice.bounds());
     const render::EnergySpread &spread = *energy.spread;
@@ -25,7 +25,7 @@ TEST(EnergyMarginals, OnePointIsWhereItIs) {
     EXPECT_DOUBLE_EQ(energy.axis[1][10], 1.0);
     EXPECT_DOUBLE_EQ(spread.radiusMm, 6.0);
     EXPECT_DOUBLE_EQ(spread.concentration, 1.0);
-    // Along x the whole way, along the diagonal of a face 1/sqrt(2) of it, along y none.
+    // The distance is 6 mm along x, 6/sqrt(2) along a face diagonal and 0 along y.
     int far = 0, near = 0;
     for (const auto &shares : spread.byDistance) {
         EXPECT_NEAR(sum(shares), 1.0, 1e-12);
@@ -36,8 +36,8 @@ TEST(EnergyMarginals, OnePointIsWhereItIs) {
     EXPECT_EQ(near, 4); // y, z, and the diagonals of the face across x
 }
 
-// Of an even ball the projection is 2 sqrt(R^2 - r^2): its peak times its mass over its energy is
-// 4/3. The bound may be larger, by what blocks blur.
+// The projection of a uniform ball is 2 sqrt(R^2 - r^2), so peak times mass over energy is 4/3. The
+// bound may be larger because blocks blur the field.
 TEST(EnergyMarginals, NoPartOfABallHasMuchMoreOfTheProjectionThanOfTheMass) {
     const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
     std::vector<float> samples;
@@ -53,8 +53,8 @@ TEST(EnergyMarginals, NoPartOfABallHasMuchMoreOfTheProjectionThanOfTheMass) {
     EXPECT_LT(peakedness, 2.5);
 }
 
-// A rod along the diagonal: no line gathers more than the one through it, and none as much in
-// another direction.
+// A rod along the diagonal: the line through it has the largest integral; lines in other directions
+// have less.
 TEST(EnergyMarginals, TheLargestLineIntegralIsNotBelowThatThroughARod) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 2});
     std::vector<float> samples(lattice.size().count(), 0.0F);
@@ -63,7 +63,7 @@ TEST(EnergyMarginals, TheLargestLineIntegralIsNotBelowThatThroughARod) {
     const volume::Volume field(lattice, samples, volume::ValueUnit::none);
     const auto energy = render::energyMarginals(field, lattice.bounds());
     const double length = 40.0 * std::sqrt(6.0), areaMm2 = 2.0 / std::sqrt(6.0);
-    // Seen along it, all of the mass lies within the shadow of one sample: at least its share.
+    // Seen along the rod, all of its mass falls within the shadow of one sample.
     const double mass = 40.0 * 2.0;
     EXPECT_NEAR(energy.massMm3, mass, 1e-9);
     EXPECT_GE(energy.spread->peakedness, length * areaMm2 / mass);

@@ -11,6 +11,8 @@ namespace pellucid {
 
 namespace {
 
+using render::SpectrumOf;
+
 bool isLeftOut(const render::FrameModel &model, render::LeftOut what) {
     return std::find(model.leftOut.begin(), model.leftOut.end(), what) != model.leftOut.end();
 }
@@ -26,8 +28,8 @@ protected:
         m_scene.camera = render::defaultCamera(m_lattice);
         m_plan.emplace(render::planRender(m_scene, render::summarise(field)));
     }
-    render::FrameModel model(int fields = 1, bool isTinted = false) const {
-        return render::modelFrame(*m_plan, m_scene, fields, isTinted, m_lattice);
+    render::FrameModel model(const render::FrameFields &fields = {}) const {
+        return render::modelFrame(*m_plan, m_scene, fields, m_lattice);
     }
 
     volume::Lattice m_lattice = volume::Lattice::centred({32, 32, 32}, {1, 1, 1});
@@ -37,7 +39,9 @@ protected:
 
 TEST_F(FrameModel, APlainGreyFrameIsOneSliceOfOneSpectrum) {
     const auto plain = model();
-    EXPECT_EQ(plain.fields + plain.gradients, 1);
+    ASSERT_EQ(plain.spectra.size(), 1U);
+    EXPECT_EQ(plain.spectra.front().of, SpectrumOf::look);
+    EXPECT_EQ(plain.spectra.front().count, 1);
     EXPECT_EQ(plain.slices, 1);
     EXPECT_EQ(plain.images, 1);
     EXPECT_EQ(plain.combination, render::Combination::one);
@@ -51,7 +55,9 @@ TEST_F(FrameModel, LightTakesASpectrumOfTheGradientAndASineCueTwoMoreSlices) {
     const auto plain = model();
     m_scene.shading.lights.emplace_back();
     const auto lit = model();
-    EXPECT_EQ(lit.gradients, 1);
+    ASSERT_EQ(lit.spectra.size(), 2U);
+    EXPECT_EQ(lit.spectra.back().of, SpectrumOf::gradient);
+    EXPECT_EQ(lit.spectra.back().count, 1);
     EXPECT_EQ(lit.slices, 2);
     EXPECT_FALSE(isLeftOut(lit, render::LeftOut::light));
     EXPECT_DOUBLE_EQ(lit.multiplyAdds, 2.0 * plain.multiplyAdds);
@@ -62,14 +68,47 @@ TEST_F(FrameModel, LightTakesASpectrumOfTheGradientAndASineCueTwoMoreSlices) {
 }
 
 TEST_F(FrameModel, ColoursTakeThreeImagesAndATintTakesNone) {
-    EXPECT_EQ(model(1, true).combination, render::Combination::tinted);
-    EXPECT_EQ(model(1, true).images, 1);
-    const auto colored = model(3);
+    const auto tinted = model({1, SpectrumOf::look, true});
+    EXPECT_EQ(tinted.combination, render::Combination::tinted);
+    EXPECT_EQ(tinted.images, 1);
+    const auto colored = model({3, SpectrumOf::channel, true});
     EXPECT_EQ(colored.combination, render::Combination::channels);
     EXPECT_EQ(colored.images, 3);
     EXPECT_EQ(colored.slices, 3);
     EXPECT_FALSE(isLeftOut(colored, render::LeftOut::color));
     EXPECT_DOUBLE_EQ(colored.transformOperations, 3.0 * model().transformOperations);
+}
+
+// Slices of layers add up before the transform: two or five grey ones make one image, and coloured
+// ones three.
+TEST_F(FrameModel, LayersTakeASliceEachAndNoImage) {
+    for (const int count : {2, 5}) {
+        const auto grey = model({count, SpectrumOf::layer, false});
+        EXPECT_EQ(grey.spectra.front().of, SpectrumOf::layer);
+        EXPECT_EQ(grey.slices, count);
+        EXPECT_EQ(grey.images, 1);
+        EXPECT_TRUE(isLeftOut(grey, render::LeftOut::color));
+        EXPECT_EQ(model({count, SpectrumOf::layer, true}).images, 3);
+    }
+}
+
+TEST_F(FrameModel, ColouredLightMakesThreeImagesOfAGreyField) {
+    m_scene.shading.lights.emplace_back();
+    EXPECT_EQ(model().images, 1);
+    m_scene.shading.lights.front().color = {1.0, 0.6, 0.2};
+    EXPECT_EQ(model().images, 3);
+    EXPECT_EQ(model().combination, render::Combination::channels);
+}
+
+// The frame is that of the scene's camera: half the pixels, about half the work.
+TEST_F(FrameModel, TheFrameHasTheSizeOfTheCamera) {
+    const auto whole = model();
+    m_scene.camera.width /= 2;
+    m_scene.camera.panMm = {};
+    const auto part = model();
+    EXPECT_LT(part.multiplyAdds, whole.multiplyAdds);
+    EXPECT_LT(part.frameBytes, whole.frameBytes);
+    EXPECT_EQ(part.spectrumBytes, whole.spectrumBytes);
 }
 
 } // namespace

@@ -20,7 +20,7 @@ TEST(ImageDefinition, RollOffIsOneThenFallsToZero) {
     EXPECT_EQ(render::rollOffFactor(0.0, 0.9999), 1.0); // F = 0: a sharp edge
 }
 
-// A reconstruction passes constants: K(0) = 1 and K(q) = 0 at every other whole q.
+// A reconstruction keeps constants: K(0) = 1 and K(q) = 0 at every other integer q.
 TEST(ImageDefinition, ReconstructionsKeepConstants) {
     for (const auto r : {Reconstruction::cubic, Reconstruction::linear, Reconstruction::bandLimited,
                          Reconstruction::spline}) {
@@ -42,8 +42,8 @@ TEST(ImageDefinition, LinearIsTheTransformOfTheTent) {
     }
 }
 
-// Keys 1981, eq. 15 with a = -1/2: pieces of third order, which Simpson's rule integrates to the
-// fourth power of its step: 1e-12 here.
+// Keys 1981, eq. 15 with a = -1/2, is piecewise cubic. The error of Simpson's rule on each piece is
+// of the fourth power of its step: 1e-12 here.
 TEST(ImageDefinition, CubicIsTheTransformOfKeysConvolution) {
     const auto keys = [](double x) {
         return x < 1.0 ? (1.5 * x - 2.5) * x * x + 1.0 : ((-0.5 * x + 2.5) * x - 4.0) * x + 2.0;
@@ -65,7 +65,7 @@ TEST(ImageDefinition, CubicIsTheTransformOfKeysConvolution) {
     }
 }
 
-// Interpolating: the sum of K over all periods is 1, so that samples keep their values.
+// A reconstruction interpolates if the sum of K over all periods is 1: samples keep their values.
 TEST(ImageDefinition, CubicAndLinearInterpolate) {
     for (const auto r : {Reconstruction::cubic, Reconstruction::linear, Reconstruction::spline})
         for (const double q : {0.05, 0.3, 0.5}) {

@@ -34,8 +34,9 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
         fourier::Spectrum::prepare(field.values, layout)));
     const auto exact = reference::WideKernel(field.values, field.support).image(camera, {});
     const double error = test::relativeL2(engine.render(camera, {}).samples, exact);
-    // What the kernel leaves at padding 2, by the energy in its ghosts, with every ghost inside
-    // the image, and rounding; and the tails of the roll-off that any field's room leaves.
+    // The tolerance adds up the kernel's error at padding 2, from the energy of its aliases with
+    // all of them inside the image, rounding, and the roll-off's tails that fold back for any
+    // field.
     const auto energy = render::energyMarginals(field.values, field.support);
     std::array<render::AxisError, 3> axes;
     for (int d = 0; d < 3; ++d)
@@ -69,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Kernels, EveryWidth,
                                                           fourier::Storage::float32)));
 
 // Every path of the vector code: one spectrum, moments, several slices, light of three colours. The
-// spectrum stands for that of its own gradient.
+// spectrum also serves as the spectrum of its gradient.
 const std::vector<shading::Shading> shadings{
     {},
     {.cue = {shading::CueKind::linear, 1.0}},
@@ -84,8 +85,8 @@ render::CpuEngine shadedEngine(const std::shared_ptr<const fourier::Spectrum> &s
             threads};
 }
 
-// The promise of CpuEngine: 2e-6 of the largest value between instruction sets, which add in
-// different orders and fuse multiplications or do not.
+// CpuEngine promises that instruction sets agree within 2e-6 of the largest value. They add in
+// different orders, and only some fuse multiplications and additions.
 TEST(InstructionSets, AgreeWithinRounding) {
     const auto lattice = test::tiltedLattice({32, 30, 17}, {1, 1, 2}, 10);
     const auto field = test::noiseField(lattice);

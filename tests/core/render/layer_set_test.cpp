@@ -6,6 +6,7 @@
 #include "core/classify/layers.h"
 #include "core/phantom/phantom.h"
 #include "core/reference/wide_kernel.h"
+#include "core/render/prepared_engine.h"
 #include "core/task/error.h"
 #include "tests/support/fields.h"
 
@@ -60,8 +61,8 @@ Look alternating(int points) {
 class Layers : public testing::TestWithParam<fourier::Storage> {
 protected:
     render::Scene scene = sceneOf(head().lattice(), GetParam());
-    // Two images of the same sum differ by the rounding of cells: every layer's, 2.1e-4 of it, and
-    // the sum's own; or of sums in single precision.
+    // Two images of the same sum differ by the rounding of binary16 cells, 2.1e-4 for each layer
+    // and for the sum, or by the rounding of sums in single precision.
     double rounding = GetParam() == fourier::Storage::binary16 ? 3e-4 : 1e-6;
 };
 
@@ -71,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Storages, Layers,
 TEST_P(Layers, AllWeightsOneIsThePlainProjection) {
     const auto layers = layersOf(scene, {});
     const auto plain = classify::densityField(head(), window);
-    // Under the layers' own plan: ghosts are linear too and cancel in the comparison.
+    // The layers' own plan: aliasing is linear too and cancels in the comparison.
     const auto engine = render::makeEngine(
         {{plain}, {}, shading::shadingScale(plain.values.lattice())}, {}, layers->plan());
     const auto expected = engine->render(scene.camera, scene.image).samples;
@@ -79,7 +80,7 @@ TEST_P(Layers, AllWeightsOneIsThePlainProjection) {
     const auto summed = layers->render(scene.camera, scene.image, {}, ones);
     EXPECT_EQ(summed.channels, 1);
     EXPECT_LE(test::relativeL2(summed.samples, expected), rounding);
-    // Once more: now from the kept projections.
+    // Again, now from the kept projections.
     const auto kept = layers->render(scene.camera, scene.image, {}, ones);
     EXPECT_LE(test::relativeL2(kept.samples, expected), rounding);
 }
@@ -137,7 +138,7 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
         ASSERT_EQ(image.channels, expected.channels);
         EXPECT_LE(test::relativeL2(image.samples, expected.samples), allowed) << weight;
     }
-    // One colour alone is a grey picture times it.
+    // With a single colour, the picture is a grey picture times that colour.
     look.classes.resize(1);
     const auto single = layersOf(scene, look);
     const auto colored =
@@ -164,7 +165,41 @@ TEST(LayerSet, IsReducedToTheBudgetOrRefused) {
     const auto half = layersOf(scene, {}, {whole->bytes() / 2});
     EXPECT_GT(half->reduction(), 1);
     EXPECT_LT(half->bytes(), whole->bytes() / 2);
+    EXPECT_FALSE(whole->detailLoss());
+    ASSERT_TRUE(half->detailLoss());
     EXPECT_THROW(layersOf(scene, {}, {1000}), task::Error);
+}
+
+// The error of a sum of layers against the study, whether samples were joined or not.
+TEST(LayerSet, KnowsTheErrorOfItsSums) {
+    const render::Scene scene = sceneOf(head().lattice(), fourier::Storage::binary16);
+    Look look = alternating(4);
+    const auto whole = layersOf(scene, look), half = layersOf(scene, look, {whole->bytes() / 2});
+    ASSERT_GT(half->reduction(), 1);
+    for (const std::vector<double> &weights :
+         {std::vector<double>{0, 2, 0, 2}, {0.3, 0.3, 0.3, 0.3}, {0, 0, 1.5, 0}, {1, 0, 0, 2}}) {
+        look.transferFunction.weights = weights;
+        const auto shares = classify::mixtureOf(look).shares;
+        const auto fields = classify::shownFields(head(), window, look, nullptr);
+        const auto truth = exactOf(fields.channels.front(), scene);
+        for (const auto &layers : {whole, half}) {
+            const render::PreparedEngine prepared{
+                std::make_shared<render::MixtureEngine>(layers, shares),
+                layers->plan(),
+                layers->bytes(),
+                false,
+                layers->viewError(),
+                layers->reduction() > 1,
+                layers->detailLoss(),
+                render::SpectrumOf::layer};
+            const auto picture = prepared.engine->render(scene.camera, scene.image);
+            const auto said = render::errorOf(prepared, picture, scene.camera, scene.image, {});
+            const double measured = test::relativeL2(picture.samples, truth);
+            ASSERT_TRUE(said);
+            EXPECT_GE(*said, measured);
+            EXPECT_LE(*said, 8.0 * measured); // of its order
+        }
+    }
 }
 
 TEST(LayerSet, IsCancelled) {

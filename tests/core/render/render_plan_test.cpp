@@ -30,7 +30,7 @@ TEST(RenderPlan, PadsTheSupportOnly) {
     const auto plan = render::planRender(sceneFor(lattice), render::summarise(field));
     EXPECT_GE(plan.spectrum.padded.i, 27); // 1.25 times 21
     EXPECT_LE(plan.spectrum.padded.i, 42); // twice 21
-    EXPECT_EQ(plan.spectrum.padded.j, 16); // the least there is
+    EXPECT_EQ(plan.spectrum.padded.j, 16); // the minimum
     EXPECT_EQ(plan.spectrum.padded.k, 16);
 }
 
@@ -39,13 +39,14 @@ TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
     const auto field = test::noiseField(lattice);
     auto scene = sceneFor(lattice);
     const auto plan = render::planRender(scene, render::summarise(field));
-    // The projection of a cube is up to sqrt(3) N wide; half of it beside half of the image.
+    // The projection of a cube is up to sqrt(3) N wide. A slice needs half of it plus half the
+    // image.
     const auto grid = render::sliceGrid(scene.camera, plan.room, lattice, scene.image);
     EXPECT_GE(grid.columns, 173);
     scene.camera.width = 40;
     const auto narrow = render::sliceGrid(scene.camera, plan.room, lattice, scene.image);
     EXPECT_LT(narrow.columns, grid.columns);
-    EXPECT_GE(narrow.rows, grid.rows); // a crop holds less than its copies bring
+    EXPECT_GE(narrow.rows, grid.rows); // aliases weigh more in a crop
     EXPECT_GE(narrow.columns, 20 + 86);
 }
 
@@ -70,7 +71,7 @@ TEST(RenderPlan, TighterTolerancesTakeMoreTapsAndThenFloatCells) {
     const auto lattice = volume::Lattice::centred({48, 48, 48}, {1, 1, 1});
     const auto summary = render::summarise(test::noiseField(lattice));
     auto scene = sceneFor(lattice);
-    scene.image.rollOff = 1.0; // no tails to speak of
+    scene.image.rollOff = 1.0; // negligible tails
     int width = 0;
     for (const double tolerance : {3e-2, 1e-2, 1e-3, 1e-4, 2e-5}) {
         scene.tolerance = tolerance;
@@ -83,17 +84,17 @@ TEST(RenderPlan, TighterTolerancesTakeMoreTapsAndThenFloatCells) {
     }
 }
 
-// How a picture is framed: the pixel in shortest steps, its size in pixels (0: the default), the
-// pan in pixels.
+// The framing of a picture: pixel size in shortest steps, side in pixels (0: the default), pan in
+// pixels.
 struct Framing {
     double pixel;
     int side;
     double pan;
 };
 
-// The plan's prediction bounds the pictures of the whole from any side: these two are not the
-// worst. Beside each picture stands its own, also of crops, which have their copies' tails from the
-// whole projection: at most four and a half times too high.
+// The plan's prediction bounds uncropped pictures from any direction; the two views here are not
+// the worst ones. Each picture also has a prediction of its own, crops included, whose aliased
+// tails come from the whole projection. It is at most four and a half times too high.
 TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
     for (const auto size : {volume::GridSize{32, 32, 32}, {40, 24, 12}})
         for (const Framing &framing :
@@ -128,8 +129,9 @@ TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
             }
             SCOPED_TRACE(testing::Message() << framing.pixel << " " << framing.side << " "
                                             << framing.pan << ": " << measured);
-            if (framing.side == 0)
+            if (framing.side == 0) {
                 EXPECT_GT(plan.predictedError, measured);
+            }
             EXPECT_LT(plan.predictedError, 20.0 * measured);
         }
 }

@@ -38,14 +38,14 @@ TEST(Scene, JsonKeepsEverything) {
     EXPECT_EQ(same, scene);
 }
 
-// What an engine is planned for as a volume is the same from anywhere and for all that costs
+// The scene planned for the whole volume does not depend on the view, nor on settings that cost
 // nothing.
 TEST(Scene, PlanningForTheVolumeForgetsTheView) {
     const auto lattice = volume::Lattice::centred({40, 30, 20}, {1, 1, 2});
     render::Scene scene;
     scene.tolerance = 1e-4;
     scene.camera.panMm = {3, 4};
-    EXPECT_EQ(render::planningScene(scene, lattice), scene); // of a picture it is the picture's
+    EXPECT_EQ(render::planningScene(scene, lattice), scene); // planned for the picture: unchanged
     scene.plannedFor = render::PlannedFor::volume;
     scene.shading = {.cue = {shading::CueKind::linear, 0.6}, .lights = {{{1, 1, 1}}, {{0, 0, 1}}}};
     render::Scene other = scene;
@@ -57,12 +57,12 @@ TEST(Scene, PlanningForTheVolumeForgetsTheView) {
     EXPECT_EQ(render::planningScene(other, lattice), render::planningScene(scene, lattice));
     EXPECT_EQ(render::planningScene(scene, lattice).tolerance, 1e-4);
     EXPECT_EQ(render::planningScene(scene, lattice).shading.cue.strength, 1.0);
-    // It holds the whole volume.
+    // The picture holds the whole volume.
     const render::Camera camera = render::planningScene(scene, lattice).camera;
     EXPECT_GE(camera.width * camera.pixelMm, 2.0 * lattice.radiusMm() - camera.pixelMm);
 }
 
-// The first version's cubic is the spline, whether it was written or meant.
+// "cubic" meant the spline in the first version of the format, where it was also the default.
 TEST(Scene, ScenesOfTheFirstVersionKeepTheirReconstruction) {
     const auto first = [](const std::string &reconstruction) {
         std::string text = render::toJson({});

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/cli/scene_options.h"
+#include "core/classify/shown_fields.h"
+
+namespace pellucid::cli {
+
+/// The window that a scene's field has: its own, or the volume's default.
+classify::FieldWindow windowFor(const render::Scene &scene, const volume::Volume &volume);
+
+/// The fields that a scene shows of a volume, cropped; the results of steps are not kept.
+/// *Throws* Error{outOfMemory}, Cancelled.
+classify::ShownFields fieldsFor(const render::Scene &scene, const volume::Volume &volume,
+                                const Context &context);
+
+/// Warnings about options that contradict each other or do not suit the volume, a line each.
+std::vector<std::string> lookWarnings(const SceneOptions &options, const CLI::App &command,
+                                      const render::Scene &scene, const volume::Volume &volume);
+
+/// Why all of the fields are empty, a line; empty if one is not.
+std::string whyEmpty(const render::Scene &scene, const volume::Volume &volume,
+                     const classify::ShownFields &fields);
+
+} // namespace pellucid::cli

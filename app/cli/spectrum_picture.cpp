@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/spectrum_picture.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/json_text.h"
+#include "app/cli/scene_fields.h"
+#include "app/cli/terminal.h"
+#include "core/files/image_files.h"
+#include "core/render/planning_scene.h"
+#include "core/render/prepared_engine.h"
+#include "core/render/spectrum_slice.h"
+#include "core/task/error.h"
+#include "core/task/memory.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using task::Error;
+using task::ErrorCode;
+
+} // namespace
+
+void checkSpectrum(const fs::path &out, const CLI::App &command) {
+    if (out.extension() != ".png" && out.extension() != ".npy")
+        throw Error(ErrorCode::usage,
+                    "-o: '" + out.string() + "' must end in .png or .npy with --spectrum");
+    for (const char *option : shadingOptions)
+        if (command.count(option) > 0)
+            throw Error(ErrorCode::usage,
+                        std::string(option) +
+                            ": --spectrum shows the fields without cue and light");
+}
+
+void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
+                   const SceneOptions &options, const CLI::App &command, bool asJson,
+                   const Context &context) {
+    const Input input = openInput(inputOptions, {out}, context);
+    const volume::Volume &volume = input.loaded.volume;
+    render::Scene scene = sceneFor(options, command, volume);
+    scene.shading = {}; // a preset or a scene file may have brought one
+    const task::Progress progress(context.stop);
+    const classify::FieldWindow window = windowFor(scene, volume);
+    const classify::ShownFields fields = fieldsFor(scene, volume, context);
+    if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
+        throw Error(ErrorCode::unusable, why);
+    const auto prepared = render::prepareEngine(
+        render::planningScene(scene, fields.channels.front().values.lattice()), fields,
+        {task::availableMemoryBytes()}, progress);
+    std::vector<std::string> warnings = volume.notes().warnings;
+    const auto warnOf = [&](const std::string &text) {
+        warnings.push_back(text);
+        warn(text);
+    };
+    for (const std::string &text : lookWarnings(options, command, scene, volume))
+        warnOf(text);
+    if (!prepared.viewError) // means of the samples were prepared
+        warnOf(prepared.plan.reason);
+    const int side = std::max({scene.camera.width, scene.camera.height, 2});
+    const render::SpectrumSlice slice =
+        render::spectrumSlice(prepared.engine->parts(), scene.camera, side, progress);
+    if (out.extension() == ".npy")
+        files::writeNpy(out, slice.decibels, side, side);
+    else
+        files::writePng(out, render::greyLevels(slice), side, side);
+    if (!asJson)
+        return;
+    json skipped = json::array();
+    for (const auto &s : input.skipped)
+        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason}});
+    const fourier::SpectrumLayout &layout = prepared.plan.spectrum;
+    std::puts(jsonText({{"size", {side, side}},
+                        {"step_per_mm", slice.stepPerMm},
+                        {"limit_per_mm", slice.limitPerMm},
+                        {"white_decibels", 0.0},
+                        {"black_decibels", render::blackDecibels},
+                        {"window", {window.low, window.high}},
+                        {"series", input.seriesUid},
+                        {"plan",
+                         {{"kernel", layout.kernels[0].name()},
+                          {"padded", sizeJson(layout.padded)},
+                          {"box", sizeJson(layout.box.size())},
+                          {"storage", fourier::storageName(layout.storage)},
+                          {"predicted_error", prepared.plan.predictedError},
+                          {"reason", prepared.plan.reason}}},
+                        {"warnings", warnings},
+                        {"skipped", skipped}})
+                  .c_str());
+}
+
+} // namespace pellucid::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/render/camera.h"
+#include "core/render/cpu_engine.h"
+#include "core/task/progress.h"
+
+namespace pellucid::render {
+
+/// The magnitude of the central slice of a spectrum over the whole band of a picture.
+struct SpectrumSlice {
+    int side = 0;            ///< frequencies along U and along V
+    double stepPerMm = 0.0;  ///< from one frequency to the next, cycles per mm
+    double limitPerMm = 0.0; ///< radius of the band's disc: half a cycle per pixel of the camera
+    /// 20 log10(|D(s)| / |D(0)|), at least `lowestDecibels`. *Shape*: side x side, U to the right,
+    /// V upward, rows from the top; frequency 0 is in row and column side/2.
+    std::vector<float> decibels;
+};
+
+/// What is stored for frequencies that are this weak, or 0.
+inline constexpr double lowestDecibels = -200.0;
+/// The decibels that are black; 0 dB is white.
+inline constexpr double blackDecibels = -100.0;
+
+/// Samples |D(s)| at s = stepPerMm (n U + m V), with stepPerMm = 1/(side camera.pixelMm): the
+/// frequencies that a frame of this camera transforms, before reconstruction, roll-off, cue and
+/// light. It reads the cells that a frame reads, with the kernel of the plan, so it shows the
+/// spectrum as the frame finds it, interpolation errors included; the corners beyond the disc,
+/// which a frame leaves out, are sampled too. Several fields count as their sum, each by the mean
+/// of its shares of red, green and blue. *Requires*: side is at least 2; the engine has a field.
+/// *Throws* Error{unusable} if the sum is 0 at frequency 0, so that there is nothing to compare
+/// with; Error{outOfMemory}; Cancelled. *Source*: Cheng 2007, figures 4.2 to 4.9.
+SpectrumSlice spectrumSlice(const EngineParts &engine, const Camera &camera, int side,
+                            const task::Progress &progress = {});
+
+/// Grey levels of a slice, linear in decibels: black at `blackDecibels` and below, white at 0 and
+/// above. *Shape*: side x side x 4, opaque RGBA.
+std::vector<std::uint8_t> greyLevels(const SpectrumSlice &slice);
+
+} // namespace pellucid::render

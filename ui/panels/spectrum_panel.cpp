@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/panels/spectrum_panel.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include "ui/panels/spectrum_plot.h"
+
+namespace pellucid::ui {
+
+SpectrumPanel::SpectrumPanel(const Theme &theme, QWidget *parent)
+    : QWidget(parent), m_plot(new SpectrumPlot(theme)), m_hint(new QLabel), m_readout(new QLabel) {
+    setObjectName("spectrumPanel");
+    setAttribute(Qt::WA_StyledBackground);
+    m_hint->setObjectName("spectrumHint");
+    m_hint->setProperty("role", "muted");
+    m_hint->setWordWrap(true);
+    m_hint->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    m_readout->setObjectName("spectrumReadout");
+    m_readout->setProperty("role", "small");
+    m_readout->setAccessibleName(tr("Frequency and strength below the mouse"));
+    m_readout->setFixedHeight(m_readout->fontMetrics().height()); // nothing moves when it is empty
+    auto *column = new QVBoxLayout(this);
+    column->setContentsMargins(14, 2, 14, 8);
+    column->setSpacing(0);
+    column->addWidget(m_plot, 1);
+    column->addWidget(m_readout);
+    column->addWidget(m_hint, 1);
+    connect(m_plot, &SpectrumPlot::pointedAt, m_readout, &QLabel::setText);
+    clear({});
+}
+
+void SpectrumPanel::showSlice(const render::SpectrumSlice &slice) {
+    m_plot->setSlice(slice);
+    m_hint->hide();
+    m_plot->show();
+    m_readout->show();
+}
+
+void SpectrumPanel::clear(const QString &reason) {
+    m_plot->setSlice({});
+    m_readout->clear();
+    m_plot->hide();
+    m_readout->hide();
+    m_hint->setText(reason.isEmpty() ? tr("The spectrum of the view that the projection shows.")
+                                     : reason);
+    m_hint->show();
+}
+
+void SpectrumPanel::showEvent(QShowEvent *event) {
+    QWidget::showEvent(event);
+    emit visibilityChanged(true);
+}
+
+void SpectrumPanel::hideEvent(QHideEvent *event) {
+    QWidget::hideEvent(event);
+    emit visibilityChanged(false);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+#include "core/render/spectrum_slice.h"
+#include "ui/theme.h"
+
+class QLabel;
+
+namespace pellucid::ui {
+
+class SpectrumPlot;
+
+/// The slice of the spectrum that the projection's view takes, with what lies below the mouse.
+class SpectrumPanel : public QWidget {
+    Q_OBJECT
+public:
+    explicit SpectrumPanel(const Theme &theme, QWidget *parent = nullptr);
+
+    void showSlice(const render::SpectrumSlice &slice);
+    /// `reason`: why there is none; empty: nothing is open.
+    void clear(const QString &reason);
+
+signals:
+    /// Whether it is on the screen.
+    void visibilityChanged(bool isVisible);
+
+protected:
+    void showEvent(QShowEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
+
+private:
+    SpectrumPlot *m_plot;
+    QLabel *m_hint, *m_readout;
+};
+
+} // namespace pellucid::ui
