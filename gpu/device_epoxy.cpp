@@ -6,8 +6,8 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include "core/system/log.h"
 #include "core/task/error.h"
-#include "core/task/log.h"
 
 namespace pellucid::gpu {
 
@@ -21,14 +21,14 @@ Device::Device(std::unique_ptr<Context> context) : m_context(std::move(context))
                               fmt::format("OpenGL here is {}.{} ({}); the GPU engine needs 4.3",
                                           m_capabilities.version / 10, m_capabilities.version % 10,
                                           m_capabilities.renderer));
-        task::log(fmt::format("OpenGL {}.{}, {}", m_capabilities.version / 10,
-                              m_capabilities.version % 10, m_capabilities.renderer));
+        system::log(fmt::format("OpenGL {}.{}, {}", m_capabilities.version / 10,
+                                m_capabilities.version % 10, m_capabilities.renderer));
         glEnable(GL_DEBUG_OUTPUT);
         glDebugMessageCallback(
             [](GLenum, GLenum, GLuint, GLenum severity, GLsizei length, const GLchar *text,
                const void *) {
                 if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
-                    task::log("OpenGL: " + std::string(text, std::size_t(length)));
+                    system::log("OpenGL: " + std::string(text, std::size_t(length)));
             },
             nullptr);
     };
@@ -96,7 +96,7 @@ void Device::live(const std::stop_token &stop) {
         try {
             work();
         } catch (const std::exception &error) {
-            task::log(std::string("graphics card: ") + error.what());
+            system::log(std::string("graphics card: ") + error.what());
         }
     }
     m_programs.clear();

@@ -65,7 +65,7 @@ std::vector<int> radicesOf(int length) {
     return radices;
 }
 
-GridTables::GridTables(const render::SliceGrid &grid) {
+GridTables::GridTables(const plan::SliceGrid &grid) {
     const auto add = [&](int length, int count) {
         for (int n = 0; n < count; ++n) {
             const double angle = 2.0 * std::numbers::pi * n / length;
@@ -88,8 +88,8 @@ GridTables::GridTables(const render::SliceGrid &grid) {
     }
 }
 
-void setTransforms(FrameBlock &block, const render::SliceGrid &grid, int imageColumns,
-                   int imageRows, const GridTables &tables) {
+void setTransforms(FrameBlock &block, const plan::SliceGrid &grid, int imageColumns, int imageRows,
+                   const GridTables &tables) {
     block.grid = {grid.columns, grid.rows, imageColumns, imageRows};
     block.counts[2] = std::min(imageRows, grid.rows);
     const std::array<std::vector<int>, 2> radices{radicesOf(grid.rows),
@@ -102,7 +102,7 @@ void setTransforms(FrameBlock &block, const render::SliceGrid &grid, int imageCo
     block.tables = tables.tables;
 }
 
-FrameBlock frameBlock(const render::SliceGrid &grid, const render::ImageDefinition &image,
+FrameBlock frameBlock(const plan::SliceGrid &grid, const scene::ImageDefinition &image,
                       const render::FrameGeometry &geometry, const render::Mixing &mixing,
                       const render::FrameShading *shading, const fourier::SpectrumLayout &layout,
                       const TexelLayout &texels, int fieldPages) {

@@ -40,7 +40,7 @@ std::vector<int> radicesOf(int length);
 
 /// What depends on the slice grid alone.
 struct GridTables {
-    explicit GridTables(const render::SliceGrid &grid);
+    explicit GridTables(const plan::SliceGrid &grid);
 
     /// The last row of each column within the band's disc.
     std::vector<std::int32_t> discRows;
@@ -50,8 +50,8 @@ struct GridTables {
 };
 
 /// Sets what the transforms need to know.
-void setTransforms(FrameBlock &block, const render::SliceGrid &grid, int imageColumns,
-                   int imageRows, const GridTables &tables);
+void setTransforms(FrameBlock &block, const plan::SliceGrid &grid, int imageColumns, int imageRows,
+                   const GridTables &tables);
 
 /// How spectra lie in textures: several on top of each other in a page, or one in slabs of planes
 /// that overlap by a kernel's width, a page each.
@@ -72,7 +72,7 @@ struct TexelLayout {
 
 /// The slice of a frame as the shaders see it. *Throws* Error{outOfMemory} if it reaches further
 /// than 2^22 cells. `fieldPages`: those before the gradients' pages.
-FrameBlock frameBlock(const render::SliceGrid &grid, const render::ImageDefinition &image,
+FrameBlock frameBlock(const plan::SliceGrid &grid, const scene::ImageDefinition &image,
                       const render::FrameGeometry &geometry, const render::Mixing &mixing,
                       const render::FrameShading *shading, const fourier::SpectrumLayout &layout,
                       const TexelLayout &texels, int fieldPages);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/render/projection_image.h"
+#include "core/picture/projection_image.h"
 #include "gpu/device.h"
 #include "gpu/frame_block.h"
 #include "gpu/texture.h"
@@ -32,7 +32,7 @@ public:
     /// before they are done.
     void markDrawn() const;
     /// Reads it back. *Throws* Error{noSuchDevice}, Error{outOfMemory}.
-    render::ProjectionImage download() const;
+    picture::ProjectionImage download() const;
 
 private:
     friend class FramePasses;
@@ -47,8 +47,8 @@ private:
 
 /// What the passes of a frame are given.
 struct FrameCommand {
-    render::Camera camera;
-    render::SliceGrid grid;
+    scene::Camera camera;
+    plan::SliceGrid grid;
     FrameBlock block;            ///< but the tables, which the passes have
     std::vector<unsigned> pages; ///< textures
     int fieldPages = 1, slabs = 1, sums = 1, layers = 1, channels = 1;
@@ -79,12 +79,12 @@ public:
     /// Makes a frame and waits for it. *Throws* Error{noSuchDevice}, Error{outOfMemory}.
     std::shared_ptr<const CardPicture> render(FrameCommand &&command, CardTimes *times = nullptr);
     /// A picture of zeros.
-    std::shared_ptr<const CardPicture> empty(const render::Camera &camera, int channels);
+    std::shared_ptr<const CardPicture> empty(const scene::Camera &camera, int channels);
 
 private:
     struct Place;
     friend class CardPicture;
-    std::shared_ptr<CardPicture> pictureFor(const render::Camera &camera, int layers);
+    std::shared_ptr<CardPicture> pictureFor(const scene::Camera &camera, int layers);
 
     std::shared_ptr<Device> m_device;
     OnDevice<Place> m_place;

@@ -28,13 +28,13 @@ double now() {
 
 // The tables of a grid on the card.
 struct CardTables {
-    explicit CardTables(const render::SliceGrid &of) : grid(of), tables(of) {
+    explicit CardTables(const plan::SliceGrid &of) : grid(of), tables(of) {
         rotations.upload(tables.rotations.data(),
                          tables.rotations.size() * sizeof(tables.rotations[0]));
         discRows.upload(tables.discRows.data(),
                         tables.discRows.size() * sizeof(tables.discRows[0]));
     }
-    render::SliceGrid grid;
+    plan::SliceGrid grid;
     GridTables tables;
     Buffer rotations, discRows;
 };
@@ -82,7 +82,7 @@ struct FramePasses::Place {
             query = makeQuery();
     }
 
-    const CardTables &tablesFor(const render::SliceGrid &grid) {
+    const CardTables &tablesFor(const plan::SliceGrid &grid) {
         const auto known = std::find_if(tables.begin(), tables.end(),
                                         [&](const auto &t) { return t->grid == grid; });
         if (known != tables.end()) {
@@ -113,10 +113,10 @@ void CardPicture::markDrawn() const {
     glFlush(); // or nobody else ever sees it pass
 }
 
-render::ProjectionImage CardPicture::download() const {
+picture::ProjectionImage CardPicture::download() const {
     std::vector<float> planes;
     m_passes->device().run([&] { planes = m_texture->download(); });
-    render::ProjectionImage image{m_width, m_height, m_pixelMm, {}, m_channels};
+    picture::ProjectionImage image{m_width, m_height, m_pixelMm, {}, m_channels};
     if (m_channels == 1) {
         image.samples = std::move(planes);
         return image;
@@ -139,7 +139,7 @@ FramePasses::FramePasses(std::shared_ptr<Device> device) : m_device(std::move(de
 
 FramePasses::~FramePasses() = default;
 
-std::shared_ptr<CardPicture> FramePasses::pictureFor(const render::Camera &camera, int layers) {
+std::shared_ptr<CardPicture> FramePasses::pictureFor(const scene::Camera &camera, int layers) {
     auto picture = std::make_shared<CardPicture>();
     const auto isFree = [](const auto &target) { return target.use_count() == 1; };
     const auto free = std::find_if(m_targets.begin(), m_targets.end(), isFree);
@@ -178,7 +178,7 @@ std::shared_ptr<CardPicture> FramePasses::pictureFor(const render::Camera &camer
     return picture;
 }
 
-std::shared_ptr<const CardPicture> FramePasses::empty(const render::Camera &camera, int channels) {
+std::shared_ptr<const CardPicture> FramePasses::empty(const scene::Camera &camera, int channels) {
     std::shared_ptr<CardPicture> picture;
     m_device->run([&] {
         picture = pictureFor(camera, 1);

@@ -5,7 +5,7 @@
 
 namespace pellucid::gpu {
 
-FetchPlan planFetch(const render::RenderPlan &plan, double tolerance,
+FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
                     const shading::Shading &shading) {
     const FetchPlan exact{Fetch::exact, plan.predictedError};
     if (plan.spectrum.width() < 2 || !shading.isPlain()) // one cell is read as it is
@@ -24,7 +24,7 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
 }
 
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
-                     std::vector<render::ChannelShares> shares, const render::SliceRoom &room,
+                     std::vector<render::ChannelShares> shares, const plan::SliceRoom &room,
                      Fetch fetch)
     : m_textures(std::move(textures)), m_shares(std::move(shares)), m_room(room), m_fetch(fetch),
       m_kept(std::make_shared<Kept>()) {}
@@ -49,10 +49,10 @@ std::string GpuEngine::description() const {
     return "GPU engine, " + m_textures->passes()->device().capabilities().renderer;
 }
 
-render::ProjectionImage GpuEngine::render(const render::Camera &camera,
-                                          const render::ImageDefinition &image,
-                                          const shading::Shading &shading,
-                                          render::FrameTimes *times) {
+picture::ProjectionImage GpuEngine::render(const scene::Camera &camera,
+                                           const scene::ImageDefinition &image,
+                                           const shading::Shading &shading,
+                                           picture::FrameTimes *times) {
     CardTimes onCard;
     const auto picture = renderOnCard(camera, image, shading, &onCard);
     if (times != nullptr)
@@ -60,8 +60,8 @@ render::ProjectionImage GpuEngine::render(const render::Camera &camera,
     return picture->download();
 }
 
-std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const render::Camera &camera,
-                                                           const render::ImageDefinition &image,
+std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &camera,
+                                                           const scene::ImageDefinition &image,
                                                            const shading::Shading &shading,
                                                            CardTimes *times) {
     const render::EngineSpectra &spectra = m_textures->spectra();

@@ -18,7 +18,7 @@ struct FetchPlan {
 
 /// The filtered fetches where a plan has room for what their coarse weights add
 /// (`RenderPlan::filterError`), else exact ones; with cue or light all fetches are exact.
-FetchPlan planFetch(const render::RenderPlan &plan, double tolerance,
+FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
                     const shading::Shading &shading = {});
 
 class GpuEngine;
@@ -36,7 +36,7 @@ class GpuEngine final : public render::ProjectionEngine {
 public:
     /// *Shape*: shares as of CpuEngine::setShares.
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
-              std::vector<render::ChannelShares> shares, const render::SliceRoom &room,
+              std::vector<render::ChannelShares> shares, const plan::SliceRoom &room,
               Fetch fetch = Fetch::exact);
 
     const SpectrumTextures &textures() const { return *m_textures; }
@@ -46,20 +46,20 @@ public:
     std::string description() const override;
     render::EngineParts parts() const override;
     /// Reads the picture back. *Throws* Error{outOfMemory}, Error{noSuchDevice}.
-    render::ProjectionImage render(const render::Camera &camera,
-                                   const render::ImageDefinition &image,
-                                   const shading::Shading &shading = {},
-                                   render::FrameTimes *times = nullptr) override;
+    picture::ProjectionImage render(const scene::Camera &camera,
+                                    const scene::ImageDefinition &image,
+                                    const shading::Shading &shading = {},
+                                    picture::FrameTimes *times = nullptr) override;
     /// Leaves it on the card. Cue and light take exact fetches. *Throws* as render.
-    std::shared_ptr<const CardPicture> renderOnCard(const render::Camera &camera,
-                                                    const render::ImageDefinition &image,
+    std::shared_ptr<const CardPicture> renderOnCard(const scene::Camera &camera,
+                                                    const scene::ImageDefinition &image,
                                                     const shading::Shading &shading = {},
                                                     CardTimes *times = nullptr);
 
 private:
     std::shared_ptr<const SpectrumTextures> m_textures;
     std::vector<render::ChannelShares> m_shares;
-    render::SliceRoom m_room;
+    plan::SliceRoom m_room;
     Fetch m_fetch;
     /// What one frame leaves to the next, of these spectra with whatever shares.
     struct Kept {

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/render/compose.h"
+#include "core/picture/compose.h"
 #include "gpu/frame_passes.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
 
 namespace pellucid::gpu {
 
-/// Draws a projection into the current framebuffer's viewport: render::compose on the card. Belongs
-/// to the context that is current when it is made.
+/// Draws a projection into the current framebuffer's viewport: picture::compose on the card.
+/// Belongs to the context that is current when it is made.
 class TonePass {
 public:
     /// *Throws* Error{internal} if the shaders do not compile.
     TonePass();
 
-    void upload(const render::ProjectionImage &image);
+    void upload(const picture::ProjectionImage &image);
     /// Stretches the last image over the viewport.
-    void draw(const render::ToneRange &range, bool inverted) const;
+    void draw(const picture::ToneRange &range, bool inverted) const;
     /// The same of a picture that is on the card already.
-    void draw(const CardPicture &picture, const render::ToneRange &range, bool inverted) const;
+    void draw(const CardPicture &picture, const picture::ToneRange &range, bool inverted) const;
 
 private:
     void draw(unsigned texture, int layers, const std::array<float, 3> &color,
-              const render::ToneRange &range, bool inverted) const;
+              const picture::ToneRange &range, bool inverted) const;
 
     Program m_program;
     PixelTexture m_texture;

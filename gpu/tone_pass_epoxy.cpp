@@ -10,22 +10,22 @@ TonePass::TonePass()
       m_range(m_program.uniform("range")), m_inverted(m_program.uniform("inverted")),
       m_layers(m_program.uniform("layers")), m_color(m_program.uniform("color")) {}
 
-void TonePass::upload(const render::ProjectionImage &image) {
+void TonePass::upload(const picture::ProjectionImage &image) {
     m_texture.upload(image.width, image.height, image.channels, image.samples.data());
 }
 
-void TonePass::draw(const render::ToneRange &range, bool inverted) const {
+void TonePass::draw(const picture::ToneRange &range, bool inverted) const {
     draw(m_texture.id(), 1, {1.0F, 1.0F, 1.0F}, range, inverted);
 }
 
-void TonePass::draw(const CardPicture &picture, const render::ToneRange &range,
+void TonePass::draw(const CardPicture &picture, const picture::ToneRange &range,
                     bool inverted) const {
     draw(picture.texture(), picture.layers(), picture.color(), range, inverted);
     picture.markDrawn();
 }
 
 void TonePass::draw(unsigned texture, int layers, const std::array<float, 3> &color,
-                    const render::ToneRange &range, bool inverted) const {
+                    const picture::ToneRange &range, bool inverted) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glUseProgram(m_program.id());

@@ -17,7 +17,7 @@ public:
     explicit TransformPasses(Device &device);
 
     /// Makes room for the half spectra of images. *Throws* Error{outOfMemory}.
-    void fit(const render::SliceGrid &grid, int images);
+    void fit(const plan::SliceGrid &grid, int images);
     /// Half spectra as [image][column][row]: columns/2 of them, the Nyquist column is zero.
     const Buffer &slice() const { return m_slice; }
     /// Of transformed columns.

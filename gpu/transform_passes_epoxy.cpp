@@ -38,7 +38,7 @@ int TransformPasses::roomFor(int length) {
     return std::max(leastRoom, int(std::bit_ceil(unsigned(length))));
 }
 
-void TransformPasses::fit(const render::SliceGrid &grid, int images) {
+void TransformPasses::fit(const plan::SliceGrid &grid, int images) {
     const std::size_t bytes =
         std::size_t(images) * std::size_t(grid.columns / 2) * std::size_t(grid.rows) * numberBytes;
     if (bytes > m_device.capabilities().storageBytes)

@@ -125,7 +125,7 @@ std::complex<float> AdaptiveSlice::wideSample(const std::array<double, 3> &g) co
     return sum;
 }
 
-AdaptiveSlice::Slice AdaptiveSlice::extract(const render::Camera &camera, int size,
+AdaptiveSlice::Slice AdaptiveSlice::extract(const scene::Camera &camera, int size,
                                             double tolerance) {
     const auto &layout = m_spectrum.layout();
     const volume::Lattice &lattice = m_spectrum.lattice();
@@ -177,11 +177,11 @@ double relativeL2(const AdaptiveSlice::Slice &slice, const AdaptiveSlice::Slice 
     return std::sqrt(energyOf(difference) / energyOf(exact));
 }
 
-AdaptiveComparison compareFilters(AdaptiveSlice &slices, const render::Camera &camera, int size,
+AdaptiveComparison compareFilters(AdaptiveSlice &slices, const scene::Camera &camera, int size,
                                   std::span<const glm::dquat> views, double bound) {
     AdaptiveComparison comparison{.bound = bound};
     std::vector<double> wideMs, adaptiveMs;
-    render::Camera turned = camera;
+    scene::Camera turned = camera;
     for (const glm::dquat &view : views) {
         turned.orientation = view;
         const auto wide = slices.extract(turned, size, 0.0),
@@ -204,7 +204,7 @@ AdaptiveComparison compareFilters(AdaptiveSlice &slices, const render::Camera &c
     return comparison;
 }
 
-AdaptiveComparison compareFiltersAt(AdaptiveSlice &slices, const render::Camera &camera, int size,
+AdaptiveComparison compareFiltersAt(AdaptiveSlice &slices, const scene::Camera &camera, int size,
                                     std::span<const glm::dquat> views, double relativeL2) {
     const auto at = [&](double bound) {
         return compareFilters(slices, camera, size, views, bound);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/fourier/spectrum.h"
-#include "core/render/camera.h"
+#include "core/scene/camera.h"
 
 namespace pellucid::bench {
 
@@ -30,7 +30,7 @@ public:
     };
     /// The slice on a grid of `size` frequencies a side, on one thread; `tolerance` 0: the wide
     /// kernel everywhere, else the relative L2 error that the bound allows.
-    Slice extract(const render::Camera &camera, int size, double tolerance);
+    Slice extract(const scene::Camera &camera, int size, double tolerance);
 
 private:
     std::size_t at(int p, int q, int r) const;
@@ -63,12 +63,12 @@ struct AdaptiveComparison {
 };
 
 /// The two filters from several views. `size`: as of AdaptiveSlice::extract.
-AdaptiveComparison compareFilters(AdaptiveSlice &slices, const render::Camera &camera, int size,
+AdaptiveComparison compareFilters(AdaptiveSlice &slices, const scene::Camera &camera, int size,
                                   std::span<const glm::dquat> views, double bound);
 
 /// The comparison at the loosest bound, within a fiftieth, whose measured error is not above
 /// `relativeL2`; where the narrow filter alone is as good as that, the one that reads fewest cells.
-AdaptiveComparison compareFiltersAt(AdaptiveSlice &slices, const render::Camera &camera, int size,
+AdaptiveComparison compareFiltersAt(AdaptiveSlice &slices, const scene::Camera &camera, int size,
                                     std::span<const glm::dquat> views, double relativeL2);
 
 /// The number of real multiply-adds in a frame's slices. Weighting a complex cell by a real tap

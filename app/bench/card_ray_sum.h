@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "core/render/camera.h"
+#include "core/scene/camera.h"
 #include "core/volume/volume.h"
 #include "gpu/frame_passes.h"
 
@@ -21,7 +21,7 @@ public:
         std::vector<float> samples; ///< *Units*: field times mm
         double cardMs = 0.0;        ///< by the card's clock
     };
-    Image render(const render::Camera &camera, double stepMm);
+    Image render(const scene::Camera &camera, double stepMm);
 
 private:
     struct Place;

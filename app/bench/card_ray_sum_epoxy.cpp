@@ -46,7 +46,7 @@ CardRaySum::CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::V
 
 CardRaySum::~CardRaySum() = default;
 
-CardRaySum::Image CardRaySum::render(const render::Camera &camera, double stepMm) {
+CardRaySum::Image CardRaySum::render(const scene::Camera &camera, double stepMm) {
     const glm::dmat3 axes = camera.axes();
     const glm::dmat3 toVoxels =
         glm::inverse(glm::dmat3(m_lattice.step(0), m_lattice.step(1), m_lattice.step(2)));

@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/accuracy/view_error.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
-#include "core/render/prepared_engine.h"
-#include "core/render/view_error.h"
 
 namespace pellucid::bench {
 
@@ -201,7 +201,7 @@ glm::dquat viewOf(Genes &genes, const volume::Lattice &lattice, const glm::dvec3
 }
 
 // Crops the picture, off centre.
-void cropPicture(Genes &genes, render::Camera &camera) {
+void cropPicture(Genes &genes, scene::Camera &camera) {
     const auto side = [&](int pixels) {
         return std::max(8, 2 * int(0.5 * pixels * genes.between(0.3, 1.0)));
     };
@@ -246,7 +246,7 @@ Trial trialOf(const Candidate &candidate, Asked asked) {
     const Shape shape = shapeOf(kind, genes, lattice);
     std::string view;
     Trial trial;
-    trial.scene.camera = render::defaultCamera(lattice);
+    trial.scene.camera = scene::defaultCamera(lattice);
     trial.scene.camera.orientation = viewOf(genes, lattice, shape.along, view);
     trial.scene.tolerance = tolerance;
     const volume::GridSize size = lattice.size();
@@ -266,7 +266,7 @@ Trial trialOf(const Candidate &candidate, Asked asked) {
     trial.field = classify::densityField(
         volume::Volume(lattice, std::move(samples), volume::ValueUnit::none), {0.0, 1.0});
     // The zoom changes the pixel size; the picture still holds the whole field.
-    render::Camera &camera = trial.scene.camera;
+    scene::Camera &camera = trial.scene.camera;
     camera.pixelMm *= zoom;
     camera.width = camera.height = 2 * int(std::ceil(0.5 * camera.width / zoom));
     std::string more;
@@ -287,13 +287,13 @@ Trial trialOf(const Candidate &candidate, Asked asked) {
 }
 
 Verdict judge(const Trial &trial) {
-    const render::Scene &scene = trial.scene;
+    const scene::Scene &scene = trial.scene;
     const classify::ShownFields fields{{trial.field}, {}};
-    const auto shaded = render::shadedFields(fields.channels, scene.shading,
-                                             shading::shadingScale(trial.field.values.lattice()));
-    const auto summaries = render::summarise(shaded, scene.shading.cue);
-    const auto plan = render::planRender(scene, summaries, render::imagesOf(1, scene.shading));
-    const auto engine = render::makeEngine(shaded, {}, plan);
+    const auto shaded = prepare::shadedFields(fields.channels, scene.shading,
+                                              shading::shadingScale(trial.field.values.lattice()));
+    const auto summaries = prepare::summarise(shaded, scene.shading.cue);
+    const auto plan = plan::planRender(scene, summaries, prepare::imagesOf(1, scene.shading));
+    const auto engine = prepare::makeEngine(shaded, {}, plan);
     const auto image = engine->render(scene.camera, scene.image, scene.shading);
     const auto truth =
         scene.shading.isPlain()
@@ -308,7 +308,7 @@ Verdict judge(const Trial &trial) {
     }
     Verdict verdict{
         plan.predictedError, energy > 0.0 ? std::sqrt(difference / energy) : 0.0,
-        render::ViewErrorModel(plan, summaries)
+        accuracy::ViewErrorModel(plan, summaries)
             .relativeError(image, scene.camera, scene.image, engine->parts(), scene.shading),
         true};
     verdict.keepsTolerance = plan.predictedError <= trial.scene.tolerance;

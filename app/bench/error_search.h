@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/classify/density_field.h"
-#include "core/render/scene.h"
+#include "core/scene/scene.h"
 
 namespace pellucid::bench {
 
@@ -21,7 +21,7 @@ struct Candidate {
 struct Trial {
     std::string name; ///< kind of field, size, view and tolerance
     classify::DensityField field;
-    render::Scene scene;
+    scene::Scene scene;
 };
 /// The pictures to search. `wholePicture`: uncropped, without cue and light; the plan's error
 /// bounds each of them. `anyPicture`: any cue, light and crop; each picture has its own predicted

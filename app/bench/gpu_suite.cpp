@@ -7,8 +7,8 @@
 
 #include "app/bench/card_ray_sum.h"
 #include "app/bench/suites.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/reference/shaded_field.h"
-#include "core/render/prepared_engine.h"
 #include "gpu/gpu_engine.h"
 #include "gpu/surfaceless_context.h"
 
@@ -24,9 +24,9 @@ struct Timed {
 };
 
 // Frames that stay on the card, from random views; the first ones compile and warm up.
-Timed timeFrames(gpu::GpuEngine &engine, const render::Scene &scene, int count) {
+Timed timeFrames(gpu::GpuEngine &engine, const scene::Scene &scene, int count) {
     Timed timed;
-    render::Camera camera = scene.camera;
+    scene::Camera camera = scene.camera;
     int toCome = -2;
     for (const glm::dquat &orientation : randomViews(count + 2)) {
         camera.orientation = orientation;
@@ -47,8 +47,8 @@ Timed timeFrames(gpu::GpuEngine &engine, const render::Scene &scene, int count) 
 }
 
 // A frame of one pixel: what asking and answering cost, whatever is computed.
-Timed timeLeast(gpu::GpuEngine &engine, const render::Scene &scene, int count) {
-    render::Scene least = scene;
+Timed timeLeast(gpu::GpuEngine &engine, const scene::Scene &scene, int count) {
+    scene::Scene least = scene;
     least.camera.pixelMm *= 64.0;
     least.camera.width = least.camera.height = 1;
     return timeFrames(engine, least, count);
@@ -75,9 +75,9 @@ public:
 
     void measureCase(const Case &of) {
         const classify::ShownFields fields{{m_subject.field}, {}};
-        render::Scene scene{.camera = m_camera, .shading = of.shading, .tolerance = of.tolerance};
+        scene::Scene scene{.camera = m_camera, .shading = of.shading, .tolerance = of.tolerance};
         scene.interpolation.storage = of.storage;
-        const auto prepared = render::prepareEngine(scene, fields, {});
+        const auto prepared = prepare::prepareEngine(scene, fields, {});
         Row row = plannedRow("gpu", of.name + " " + m_subject.name,
                              m_subject.field.values.lattice().size(), prepared.plan, scene, 0);
         fillTimes(row, *prepared.engine, scene, m_views);
@@ -130,7 +130,7 @@ private:
         CardRaySum rays(m_card, m_subject.field.values);
         const double step = m_subject.field.values.lattice().shortestStepMm();
         std::vector<double> cast;
-        render::Camera camera = m_camera;
+        scene::Camera camera = m_camera;
         for (const glm::dquat &orientation : randomViews(m_views)) {
             camera.orientation = orientation;
             cast.push_back(rays.render(camera, step).cardMs);
@@ -139,18 +139,18 @@ private:
         for (int view = 0; view < m_truth.views(); ++view)
             m_rayError = std::max(
                 m_rayError, compare(rays.render(m_truth.camera(view), step).samples,
-                                    m_truth.image(view, {render::Reconstruction::linear, 0.05}))
+                                    m_truth.image(view, {scene::Reconstruction::linear, 0.05}))
                                 .relativeL2);
     }
 
-    static int filteredTaps(const render::RenderPlan &plan) {
+    static int filteredTaps(const plan::RenderPlan &plan) {
         const int pairs = (plan.spectrum.width() + 1) / 2;
         return pairs * pairs * pairs;
     }
 
     // Of the views of the truth; of a shaded field, which is another from each view, of one.
     std::vector<std::vector<double>> truthsOf(const classify::ShownFields &fields,
-                                              const render::Scene &scene) {
+                                              const scene::Scene &scene) {
         if (!scene.shading.isPlain())
             return {reference::shadedImage(fields, scene.shading, m_truth.camera(0), scene.image)};
         std::vector<std::vector<double>> truths;
@@ -159,7 +159,7 @@ private:
         return truths;
     }
 
-    ImageError worstError(render::ProjectionEngine &engine, const render::Scene &scene,
+    ImageError worstError(render::ProjectionEngine &engine, const scene::Scene &scene,
                           const std::vector<std::vector<double>> &truths) {
         ImageError worst{0.0, 0.0, 1e9};
         for (std::size_t view = 0; view < truths.size(); ++view) {
@@ -174,7 +174,7 @@ private:
     const Report &m_report;
     std::shared_ptr<gpu::FramePasses> m_card;
     Subject m_subject;
-    render::Camera m_camera;
+    scene::Camera m_camera;
     Truth m_truth;
     int m_views;
     double m_rayMs = 0.0, m_rayError = 0.0;

@@ -11,13 +11,13 @@ void runHardSuite(const Report &report) {
     for (const HardSubject &hard : hardSubjects()) {
         const Subject subject{hard.name, hard.make()};
         Measurement how;
-        how.scene.camera = render::defaultCamera(subject.field.values.lattice());
+        how.scene.camera = scene::defaultCamera(subject.field.values.lattice());
         how.views = 4; // a speed that nobody asks for
         how.transform = false;
         Truth truth(subject, how.scene.camera, 6);
-        for (const double tolerance : {1e-2, render::Scene().tolerance, 1e-4, 1e-5}) {
+        for (const double tolerance : {1e-2, scene::Scene().tolerance, 1e-4, 1e-5}) {
             how.scene.tolerance = tolerance;
-            const bool isDefault = tolerance == render::Scene().tolerance;
+            const bool isDefault = tolerance == scene::Scene().tolerance;
             Row row = measure(
                 "hard",
                 fmt::format("{}{}, {:.2g}", isDefault ? "default " : "", subject.name, tolerance),

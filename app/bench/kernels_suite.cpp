@@ -21,7 +21,7 @@ std::vector<std::string> kernelNames() {
 
 void measureKernels(const Report &report, const Subject &subject, int views) {
     Measurement how;
-    how.scene.camera = render::defaultCamera(subject.field.values.lattice());
+    how.scene.camera = scene::defaultCamera(subject.field.values.lattice());
     how.transform = false;
     how.peers = true;
     Truth truth(subject, how.scene.camera, views);

@@ -7,8 +7,8 @@
 
 #include "core/classify/layers.h"
 #include "core/classify/shown_fields.h"
+#include "core/prepare/layer_set.h"
 #include "core/reference/shaded_field.h"
-#include "core/render/layer_set.h"
 
 namespace pellucid::bench {
 
@@ -18,8 +18,8 @@ constexpr int views = 48;
 // Weight changes at each of the views that stand still.
 constexpr int stillViews = 6, changes = 8;
 
-render::Camera truthCamera(const LookSubject &subject) {
-    render::Camera camera = subject.scene.camera;
+scene::Camera truthCamera(const LookSubject &subject) {
+    scene::Camera camera = subject.scene.camera;
     camera.orientation = randomViews(1, 11).front();
     return camera;
 }
@@ -45,12 +45,12 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
     const std::vector<double> exact =
         reference::shadedImage(fields, {}, truthCamera(subject), subject.scene.image);
     const auto mixture = classify::mixtureOf(look);
-    const auto plain = render::prepareEngine(
+    const auto plain = prepare::prepareEngine(
         subject.scene, {{classify::densityField(subject.volume, subject.window)}, {}}, {});
     {
         double start = millisecondsNow();
         // The fields are part of what a change of a range costs.
-        const auto prepared = render::prepareEngine(
+        const auto prepared = prepare::prepareEngine(
             subject.scene, classify::shownFields(subject.volume, subject.window, look, nullptr),
             {});
         Row row = plannedRow(suite, name + ", settled", subject.volume.lattice().size(),
@@ -66,7 +66,7 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
         report(row);
     }
     double start = millisecondsNow();
-    const auto layers = render::LayerSet::prepare(
+    const auto layers = prepare::LayerSet::prepare(
         subject.scene, mixture.layers.size(),
         [&](std::size_t n, const task::Progress &progress) {
             return classify::layerField(subject.volume, subject.window, mixture.layers[n], nullptr,
@@ -82,7 +82,7 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
             std::hypot(*summed.predictedError, loss->relativeError(mixture.shares, {}));
     Row kept = summed;
     kept.name = name + ", weights move";
-    render::MixtureEngine engine(layers, mixture.shares);
+    prepare::MixtureEngine engine(layers, mixture.shares);
     const double plainMs = fillTimesInTurns(summed, engine, *plain.engine, subject.scene, views);
     fillError(summed,
               compare(engine.render(truthCamera(subject), subject.scene.image).samples, exact));
@@ -90,7 +90,7 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
     report(summed);
 
     std::vector<double> first, later;
-    render::Camera camera = subject.scene.camera;
+    scene::Camera camera = subject.scene.camera;
     auto shares = mixture.shares;
     for (const glm::dquat &orientation : randomViews(stillViews)) {
         camera.orientation = orientation;
@@ -126,10 +126,10 @@ std::vector<shading::Light> threeLights(bool colored) {
 }
 
 ShadedFrames measureShaded(const std::string &suite, const std::string &name,
-                           const classify::ShownFields &fields, const render::Scene &scene,
+                           const classify::ShownFields &fields, const scene::Scene &scene,
                            render::ProjectionEngine &plain) {
     const double start = millisecondsNow();
-    ShadedFrames frames{{}, render::prepareEngine(scene, fields, {})};
+    ShadedFrames frames{{}, prepare::prepareEngine(scene, fields, {})};
     const double prepareMs = millisecondsNow() - start;
     render::ProjectionEngine &engine = *frames.prepared.engine;
     Row row = plannedRow(suite, name, fields.channels.front().values.lattice().size(),
@@ -138,7 +138,7 @@ ShadedFrames measureShaded(const std::string &suite, const std::string &name,
     row.bytes = double(frames.prepared.bytes);
     const double plainMs = fillTimesInTurns(row, engine, plain, scene, views);
     row.note = ratioText(row, plainMs);
-    render::Camera camera = scene.camera;
+    scene::Camera camera = scene.camera;
     camera.orientation = randomViews(1, 11).front();
     fillError(row, compare(engine.render(camera, scene.image, scene.shading).samples,
                            reference::shadedImage(fields, scene.shading, camera, scene.image)));

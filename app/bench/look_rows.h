@@ -3,7 +3,7 @@
 
 #include "app/bench/suites.h"
 #include "core/classify/look.h"
-#include "core/render/prepared_engine.h"
+#include "core/prepare/prepared_engine.h"
 
 namespace pellucid::bench {
 
@@ -12,7 +12,7 @@ struct LookSubject {
     explicit LookSubject(int side);
     volume::Volume volume;
     classify::FieldWindow window;
-    render::Scene scene;
+    scene::Scene scene;
 };
 
 /// Three rows for a look: one spectrum each channel of the sum, while weights stand still; the
@@ -27,12 +27,12 @@ std::vector<shading::Light> threeLights(bool colored);
 /// A shaded scene, ready to render, and its row.
 struct ShadedFrames {
     Row row;
-    render::PreparedEngine prepared;
+    prepare::PreparedEngine prepared;
 };
 /// Times the frames of a scene with cue and lights in turns with those of a plain engine. The error
 /// is that of one general view, against the exact shaded image.
 ShadedFrames measureShaded(const std::string &suite, const std::string &name,
-                           const classify::ShownFields &fields, const render::Scene &scene,
+                           const classify::ShownFields &fields, const scene::Scene &scene,
                            render::ProjectionEngine &plain);
 
 } // namespace pellucid::bench

@@ -13,8 +13,8 @@
 #include "core/decoder/read_volume_file.h"
 #include "core/files/atomic_file.h"
 #include "core/reference/wide_kernel.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
-#include "core/task/memory.h"
 
 namespace {
 
@@ -42,7 +42,7 @@ pellucid::bench::Subject readSubject(const std::string &path) {
                            classify::densityField(volume, classify::defaultFieldWindow(volume))};
     // The exact reference that errors are taken against is the largest thing by far.
     const std::size_t needed = reference::WideKernel::bytes(subject.field.support);
-    const std::size_t available = task::availableMemoryBytes();
+    const std::size_t available = system::availableMemoryBytes();
     if (needed > available)
         throw task::Error(task::ErrorCode::outOfMemory,
                           fmt::format("its exact projection needs {} MB, {} MB are available",

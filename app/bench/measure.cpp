@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/fourier/transform.h"
+#include "core/fourier/transforms/transform.h"
 
 namespace pellucid::bench {
 
@@ -51,31 +51,31 @@ ImageError compare(const std::vector<float> &image, const std::vector<double> &t
     return {std::sqrt(difference / energy), most / peak, psnr};
 }
 
-render::Camera squareCamera(const volume::Lattice &lattice, int side) {
-    render::Camera camera = render::defaultCamera(lattice);
+scene::Camera squareCamera(const volume::Lattice &lattice, int side) {
+    scene::Camera camera = scene::defaultCamera(lattice);
     camera.width = camera.height = side;
     return camera;
 }
 
-Truth::Truth(const Subject &subject, const render::Camera &camera, int views) : m_subject(subject) {
+Truth::Truth(const Subject &subject, const scene::Camera &camera, int views) : m_subject(subject) {
     const auto random = randomViews(views, 11);
     for (int view = 0; view < views; ++view) {
         m_cameras.push_back(camera);
         m_cameras.back().orientation =
-            view == 1   ? render::viewOrientation(render::StandardView::front)
-            : view == 2 ? render::viewOrientation(render::StandardView::top)
+            view == 1   ? scene::viewOrientation(scene::StandardView::front)
+            : view == 2 ? scene::viewOrientation(scene::StandardView::top)
                         : random[std::size_t(view)];
     }
 }
 
-Truth::Truth(const Subject &subject, const render::Camera &camera,
+Truth::Truth(const Subject &subject, const scene::Camera &camera,
              const std::vector<glm::dquat> &orientations)
     : m_subject(subject), m_cameras(orientations.size(), camera) {
     for (std::size_t n = 0; n < orientations.size(); ++n)
         m_cameras[n].orientation = orientations[n];
 }
 
-const std::vector<double> &Truth::image(int view, const render::ImageDefinition &definition) {
+const std::vector<double> &Truth::image(int view, const scene::ImageDefinition &definition) {
     if (!m_reference)
         m_reference = std::make_unique<reference::WideKernel>(m_subject.field.values,
                                                               m_subject.field.support);
@@ -90,7 +90,7 @@ const std::vector<double> &Truth::image(int view, const render::ImageDefinition 
 
 namespace {
 
-bool looksAlongAnAxis(const render::Camera &camera, const volume::Lattice &lattice) {
+bool looksAlongAnAxis(const scene::Camera &camera, const volume::Lattice &lattice) {
     for (int d = 0; d < 3; ++d)
         if (std::abs(glm::dot(camera.axes()[2], glm::normalize(lattice.step(d)))) > 1.0 - 1e-9)
             return true;
@@ -118,7 +118,7 @@ const Truth::Peers &Truth::peers() {
             continue;
         peers.raySumRelativeL2 = std::max(
             peers.raySumRelativeL2,
-            compare(rays.samples, image(n, {render::Reconstruction::linear, 0.05})).relativeL2);
+            compare(rays.samples, image(n, {scene::Reconstruction::linear, 0.05})).relativeL2);
     }
     peers.raySumMs = median(cast);
     peers.raySumMsamplesPerSecond = median(rate);
@@ -144,7 +144,7 @@ double transformMs(const fourier::SpectrumLayout &layout) {
 } // namespace
 
 Row plannedRow(const std::string &suite, const std::string &name, const volume::GridSize &size,
-               const render::RenderPlan &plan, const render::Scene &scene, int threads) {
+               const plan::RenderPlan &plan, const scene::Scene &scene, int threads) {
     const int width = plan.spectrum.width();
     Row row{suite,
             name,
@@ -157,20 +157,20 @@ Row plannedRow(const std::string &suite, const std::string &name, const volume::
             threads > 0 ? threads : thisMachine().threads};
     row.predictedError = plan.predictedError;
     row.predictedMax = plan.predictedMaximum;
-    if (scene.interpolation == render::Interpolation())
+    if (scene.interpolation == scene::Interpolation())
         row.tolerance = scene.tolerance;
     return row;
 }
 
-void fillTimes(Row &row, render::ProjectionEngine &engine, const render::Scene &scene, int views,
-               const std::function<void(const render::Camera &)> &before) {
-    render::Camera camera = scene.camera;
+void fillTimes(Row &row, render::ProjectionEngine &engine, const scene::Scene &scene, int views,
+               const std::function<void(const scene::Camera &)> &before) {
+    scene::Camera camera = scene.camera;
     std::vector<double> slice, transform, frame;
     for (const glm::dquat &orientation : randomViews(views)) {
         camera.orientation = orientation;
         if (before)
             before(camera);
-        render::FrameTimes times;
+        picture::FrameTimes times;
         const double start = millisecondsNow();
         engine.render(camera, scene.image, scene.shading, &times);
         frame.push_back(millisecondsNow() - start);
@@ -183,9 +183,9 @@ void fillTimes(Row &row, render::ProjectionEngine &engine, const render::Scene &
 }
 
 double fillTimesInTurns(Row &row, render::ProjectionEngine &engine, render::ProjectionEngine &plain,
-                        const render::Scene &scene, int views) {
+                        const scene::Scene &scene, int views) {
     std::vector<double> plainMs;
-    fillTimes(row, engine, scene, views, [&](const render::Camera &camera) {
+    fillTimes(row, engine, scene, views, [&](const scene::Camera &camera) {
         const double start = millisecondsNow();
         plain.render(camera, scene.image);
         plainMs.push_back(millisecondsNow() - start);
@@ -207,7 +207,7 @@ void fillError(Row &row, const ImageError &error) {
 Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
             const Measurement &how) {
     const classify::DensityField &field = subject.field;
-    const auto plan = render::planRender(how.scene, render::summarise(field));
+    const auto plan = plan::planRender(how.scene, plan::summarise(field));
     Row row = plannedRow(suite, name, field.values.lattice().size(), plan, how.scene, how.threads);
     const double start = millisecondsNow();
     const auto spectrum = std::make_shared<const fourier::Spectrum>(

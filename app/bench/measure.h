@@ -33,14 +33,14 @@ ImageError compare(const std::vector<float> &image, const std::vector<double> &t
 class Truth {
 public:
     /// General views, the first among them, and from two on the front, from three on the top.
-    Truth(const Subject &subject, const render::Camera &camera, int views);
+    Truth(const Subject &subject, const scene::Camera &camera, int views);
     /// Views in given directions.
-    Truth(const Subject &subject, const render::Camera &camera,
+    Truth(const Subject &subject, const scene::Camera &camera,
           const std::vector<glm::dquat> &orientations);
 
     int views() const { return int(m_cameras.size()); }
-    const render::Camera &camera(int view) const { return m_cameras[std::size_t(view)]; }
-    const std::vector<double> &image(int view, const render::ImageDefinition &definition);
+    const scene::Camera &camera(int view) const { return m_cameras[std::size_t(view)]; }
+    const std::vector<double> &image(int view, const scene::ImageDefinition &definition);
     /// What the two peers in space take for this subject, and the ray sum's error against the
     /// `linear` truth; measured when first asked for. The error is the worst of the general views:
     /// along an axis the trilinear field has kinks in every sample's plane, which the pixel's band
@@ -53,7 +53,7 @@ public:
 
 private:
     const Subject &m_subject;
-    std::vector<render::Camera> m_cameras;
+    std::vector<scene::Camera> m_cameras;
     std::optional<Peers> m_peers;
     std::unique_ptr<reference::WideKernel> m_reference;
     std::map<std::pair<int, int>, std::vector<double>> m_images;
@@ -62,9 +62,9 @@ private:
 
 /// What is rendered, and how often.
 struct Measurement {
-    render::Scene scene; ///< its camera is what all views share but the orientation
+    scene::Scene scene; ///< its camera is what all views share but the orientation
     /// In place of the plan's, which keeps copies of the projection out of the image.
-    std::optional<render::SliceRoom> room = std::nullopt;
+    std::optional<plan::SliceRoom> room = std::nullopt;
     int views = 64;
     int threads = 0;       ///< 0: all
     bool transform = true; ///< time FFTW's own transform of the padded size too
@@ -78,22 +78,22 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
 /// A row with what a plan says; a tolerance only where nothing of the interpolation is fixed, since
 /// else nothing is promised.
 Row plannedRow(const std::string &suite, const std::string &name, const volume::GridSize &size,
-               const render::RenderPlan &plan, const render::Scene &scene, int threads);
+               const plan::RenderPlan &plan, const scene::Scene &scene, int threads);
 /// The medians of an engine's frames from random views, into the row. Before each comes `before`,
 /// if there is one: a frame of something else to be timed in turns.
-void fillTimes(Row &row, render::ProjectionEngine &engine, const render::Scene &scene, int views,
-               const std::function<void(const render::Camera &)> &before = {});
+void fillTimes(Row &row, render::ProjectionEngine &engine, const scene::Scene &scene, int views,
+               const std::function<void(const scene::Camera &)> &before = {});
 void fillError(Row &row, const ImageError &error);
 
 /// Times the frames of an engine in turns with those of a plain one of the same camera, without cue
 /// and light: what both take depends on the clock and the caches of the moment. The times of the
 /// plain frames, median.
 double fillTimesInTurns(Row &row, render::ProjectionEngine &engine, render::ProjectionEngine &plain,
-                        const render::Scene &scene, int views);
+                        const scene::Scene &scene, int views);
 /// How many times the plain frame that is.
 std::string ratioText(const Row &row, double plainMs);
 
 /// The camera of an image of side x side pixels of the shortest step, for any lattice.
-render::Camera squareCamera(const volume::Lattice &lattice, int side);
+scene::Camera squareCamera(const volume::Lattice &lattice, int side);
 
 } // namespace pellucid::bench

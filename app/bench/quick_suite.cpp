@@ -7,7 +7,7 @@ namespace {
 
 Row measureDefault(const Subject &subject) {
     Measurement how;
-    how.scene.camera = render::defaultCamera(subject.field.values.lattice());
+    how.scene.camera = scene::defaultCamera(subject.field.values.lattice());
     how.peers = true;
     // The reference takes seconds for large volumes.
     Truth truth(subject, how.scene.camera, subject.field.values.lattice().size().i > 128 ? 2 : 5);

@@ -29,7 +29,7 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
     Truth truth(subject, how.scene.camera, checkedViews);
     Row row = measure("scaling", "default " + name, subject, truth, how);
 
-    const auto plan = render::planRender(how.scene, render::summarise(subject.field));
+    const auto plan = plan::planRender(how.scene, plan::summarise(subject.field));
     const auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(subject.field.values, plan.spectrum));
     render::CpuEngine engine(spectrum, plan.room), alone(spectrum, plan.room, 1);
@@ -38,13 +38,13 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
     std::vector<double> frame, slice, transform, aloneFrame, aloneSlice, aloneTransform;
     std::vector<double> cast, castRate, warp;
     const auto views = randomViews(rounds * viewsARound);
-    render::Camera camera = how.scene.camera;
+    scene::Camera camera = how.scene.camera;
     for (int round = 0; round < rounds; ++round) {
         const auto render = [&](render::CpuEngine &with, std::vector<double> &total,
                                 std::vector<double> &sliced, std::vector<double> &transformed) {
             for (int view = -1; view < viewsARound; ++view) { // the first warms the caches
                 camera.orientation = views[std::size_t(round * viewsARound + std::max(0, view))];
-                render::FrameTimes times;
+                picture::FrameTimes times;
                 const double start = millisecondsNow();
                 with.render(camera, how.scene.image, {}, &times);
                 if (view < 0)
@@ -74,7 +74,7 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
     double worst = 0.0;
     for (int view = 0; view < truth.views(); ++view)
         worst = std::max(worst, compare(raySum(inSpace, truth.camera(view), step).samples,
-                                        truth.image(view, {render::Reconstruction::linear, 0.05}))
+                                        truth.image(view, {scene::Reconstruction::linear, 0.05}))
                                     .relativeL2);
     if (truth.views() > 0)
         row.raySumRelativeL2 = worst;

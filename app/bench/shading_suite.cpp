@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/bench/look_rows.h"
-#include "core/render/prepared_engine.h"
+#include "core/prepare/prepared_engine.h"
 
 namespace pellucid::bench {
 
@@ -39,9 +39,9 @@ void runShadingSuite(const Report &report) {
         const LookSubject subject(side);
         const classify::ShownFields fields{{classify::densityField(subject.volume, subject.window)},
                                            {}};
-        const auto plain = render::prepareEngine(subject.scene, fields, {});
+        const auto plain = prepare::prepareEngine(subject.scene, fields, {});
         for (const auto &[name, shading] : cases()) {
-            render::Scene scene = subject.scene;
+            scene::Scene scene = subject.scene;
             scene.shading = shading;
             report(measureShaded("shading", name, fields, scene, *plain.engine).row);
         }

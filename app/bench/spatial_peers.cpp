@@ -60,7 +60,7 @@ SpatialVolume::SpatialVolume(const volume::Volume &field) : m_lattice(field.latt
     });
 }
 
-SpatialImage raySum(const SpatialVolume &volume, const render::Camera &camera, double stepMm) {
+SpatialImage raySum(const SpatialVolume &volume, const scene::Camera &camera, double stepMm) {
     const volume::Lattice &lattice = volume.lattice();
     const glm::dmat3 axes = camera.axes();
     const glm::dvec3 corner =
@@ -105,7 +105,7 @@ SpatialImage raySum(const SpatialVolume &volume, const render::Camera &camera, d
     return image;
 }
 
-SpatialImage shearWarpSum(const SpatialVolume &volume, const render::Camera &camera) {
+SpatialImage shearWarpSum(const SpatialVolume &volume, const scene::Camera &camera) {
     const volume::Lattice &lattice = volume.lattice();
     const glm::dvec3 ray = inVoxels(lattice, camera.axes()[2]);
     const volume::GridSize n = lattice.size();

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/render/camera.h"
+#include "core/scene/camera.h"
 #include "core/volume/volume.h"
 
 namespace pellucid::bench {
@@ -50,11 +50,11 @@ struct SpatialImage {
 /// Ray casting that only adds: parallel rays through the pixel centres, one trilinear sample every
 /// `stepMm`, on all threads of oneTBB. Vectorised over 16 neighbouring rays, in tiles that march
 /// slab by slab so that the tile's part of the volume stays in the cache.
-SpatialImage raySum(const SpatialVolume &volume, const render::Camera &camera, double stepMm);
+SpatialImage raySum(const SpatialVolume &volume, const scene::Camera &camera, double stepMm);
 
 /// The accumulation of the shear-warp factorisation (Lacroute and Levoy 1994) without its warp:
 /// every slice of the principal axis is shifted by a fraction of a voxel and added, one bilinear
 /// sample a voxel, on all threads of oneTBB. *Units*: field times voxels along the principal axis.
-SpatialImage shearWarpSum(const SpatialVolume &volume, const render::Camera &camera);
+SpatialImage shearWarpSum(const SpatialVolume &volume, const scene::Camera &camera);
 
 } // namespace pellucid::bench

@@ -21,16 +21,16 @@ namespace {
 // The room that makes the slice of a square image as fine as the image, and so as a spectrum
 // without padding: the thesis's. The engine's own is finer, so that no copy of the projection
 // reaches the image, and its samples lie between the cells even in a view along an axis.
-render::SliceRoom roomOfImage(const render::Camera &camera, const volume::Lattice &lattice) {
-    render::EnergySpread spread = render::evenSpread(lattice, lattice.bounds());
+plan::SliceRoom roomOfImage(const scene::Camera &camera, const volume::Lattice &lattice) {
+    plan::EnergySpread spread = plan::evenSpread(lattice, lattice.bounds());
     const double longest =
         std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
     // A quarter of a pixel less: rounding must not make it one more.
     spread.radiusMm =
-        (0.5 * camera.width - 0.25) * camera.pixelMm - render::reconstructionReach({}) * longest;
-    render::SliceRoom room{{std::make_shared<const render::EnergySpread>(spread)}, 1e9};
-    assert(render::sliceGrid(camera, room, lattice, {}) ==
-           (render::SliceGrid{camera.width, camera.height}));
+        (0.5 * camera.width - 0.25) * camera.pixelMm - scene::reconstructionReach({}) * longest;
+    plan::SliceRoom room{{std::make_shared<const plan::EnergySpread>(spread)}, 1e9};
+    assert(plan::sliceGrid(camera, room, lattice, {}) ==
+           (plan::SliceGrid{camera.width, camera.height}));
     return room;
 }
 
@@ -99,7 +99,7 @@ struct HeadAndTruth {
 
 // The engine puts the field's mass at frequency 0. The thesis's filters read the cell instead,
 // which adds this level to every pixel.
-double levelOf(const fourier::Spectrum &spectrum, const render::Camera &camera) {
+double levelOf(const fourier::Spectrum &spectrum, const scene::Camera &camera) {
     const double sideMm = camera.width * camera.pixelMm; // of the period: the grid is the image's
     return (spectrum.value(0, 0, 0).real() - spectrum.mass()) / (sideMm * sideMm);
 }
@@ -141,7 +141,7 @@ Subject darkenedHead(const Figure &figure, const Subject &head,
 
 void measureFigure(const Report &report, const Figure &figure, HeadAndTruth &subject) {
     const Measurement how = thesisMeasurement(subject.head, figure.kernel);
-    const auto plan = render::planRender(how.scene, render::summarise(subject.head.field));
+    const auto plan = plan::planRender(how.scene, plan::summarise(subject.head.field));
     const Subject darkened = darkenedHead(figure, subject.head, plan.spectrum);
     const volume::Volume &field = darkened.field.values;
     Row row = plannedRow("thesis", figure.name, field.lattice().size(), plan, how.scene, 0);
@@ -153,7 +153,7 @@ void measureFigure(const Report &report, const Figure &figure, HeadAndTruth &sub
     ImageError worst;
     Parts parts;
     for (int view = 0; view < subject.truth.views(); ++view) {
-        const render::Camera &camera = subject.truth.camera(view);
+        const scene::Camera &camera = subject.truth.camera(view);
         const std::vector<double> &truth = subject.truth.image(view, how.scene.image);
         auto image = engine.render(camera, how.scene.image).samples;
         const double level = levelOf(*engine.spectra().fields.front(), camera);
@@ -202,10 +202,10 @@ Measurement thesisMeasurement(const Subject &head, const char *kernel) {
 }
 
 void measureFigures(const Report &report, int n) {
-    using render::StandardView;
+    using scene::StandardView;
     HeadAndTruth general({n, n, n}, randomViews(2, 11)),
-        alongAxes({n, n, n}, {render::viewOrientation(StandardView::front),
-                              render::viewOrientation(StandardView::top)});
+        alongAxes({n, n, n}, {scene::viewOrientation(StandardView::front),
+                              scene::viewOrientation(StandardView::top)});
     for (const Figure &figure : figures)
         measureFigure(report, figure, figure.alongAxes ? alongAxes : general);
 }

@@ -12,7 +12,7 @@
 
 #include "app/bench/look_rows.h"
 #include "app/bench/thesis_figures.h"
-#include "core/fourier/transform.h"
+#include "core/fourier/transforms/transform.h"
 #include "core/task/error.h"
 #include "gpu/gpu_engine.h"
 #include "gpu/surfaceless_context.h"
@@ -146,15 +146,15 @@ Card findCard() {
 
 // A frame of three images has its slices in a pass of their own, so that the rest of it is their
 // transforms; in a grey frame the first half of the transform is part of the slice's pass.
-double cardTransformMs(const Card &card, const render::Scene &scene,
+double cardTransformMs(const Card &card, const scene::Scene &scene,
                        const std::shared_ptr<const fourier::Spectrum> &spectrum,
-                       const render::SliceRoom &room) {
+                       const plan::SliceRoom &room) {
     render::CpuEngine engine(
         {{spectrum, spectrum, spectrum}, {}, shading::shadingScale(spectrum->lattice())}, room);
     engine.setShares({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
     const auto onCard = gpu::copyToCard(card.passes, engine);
     std::vector<double> times;
-    render::Camera camera = scene.camera;
+    scene::Camera camera = scene.camera;
     for (const glm::dquat &orientation : randomViews(64)) {
         camera.orientation = orientation;
         gpu::CardTimes frame;
@@ -175,7 +175,7 @@ Row cardRow(const Card &card, const Row &ours, const Measurement &how, const Sub
         return row;
     }
     row.engine = "gpu, " + card.passes->device().capabilities().renderer;
-    const auto plan = render::planRender(how.scene, render::summarise(head.field));
+    const auto plan = plan::planRender(how.scene, plan::summarise(head.field));
     const auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(head.field.values, plan.spectrum));
     row.transformMs = cardTransformMs(card, how.scene, spectrum, *how.room);

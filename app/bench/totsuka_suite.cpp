@@ -6,7 +6,7 @@
 
 #include "app/bench/adaptive_slice.h"
 #include "app/bench/look_rows.h"
-#include "core/render/frame_model.h"
+#include "core/plan/frame_model.h"
 
 namespace pellucid::bench {
 
@@ -55,7 +55,7 @@ const std::vector<Published> &publishedTable() {
 }
 
 // Their filter of 3 x 3 x 3 samples, at their padding, in 16 bits.
-render::Interpolation theirInterpolation(const Published &p) {
+scene::Interpolation theirInterpolation(const Published &p) {
     return {fourier::kernelFromName("ES3"), double(p.padded) / p.field, fourier::Storage::binary16};
 }
 
@@ -108,11 +108,11 @@ private:
     }
 
     ShadedFrames measureShadedFrames(const std::string &name,
-                                     const render::Interpolation &interpolation) {
-        render::Scene scene = m_scene;
+                                     const scene::Interpolation &interpolation) {
+        scene::Scene scene = m_scene;
         scene.interpolation = interpolation;
         const classify::ShownFields fields{{m_subject.field}, {}};
-        const auto plain = render::prepareEngine(scene, fields, {});
+        const auto plain = prepare::prepareEngine(scene, fields, {});
         scene.shading = theirShading(m_published);
         ShadedFrames frames = measureShaded(suite, name, fields, scene, *plain.engine);
         frames.row.note = timesText(m_published) + "; here " + frames.row.note;
@@ -121,7 +121,7 @@ private:
     }
 
     // The filters in the two slices that a frame with light takes, and what both cost.
-    void measureFilters(const render::PreparedEngine &theirs, const render::RenderPlan &ours) {
+    void measureFilters(const prepare::PreparedEngine &theirs, const plan::RenderPlan &ours) {
         const render::EngineParts parts = theirs.engine->parts();
         const auto density = measureSlices("density", *parts.spectra.fields.front(), theirs.plan),
                    gradient =
@@ -132,7 +132,7 @@ private:
 
     // At three bounds, and at the error that they use the filter at.
     AdaptiveComparison measureSlices(const std::string &what, const fourier::Spectrum &spectrum,
-                                     const render::RenderPlan &plan) {
+                                     const plan::RenderPlan &plan) {
         AdaptiveSlice slices(spectrum);
         const int size = sliceSize(plan);
         const std::vector<glm::dquat> views = randomViews(viewsOfSlices);
@@ -145,7 +145,7 @@ private:
         return there;
     }
 
-    void reportFilters(const std::string &name, const render::RenderPlan &plan,
+    void reportFilters(const std::string &name, const plan::RenderPlan &plan,
                        const AdaptiveComparison &filters) {
         Row row = filterRow(name, plan);
         row.sliceMs = filters.adaptiveMs;
@@ -158,12 +158,12 @@ private:
     }
 
     // Wide and adaptive: of the cells that were read at -40 dB.
-    void reportOperations(const render::RenderPlan &plan, double wide, double adaptive,
-                          const render::RenderPlan &ours) {
-        render::Scene scene = m_scene;
+    void reportOperations(const plan::RenderPlan &plan, double wide, double adaptive,
+                          const plan::RenderPlan &ours) {
+        scene::Scene scene = m_scene;
         scene.shading = theirShading(m_published);
         const double model =
-            render::modelFrame(ours, scene, {}, m_subject.field.values.lattice()).multiplyAdds;
+            plan::modelFrame(ours, scene, {}, m_subject.field.values.lattice()).multiplyAdds;
         // Of whole slices of density and gradient, by 27 samples.
         const double ofTwoSlices = 2.0 * 27.0 * std::pow(m_published.padded, 2);
         Row row = filterRow("operations", plan);
@@ -177,8 +177,8 @@ private:
         m_report(row);
     }
 
-    Row filterRow(const std::string &name, const render::RenderPlan &plan) {
-        render::Scene scene = m_scene;
+    Row filterRow(const std::string &name, const plan::RenderPlan &plan) {
+        scene::Scene scene = m_scene;
         scene.interpolation = theirInterpolation(m_published);
         Row row = plannedRow(suite, fmt::format("{}, {}", m_published.name, name),
                              m_subject.field.values.lattice().size(), plan, scene, 1);
@@ -188,16 +188,16 @@ private:
         return row;
     }
 
-    int sliceSize(const render::RenderPlan &plan) const {
-        return render::sliceGrid(m_scene.camera, plan.room, m_subject.field.values.lattice(),
-                                 m_scene.image)
+    int sliceSize(const plan::RenderPlan &plan) const {
+        return plan::sliceGrid(m_scene.camera, plan.room, m_subject.field.values.lattice(),
+                               m_scene.image)
             .columns;
     }
 
     const Report &m_report;
     const Published &m_published;
     Subject m_subject;
-    render::Scene m_scene;
+    scene::Scene m_scene;
 };
 
 } // namespace

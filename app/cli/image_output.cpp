@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "core/files/image_files.h"
-#include "core/render/compose.h"
-#include "core/render/projection_volume.h"
+#include "core/picture/compose.h"
+#include "core/picture/projection_volume.h"
 #include "core/task/error.h"
 #include "core/volume/nrrd.h"
 
@@ -40,12 +40,12 @@ void checkOutput(const fs::path &out, bool isGrey) {
         throw Error(ErrorCode::usage, "-o: coloured pictures are written as .png, .npy or .dcm");
 }
 
-void writeImage(const fs::path &path, const render::ProjectionImage &image,
-                const render::Scene &scene, const volume::Lattice &patient,
+void writeImage(const fs::path &path, const picture::ProjectionImage &image,
+                const scene::Scene &scene, const volume::Lattice &patient,
                 const dicom::CaptureLabels &labels) {
     switch (outputKind(path)) {
     case OutputKind::png:
-        files::writePng(path, render::compose(image, scene.tone), image.height, image.width);
+        files::writePng(path, picture::compose(image, scene.tone), image.height, image.width);
         break;
     case OutputKind::npy:
         files::writeNpy(path, image.samples, image.height, image.width, image.channels);
@@ -54,13 +54,13 @@ void writeImage(const fs::path &path, const render::ProjectionImage &image,
         dicom::CaptureLabels of = labels;
         of.pixelMm = scene.camera.pixelMm;
         of.patientOrientation =
-            render::dicomOrientation(scene.camera.axes()[0], scene.camera.axes()[1]);
-        dicom::writeCapture(path, render::compose(image, scene.tone), image.height, image.width,
+            scene::dicomOrientation(scene.camera.axes()[0], scene.camera.axes()[1]);
+        dicom::writeCapture(path, picture::compose(image, scene.tone), image.height, image.width,
                             of);
         break;
     }
     case OutputKind::nrrd:
-        volume::writeNrrd(path, render::projectionVolume(image, scene.camera, patient));
+        volume::writeNrrd(path, picture::projectionVolume(image, scene.camera, patient));
         break;
     }
 }

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "core/dicom/write_capture.h"
-#include "core/render/projection_image.h"
-#include "core/render/scene.h"
+#include "core/picture/projection_image.h"
+#include "core/scene/scene.h"
 
 namespace pellucid::cli {
 
@@ -16,8 +16,8 @@ void checkOutput(const std::filesystem::path &out, bool isGrey);
 /// Writes a projection: as a picture through the scene's tone (.png, .dcm), or its values (.npy,
 /// .nrrd). `labels`: of a Secondary Capture.
 /// *Throws* Error{output}, Error{usage} for a kind that cannot hold it.
-void writeImage(const std::filesystem::path &path, const render::ProjectionImage &image,
-                const render::Scene &scene, const volume::Lattice &patient,
+void writeImage(const std::filesystem::path &path, const picture::ProjectionImage &image,
+                const scene::Scene &scene, const volume::Lattice &patient,
                 const dicom::CaptureLabels &labels);
 
 /// OUT_0007.png for frame 7.

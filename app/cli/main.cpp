@@ -14,7 +14,7 @@
 #include "app/cli/terminal.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
-#include "core/fourier/wisdom.h"
+#include "core/fourier/transforms/wisdom.h"
 #include "core/task/error.h"
 #include "core/task/progress.h"
 

@@ -18,8 +18,8 @@
 #include "app/cli/scene_options.h"
 #include "app/cli/terminal.h"
 #include "core/files/file_set.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
-#include "core/task/memory.h"
 
 namespace pellucid::cli {
 
@@ -41,11 +41,11 @@ struct Options {
 
 // Whether what a picture shows misses the tolerance that the plan keeps, and a closer plan may
 // help.
-bool mayPlanCloser(const Renderer &renderer, const render::Scene &scene) {
+bool mayPlanCloser(const Renderer &renderer, const scene::Scene &scene) {
     return renderer.lastViewError() > scene.tolerance &&
            renderer.predictedError() <= scene.tolerance && !renderer.isReduced() &&
-           scene.interpolation == render::Interpolation() &&
-           scene.plannedFor != render::PlannedFor::volume;
+           scene.interpolation == scene::Interpolation() &&
+           scene.plannedFor != scene::PlannedFor::volume;
 }
 
 void run(const Options &o, const CLI::App &command, const Context &context) {
@@ -67,14 +67,14 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     }
     const Input input = openInput(o.input, outs, context);
     const volume::Volume &volume = input.loaded.volume;
-    render::Scene scene = sceneFor(o.scene, command, volume);
+    scene::Scene scene = sceneFor(o.scene, command, volume);
     // The scene file may have brought colours.
     checkOutput(out, classify::isGrey(scene.look) && scene.shading.isGrey());
     Stopwatch watch;
     const classify::FieldWindow window = windowFor(scene, volume);
     const std::size_t samples = volume.lattice().size().count();
-    const std::size_t forLight = render::bytesForLight(scene.shading, volume.lattice().size(),
-                                                       classify::mixesColors(scene.look) ? 3 : 1);
+    const std::size_t forLight = prepare::bytesForLight(scene.shading, volume.lattice().size(),
+                                                        classify::mixesColors(scene.look) ? 3 : 1);
     const std::size_t held = volume.bytes() + classify::peakBytes(scene.look, samples) + forLight +
                              (scene.crop.isWhole() ? 0 : samples * sizeof(float));
     if (command.count("--memory") > 0 && o.memory < held)
@@ -84,12 +84,12 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                     o.input.path);
     const classify::ShownFields fields = fieldsFor(scene, volume, context);
     // Asking for more than there is would end in the system killing the program.
-    render::Budget budget{task::availableMemoryBytes()};
+    plan::Budget budget{system::availableMemoryBytes()};
     budget.bytes -= std::min(budget.bytes, forLight); // still to be asked for
     if (command.count("--memory") > 0)
         budget.bytes = std::min(budget.bytes, std::size_t(o.memory - held));
     const double fieldMs = watch.lapMs();
-    render::Scene planned = scene; // with a closer tolerance, if a part of the picture needs one
+    scene::Scene planned = scene; // with a closer tolerance, if a part of the picture needs one
     std::optional<Renderer> made;
     const auto prepare = [&]() -> Renderer & {
         try {
@@ -123,7 +123,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
                          renderer->predictedError()));
 
-    render::FrameTimes times;
+    picture::FrameTimes times;
     double writeMs = 0.0, viewError = 0.0;
     const int frames = std::max(1, o.frames);
     dicom::CaptureLabels labels =
@@ -135,7 +135,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         turn.emplace(outs.front());
     for (int frame = 0; frame < frames; ++frame) {
         task::Progress(context.stop).check();
-        render::Scene turned = scene;
+        scene::Scene turned = scene;
         turned.camera.orientation =
             glm::angleAxis(glm::radians(360.0 * frame / frames), glm::dvec3(0, 0, 1)) *
             scene.camera.orientation;

@@ -9,9 +9,9 @@
 
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
+#include "core/plan/frame_model.h"
 #include "core/reference/shaded_field.h"
-#include "core/render/frame_model.h"
-#include "core/render/planning_scene.h"
+#include "core/scene/planning_scene.h"
 #include "core/task/error.h"
 #include "gpu/surfaceless_context.h"
 
@@ -28,11 +28,11 @@ task::Error cardRefused(const task::Error &error) {
             "--engine gpu: " + error.reason()};
 }
 
-render::ShadedFields shadedFor(const render::Scene &scene, const classify::ShownFields &fields,
-                               const task::Progress &progress) {
-    return render::shadedFields(fields.channels, scene.shading,
-                                shading::shadingScale(fields.channels.front().values.lattice()),
-                                progress);
+prepare::ShadedFields shadedFor(const scene::Scene &scene, const classify::ShownFields &fields,
+                                const task::Progress &progress) {
+    return prepare::shadedFields(fields.channels, scene.shading,
+                                 shading::shadingScale(fields.channels.front().values.lattice()),
+                                 progress);
 }
 
 } // namespace
@@ -61,41 +61,41 @@ CardChoice chooseCard(const std::string &engine, int frames) {
     return choice;
 }
 
-Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
-                   const render::Budget &budget, const Context &context)
+Renderer::Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
+                   const plan::Budget &budget, const Context &context)
     : Renderer(scene, fields, shadedFor(scene, fields, task::Progress(context.stop)), budget,
                context) {}
 
-Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
-                   const render::ShadedFields &shaded, const render::Budget &budget,
+Renderer::Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
+                   const prepare::ShadedFields &shaded, const plan::Budget &budget,
                    const Context &context)
-    : Renderer(scene, fields, shaded, render::summarise(shaded, scene.shading.cue), budget,
+    : Renderer(scene, fields, shaded, prepare::summarise(shaded, scene.shading.cue), budget,
                context) {}
 
-Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fields,
-                   const render::ShadedFields &shaded,
-                   const std::vector<render::FieldSummary> &summaries, const render::Budget &budget,
+Renderer::Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
+                   const prepare::ShadedFields &shaded,
+                   const std::vector<plan::FieldSummary> &summaries, const plan::Budget &budget,
                    const Context &context)
     : m_scene(scene), m_fields(fields), m_progress(context.stop),
-      m_channels(std::size_t(render::imagesOf(fields.channels.size(), scene.shading))),
+      m_channels(std::size_t(prepare::imagesOf(fields.channels.size(), scene.shading))),
       m_isGrey(fields.isGrey() && m_channels == 1),
       m_fitting(
-          render::planWithin(render::planningScene(scene, shaded.fields.front().values.lattice()),
-                             shaded, summaries, budget, m_progress)),
+          prepare::planWithin(scene::planningScene(scene, shaded.fields.front().values.lattice()),
+                              shaded, summaries, budget, m_progress)),
       m_lattice(shaded.fields.front().values.lattice()) {
-    const render::RenderPlan &plan = m_fitting.plan;
+    const plan::RenderPlan &plan = m_fitting.plan;
     std::size_t exactBytes = 0;
     for (std::size_t c = 0; c < m_channels; ++c)
         exactBytes += reference::WideKernel::bytes(summaries.front().support) +
                       reference::sliceBytes(m_lattice, scene.camera, scene.image);
     if (!scene.shading.isPlain()) // the enlarged field and its shaded copy
         exactBytes += 2 * m_lattice.size().count() * sizeof(float);
-    if (plan.predictedError <= scene.tolerance || scene.interpolation != render::Interpolation() ||
-        scene.plannedFor == render::PlannedFor::volume || m_fitting.reduction > 1 ||
+    if (plan.predictedError <= scene.tolerance || scene.interpolation != scene::Interpolation() ||
+        scene.plannedFor == scene::PlannedFor::volume || m_fitting.reduction > 1 ||
         exactBytes > budget.bytes) {
-        const render::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
+        const prepare::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
         m_lattice = sources.fields.front().values.lattice();
-        m_engine = render::makeEngine(sources, fields.color, plan, m_progress);
+        m_engine = prepare::makeEngine(sources, fields.color, plan, m_progress);
         if (m_fitting.reduction == 1) // otherwise every view loses detail
             m_viewModel.emplace(plan, summaries);
         m_fitting.reduced.reset();
@@ -110,7 +110,7 @@ Renderer::Renderer(const render::Scene &scene, const classify::ShownFields &fiel
     // Two errors remain: rounding, about 1e-10 in double precision or that of a shaded field's
     // float samples, and the tails of the roll-off.
     const double rounding = m_references.empty() ? 6e-8 : 1e-10;
-    for (const render::FieldSummary &summary : summaries)
+    for (const plan::FieldSummary &summary : summaries)
         m_predictedError = std::max(
             m_predictedError,
             std::hypot(rounding, reference::foldedTails(summary.lattice, scene.camera, scene.image,
@@ -137,7 +137,7 @@ void Renderer::use(const CardChoice &card) {
     }
 }
 
-render::ProjectionImage Renderer::image(const render::Camera &camera, render::FrameTimes &times) {
+picture::ProjectionImage Renderer::image(const scene::Camera &camera, picture::FrameTimes &times) {
     if (m_card) {
         try {
             auto image = m_card->render(camera, m_scene.image, m_scene.shading, &times);
@@ -159,12 +159,12 @@ render::ProjectionImage Renderer::image(const render::Camera &camera, render::Fr
         return image;
     }
     Stopwatch watch;
-    render::ProjectionImage image = exactImage(camera);
+    picture::ProjectionImage image = exactImage(camera);
     times = {watch.lapMs(), 0.0};
     return image;
 }
 
-void Renderer::judge(const render::ProjectionImage &image, const render::Camera &camera) {
+void Renderer::judge(const picture::ProjectionImage &image, const scene::Camera &camera) {
     if (!m_viewModel)
         return;
     const render::EngineParts parts = m_engine->parts();
@@ -176,8 +176,8 @@ void Renderer::judge(const render::ProjectionImage &image, const render::Camera 
                    std::sqrt(added));
 }
 
-render::ProjectionImage Renderer::exactImage(const render::Camera &camera) const {
-    render::ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}};
+picture::ProjectionImage Renderer::exactImage(const scene::Camera &camera) const {
+    picture::ProjectionImage image{camera.width, camera.height, camera.pixelMm, {}};
     image.channels = m_isGrey ? 1 : 3;
     if (m_references.empty()) {
         const auto exact =
@@ -212,29 +212,29 @@ std::string Renderer::description() const {
 json Renderer::planJson() const {
     if (!m_engine)
         return {{"kernel", "KB12"}, {"taps", 12 * 12 * 12}, {"padding", 2.0}, {"storage", "f64"}};
-    const render::RenderPlan &plan = m_fitting.plan;
+    const plan::RenderPlan &plan = m_fitting.plan;
     const auto &s = plan.spectrum;
-    const render::SliceGrid grid =
-        render::sliceGrid(m_scene.camera, plan.room, m_lattice, m_scene.image);
+    const plan::SliceGrid grid =
+        plan::sliceGrid(m_scene.camera, plan.room, m_lattice, m_scene.image);
     const int w = s.width();
     const auto fields = int(m_fields.channels.size());
-    const render::FrameModel model = render::modelFrame(
-        plan, m_scene,
-        {fields, fields > 1 ? render::SpectrumOf::channel : render::SpectrumOf::look,
-         !m_fields.isGrey()},
-        m_lattice);
+    const plan::FrameModel model =
+        plan::modelFrame(plan, m_scene,
+                         {fields, fields > 1 ? plan::SpectrumOf::channel : plan::SpectrumOf::look,
+                          !m_fields.isGrey()},
+                         m_lattice);
     json spectra = json::array(), leftOut = json::array();
-    for (const render::FrameModel::Spectra &kind : model.spectra)
-        spectra.push_back({{"of", render::spectrumText(kind.of)},
+    for (const plan::FrameModel::Spectra &kind : model.spectra)
+        spectra.push_back({{"of", plan::spectrumText(kind.of)},
                            {"count", kind.count},
-                           {"because", render::reasonText(kind.of)}});
-    for (const render::LeftOut what : model.leftOut)
-        leftOut.push_back(render::leftOutText(what));
+                           {"because", plan::reasonText(kind.of)}});
+    for (const plan::LeftOut what : model.leftOut)
+        leftOut.push_back(plan::leftOutText(what));
     const json modelled = {
         {"spectra", spectra},
         {"slices", model.slices},
         {"images", model.images},
-        {"combination", render::combinationText(model.combination)},
+        {"combination", plan::combinationText(model.combination)},
         {"multiply_adds", model.multiplyAdds},
         {"transform_operations", model.transformOperations},
         {"bytes", {{"spectra", model.spectrumBytes}, {"frame", model.frameBytes}}},

@@ -9,10 +9,10 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/cli/commands.h"
+#include "core/accuracy/view_error.h"
 #include "core/classify/shown_fields.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/reference/wide_kernel.h"
-#include "core/render/prepared_engine.h"
-#include "core/render/view_error.h"
 #include "gpu/gpu_engine.h"
 
 namespace pellucid::cli {
@@ -35,8 +35,8 @@ CardChoice chooseCard(const std::string &engine, int frames);
 class Renderer {
 public:
     /// The scene and the fields must outlive it. *Throws* Error{outOfMemory}, Cancelled.
-    Renderer(const render::Scene &scene, const classify::ShownFields &fields,
-             const render::Budget &budget, const Context &context);
+    Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
+             const plan::Budget &budget, const Context &context);
 
     /// Makes the images on the card from now on. *Throws* Error{noSuchDevice}, Error{outOfMemory}
     /// with the reason if the user requires the card and it cannot be used.
@@ -48,7 +48,7 @@ public:
     std::size_t cardBytes() const { return m_card ? m_card->textures().bytes() : 0; }
 
     /// `times` receives the times of this image, all channels together.
-    render::ProjectionImage image(const render::Camera &camera, render::FrameTimes &times);
+    picture::ProjectionImage image(const scene::Camera &camera, picture::FrameTimes &times);
 
     /// Describes the engine that makes the images, one line.
     std::string description() const;
@@ -68,25 +68,25 @@ public:
     std::optional<double> predictedMaximum() const;
 
 private:
-    Renderer(const render::Scene &scene, const classify::ShownFields &fields,
-             const render::ShadedFields &shaded, const render::Budget &budget,
+    Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
+             const prepare::ShadedFields &shaded, const plan::Budget &budget,
              const Context &context);
-    Renderer(const render::Scene &scene, const classify::ShownFields &fields,
-             const render::ShadedFields &shaded, const std::vector<render::FieldSummary> &summaries,
-             const render::Budget &budget, const Context &context);
-    render::ProjectionImage exactImage(const render::Camera &camera) const;
-    void judge(const render::ProjectionImage &image, const render::Camera &camera);
+    Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
+             const prepare::ShadedFields &shaded, const std::vector<plan::FieldSummary> &summaries,
+             const plan::Budget &budget, const Context &context);
+    picture::ProjectionImage exactImage(const scene::Camera &camera) const;
+    void judge(const picture::ProjectionImage &image, const scene::Camera &camera);
 
-    const render::Scene &m_scene;
+    const scene::Scene &m_scene;
     const classify::ShownFields &m_fields;
     task::Progress m_progress;
     std::size_t m_channels, m_bytes = 0;
     bool m_isGrey;
-    render::FittingPlan m_fitting;
+    prepare::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of the rendered fields
     double m_predictedError = 0.0;
     std::optional<double> m_viewError;
-    std::optional<render::ViewErrorModel> m_viewModel; ///< for the engine at full resolution
+    std::optional<accuracy::ViewErrorModel> m_viewModel; ///< for the engine at full resolution
     std::shared_ptr<render::CpuEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_card; ///< the same engine on the card, if used
     CardChoice m_choice;

@@ -21,11 +21,11 @@ bool isEmpty(const classify::DensityField &field) {
 
 } // namespace
 
-classify::FieldWindow windowFor(const render::Scene &scene, const volume::Volume &volume) {
+classify::FieldWindow windowFor(const scene::Scene &scene, const volume::Volume &volume) {
     return scene.fieldWindow.value_or(classify::defaultFieldWindow(volume));
 }
 
-classify::ShownFields fieldsFor(const render::Scene &scene, const volume::Volume &volume,
+classify::ShownFields fieldsFor(const scene::Scene &scene, const volume::Volume &volume,
                                 const Context &context) {
     preprocess::StepCache steps(budgetOfSteps);
     return classify::cropped(classify::shownFields(volume, windowFor(scene, volume), scene.look,
@@ -34,7 +34,7 @@ classify::ShownFields fieldsFor(const render::Scene &scene, const volume::Volume
 }
 
 std::vector<std::string> lookWarnings(const SceneOptions &options, const CLI::App &command,
-                                      const render::Scene &scene, const volume::Volume &volume) {
+                                      const scene::Scene &scene, const volume::Volume &volume) {
     std::vector<std::string> warnings;
     const bool hasClasses = !scene.look.classes.empty();
     const auto isGiven = [&](const char *option) { return command.count(option) > 0; };
@@ -52,7 +52,7 @@ std::vector<std::string> lookWarnings(const SceneOptions &options, const CLI::Ap
     return warnings;
 }
 
-std::string whyEmpty(const render::Scene &scene, const volume::Volume &volume,
+std::string whyEmpty(const scene::Scene &scene, const volume::Volume &volume,
                      const classify::ShownFields &fields) {
     if (!std::all_of(fields.channels.begin(), fields.channels.end(), isEmpty))
         return {};

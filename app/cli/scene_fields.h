@@ -11,19 +11,19 @@
 namespace pellucid::cli {
 
 /// The window that a scene's field has: its own, or the volume's default.
-classify::FieldWindow windowFor(const render::Scene &scene, const volume::Volume &volume);
+classify::FieldWindow windowFor(const scene::Scene &scene, const volume::Volume &volume);
 
 /// The fields that a scene shows of a volume, cropped; the results of steps are not kept.
 /// *Throws* Error{outOfMemory}, Cancelled.
-classify::ShownFields fieldsFor(const render::Scene &scene, const volume::Volume &volume,
+classify::ShownFields fieldsFor(const scene::Scene &scene, const volume::Volume &volume,
                                 const Context &context);
 
 /// Warnings about options that contradict each other or do not suit the volume, a line each.
 std::vector<std::string> lookWarnings(const SceneOptions &options, const CLI::App &command,
-                                      const render::Scene &scene, const volume::Volume &volume);
+                                      const scene::Scene &scene, const volume::Volume &volume);
 
 /// Why all of the fields are empty, a line; empty if one is not.
-std::string whyEmpty(const render::Scene &scene, const volume::Volume &volume,
+std::string whyEmpty(const scene::Scene &scene, const volume::Volume &volume,
                      const classify::ShownFields &fields);
 
 } // namespace pellucid::cli

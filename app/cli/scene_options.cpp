@@ -24,23 +24,23 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-const std::map<std::string, render::StandardView> views{
-    {"front", render::StandardView::front}, {"back", render::StandardView::back},
-    {"left", render::StandardView::left},   {"right", render::StandardView::right},
-    {"top", render::StandardView::top},     {"bottom", render::StandardView::bottom}};
+const std::map<std::string, scene::StandardView> views{
+    {"front", scene::StandardView::front}, {"back", scene::StandardView::back},
+    {"left", scene::StandardView::left},   {"right", scene::StandardView::right},
+    {"top", scene::StandardView::top},     {"bottom", scene::StandardView::bottom}};
 
-const std::map<std::string, render::Reconstruction> reconstructions{
-    {"cubic", render::Reconstruction::cubic},
-    {"linear", render::Reconstruction::linear},
-    {"band-limited", render::Reconstruction::bandLimited},
-    {"spline", render::Reconstruction::spline}};
+const std::map<std::string, scene::Reconstruction> reconstructions{
+    {"cubic", scene::Reconstruction::cubic},
+    {"linear", scene::Reconstruction::linear},
+    {"band-limited", scene::Reconstruction::bandLimited},
+    {"spline", scene::Reconstruction::spline}};
 
-render::Scene readScene(const fs::path &path) {
+scene::Scene readScene(const fs::path &path) {
     if (path.empty())
         throw Error(ErrorCode::usage, "--scene: an empty path leads nowhere");
     const std::string text = files::readText(path, files::mostOfPreset);
     try {
-        return render::sceneFromJson(text);
+        return scene::sceneFromJson(text);
     } catch (const Error &error) { // of the file, not of the command line
         throw Error(ErrorCode::unusable, error.reason(), path);
     }
@@ -204,7 +204,7 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->check(CLI::Range(0.0, 1.0));
     CLI::Option *quality =
         command.add_option("--quality", options.quality, "Named tolerance, default standard")
-            ->check(CLI::IsMember(names(render::namedTolerances)));
+            ->check(CLI::IsMember(names(scene::namedTolerances)));
     command.add_option("--tolerance", options.tolerance, "Largest relative L2 error")
         ->check(positive)
         ->excludes(quality);
@@ -221,18 +221,18 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
     command.add_option("--scene", options.scene, "Start from a scene saved as JSON");
 }
 
-render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
-                       const volume::Volume &volume) {
+scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
+                      const volume::Volume &volume) {
     const volume::Lattice &lattice = volume.lattice();
     const auto given = [&](const char *name) { return command.count(name) > 0; };
-    render::Scene scene;
+    scene::Scene scene;
     if (given("--scene")) {
         scene = readScene(o.scene);
     } else {
         // A large volume may have no default image; naming a size or a pixel gives it one.
         if (!given("--size") && !given("--pixel-mm"))
-            scene.camera = render::defaultCamera(lattice);
-        scene.camera.orientation = render::viewOrientation(render::StandardView::front);
+            scene.camera = scene::defaultCamera(lattice);
+        scene.camera.orientation = scene::viewOrientation(scene::StandardView::front);
         scene.camera.pixelMm = lattice.shortestStepMm();
     }
     for (const auto &[name, value] : {std::pair{"--azimuth", o.azimuthDeg},
@@ -256,14 +256,14 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
     } else if (o.scene.empty() || given("--view") || given("--azimuth") || given("--elevation") ||
                given("--roll")) {
         scene.camera.orientation =
-            render::viewOrientation(o.view.empty() ? render::StandardView::front : views.at(o.view),
-                                    {o.azimuthDeg, o.elevationDeg, o.rollDeg});
+            scene::viewOrientation(o.view.empty() ? scene::StandardView::front : views.at(o.view),
+                                   {o.azimuthDeg, o.elevationDeg, o.rollDeg});
     }
     if (given("--pixel-mm")) {
         scene.camera.pixelMm = o.pixelMm;
         if (o.scene.empty() && !given("--size")) { // the whole volume at that pixel
             const double side = 2.0 * lattice.radiusMm() / o.pixelMm;
-            if (!(o.pixelMm > 0.0) || side > render::largestImageSize)
+            if (!(o.pixelMm > 0.0) || side > scene::largestImageSize)
                 throw Error(
                     ErrorCode::usage,
                     fmt::format(
@@ -279,10 +279,10 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
                         "--size: '" + o.size + "' is not whole numbers with 'x' between them");
         const auto n = parseNumbers("--size", o.size, 'x', 2);
         if (n[0] != std::round(n[0]) || n[1] != std::round(n[1]) || std::min(n[0], n[1]) < 1 ||
-            std::max(n[0], n[1]) > render::largestImageSize)
+            std::max(n[0], n[1]) > scene::largestImageSize)
             throw Error(ErrorCode::usage,
                         fmt::format("--size: '{}' is not WIDTHxHEIGHT of 1 to {} pixels", o.size,
-                                    render::largestImageSize));
+                                    scene::largestImageSize));
         scene.camera.width = int(n[0]);
         scene.camera.height = int(n[1]);
     }
@@ -316,7 +316,7 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
     if (given("--roll-off"))
         scene.image.rollOff = o.rollOff;
     if (given("--quality"))
-        for (const auto &[name, tolerance] : render::namedTolerances)
+        for (const auto &[name, tolerance] : scene::namedTolerances)
             if (o.quality == name)
                 scene.tolerance = tolerance;
     if (given("--tolerance"))
@@ -327,7 +327,7 @@ render::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
         scene.interpolation.padding = o.padding;
     if (given("--storage"))
         scene.interpolation.storage = fourier::storageFromName(o.storage);
-    render::validate(scene);
+    scene::validate(scene);
     return scene;
 }
 

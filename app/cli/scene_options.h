@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/presets/preset.h"
-#include "core/render/scene.h"
+#include "core/scene/scene.h"
 
 namespace CLI {
 class App;
@@ -44,7 +44,7 @@ shading::Shading shadingFor(const SceneOptions &options, const CLI::App &command
 
 /// The scene they make of a volume: the scene file's, or the default one, changed by the preset and
 /// then by the options that were given. *Throws* Error{usage}, Error{unusable} for a file.
-render::Scene sceneFor(const SceneOptions &options, const CLI::App &command,
-                       const volume::Volume &volume);
+scene::Scene sceneFor(const SceneOptions &options, const CLI::App &command,
+                      const volume::Volume &volume);
 
 } // namespace pellucid::cli

@@ -11,11 +11,11 @@
 #include "app/cli/scene_fields.h"
 #include "app/cli/terminal.h"
 #include "core/files/image_files.h"
-#include "core/render/planning_scene.h"
-#include "core/render/prepared_engine.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/render/spectrum_slice.h"
+#include "core/scene/planning_scene.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
-#include "core/task/memory.h"
 
 namespace pellucid::cli {
 
@@ -44,16 +44,16 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
                    const Context &context) {
     const Input input = openInput(inputOptions, {out}, context);
     const volume::Volume &volume = input.loaded.volume;
-    render::Scene scene = sceneFor(options, command, volume);
+    scene::Scene scene = sceneFor(options, command, volume);
     scene.shading = {}; // a preset or a scene file may have brought one
     const task::Progress progress(context.stop);
     const classify::FieldWindow window = windowFor(scene, volume);
     const classify::ShownFields fields = fieldsFor(scene, volume, context);
     if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
         throw Error(ErrorCode::unusable, why);
-    const auto prepared = render::prepareEngine(
-        render::planningScene(scene, fields.channels.front().values.lattice()), fields,
-        {task::availableMemoryBytes()}, progress);
+    const auto prepared = prepare::prepareEngine(
+        scene::planningScene(scene, fields.channels.front().values.lattice()), fields,
+        {system::availableMemoryBytes()}, progress);
     std::vector<std::string> warnings = volume.notes().warnings;
     const auto warnOf = [&](const std::string &text) {
         warnings.push_back(text);

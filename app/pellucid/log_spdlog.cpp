@@ -4,7 +4,7 @@
 #include <spdlog/sinks/rotating_file_sink.h>
 #include <spdlog/spdlog.h>
 
-#include "core/task/log.h"
+#include "core/system/log.h"
 
 namespace pellucid {
 
@@ -22,7 +22,7 @@ void keepLogIn(const std::filesystem::path &file) {
         logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %v");
         logger->flush_on(spdlog::level::info);
         logger->set_error_handler([](const std::string &) {});
-        task::setLogSink([logger](const std::string &line) { logger->info("{}", line); });
+        system::setLogSink([logger](const std::string &line) { logger->info("{}", line); });
     } catch (const spdlog::spdlog_ex &) {
         // No such folder, or no right to it.
     }

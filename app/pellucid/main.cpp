@@ -15,16 +15,16 @@
 #include "app/pellucid/log_spdlog.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
-#include "core/fourier/wisdom.h"
+#include "core/fourier/transforms/wisdom.h"
+#include "core/system/log.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
-#include "core/task/log.h"
-#include "core/task/memory.h"
-#include "ui/application.h"
-#include "ui/failure.h"
-#include "ui/graphics_card.h"
-#include "ui/main_window.h"
-#include "ui/reopening.h"
-#include "ui/workstation.h"
+#include "ui/engine/graphics_card.h"
+#include "ui/language/failure.h"
+#include "ui/window/application.h"
+#include "ui/window/main_window.h"
+#include "ui/window/reopening.h"
+#include "ui/window/workstation.h"
 
 namespace {
 
@@ -116,13 +116,13 @@ int main(int argc, char **argv) {
 #endif
     // Libraries map much while they begin, and some software renderers crash where they cannot.
     constexpr std::size_t mappedToStart = std::size_t(1100) << 20;
-    if (task::mappableBytes() < mappedToStart) {
+    if (system::mappableBytes() < mappedToStart) {
         std::fprintf(
             stderr, "pellucid: not enough memory to start: needs %zu MB, the limit leaves %zu MB\n",
-            mappedToStart >> 20, task::mappableBytes() >> 20);
+            mappedToStart >> 20, system::mappableBytes() >> 20);
         return int(task::ErrorCode::outOfMemory);
     }
-    task::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
+    system::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
     // The engine's context shares with those of the windows: its pictures stay on the card.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
     ui::Application application(argc, argv);

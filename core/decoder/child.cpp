@@ -20,9 +20,9 @@
 #include <unistd.h>
 #include <vector>
 
+#include "core/system/log.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
-#include "core/task/log.h"
-#include "core/task/memory.h"
 
 namespace pellucid::decoder {
 
@@ -175,9 +175,9 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
     m_confinement = ready->message.code;
     static std::once_flag once;
     std::call_once(once, [this] {
-        task::log(std::string("decoders: limits ") +
-                  ((m_confinement & limitsHold) != 0 ? "hold" : "DO NOT hold") + ", calls are " +
-                  ((m_confinement & callsAreFiltered) != 0 ? "filtered" : "NOT filtered"));
+        system::log(std::string("decoders: limits ") +
+                    ((m_confinement & limitsHold) != 0 ? "hold" : "DO NOT hold") + ", calls are " +
+                    ((m_confinement & callsAreFiltered) != 0 ? "filtered" : "NOT filtered"));
     });
     m_isSound = true;
 }
@@ -248,7 +248,7 @@ bool Child::grow(std::uint64_t bytes) {
     const std::uint64_t more = bytes - m_arenaBytes;
     const std::uint64_t granted = grantedBytes.fetch_add(more) + more;
     m_grantedBytes += more;
-    if (granted > task::availableMemoryBytes() || ::ftruncate(m_arena.get(), off_t(bytes)) != 0) {
+    if (granted > system::availableMemoryBytes() || ::ftruncate(m_arena.get(), off_t(bytes)) != 0) {
         grantedBytes -= more;
         m_grantedBytes -= more;
         return false;
@@ -293,7 +293,7 @@ void Child::failAsItEnded() {
     }
     m_pid = -1;
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    task::log("a decoder ended: signal " + std::to_string(signal));
+    system::log("a decoder ended: signal " + std::to_string(signal));
     switch (signal) {
     case SIGPROF:
         throw Error(ErrorCode::unusable, "takes too long to read");

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "core/decoder/decoder.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
-#include "core/task/memory.h"
 #include "core/volume/volume_file.h"
 
 namespace pellucid::decoder {
@@ -218,7 +218,7 @@ Volume read(const OpenVolume &file, int which, const task::Progress &progress) {
     const double bytesEach = isRescaled
                                  ? sizeof(float) + 2.0
                                  : sizeof(Kept) + (std::is_same_v<Kept, std::uint16_t> ? 4.0 : 0.0);
-    task::requireMemory(double(count) * bytesEach);
+    system::requireMemory(double(count) * bytesEach);
     if (isRescaled)
         return taken<Stored>(
             file, which, RescaledValues<Stored>(count, layout.slope, layout.intercept), progress);

@@ -22,8 +22,8 @@
 #include "core/decoder/decoder.h"
 #include "core/decoder/read_volume_file.h"
 #include "core/dicom/group_series.h"
+#include "core/system/memory.h"
 #include "core/task/error.h"
-#include "core/task/memory.h"
 
 namespace pellucid::dicom {
 
@@ -235,7 +235,7 @@ private:
         // A preview, or the resampled stack, is there as well.
         const double slices =
             std::max<double>(m_entry.geometry.lattice.size().k, double(m_entry.frames.size()));
-        task::requireMemory(2.0 * sizeof(T) * double(plane) * slices);
+        system::requireMemory(2.0 * sizeof(T) * double(plane) * slices);
         std::vector<T> samples(plane * m_entry.frames.size(), Missing<T>::value);
         // Set when a slice is complete, so that a preview copies no half-written one.
         std::vector<std::atomic<bool>> arrived(m_entry.frames.size());

@@ -17,9 +17,9 @@
 #include "core/decoder/read_volume_file.h"
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/group_series.h"
+#include "core/system/memory.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
-#include "core/task/memory.h"
-#include "core/task/text.h"
 #include "core/volume/volume_file.h"
 
 namespace pellucid::dicom {
@@ -49,9 +49,9 @@ public:
         if (isNew)
             for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
                  entry.increment(ignored))
-                names->second.try_emplace(task::lowered(entry->path().filename().string()),
+                names->second.try_emplace(system::lowered(entry->path().filename().string()),
                                           entry->path());
-        const auto it = names->second.find(task::lowered(name));
+        const auto it = names->second.find(system::lowered(name));
         return it == names->second.end() ? folder / name : it->second;
     }
 
@@ -348,7 +348,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
 
     // A small file may announce very many frames: all of them are held until they are grouped.
     constexpr std::size_t ofUsualSeries = std::size_t(32) << 20;
-    HeldMemory held(std::max(task::availableMemoryBytes() / 2, ofUsualSeries));
+    HeldMemory held(std::max(system::availableMemoryBytes() / 2, ofUsualSeries));
     std::vector<InstanceHeader> headers(list.found.size());
     std::vector<std::optional<decoder::VolumeFileHeader>> volumeFiles(list.found.size());
     std::vector<std::string> reasons(list.found.size());

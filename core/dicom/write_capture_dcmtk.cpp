@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "core/dcmtk/dictionary.h"
 #include "core/dicom/write_dataset.h"
-#include "core/parse/dictionary.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {
@@ -91,7 +91,7 @@ std::string newSeriesUid() {
 
 void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
                   int width, const CaptureLabels &labels) {
-    parse::prepareDcmtk();
+    dcmtk::prepareDcmtk();
     const bool grey = isGrey(rgba);
     DcmFileFormat file;
     DcmDataset &d = *file.getDataset();

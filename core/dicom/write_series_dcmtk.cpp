@@ -19,9 +19,9 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "core/dcmtk/dictionary.h"
+#include "core/dcmtk/encode_jpeg2000.h"
 #include "core/dicom/write_dataset.h"
-#include "core/parse/dictionary.h"
-#include "core/parse/jpeg2000.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {
@@ -53,10 +53,10 @@ const std::array<Syntax, 8> &syntaxes() {
 
 // Moves pixels that were set uncompressed into a JPEG 2000 codestream, which DCMTK does not write.
 void compressJpeg2000(DcmDataset &dataset, const std::int16_t *slice, volume::GridSize size) {
-    const parse::Jpeg2000Image image{
+    const dcmtk::Jpeg2000Image image{
         size.j, size.i, 16, true,
         std::vector<std::int32_t>(slice, slice + std::size_t(size.i) * size.j)};
-    std::vector<std::byte> stream = parse::encodeJpeg2000(image);
+    std::vector<std::byte> stream = dcmtk::encodeJpeg2000(image);
     auto *sequence = new DcmPixelSequence(DCM_PixelSequenceTag);
     auto *offsets = new DcmPixelItem(DCM_PixelItemTag);
     sequence->insert(offsets);
@@ -189,7 +189,7 @@ std::vector<std::string> transferSyntaxNames() {
 
 void writeCtSeries(const fs::path &folder, const volume::Volume &volume, const SeriesLabels &labels,
                    TransferSyntax syntax, const task::Progress &progress) {
-    parse::prepareDcmtk();
+    dcmtk::prepareDcmtk();
     if (volume.isFloat())
         throw Error(ErrorCode::usage, "only volumes of whole HU are written as CT");
     std::error_code error;

@@ -10,10 +10,10 @@
 #include <tbb/parallel_for.h>
 
 #include "core/fourier/binary16.h"
-#include "core/fourier/page_memory.h"
-#include "core/fourier/strip_copies.h"
-#include "core/fourier/strip_transform.h"
-#include "core/fourier/transform.h"
+#include "core/fourier/transforms/strip_copies.h"
+#include "core/fourier/transforms/strip_transform.h"
+#include "core/fourier/transforms/transform.h"
+#include "core/system/page_memory.h"
 
 namespace pellucid::fourier {
 
@@ -26,7 +26,8 @@ using Complex = std::complex<float>;
 template <class T> class Scratch {
 public:
     explicit Scratch(std::size_t count)
-        : m_memory([count] { return allocatePages(count * sizeof(T), "a transform's rows"); }) {}
+        : m_memory(
+              [count] { return system::allocatePages(count * sizeof(T), "a transform's rows"); }) {}
     T *local() { return reinterpret_cast<T *>(m_memory.local().get()); }
 
 private:
@@ -215,7 +216,7 @@ Spectrum::Spectrum(const volume::Volume &field, const SpectrumLayout &layout)
     const GridSize size = box.size();
     m_wrapPoint = m_lattice.patient(
         volume::VoxelIndex{box.lo.i + size.i / 2, box.lo.j + size.j / 2, box.lo.k + size.k / 2});
-    m_cells = allocatePages(layout.bytes(), "a spectrum");
+    m_cells = system::allocatePages(layout.bytes(), "a spectrum");
     std::memset(m_cells.get() + layout.bytes() - 64, 0, 64);
 }
 
@@ -233,7 +234,7 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
 
     // Along x and y plane by plane, which stays in the cache; rows and planes of padding are not
     // transformed. Sample n goes to (n - middle) modulo padded.
-    const auto intermediateMemory = allocatePages(intermediateBytes(layout), "a transform");
+    const auto intermediateMemory = system::allocatePages(intermediateBytes(layout), "a transform");
     auto *const intermediate = reinterpret_cast<float *>(intermediateMemory.get());
     const ForwardTransform1d alongX(padded.i);
     const StripTransform alongY(padded.j), alongZ(padded.k);

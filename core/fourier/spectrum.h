@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/fourier/kernel.h"
+#include "core/fourier/kernels/kernel.h"
 #include "core/fourier/storage.h"
 #include "core/task/progress.h"
 #include "core/volume/volume.h"

@@ -12,7 +12,7 @@
 #include <seccomp.h>
 
 #include "core/decoder/message.h"
-#include "core/task/memory.h"
+#include "core/system/memory.h"
 
 namespace pellucid::parse {
 
@@ -38,7 +38,7 @@ bool limitResources() {
 #ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes, and write reports
     holds = limit(RLIMIT_FSIZE, 0) && holds;
     // What is its own: neither files nor the arena, which its parent fills, count.
-    holds = limit(RLIMIT_DATA, task::freeMemoryBytes()) && holds;
+    holds = limit(RLIMIT_DATA, system::freeMemoryBytes()) && holds;
     ::prctl(PR_SET_DUMPABLE, 0); // no debugger but root's
 #endif
     return holds;

@@ -10,10 +10,10 @@
 
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
+#include "core/parse/decode_jpeg2000.h"
 #include "core/parse/decoder_warnings.h"
 #include "core/parse/fragments.h"
 #include "core/parse/frame_check.h"
-#include "core/parse/jpeg2000.h"
 #include "core/parse/jpeg_xl.h"
 #include "core/parse/load_file.h"
 #include "core/parse/mosaic.h"
@@ -54,7 +54,7 @@ void takeFrame(const std::vector<T> &samples, int precision, std::size_t frame,
 
 void decodeJpeg2000Frames(const CompressedFrames &frames, DecodedImage &image) {
     for (std::size_t n = 0; n < frames.count(); ++n) {
-        const Jpeg2000Image decoded =
+        const dcmtk::Jpeg2000Image decoded =
             decodeJpeg2000(frames.frame(n), image.header.rows, image.header.columns);
         image.header.hasDamagedPixels = image.header.hasDamagedPixels || decoded.isDamaged;
         takeFrame(decoded.samples, decoded.precision, n, image);

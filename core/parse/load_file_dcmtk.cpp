@@ -10,8 +10,8 @@
 
 #include <dcmtk/dcmdata/dctk.h>
 
+#include "core/dcmtk/dictionary.h"
 #include "core/decoder/decoder.h"
-#include "core/parse/dictionary.h"
 #include "core/parse/memory_input.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
@@ -97,7 +97,7 @@ DcmDataset &LoadedFile::dataset() const {
 }
 
 LoadedFile loadFile(std::span<const std::byte> bytes, Extent extent) {
-    prepareDcmtk();
+    dcmtk::prepareDcmtk();
     if (bytes.empty())
         throw Error(ErrorCode::unusable, "is empty");
     if (!decoder::looksLikeDicom(bytes))

@@ -3,9 +3,9 @@
 
 #include <dcmtk/dcmdata/dctk.h>
 
+#include "core/dcmtk/dictionary.h"
 #include "core/parse/damage.h"
 #include "core/parse/dataset.h"
-#include "core/parse/dictionary.h"
 #include "core/parse/memory_input.h"
 #include "core/parse/parse.h"
 #include "core/task/error.h"
@@ -15,7 +15,7 @@ namespace pellucid::parse {
 namespace {
 
 DirectoryFile parsed(std::span<const std::byte> bytes) {
-    prepareDcmtk();
+    dcmtk::prepareDcmtk();
     DirectoryFile directory;
     OFString sopClass;
     {

@@ -8,8 +8,8 @@
 
 #include "core/decoder/instance.h"
 #include "core/parse/volume_formats.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
-#include "core/task/text.h"
 
 namespace pellucid::parse {
 
@@ -31,7 +31,7 @@ struct Header {
         return std::nullopt;
     }
     bool isTrue(std::initializer_list<const char *> names) const {
-        return task::lowered(find(names).value_or("")) == "true";
+        return system::lowered(find(names).value_or("")) == "true";
     }
     template <class T>
     std::optional<std::vector<T>> numbers(std::initializer_list<const char *> names,
@@ -64,7 +64,7 @@ Header readHeader(std::span<const std::byte> file) {
         const auto equals = line.find('=');
         if (equals == std::string::npos)
             fail("the MetaImage header has a line without '='");
-        const std::string name = task::lowered(trimmed(line.substr(0, equals)));
+        const std::string name = system::lowered(trimmed(line.substr(0, equals)));
         header.fields[name] = trimmed(line.substr(equals + 1));
         if (name == "elementdatafile") // the last, whatever follows
             return header;
@@ -135,7 +135,7 @@ VolumeLayout parseMetaImage(std::span<const std::byte> file) {
         fail("lists a file outside its folder");
     if (where == "LIST" || where.find('%') != std::string::npos)
         fail("MetaImage samples in a list of files are not supported");
-    const bool isHere = task::lowered(where) == "local";
+    const bool isHere = system::lowered(where) == "local";
     if (!isHere)
         layout.dataFile = where;
     const long long inFront =

@@ -14,8 +14,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/parse/volume_formats.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
-#include "core/task/text.h"
 
 namespace pellucid::parse {
 
@@ -56,7 +56,7 @@ Header readHeader(std::span<const std::byte> file) {
         const auto colon = line.find(':');
         if (colon == std::string::npos)
             throw Error(ErrorCode::unusable, "the NRRD header has a line without a colon");
-        const std::string name = task::lowered(trimmed(line.substr(0, colon)));
+        const std::string name = system::lowered(trimmed(line.substr(0, colon)));
         if (!header.fields.try_emplace(name, trimmed(line.substr(colon + 1))).second)
             throw Error(ErrorCode::unusable,
                         fmt::format("the NRRD header has '{}' twice", name.substr(0, 60)));
@@ -138,7 +138,7 @@ std::optional<StoredScalar> scalarOf(const std::string &name) {
         {"uint64_t", StoredScalar::u64},
         {"float", StoredScalar::f32},
         {"double", StoredScalar::f64}};
-    const auto it = names.find(task::lowered(name));
+    const auto it = names.find(system::lowered(name));
     return it == names.end() ? std::nullopt : std::optional(it->second);
 }
 
@@ -151,7 +151,7 @@ Space spaceOf(const Fields &fields) {
     const auto space = fields.find({"space"});
     if (!space)
         return {glm::dvec3(1.0), false};
-    const std::string name = task::lowered(*space);
+    const std::string name = system::lowered(*space);
     if (name == "left-posterior-superior" || name == "lps")
         return {};
     if (name == "right-anterior-superior" || name == "ras")
@@ -183,7 +183,7 @@ void requireMillimetres(const Fields &fields, const std::string &name, std::stri
     std::replace(units.begin(), units.end(), '"', ' ');
     std::istringstream each(units);
     for (std::string unit; each >> unit;)
-        if (const std::string lowered = task::lowered(unit);
+        if (const std::string lowered = system::lowered(unit);
             lowered != "mm" && lowered != "millimeter" && lowered != "millimeters" &&
             lowered != "millimetre" && lowered != "millimetres")
             fields.fail("NRRD " + name + " '" + unit.substr(0, 20) + "' are not supported");
@@ -235,12 +235,12 @@ VolumeLayout parseNrrd(std::span<const std::byte> file) {
     if (!scalar)
         fields.fail("NRRD type '" + typeName + "' is not supported");
     layout.scalar = *scalar;
-    const std::string encoding = task::lowered(fields.get({"encoding"}));
+    const std::string encoding = system::lowered(fields.get({"encoding"}));
     layout.isDeflated = encoding == "gzip" || encoding == "gz";
     if (!layout.isDeflated && encoding != "raw")
         fields.fail("NRRD encoding '" + encoding + "' is not supported");
     if (decoder::bytesOf(*scalar) > 1) {
-        const std::string endian = task::lowered(fields.get({"endian"}));
+        const std::string endian = system::lowered(fields.get({"endian"}));
         if (endian != "little" && endian != "big")
             fields.fail("NRRD endian '" + endian + "' is not supported");
         layout.isSwapped = (endian == "big") == (std::endian::native == std::endian::little);

@@ -8,10 +8,10 @@
 #include <new>
 #include <sys/mman.h>
 
+#include "core/dcmtk/dictionary.h"
 #include "core/decoder/channel.h"
 #include "core/decoder/child.h"
 #include "core/parse/damage.h"
-#include "core/parse/dictionary.h"
 #include "core/parse/parse.h"
 #include "core/parse/watch.h"
 #include "core/task/error.h"
@@ -165,7 +165,7 @@ constexpr std::array characterSets{
 } // namespace
 
 void prepareToServe() {
-    prepareDcmtk();
+    dcmtk::prepareDcmtk();
     for (const char *const set : characterSets)
         (void)::iconv_open("UTF-8", set); // kept open on purpose; unknown ones are not used
 }

@@ -9,8 +9,8 @@
 
 #include "core/files/user_folders.h"
 #include "core/presets/built_in.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
-#include "core/task/text.h"
 
 namespace pellucid::presets {
 
@@ -73,13 +73,13 @@ void PresetLibrary::read() {
         }
     }
     std::sort(m_entries.begin() + builtInCount, m_entries.end(), [](const auto &a, const auto &b) {
-        return task::lowered(a.preset.name) < task::lowered(b.preset.name);
+        return system::lowered(a.preset.name) < system::lowered(b.preset.name);
     });
 }
 
 const PresetEntry *PresetLibrary::find(const std::string &name) const {
     const auto found = std::find_if(m_entries.begin(), m_entries.end(), [&](const PresetEntry &e) {
-        return task::lowered(e.preset.name) == task::lowered(name);
+        return system::lowered(e.preset.name) == system::lowered(name);
     });
     return found == m_entries.end() ? nullptr : &*found;
 }
@@ -89,7 +89,7 @@ const PresetEntry &PresetLibrary::get(const std::string &name) const {
         return *found;
     std::string close;
     for (const PresetEntry &entry : m_entries)
-        if (task::lowered(entry.preset.name).find(task::lowered(name)) != std::string::npos)
+        if (system::lowered(entry.preset.name).find(system::lowered(name)) != std::string::npos)
             close += (close.empty() ? "" : ", ") + entry.preset.name;
     throw Error(ErrorCode::usage, "there is no preset '" + name + "'" +
                                       (close.empty() ? "; 'pellucid-cli preset list' names them"

@@ -76,8 +76,8 @@ void directSum(const volume::Volume &field, const std::vector<glm::dvec3> &frequ
     });
 }
 
-std::vector<double> directSumImage(const volume::Volume &field, const render::Camera &camera,
-                                   const render::ImageDefinition &image) {
+std::vector<double> directSumImage(const volume::Volume &field, const scene::Camera &camera,
+                                   const scene::ImageDefinition &image) {
     return sliceImage([&](const auto &s, auto &values) { directSum(field, s, values); },
                       field.lattice(), camera, image);
 }

@@ -9,8 +9,8 @@ namespace pellucid::reference {
 /// The truth: D(s) by direct summation over all samples, double precision, no transform, no kernel.
 /// Costs samples times frequencies; meant for at most 96 samples a side.
 /// *Shape*: the field is float32. The result is camera.height x camera.width, field times mm.
-std::vector<double> directSumImage(const volume::Volume &field, const render::Camera &camera,
-                                   const render::ImageDefinition &image);
+std::vector<double> directSumImage(const volume::Volume &field, const scene::Camera &camera,
+                                   const scene::ImageDefinition &image);
 
 /// The same D(s) at given frequencies.
 void directSum(const volume::Volume &field, const std::vector<glm::dvec3> &frequencies,

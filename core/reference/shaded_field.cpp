@@ -66,8 +66,8 @@ classify::DensityField shadedField(const classify::DensityField &field,
 }
 
 std::vector<double> shadedImage(const classify::ShownFields &fields,
-                                const shading::Shading &shading, const render::Camera &camera,
-                                const render::ImageDefinition &image,
+                                const shading::Shading &shading, const scene::Camera &camera,
+                                const scene::ImageDefinition &image,
                                 const task::Progress &progress) {
     const bool isGrey = fields.isGrey() && shading.isGrey();
     const auto scale = shading::shadingScale(fields.channels.front().values.lattice());

@@ -6,8 +6,8 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/classify/shown_fields.h"
-#include "core/render/camera.h"
-#include "core/render/image_definition.h"
+#include "core/scene/camera.h"
+#include "core/scene/image_definition.h"
 #include "core/shading/slice_shading.h"
 #include "core/task/progress.h"
 
@@ -25,8 +25,8 @@ classify::DensityField shadedField(const classify::DensityField &field,
 /// The exact picture of a look with cue and light. *Shape*: camera.height x camera.width, times 3
 /// if the look or the light has colours. *Throws* Error{outOfMemory}, Cancelled.
 std::vector<double> shadedImage(const classify::ShownFields &fields,
-                                const shading::Shading &shading, const render::Camera &camera,
-                                const render::ImageDefinition &image,
+                                const shading::Shading &shading, const scene::Camera &camera,
+                                const scene::ImageDefinition &image,
                                 const task::Progress &progress = {});
 
 } // namespace pellucid::reference

@@ -7,8 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/fourier/padded_size.h"
-#include "core/fourier/transform.h"
+#include "core/fourier/transforms/padded_size.h"
+#include "core/fourier/transforms/transform.h"
 
 namespace pellucid::reference {
 
@@ -18,13 +18,13 @@ struct SliceSize {
     int columns, rows;
 };
 
-SliceSize sliceSize(const volume::Lattice &lattice, const render::Camera &camera,
-                    const render::ImageDefinition &image) {
+SliceSize sliceSize(const volume::Lattice &lattice, const scene::Camera &camera,
+                    const scene::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
     // Four times the length that the roll-off's response fades over, or twice that of the lattice's
     // own band where that is tapered too and longer.
-    double ringing = 4.0 * render::ringingPixels(image.rollOff);
-    if (image.reconstruction == render::Reconstruction::bandLimited)
+    double ringing = 4.0 * scene::ringingPixels(image.rollOff);
+    if (image.reconstruction == scene::Reconstruction::bandLimited)
         ringing *= std::max(
             1.0, 0.5 *
                      std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) /
@@ -39,21 +39,21 @@ SliceSize sliceSize(const volume::Lattice &lattice, const render::Camera &camera
 
 } // namespace
 
-std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &camera,
-                       const render::ImageDefinition &image) {
+std::size_t sliceBytes(const volume::Lattice &lattice, const scene::Camera &camera,
+                       const scene::ImageDefinition &image) {
     const SliceSize size = sliceSize(lattice, camera, image);
     // The slice, the plane it becomes, and the image.
     return 3 * sizeof(double) * std::size_t(size.columns) * std::size_t(size.rows);
 }
 
-double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
-                   const render::ImageDefinition &image, const render::EnergySpread &spread) {
+double foldedTails(const volume::Lattice &lattice, const scene::Camera &camera,
+                   const scene::ImageDefinition &image, const plan::EnergySpread &spread) {
     const SliceSize size = sliceSize(lattice, camera, image);
-    return render::predictFoldedTails(image, camera, size.columns, size.rows, spread);
+    return plan::predictFoldedTails(image, camera, size.columns, size.rows, spread);
 }
 
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
-                               const render::Camera &camera, const render::ImageDefinition &image) {
+                               const scene::Camera &camera, const scene::ImageDefinition &image) {
     const SliceSize size = sliceSize(lattice, camera, image);
     const int columns = size.columns, rows = size.rows;
     const double du = 1.0 / (columns * camera.pixelMm), dv = 1.0 / (rows * camera.pixelMm);
@@ -78,9 +78,9 @@ std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::La
             if (radius >= 1.0)
                 break;
             const glm::dvec3 s = su * axes[0] + sv * axes[1];
-            double w = render::rollOffFactor(image.rollOff, radius) * du * dv;
+            double w = scene::rollOffFactor(image.rollOff, radius) * du * dv;
             for (int d = 0; d < 3; ++d)
-                w *= render::reconstructionFactor(image, glm::dot(lattice.step(d), s));
+                w *= scene::reconstructionFactor(image, glm::dot(lattice.step(d), s));
             frequencies.push_back(s);
             at.push_back(kx);
             weight.push_back(w);

@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "core/render/camera.h"
-#include "core/render/folded_tails.h"
-#include "core/render/image_definition.h"
+#include "core/plan/folded_tails.h"
+#include "core/scene/camera.h"
+#include "core/scene/image_definition.h"
 #include "core/volume/lattice.h"
 
 namespace pellucid::reference {
@@ -22,14 +22,14 @@ using SpectrumSampler = std::function<void(const std::vector<glm::dvec3> &freque
 /// projection that the tails of the roll-off do not fold back into the picture. *Shape*:
 /// camera.height x camera.width.
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
-                               const render::Camera &camera, const render::ImageDefinition &image);
+                               const scene::Camera &camera, const scene::ImageDefinition &image);
 
 /// Bytes that making such an image takes, beside the spectrum.
-std::size_t sliceBytes(const volume::Lattice &lattice, const render::Camera &camera,
-                       const render::ImageDefinition &image);
+std::size_t sliceBytes(const volume::Lattice &lattice, const scene::Camera &camera,
+                       const scene::ImageDefinition &image);
 
-/// What is left of the roll-off's tails, relative L2; see render::predictFoldedTails.
-double foldedTails(const volume::Lattice &lattice, const render::Camera &camera,
-                   const render::ImageDefinition &image, const render::EnergySpread &spread);
+/// What is left of the roll-off's tails, relative L2; see plan::predictFoldedTails.
+double foldedTails(const volume::Lattice &lattice, const scene::Camera &camera,
+                   const scene::ImageDefinition &image, const plan::EnergySpread &spread);
 
 } // namespace pellucid::reference

@@ -8,8 +8,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/fourier/padded_size.h"
-#include "core/fourier/transform.h"
+#include "core/fourier/transforms/padded_size.h"
+#include "core/fourier/transforms/transform.h"
 #include "core/task/error.h"
 
 namespace pellucid::reference {
@@ -142,8 +142,8 @@ void WideKernel::sample(const std::vector<glm::dvec3> &frequencies,
     }
 }
 
-std::vector<double> WideKernel::image(const render::Camera &camera,
-                                      const render::ImageDefinition &image) const {
+std::vector<double> WideKernel::image(const scene::Camera &camera,
+                                      const scene::ImageDefinition &image) const {
     return sliceImage([this](const auto &s, auto &values) { sample(s, values); }, m_lattice, camera,
                       image);
 }

@@ -16,8 +16,8 @@ public:
     WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
                const task::Progress &progress = {});
 
-    std::vector<double> image(const render::Camera &camera,
-                              const render::ImageDefinition &image) const;
+    std::vector<double> image(const scene::Camera &camera,
+                              const scene::ImageDefinition &image) const;
     void sample(const std::vector<glm::dvec3> &frequencies,
                 std::vector<std::complex<double>> &values) const;
 

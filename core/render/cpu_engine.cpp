@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "core/fourier/page_memory.h"
 #include "core/render/frame_geometry.h"
 #include "core/render/frame_mixing.h"
+#include "core/system/page_memory.h"
 #include "core/task/error.h"
 #include "core/task/worker_team.h"
 
@@ -45,7 +45,7 @@ std::vector<std::complex<double>> rotations(int count, double turns) {
 
 // What depends on the slice grid and the roll-off alone, and is kept from frame to frame.
 struct GridTables {
-    GridTables(const SliceGrid &size, double rollOffShare)
+    GridTables(const plan::SliceGrid &size, double rollOffShare)
         : grid(size), share(rollOffShare), alongRows(size.rows), halfColumns(size.columns / 2) {
         for (const auto &factor : rotations(size.columns / 2, 1.0 / size.columns))
             untangle.emplace_back(factor);
@@ -64,11 +64,11 @@ struct GridTables {
             bounds.rollOff = rollOff.size();
             for (int row = bounds.innerRow + 1; row <= bounds.outerRow; ++row)
                 for (int column = first; column <= last; ++column)
-                    rollOff.push_back(float(rollOffFactor(share, radius(column, row))));
+                    rollOff.push_back(float(scene::rollOffFactor(share, radius(column, row))));
             strips.push_back(bounds);
         }
     }
-    SliceGrid grid;
+    plan::SliceGrid grid;
     double share;
     fourier::StripTransform alongRows, halfColumns;
     std::vector<Complex> untangle;
@@ -83,7 +83,7 @@ struct CpuEngine::Workplace {
     explicit Workplace(int threads) : team(threads), scratch(team.slots()) {}
 
     // Makes ready for frames of a grid.
-    void fit(const SliceGrid &grid, int channels, const ImageDefinition &image) {
+    void fit(const plan::SliceGrid &grid, int channels, const scene::ImageDefinition &image) {
         for (auto &kept : others)
             if (kept && kept->grid == grid && kept->share == image.rollOff)
                 std::swap(tables, kept);
@@ -94,13 +94,14 @@ struct CpuEngine::Workplace {
             others.front() = std::move(tables);
             tables = std::move(made);
         }
-        const SliceGrid need{std::max(room.columns, grid.columns), std::max(room.rows, grid.rows)};
+        const plan::SliceGrid need{std::max(room.columns, grid.columns),
+                                   std::max(room.rows, grid.rows)};
         if (need != room || channels > channelRoom)
             allocate(need, std::max(channels, channelRoom));
     }
 
     // Buffers for every grid up to a size.
-    void allocate(const SliceGrid &grid, int channels) {
+    void allocate(const plan::SliceGrid &grid, int channels) {
         // Set last: if memory runs out half way, nothing here may look ready.
         room = {0, 0};
         channelRoom = 0;
@@ -109,7 +110,7 @@ struct CpuEngine::Workplace {
         const std::size_t length = std::size_t(groupsOf(std::max(grid.rows, grid.columns))) *
                                    stripLanes; // rows fill their last group
         const auto floats = [](std::size_t count) {
-            auto memory = fourier::allocatePages(count * sizeof(float), "an image of this size");
+            auto memory = system::allocatePages(count * sizeof(float), "an image of this size");
             std::fill_n(reinterpret_cast<float *>(memory.get()), count, 0.0F);
             return memory;
         };
@@ -118,7 +119,7 @@ struct CpuEngine::Workplace {
             lines.push_back(floats(groupsOf(grid.rows) * columns * stripFloats));
         columnPhase = floats(2 * columns);
         rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
-        batches = fourier::allocatePages(
+        batches = system::allocatePages(
             scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch), "an image of this size");
         strips.clear();
         for (std::size_t n = 0; n < scratch.size(); ++n) {
@@ -150,7 +151,7 @@ struct CpuEngine::Workplace {
     // A draft and a full frame take turns while the hand moves: their tables are kept, and a third.
     std::unique_ptr<GridTables> tables;
     std::array<std::unique_ptr<GridTables>, 2> others;
-    SliceGrid room{0, 0}; ///< what the buffers hold
+    plan::SliceGrid room{0, 0}; ///< what the buffers hold
     int channelRoom = 0;
     std::shared_ptr<std::byte[]> columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> lines, strips;
@@ -189,11 +190,12 @@ bool areGrey(std::span<const ChannelShares> shares) {
 }
 
 CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
-                     const std::optional<SliceRoom> &room, int threads)
+                     const std::optional<plan::SliceRoom> &room, int threads)
     : CpuEngine({{spectrum}, {}, shading::shadingScale(spectrum->lattice())},
-                room ? *room : roomOfBox(spectrum->lattice(), spectrum->layout().box), threads) {}
+                room ? *room : plan::roomOfBox(spectrum->lattice(), spectrum->layout().box),
+                threads) {}
 
-CpuEngine::CpuEngine(EngineSpectra spectra, const SliceRoom &room, int threads)
+CpuEngine::CpuEngine(EngineSpectra spectra, const plan::SliceRoom &room, int threads)
     : m_spectra(std::move(spectra)), m_shares(m_spectra.fields.size(), {1.0, 1.0, 1.0}),
       m_workplace(std::make_unique<Workplace>(threads)), m_room(room) {}
 
@@ -214,8 +216,10 @@ std::string CpuEngine::description() const {
                        threads == 1 ? "" : "s");
 }
 
-ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &image,
-                                  const shading::Shading &shading, FrameTimes *times) {
+picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
+                                           const scene::ImageDefinition &image,
+                                           const shading::Shading &shading,
+                                           picture::FrameTimes *times) {
     const double start = frameClockSeconds();
     const fourier::Spectrum &spectrum = *m_spectra.fields.front();
     const fourier::SpectrumLayout &layout = spectrum.layout();
@@ -226,9 +230,10 @@ ProjectionImage CpuEngine::render(const Camera &camera, const ImageDefinition &i
         shone.lights.clear();
     const shading::SliceShading sliceShading = shading::sliceShading(shone, axes, m_spectra.scale);
     const Mixing mixing(m_spectra, m_shares, sliceShading, shone.isGrey());
-    const SliceGrid grid = m_workplace->framed.gridFor(camera, m_room, lattice, image);
+    const plan::SliceGrid grid = m_workplace->framed.gridFor(camera, m_room, lattice, image);
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
-    ProjectionImage result{camera.width, camera.height, camera.pixelMm, {}, mixing.grey ? 1 : 3};
+    picture::ProjectionImage result{
+        camera.width, camera.height, camera.pixelMm, {}, mixing.grey ? 1 : 3};
     try {
         m_workplace->fit(grid, mixing.channels, image);
         result.samples.resize(pixels * std::size_t(result.channels));

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/fourier/spectrum.h"
-#include "core/render/projection_image.h"
-#include "core/render/render_plan.h"
+#include "core/picture/projection_image.h"
+#include "core/plan/render_plan.h"
 #include "core/shading/slice_shading.h"
 
 namespace pellucid::render {
@@ -33,7 +33,7 @@ struct EngineSpectra {
 struct EngineParts {
     EngineSpectra spectra;
     std::vector<ChannelShares> shares; ///< one each field
-    SliceRoom room;
+    plan::SliceRoom room;
 };
 
 /// Makes projections of prepared fields. Engines are interchangeable: under the same plan they
@@ -45,9 +45,10 @@ public:
     virtual std::string description() const = 0;
     /// Not safe to call from two threads at once. Lights shine only on what was prepared for them.
     /// *Throws* Error{outOfMemory}.
-    virtual ProjectionImage render(const Camera &camera, const ImageDefinition &image,
-                                   const shading::Shading &shading = {},
-                                   FrameTimes *times = nullptr) = 0;
+    virtual picture::ProjectionImage render(const scene::Camera &camera,
+                                            const scene::ImageDefinition &image,
+                                            const shading::Shading &shading = {},
+                                            picture::FrameTimes *times = nullptr) = 0;
     virtual EngineParts parts() const = 0;
 };
 
@@ -68,9 +69,9 @@ public:
     /// `room`: the plan's; without one the spectrum's box is taken to be full. `threads`: 0 for as
     /// many as oneTBB may use.
     explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
-                       const std::optional<SliceRoom> &room = std::nullopt, int threads = 0);
+                       const std::optional<plan::SliceRoom> &room = std::nullopt, int threads = 0);
     /// The shares of the fields are 1 until set.
-    CpuEngine(EngineSpectra spectra, const SliceRoom &room, int threads = 0);
+    CpuEngine(EngineSpectra spectra, const plan::SliceRoom &room, int threads = 0);
     ~CpuEngine() override;
 
     /// *Shape*: one each field.
@@ -85,10 +86,11 @@ public:
     /// *Shape*: not while the shares are set.
     EngineParts parts() const override { return {m_spectra, m_shares, m_room}; }
     const EngineSpectra &spectra() const { return m_spectra; }
-    const SliceRoom &room() const { return m_room; }
-    ProjectionImage render(const Camera &camera, const ImageDefinition &image,
-                           const shading::Shading &shading = {},
-                           FrameTimes *times = nullptr) override;
+    const plan::SliceRoom &room() const { return m_room; }
+    picture::ProjectionImage render(const scene::Camera &camera,
+                                    const scene::ImageDefinition &image,
+                                    const shading::Shading &shading = {},
+                                    picture::FrameTimes *times = nullptr) override;
 
 private:
     struct Workplace;
@@ -96,7 +98,7 @@ private:
     EngineSpectra m_spectra;
     std::vector<ChannelShares> m_shares;
     std::unique_ptr<Workplace> m_workplace;
-    SliceRoom m_room;
+    plan::SliceRoom m_room;
 };
 
 } // namespace pellucid::render

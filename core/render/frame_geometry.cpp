@@ -7,7 +7,7 @@
 
 namespace pellucid::render {
 
-FrameGeometry::FrameGeometry(const Camera &camera, const SliceGrid &grid,
+FrameGeometry::FrameGeometry(const scene::Camera &camera, const plan::SliceGrid &grid,
                              const fourier::Spectrum &spectrum) {
     const volume::Lattice &lattice = spectrum.lattice();
     const glm::dmat3 axes = camera.axes();
@@ -29,12 +29,13 @@ FrameGeometry::FrameGeometry(const Camera &camera, const SliceGrid &grid,
     turnsPerRow = -dv * (firstV - glm::dot(axes[1], toWrap));
 }
 
-const SliceGrid &FramedGrid::gridFor(const Camera &camera, const SliceRoom &room,
-                                     const volume::Lattice &lattice, const ImageDefinition &image) {
-    Camera framing = camera;
-    framing.orientation = Camera().orientation;
+const plan::SliceGrid &FramedGrid::gridFor(const scene::Camera &camera, const plan::SliceRoom &room,
+                                           const volume::Lattice &lattice,
+                                           const scene::ImageDefinition &image) {
+    scene::Camera framing = camera;
+    framing.orientation = scene::Camera().orientation;
     if (!m_framed || m_framed->camera != framing || m_framed->image != image)
-        m_framed = Framed{framing, image, sliceGrid(camera, room, lattice, image)};
+        m_framed = Framed{framing, image, plan::sliceGrid(camera, room, lattice, image)};
     return m_framed->grid;
 }
 

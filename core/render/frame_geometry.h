@@ -7,13 +7,14 @@
 #include <glm/vec3.hpp>
 
 #include "core/fourier/spectrum.h"
-#include "core/render/slice_grid.h"
+#include "core/plan/slice_grid.h"
 
 namespace pellucid::render {
 
 /// How the slice of a view lies in a spectrum: what every engine starts from.
 struct FrameGeometry {
-    FrameGeometry(const Camera &camera, const SliceGrid &grid, const fourier::Spectrum &spectrum);
+    FrameGeometry(const scene::Camera &camera, const plan::SliceGrid &grid,
+                  const fourier::Spectrum &spectrum);
 
     /// Cells of the spectrum per column and per row of the slice, by axis. Image rows run downward,
     /// against V.
@@ -36,14 +37,15 @@ struct FrameGeometry {
 class FramedGrid {
 public:
     /// *Throws* Error{outOfMemory} as `sliceGrid` does.
-    const SliceGrid &gridFor(const Camera &camera, const SliceRoom &room,
-                             const volume::Lattice &lattice, const ImageDefinition &image);
+    const plan::SliceGrid &gridFor(const scene::Camera &camera, const plan::SliceRoom &room,
+                                   const volume::Lattice &lattice,
+                                   const scene::ImageDefinition &image);
 
 private:
     struct Framed {
-        Camera camera; // but its orientation
-        ImageDefinition image;
-        SliceGrid grid;
+        scene::Camera camera; // but its orientation
+        scene::ImageDefinition image;
+        plan::SliceGrid grid;
     };
     std::optional<Framed> m_framed;
 };

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/fourier/moment_kernel.h"
+#include "core/fourier/kernels/moment_kernel.h"
 #include "core/fourier/spectrum.h"
-#include "core/fourier/strip_transform.h"
-#include "core/render/image_definition.h"
+#include "core/fourier/transforms/strip_transform.h"
+#include "core/scene/image_definition.h"
 #include "core/shading/shading.h"
 
 namespace pellucid::render {
@@ -101,7 +101,7 @@ struct FrameJob {
     /// How many sums of the sources are: one that serves all images, or one each.
     int sums = 1;
     const FrameShading *shading = nullptr; ///< null: none
-    ImageDefinition image;
+    scene::ImageDefinition image;
     bool wraps = false; ///< some |a_d.s| of the disc exceeds 1/2
 
     int columns = 0, rows = 0; ///< of the frequency grid, hence of the periodic image

@@ -16,8 +16,8 @@ using fourier::stripFloats;
 using fourier::stripLanes;
 using fourier::StripStage;
 using fourier::StripTransform;
-#include "core/fourier/strip_transform_hwy.inc"
-#include "core/fourier/transpose_hwy.inc"
+#include "core/fourier/transforms/strip_transform_hwy.inc"
+#include "core/fourier/transforms/transpose_hwy.inc"
 
 // x[2n] + i x[2n+1] is the transform of half the length of
 //   (X_k + conj X_(h-k)) + i exp(+i 2 pi k/columns) (X_k - conj X_(h-k)), h = columns/2.

@@ -19,8 +19,8 @@ using fourier::stripFloats;
 using fourier::stripLanes;
 using fourier::StripStage;
 using fourier::StripTransform;
-#include "core/fourier/strip_transform_hwy.inc"
-#include "core/fourier/transpose_hwy.inc"
+#include "core/fourier/transforms/strip_transform_hwy.inc"
+#include "core/fourier/transforms/transpose_hwy.inc"
 #include "core/render/frame_sums_hwy.inc"
 #include "core/render/frame_weights_hwy.inc"
 // What uses both comes after them.

@@ -69,7 +69,7 @@ float decibelsOf(double ratio) {
 
 } // namespace
 
-SpectrumSlice spectrumSlice(const EngineParts &engine, const Camera &camera, int side,
+SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &camera, int side,
                             const task::Progress &progress) {
     assert(side >= 2 && engine.shares.size() == engine.spectra.fields.size());
     const std::vector<WeightedSpectrum> spectra = weightedSpectra(engine);

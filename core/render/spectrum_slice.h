@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/render/camera.h"
 #include "core/render/cpu_engine.h"
+#include "core/scene/camera.h"
 #include "core/task/progress.h"
 
 namespace pellucid::render {
@@ -33,7 +33,7 @@ inline constexpr double blackDecibels = -100.0;
 /// of its shares of red, green and blue. *Requires*: side is at least 2; the engine has a field.
 /// *Throws* Error{unusable} if the sum is 0 at frequency 0, so that there is nothing to compare
 /// with; Error{outOfMemory}; Cancelled. *Source*: Cheng 2007, figures 4.2 to 4.9.
-SpectrumSlice spectrumSlice(const EngineParts &engine, const Camera &camera, int side,
+SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &camera, int side,
                             const task::Progress &progress = {});
 
 /// Grey levels of a slice, linear in decibels: black at `blackDecibels` and below, white at 0 and

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/volume/volume_file.h"
 
-#include "core/task/text.h"
+#include "core/system/text.h"
 
 namespace pellucid::volume {
 
 std::string volumeSuffix(const std::filesystem::path &path) {
-    const std::string name = task::lowered(path.filename().string());
+    const std::string name = system::lowered(path.filename().string());
     for (const char *const suffix : {".nrrd", ".nhdr", ".nii.gz", ".nii", ".mha", ".mhd"})
         if (name.ends_with(suffix))
             return suffix;

@@ -41,7 +41,7 @@ float raisedCosine(float through) {
     return max(0.0, 1.0 - pi2 * p * sincSquared(p));
 }
 
-// t(q), see core/render/image_definition.h; a sharp edge is a steep one.
+// t(q), see core/scene/image_definition.h; a sharp edge is a steep one.
 float rollOffFactor(float rollOff, float q) {
     float steep = max(1e-5, rollOff);
     return raisedCosine((q - (1.0 - steep)) / steep);

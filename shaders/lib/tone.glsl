@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The display curve of core/render/compose.h: window, x^(1/1.4), film inversion. The brightest
+// The display curve of core/picture/compose.h: window, x^(1/1.4), film inversion. The brightest
 // channel takes the curve, the others keep their ratio to it; a grey pixel has all three alike.
 vec3 tone(vec3 value, float low, float high, bool inverted) {
     float most = max(value.r, max(value.g, value.b));

@@ -13,17 +13,17 @@ constexpr int size = 96;
 class AdaptiveSlice : public testing::Test {
 protected:
     AdaptiveSlice() {
-        scene.camera = render::defaultCamera(subject.field.values.lattice());
+        scene.camera = scene::defaultCamera(subject.field.values.lattice());
         scene.interpolation = {fourier::kernelFromName("ES3"), 1.25, fourier::Storage::float32};
         spectrum = std::make_unique<fourier::Spectrum>(fourier::Spectrum::prepare(
             subject.field.values,
-            render::planRender(scene, render::summarise(subject.field)).spectrum));
+            plan::planRender(scene, plan::summarise(subject.field)).spectrum));
         slices = std::make_unique<bench::AdaptiveSlice>(*spectrum);
     }
 
     const bench::Subject subject =
         bench::phantomSubject("head", phantom::Kind::head, {.size = volume::GridSize{48, 48, 48}});
-    render::Scene scene;
+    scene::Scene scene;
     const std::vector<glm::dquat> views = bench::randomViews(4);
     std::unique_ptr<fourier::Spectrum> spectrum;
     std::unique_ptr<bench::AdaptiveSlice> slices;

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/bench/error_search.h"
+#include "core/plan/render_plan.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/cpu_engine.h"
-#include "core/render/render_plan.h"
 
 namespace pellucid {
 
@@ -32,9 +32,9 @@ TEST(ErrorSearch, TheErrorOfAPictureIsCloseToWhatIsMeasured) {
     EXPECT_LT(factors[factors.size() / 2].factor, 2.5);
 }
 
-render::Scene sceneFor(const volume::Lattice &lattice, const glm::dquat &view, double tolerance) {
-    render::Scene scene;
-    scene.camera = render::defaultCamera(lattice);
+scene::Scene sceneFor(const volume::Lattice &lattice, const glm::dquat &view, double tolerance) {
+    scene::Scene scene;
+    scene.camera = scene::defaultCamera(lattice);
     scene.camera.orientation = view;
     scene.tolerance = tolerance;
     return scene;
@@ -60,7 +60,7 @@ TEST(ErrorSearch, TwoSamplesInOppositeCorners) {
         for (const double tolerance : {1e-2, 1.1e-3}) {
             const auto verdict = judged(
                 lattice, samples,
-                render::viewOrientation(render::StandardView::front, {azimuth, 0, 0}), tolerance);
+                scene::viewOrientation(scene::StandardView::front, {azimuth, 0, 0}), tolerance);
             EXPECT_LE(verdict.predicted, tolerance) << azimuth;
             EXPECT_LE(verdict.measured, verdict.predicted) << azimuth << ' ' << tolerance;
             EXPECT_LE(verdict.measured, verdict.ofView) << azimuth << ' ' << tolerance;

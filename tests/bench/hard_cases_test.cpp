@@ -23,7 +23,7 @@ TEST_P(HardCase, KeepsTheToleranceItAccepts) {
     const auto &hard = bench::hardSubjects()[GetParam()];
     const bench::Subject subject{hard.name, hard.make()};
     bench::Measurement how;
-    how.scene.camera = render::defaultCamera(subject.field.values.lattice());
+    how.scene.camera = scene::defaultCamera(subject.field.values.lattice());
     how.views = 1;
     how.transform = false;
     bench::Truth truth(subject, how.scene.camera, 4);

@@ -13,15 +13,15 @@ namespace {
 TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
     const bench::Subject subject = bench::noiseSphere(128);
     const volume::Lattice &lattice = subject.field.values.lattice();
-    render::Scene scene;
+    scene::Scene scene;
     scene.camera = bench::squareCamera(lattice, 128);
-    const auto plan = render::planRender(scene, render::summarise(subject.field));
+    const auto plan = plan::planRender(scene, plan::summarise(subject.field));
     render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
                                  fourier::Spectrum::prepare(subject.field.values, plan.spectrum)),
                              plan.room);
     const bench::SpatialVolume inSpace(subject.field.values);
     std::vector<double> frame, cast;
-    render::Camera camera = scene.camera;
+    scene::Camera camera = scene.camera;
     for (const glm::dquat &view : bench::randomViews(64)) {
         camera.orientation = view;
         double start = bench::millisecondsNow();

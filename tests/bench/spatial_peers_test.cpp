@@ -25,10 +25,10 @@ TEST(RaySum, ConvergesToTheExactLinearProjection) {
     const bench::Subject subject = head();
     const volume::Lattice &lattice = subject.field.values.lattice();
     const bench::SpatialVolume volume(subject.field.values);
-    const render::Camera camera = render::defaultCamera(lattice);
+    const scene::Camera camera = scene::defaultCamera(lattice);
     bench::Truth truth(subject, camera, 4);
     for (int view = 0; view < truth.views(); ++view) {
-        const auto &exact = truth.image(view, {render::Reconstruction::linear, 0.05});
+        const auto &exact = truth.image(view, {scene::Reconstruction::linear, 0.05});
         const auto at = [&](double step) {
             const auto image = bench::raySum(volume, truth.camera(view), step);
             return bench::compare(image.samples, exact).relativeL2;
@@ -48,7 +48,7 @@ TEST(ShearWarpSum, ConservesTheSumForEveryView) {
         for (const auto f : samples)
             mass += double(f);
     });
-    render::Camera camera = render::defaultCamera(subject.field.values.lattice());
+    scene::Camera camera = scene::defaultCamera(subject.field.values.lattice());
     for (const glm::dquat &view : bench::randomViews(12)) {
         camera.orientation = view;
         EXPECT_NEAR(sum(bench::shearWarpSum(volume, camera).samples) / mass, 1.0, 2e-3);

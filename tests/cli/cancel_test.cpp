@@ -10,9 +10,9 @@
 #include "core/decoder/unpack_archive.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/preprocess/step_cache.h"
 #include "core/presets/preset_library.h"
-#include "core/render/prepared_engine.h"
 #include "core/volume/nrrd.h"
 #include "tests/cli/faults.h"
 
@@ -34,7 +34,7 @@ TEST_F(Faults, CancellingIsPossibleAtEveryStage) {
     const classify::Look tissues =
         presets::lookFor(presets::PresetLibrary({}).get("Bone over soft tissue").preset, window);
     const classify::ShownFields fields{{classify::densityField(volume, window)}, {}};
-    render::Scene scene;
+    scene::Scene scene;
     scene.tolerance = 1e-4;
     using Stage = std::function<void(const task::Progress &)>;
     const std::map<std::string, Stage> stages{
@@ -52,7 +52,7 @@ TEST_F(Faults, CancellingIsPossibleAtEveryStage) {
          }},
         {"spectra",
          [&](const task::Progress &progress) {
-             render::prepareEngine(scene, fields, {}, progress);
+             prepare::prepareEngine(scene, fields, {}, progress);
          }},
         {"writing", [&](const task::Progress &progress) {
              volume::writeNrrd(out, volume, volume::NrrdEncoding::gzip, progress);

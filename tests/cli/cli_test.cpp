@@ -11,7 +11,7 @@
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/reference/wide_kernel.h"
-#include "core/render/scene.h"
+#include "core/scene/scene.h"
 #include "core/volume/nrrd.h"
 #include "tests/support/fields.h"
 #include "tests/support/files.h"
@@ -26,14 +26,14 @@ using nlohmann::json;
 
 struct RenderCase {
     const char *name, *phantom, *view;
-    render::StandardView standard;
-    render::ViewAngles angles;
+    scene::StandardView standard;
+    scene::ViewAngles angles;
 };
 
 // The promise of the default quality, end to end: relative L2 at most 1.1e-3 against the exact
 // image.
 TEST_F(Cli, RendersToNumbersThatTheExactReferenceConfirms) {
-    using render::StandardView;
+    using scene::StandardView;
     const RenderCase cases[] = {
         {"isotropic head", "--kind head --size 64x64x60", "--view front", StandardView::front, {}},
         {"anisotropic chest",
@@ -54,8 +54,8 @@ TEST_F(Cli, RendersToNumbersThatTheExactReferenceConfirms) {
         const auto catalogue = dicom::scan({series});
         const auto volume = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
         const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume));
-        auto camera = render::defaultCamera(volume.lattice());
-        camera.orientation = render::viewOrientation(c.standard, c.angles);
+        auto camera = scene::defaultCamera(volume.lattice());
+        camera.orientation = scene::viewOrientation(c.standard, c.angles);
         int height = 0, width = 0;
         const auto image = readNpy(out, height, width);
         ASSERT_EQ(width, camera.width) << c.name;
@@ -80,10 +80,10 @@ TEST_F(Cli, PlansAPartOfAPictureMoreClosely) {
     const reference::WideKernel exact(field.values, field.support);
     std::map<double, double> planned;
     for (const double pan : {56.0, 76.0, 80.0, 81.0, 82.0, 84.0}) {
-        render::Scene scene;
+        scene::Scene scene;
         scene.camera = {
-            render::viewOrientation(render::StandardView::front), 1.0, 12, 40, {pan, 0.0}};
-        std::ofstream(file) << render::toJson(scene);
+            scene::viewOrientation(scene::StandardView::front), 1.0, 12, 40, {pan, 0.0}};
+        std::ofstream(file) << scene::toJson(scene);
         const auto r = cli("render " + quoted(series) + " -o " + quoted(out) + " --json --scene " +
                            quoted(file));
         ASSERT_EQ(r.exitCode, 0) << r.error;
@@ -109,15 +109,15 @@ TEST_F(Cli, RendersCropsOfRealSeriesExactly) {
         const auto crop = volume.cropped({{208, 160, 0}, {304, 256, slices}});
         const fs::path nrrd = folder / "crop.nrrd", out = folder / "image.npy";
         volume::writeNrrd(nrrd, crop);
-        for (const auto &[text, angles] : {std::pair{"--view front", render::ViewAngles{}},
+        for (const auto &[text, angles] : {std::pair{"--view front", scene::ViewAngles{}},
                                            {"--view front --azimuth 35 --elevation 20 --roll 5",
-                                            render::ViewAngles{35, 20, 5}}}) {
+                                            scene::ViewAngles{35, 20, 5}}}) {
             const auto r = cli("render " + quoted(nrrd) + " --window -900,2000 -o " + quoted(out) +
                                " " + text);
             ASSERT_EQ(r.exitCode, 0) << r.error;
             const auto field = classify::densityField(crop, {-900, 2000});
-            auto camera = render::defaultCamera(crop.lattice());
-            camera.orientation = render::viewOrientation(render::StandardView::front, angles);
+            auto camera = scene::defaultCamera(crop.lattice());
+            camera.orientation = scene::viewOrientation(scene::StandardView::front, angles);
             int height = 0, width = 0;
             const auto image = readNpy(out, height, width);
             EXPECT_LT(
@@ -244,10 +244,10 @@ TEST_F(Cli, ScenesTurntablesAndFormats) {
               0);
     EXPECT_EQ(decoder::readVolumeFile(folder / "i.nrrd").lattice().size(),
               (volume::GridSize{40, 30, 1}));
-    render::Scene scene;
-    scene.camera = {render::viewOrientation(render::StandardView::left), 2.0, 30, 20, {1.0, 2.0}};
-    scene.image.reconstruction = render::Reconstruction::linear;
-    std::ofstream(folder / "scene.json") << render::toJson(scene);
+    scene::Scene scene;
+    scene.camera = {scene::viewOrientation(scene::StandardView::left), 2.0, 30, 20, {1.0, 2.0}};
+    scene.image.reconstruction = scene::Reconstruction::linear;
+    std::ofstream(folder / "scene.json") << scene::toJson(scene);
     ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(folder / "s.npy") + " --scene " +
                   quoted(folder / "scene.json"))
                   .exitCode,

@@ -13,7 +13,7 @@
 #include "core/dicom/scan.h"
 #include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
-#include "core/render/scene.h"
+#include "core/scene/scene.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {
@@ -29,8 +29,8 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
     const auto catalogue = dicom::scan({series});
     const auto volume = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume;
     const auto window = classify::defaultFieldWindow(volume);
-    auto camera = render::defaultCamera(volume.lattice());
-    camera.orientation = render::viewOrientation(render::StandardView::front, {30, 0, 0});
+    auto camera = scene::defaultCamera(volume.lattice());
+    camera.orientation = scene::viewOrientation(scene::StandardView::front, {30, 0, 0});
     const auto standard = [](const std::string &name, double weight, const char *color) {
         for (classify::TissueClass tissue : classify::standardClasses())
             if (tissue.name == name) {
@@ -175,8 +175,8 @@ TEST_F(Cli, CueAndLightAgainstTheExactReference) {
          3},
         {"--ambient 1.5", {.ambient = 1.5}, 1}};
     for (const auto &[options, shading, channels] : cases) {
-        render::Camera camera = render::defaultCamera(lattice);
-        camera.orientation = render::viewOrientation(render::StandardView::front, {25, 15, 0});
+        scene::Camera camera = scene::defaultCamera(lattice);
+        camera.orientation = scene::viewOrientation(scene::StandardView::front, {25, 15, 0});
         std::vector<double> expected(std::size_t(camera.width) * camera.height * channels);
         for (int c = 0; c < channels; ++c) {
             const auto shaded = reference::shadedField(field, shading, camera.axes(), c,
@@ -237,12 +237,12 @@ TEST_F(Cli, SceneAndPresetCarryCueAndLights) {
     EXPECT_EQ(
         picture(series, "--preset " + quoted(folder / "p.json") + " --depth-cue none --ambient 1"),
         picture(series, "--light -1,1,0.5:#ffffff:0.9"));
-    render::Scene scene;
+    scene::Scene scene;
     const auto catalogue = dicom::scan({series});
-    scene.camera = render::defaultCamera(
+    scene.camera = scene::defaultCamera(
         dicom::loadVolume(*dicom::defaultSelection(catalogue).volume).volume.lattice());
     scene.shading = shading::shadingFromJson("{" + shading + "}");
-    std::ofstream(folder / "s.json") << render::toJson(scene);
+    std::ofstream(folder / "s.json") << scene::toJson(scene);
     EXPECT_EQ(picture(series, "--scene " + quoted(folder / "s.json")), expected);
 }
 

@@ -61,7 +61,7 @@ TEST_F(Cli, TheSpectrumHoldsTheDecibelsThatTheExactReferenceConfirms) {
         EXPECT_EQ(told["plan"]["kernel"], "KB7");
         // The truth at the same frequencies: the mean of red, green and blue where there are three.
         const glm::dmat3 axes =
-            glm::mat3_cast(render::viewOrientation(render::StandardView::left, {20.0, 15.0, 0.0}));
+            glm::mat3_cast(scene::viewOrientation(scene::StandardView::left, {20.0, 15.0, 0.0}));
         std::vector<glm::dvec3> frequencies{glm::dvec3(0.0)};
         for (int row = 0; row < height; ++row)
             for (int column = 0; column < width; ++column)

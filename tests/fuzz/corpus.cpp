@@ -11,13 +11,13 @@
 #include "core/parse/parse.h"
 #include "core/phantom/phantom.h"
 #include "core/presets/preset_library.h"
-#include "core/render/scene.h"
+#include "core/scene/scene.h"
 #include "core/volume/nrrd.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/files.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/library/library.h"
-#include "ui/session.h"
+#include "ui/opening/session.h"
 
 namespace pellucid::fuzz {
 
@@ -128,8 +128,8 @@ void writePresets(const fs::path &folder) {
 }
 
 void writeScenes(const fs::path &folder) {
-    render::Scene scene;
-    writeText(folder / "plain", render::toJson(scene));
+    scene::Scene scene;
+    writeText(folder / "plain", scene::toJson(scene));
     const auto library = presets::PresetLibrary::ofUser();
     for (const auto &entry : library.entries()) {
         if (!entry.isBuiltIn())
@@ -138,7 +138,7 @@ void writeScenes(const fs::path &folder) {
         scene.look =
             presets::lookFor(entry.preset, entry.preset.window.value_or(classify::FieldWindow()));
         scene.shading = entry.preset.shading;
-        writeText(folder / entry.preset.name, render::toJson(scene));
+        writeText(folder / entry.preset.name, scene::toJson(scene));
     }
 }
 

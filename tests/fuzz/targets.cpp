@@ -13,16 +13,16 @@
 #include "core/decoder/message.h"
 #include "core/dicom/group_series.h"
 #include "core/fourier/spectrum.h"
-#include "core/fourier/wisdom.h"
+#include "core/fourier/transforms/wisdom.h"
 #include "core/measure/measurement.h"
 #include "core/parse/parse.h"
 #include "core/presets/preset.h"
 #include "core/presets/slicer_preset.h"
-#include "core/render/scene.h"
+#include "core/scene/scene.h"
 #include "core/task/error.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/library/library.h"
-#include "ui/session.h"
+#include "ui/opening/session.h"
 
 namespace pellucid::fuzz {
 
@@ -151,9 +151,9 @@ void preset(Bytes bytes) {
 
 void scene(Bytes bytes) {
     refusing([&] {
-        const auto scene = render::sceneFromJson(textOf(bytes));
-        const std::string kept = render::toJson(scene);
-        check(render::toJson(render::sceneFromJson(kept)) == kept);
+        const auto scene = scene::sceneFromJson(textOf(bytes));
+        const std::string kept = scene::toJson(scene);
+        check(scene::toJson(scene::sceneFromJson(kept)) == kept);
     });
 }
 

@@ -3,8 +3,8 @@
 
 #include <epoxy/gl.h>
 
+#include "core/system/log.h"
 #include "core/task/error.h"
-#include "core/task/log.h"
 #include "gpu/device.h"
 #include "gpu/surfaceless_context.h"
 #include "tests/support/fragile_context.h"
@@ -58,13 +58,13 @@ TEST(Device, WhatWasPostedIsDoneBeforeItsEnd) {
 
 TEST(Device, WhatTheDriverSaysGoesToTheLog) {
     std::vector<std::string> lines;
-    task::setLogSink([&](const std::string &line) { lines.push_back(line); });
+    system::setLogSink([&](const std::string &line) { lines.push_back(line); });
     {
         gpu::Device device(std::make_unique<gpu::SurfacelessContext>());
         device.run([] { glBindBuffer(GL_ARRAY_BUFFER + 12345, 0); }); // an enumerant that is none
         device.run([] { EXPECT_EQ(glGetError(), unsigned(GL_INVALID_ENUM)); });
     }
-    task::setLogSink({});
+    system::setLogSink({});
     ASSERT_EQ(lines.size(), 2U);
     EXPECT_EQ(lines[0].rfind("OpenGL 4.", 0), 0U) << lines[0];
     EXPECT_NE(lines[1].find("INVALID_ENUM"), std::string::npos) << lines[1];

@@ -3,8 +3,8 @@
 
 #include <random>
 
+#include "core/prepare/prepared_engine.h"
 #include "core/reference/wide_kernel.h"
-#include "core/render/prepared_engine.h"
 #include "gpu/gpu_engine.h"
 #include "tests/gpu/card.h"
 #include "tests/support/fields.h"
@@ -15,13 +15,13 @@ namespace {
 
 class FetchPlan : public test::CardTest {};
 
-render::RenderPlan planFor(const classify::ShownFields &fields, const char *kernel,
-                           double tolerance = 1.1e-3) {
-    render::Scene scene{.camera = render::defaultCamera(fields.channels.front().values.lattice()),
-                        .tolerance = tolerance};
+plan::RenderPlan planFor(const classify::ShownFields &fields, const char *kernel,
+                         double tolerance = 1.1e-3) {
+    scene::Scene scene{.camera = scene::defaultCamera(fields.channels.front().values.lattice()),
+                       .tolerance = tolerance};
     if (kernel != nullptr)
         scene.interpolation.kernel = fourier::kernelFromName(kernel);
-    return render::prepareEngine(scene, fields, {}).plan;
+    return prepare::prepareEngine(scene, fields, {}).plan;
 }
 
 classify::ShownFields noise() {
@@ -110,19 +110,18 @@ TEST_F(FetchPlan, TheRoundingDependsOnWhereTheEnergyIs) {
     middle[20] = 1.0;
     faces[0] = faces[39] = 0.5;
     const auto kernel = fourier::makeKernel(fourier::kernelFromName("LS4"), 1.5);
-    EXPECT_GT(render::filterError(kernel, 60, faces),
-              100.0 * render::filterError(kernel, 60, middle));
+    EXPECT_GT(plan::filterError(kernel, 60, faces), 100.0 * plan::filterError(kernel, 60, middle));
 }
 
 // With filtered fetches the picture keeps what is predicted.
 TEST_F(FetchPlan, FilteredFetchesKeepWhatIsPredicted) {
     const auto fields = noise();
     for (const char *kernel : {"trilinear", "LS2", "LS3", "LS4", "ES5", "b-spline", "KB6"}) {
-        render::Scene scene{.camera =
-                                render::defaultCamera(fields.channels.front().values.lattice())};
+        scene::Scene scene{.camera =
+                               scene::defaultCamera(fields.channels.front().values.lattice())};
         scene.interpolation.kernel = fourier::kernelFromName(kernel);
         scene.interpolation.storage = fourier::Storage::float32;
-        const auto prepared = render::prepareEngine(scene, fields, {});
+        const auto prepared = prepare::prepareEngine(scene, fields, {});
         const auto plan = gpu::planFetch(prepared.plan, 1.0);
         ASSERT_EQ(plan.fetch, gpu::Fetch::trilinear) << kernel;
         const auto exact = gpu::copyToCard(card, *prepared.engine);

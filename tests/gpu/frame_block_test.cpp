@@ -8,7 +8,7 @@
 
 #include <epoxy/gl.h>
 
-#include "core/fourier/padded_size.h"
+#include "core/fourier/transforms/padded_size.h"
 #include "gpu/frame_block.h"
 #include "gpu/program.h"
 #include "tests/gpu/card.h"

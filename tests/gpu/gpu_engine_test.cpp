@@ -4,7 +4,7 @@
 #include <random>
 
 #include "app/bench/subjects.h"
-#include "core/render/prepared_engine.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/task/error.h"
 #include "gpu/gpu_engine.h"
 #include "tests/gpu/card.h"
@@ -26,16 +26,15 @@ class GpuEngine : public test::CardTest {
 protected:
     static std::vector<glm::dquat> views() {
         std::mt19937 random(3);
-        return {test::randomOrientation(random),
-                render::viewOrientation(render::StandardView::front),
-                render::viewOrientation(render::StandardView::left, {.azimuthDeg = 30.0})};
+        return {test::randomOrientation(random), scene::viewOrientation(scene::StandardView::front),
+                scene::viewOrientation(scene::StandardView::left, {.azimuthDeg = 30.0})};
     }
 
     // The largest difference of the engines over the views, relative L2.
-    static double difference(const render::Scene &asked, const classify::ShownFields &fields,
+    static double difference(const scene::Scene &asked, const classify::ShownFields &fields,
                              std::size_t mostTextureBytes = std::size_t(1) << 30) {
-        render::Scene scene = asked;
-        const auto prepared = render::prepareEngine(scene, fields, {});
+        scene::Scene scene = asked;
+        const auto prepared = prepare::prepareEngine(scene, fields, {});
         const render::EngineParts parts = prepared.engine->parts();
         gpu::GpuEngine engine(
             gpu::SpectrumTextures::upload(card, parts.spectra, {}, mostTextureBytes), parts.shares,
@@ -56,9 +55,9 @@ protected:
     static classify::ShownFields tiltedNoise() {
         return {{test::noiseField(test::tiltedLattice({36, 30, 21}, {0.8, 1.0, 2.1}, 20.0))}, {}};
     }
-    static render::Scene sceneOf(const classify::ShownFields &fields) {
-        render::Scene scene;
-        scene.camera = render::defaultCamera(fields.channels.front().values.lattice());
+    static scene::Scene sceneOf(const classify::ShownFields &fields) {
+        scene::Scene scene;
+        scene.camera = scene::defaultCamera(fields.channels.front().values.lattice());
         // A software renderer compiles wider slices for minutes; `EveryWidth` has them all.
         scene.interpolation.kernel = fourier::kernelFromName("LS4");
         return scene;
@@ -69,7 +68,7 @@ class HardField : public GpuEngine, public testing::WithParamInterface<std::size
 
 TEST_P(HardField, IsTheProcessorsPicture) {
     const classify::ShownFields fields{{bench::hardSubjects()[GetParam()].make()}, {}};
-    render::Scene scene = sceneOf(fields);
+    scene::Scene scene = sceneOf(fields);
     scene.interpolation.storage = Storage::float32;
     EXPECT_LE(difference(scene, fields), withinFloat32);
     scene.interpolation.storage = Storage::binary16;
@@ -91,7 +90,7 @@ TEST_F(GpuEngine, EveryWidthAndFamilyOfKernels) {
     const auto fields = tiltedNoise();
     for (const char *kernel : {"nearest", "trilinear", "catmull-rom", "b-spline", "hamming-sinc",
                                "ES6", "KB4", "LS2", "LS3", "LS4", "LS5", "LS7"}) {
-        render::Scene scene = sceneOf(fields);
+        scene::Scene scene = sceneOf(fields);
         scene.interpolation.kernel = fourier::kernelFromName(kernel);
         scene.interpolation.padding = 2.0;
         scene.interpolation.storage = Storage::float32;
@@ -101,17 +100,16 @@ TEST_F(GpuEngine, EveryWidthAndFamilyOfKernels) {
 
 TEST_F(GpuEngine, EveryReconstructionAndFraming) {
     const auto fields = tiltedNoise();
-    const render::Camera whole = sceneOf(fields).camera;
-    render::Camera fine = whole, moved = whole, wide = whole, tiny = whole;
+    const scene::Camera whole = sceneOf(fields).camera;
+    scene::Camera fine = whole, moved = whole, wide = whole, tiny = whole;
     fine.pixelMm *= 0.4; // frequencies beyond the samples' own: the spectrum is periodic
     moved.panMm = {7.3, -4.1};
     moved.width = 31;
     wide.width = 201; // odd, and larger than the period
     wide.height = 167;
     tiny.width = tiny.height = 1;
-    const auto expectAlike = [&](const render::Camera &camera,
-                                 const render::ImageDefinition &image) {
-        render::Scene scene = sceneOf(fields);
+    const auto expectAlike = [&](const scene::Camera &camera, const scene::ImageDefinition &image) {
+        scene::Scene scene = sceneOf(fields);
         scene.camera = camera;
         scene.image = image;
         scene.interpolation.storage = Storage::float32;
@@ -119,12 +117,12 @@ TEST_F(GpuEngine, EveryReconstructionAndFraming) {
             << int(image.reconstruction) << " " << image.rollOff << " " << camera.width << " x "
             << camera.height << ", pan " << camera.panMm.x;
     };
-    using render::Reconstruction;
+    using scene::Reconstruction;
     for (const auto reconstruction : {Reconstruction::cubic, Reconstruction::linear,
                                       Reconstruction::bandLimited, Reconstruction::spline}) {
         for (const double rollOff : {0.0, 1.0})
             expectAlike(whole, {reconstruction, rollOff});
-        for (const render::Camera &camera : {whole, fine, moved, wide, tiny})
+        for (const scene::Camera &camera : {whole, fine, moved, wide, tiny})
             expectAlike(camera, {reconstruction, 0.05});
     }
 }
@@ -148,7 +146,7 @@ TEST_F(GpuEngine, CuesAndLights) {
             // A software renderer compiles for each format anew, which takes seconds.
             if (storage == Storage::binary16 && shading.lights.size() != 1)
                 continue;
-            render::Scene scene = sceneOf(fields);
+            scene::Scene scene = sceneOf(fields);
             scene.shading = shading;
             scene.interpolation.storage = storage;
             EXPECT_LE(difference(scene, fields),
@@ -168,7 +166,7 @@ TEST_F(GpuEngine, Colors) {
     for (const auto &fields : {channels, colored})
         for (const Shading &shading :
              {Shading{}, Shading{.cue = {CueKind::linear, 1.0}}, Shading{.lights = light}}) {
-            render::Scene scene = sceneOf(fields);
+            scene::Scene scene = sceneOf(fields);
             scene.shading = shading;
             scene.interpolation.storage = Storage::float32;
             EXPECT_LE(difference(scene, fields), withinFloat32) << shading::toJson(shading);
@@ -181,9 +179,9 @@ TEST_F(GpuEngine, LayersWithMovingShares) {
     std::vector<classify::DensityField> fields;
     for (unsigned n = 0; n < 16; ++n)
         fields.push_back(test::noiseField(lattice, n));
-    render::Scene scene{.camera = render::defaultCamera(lattice)};
+    scene::Scene scene{.camera = scene::defaultCamera(lattice)};
     scene.interpolation.kernel = fourier::kernelFromName("LS4"); // as in sceneOf
-    const auto plan = render::planRender(scene, render::summarise(fields), 3);
+    const auto plan = plan::planRender(scene, plan::summarise(fields), 3);
     render::EngineSpectra spectra;
     for (const auto &field : fields)
         spectra.fields.push_back(std::make_shared<const fourier::Spectrum>(
@@ -216,9 +214,9 @@ TEST_F(GpuEngine, LayersWithMovingShares) {
 
 TEST_F(GpuEngine, ASpectrumInSeveralTextures) {
     const auto fields = tiltedNoise();
-    render::Scene scene = sceneOf(fields);
+    scene::Scene scene = sceneOf(fields);
     scene.interpolation.storage = Storage::float32;
-    const auto prepared = render::prepareEngine(scene, fields, {});
+    const auto prepared = prepare::prepareEngine(scene, fields, {});
     const auto whole = gpu::SpectrumTextures::upload(card, prepared.engine->parts().spectra);
     ASSERT_EQ(whole->layout().slabs, 1);
     const std::size_t bytes = whole->bytes();
@@ -236,7 +234,7 @@ TEST_F(GpuEngine, ASpectrumInSeveralTextures) {
 // Images whose lines are longer than the card's shared memory, both ways.
 TEST_F(GpuEngine, LongImages) {
     const auto fields = tiltedNoise();
-    render::Scene scene = sceneOf(fields);
+    scene::Scene scene = sceneOf(fields);
     scene.interpolation.storage = Storage::float32;
     scene.camera.width = 9000;
     scene.camera.height = 5;
@@ -247,14 +245,14 @@ TEST_F(GpuEngine, LongImages) {
 
 TEST_F(GpuEngine, LightsGoOut) {
     const auto fields = tiltedNoise();
-    render::Scene scene = sceneOf(fields);
+    scene::Scene scene = sceneOf(fields);
     scene.shading.lights.push_back({{1, 0, 0}});
-    const auto prepared = render::prepareEngine(scene, fields, {});
+    const auto prepared = prepare::prepareEngine(scene, fields, {});
     const auto lit = gpu::copyToCard(card, *prepared.engine);
     const auto unlit = lit->withoutLight();
     EXPECT_LT(unlit->textures().bytes(), lit->textures().bytes());
     const auto expected =
-        render::withoutLight(prepared).engine->render(scene.camera, scene.image, scene.shading);
+        prepare::withoutLight(prepared).engine->render(scene.camera, scene.image, scene.shading);
     const auto found = unlit->render(scene.camera, scene.image, scene.shading);
     EXPECT_LE(test::relativeL2(found.samples, expected.samples), withinBinary16);
 }
@@ -262,14 +260,14 @@ TEST_F(GpuEngine, LightsGoOut) {
 // What is shown is not written over while it is held.
 TEST_F(GpuEngine, PicturesKeepTheirPixels) {
     const auto fields = tiltedNoise();
-    render::Scene scene = sceneOf(fields);
-    const auto prepared = render::prepareEngine(scene, fields, {});
+    scene::Scene scene = sceneOf(fields);
+    const auto prepared = prepare::prepareEngine(scene, fields, {});
     const auto engine = gpu::copyToCard(card, *prepared.engine);
     std::vector<std::shared_ptr<const gpu::CardPicture>> held;
     std::vector<std::vector<float>> first;
     for (int n = 0; n < 7; ++n) {
         scene.camera.orientation =
-            render::viewOrientation(render::StandardView::front, {.azimuthDeg = 10.0 * n});
+            scene::viewOrientation(scene::StandardView::front, {.azimuthDeg = 10.0 * n});
         held.push_back(engine->renderOnCard(scene.camera, scene.image));
         first.push_back(held.back()->download().samples);
     }
@@ -283,8 +281,8 @@ TEST_F(GpuEngine, PicturesKeepTheirPixels) {
 
 TEST_F(GpuEngine, WhatIsTooLargeIsRefused) {
     const auto fields = tiltedNoise();
-    render::Scene scene = sceneOf(fields);
-    const auto prepared = render::prepareEngine(scene, fields, {});
+    scene::Scene scene = sceneOf(fields);
+    const auto prepared = prepare::prepareEngine(scene, fields, {});
     const auto expectTooLarge = [](const std::function<void()> &what) {
         try {
             what();
@@ -303,7 +301,7 @@ TEST_F(GpuEngine, WhatIsTooLargeIsRefused) {
     const double cells = double(card->device().capabilities().storageBytes) / 8.0;
     const double side = 1.2 * std::sqrt(2.0 * cells); // half the columns
     if (side < 60000.0) {
-        render::Camera large = scene.camera;
+        scene::Camera large = scene.camera;
         large.pixelMm *= large.width / (2.0 * side);
         expectTooLarge([&] { engine->renderOnCard(large, scene.image); });
     }
@@ -314,7 +312,7 @@ TEST_F(GpuEngine, WhatIsTooLargeIsRefused) {
 
 TEST_F(GpuEngine, CopyingCanBeCancelled) {
     const auto fields = tiltedNoise();
-    const auto prepared = render::prepareEngine(sceneOf(fields), fields, {});
+    const auto prepared = prepare::prepareEngine(sceneOf(fields), fields, {});
     std::stop_source stop;
     stop.request_stop();
     EXPECT_THROW(gpu::copyToCard(card, *prepared.engine, gpu::Fetch::exact,

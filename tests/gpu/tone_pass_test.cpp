@@ -7,7 +7,7 @@
 
 #include <epoxy/gl.h>
 
-#include "core/render/prepared_engine.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/task/error.h"
 #include "gpu/capabilities.h"
 #include "gpu/gpu_engine.h"
@@ -51,11 +51,11 @@ std::vector<std::uint8_t> drawnBy(int width, int height, const std::function<voi
     return flipped;
 }
 
-std::vector<std::uint8_t> drawn(const render::ProjectionImage &image, const render::Tone &tone) {
+std::vector<std::uint8_t> drawn(const picture::ProjectionImage &image, const scene::Tone &tone) {
     return drawnBy(image.width, image.height, [&] {
         gpu::TonePass pass;
         pass.upload(image);
-        pass.draw(render::toneRange(image, tone), tone.inverted);
+        pass.draw(picture::toneRange(image, tone), tone.inverted);
     });
 }
 
@@ -69,18 +69,18 @@ int largestDifference(const std::vector<std::uint8_t> &a, const std::vector<std:
 TEST_F(TonePass, DrawsWhatComposeComputes) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(-20.0F, 120.0F);
-    render::ProjectionImage image{37, 23, 1.0, std::vector<float>(37 * 23)};
+    picture::ProjectionImage image{37, 23, 1.0, std::vector<float>(37 * 23)};
     for (float &p : image.samples)
         p = uniform(random);
-    render::ProjectionImage colored{37, 23, 1.0, std::vector<float>(37 * 23 * 3), 3};
+    picture::ProjectionImage colored{37, 23, 1.0, std::vector<float>(37 * 23 * 3), 3};
     for (float &p : colored.samples)
         p = uniform(random);
-    for (const auto &[shown, tone] : {std::pair(image, render::Tone{}),
-                                      {image, render::Tone{10.0, 70.0, true}},
-                                      {colored, render::Tone{}},
-                                      {colored, render::Tone{10.0, 70.0, true}},
-                                      {colored, render::Tone{-60.0, 70.0, false}}}) {
-        const auto expected = render::compose(shown, tone), found = drawn(shown, tone);
+    for (const auto &[shown, tone] : {std::pair(image, scene::Tone{}),
+                                      {image, scene::Tone{10.0, 70.0, true}},
+                                      {colored, scene::Tone{}},
+                                      {colored, scene::Tone{10.0, 70.0, true}},
+                                      {colored, scene::Tone{-60.0, 70.0, false}}}) {
+        const auto expected = picture::compose(shown, tone), found = drawn(shown, tone);
         EXPECT_LE(largestDifference(expected, found), 1); // rounding to eight bits
     }
 }
@@ -96,21 +96,21 @@ TEST_F(CardTone, DrawsPicturesOfTheCard) {
         {test::noiseField(lattice, 1), test::noiseField(lattice, 2), test::noiseField(lattice, 3)},
         {}};
     for (const auto &fields : {grey, colored, three}) {
-        const render::Scene scene{.camera = render::defaultCamera(lattice)};
-        const auto prepared = render::prepareEngine(scene, fields, {});
+        const scene::Scene scene{.camera = scene::defaultCamera(lattice)};
+        const auto prepared = prepare::prepareEngine(scene, fields, {});
         const auto engine = gpu::copyToCard(card, *prepared.engine);
         const auto picture = engine->renderOnCard(scene.camera, scene.image);
         EXPECT_EQ(picture->layers(), fields.channels.size() == 3 ? 3 : 1);
         const auto image = picture->download();
-        const render::Tone tone{2.0, 15.0, false};
+        const scene::Tone tone{2.0, 15.0, false};
         std::vector<std::uint8_t> found;
         card->device().run([&] {
             found = drawnBy(image.width, image.height, [&] {
                 const gpu::TonePass pass;
-                pass.draw(*picture, render::toneRange(image, tone), tone.inverted);
+                pass.draw(*picture, picture::toneRange(image, tone), tone.inverted);
             });
         });
-        EXPECT_LE(largestDifference(render::compose(image, tone), found), 1);
+        EXPECT_LE(largestDifference(picture::compose(image, tone), found), 1);
     }
 }
 

@@ -6,8 +6,8 @@
 
 #include <epoxy/gl.h>
 
-#include "core/fourier/padded_size.h"
-#include "core/fourier/transform.h"
+#include "core/fourier/transforms/padded_size.h"
+#include "core/fourier/transforms/transform.h"
 #include "gpu/transform_passes.h"
 #include "tests/gpu/card.h"
 #include "tests/support/fields.h"
@@ -19,8 +19,7 @@ namespace {
 class TransformPasses : public test::CardTest {
 protected:
     // White noise in the half spectrum of every image, by the passes and by FFTW.
-    static double error(const render::SliceGrid &grid, int images, int imageColumns,
-                        int imageRows) {
+    static double error(const plan::SliceGrid &grid, int images, int imageColumns, int imageRows) {
         const int halfColumns = grid.columns / 2;
         std::mt19937 random(11);
         std::normal_distribution<float> normal;

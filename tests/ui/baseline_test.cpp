@@ -14,10 +14,10 @@
 #include <QPainter>
 #include <QTreeView>
 
-#include "ui/file_menu.h"
-#include "ui/spectrum_sampler.h"
 #include "ui/views/mpr_view.h"
-#include "ui/workstation.h"
+#include "ui/views/spectrum_sampler.h"
+#include "ui/window/file_menu.h"
+#include "ui/window/workstation.h"
 
 namespace pellucid {
 

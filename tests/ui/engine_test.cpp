@@ -11,8 +11,8 @@
 
 #include "tests/support/fields.h"
 #include "tests/support/fragile_context.h"
-#include "ui/gl_probe.h"
-#include "ui/scene_files.h"
+#include "ui/engine/gl_probe.h"
+#include "ui/export/scene_files.h"
 
 namespace pellucid {
 
@@ -140,10 +140,10 @@ private slots:
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 32}});
         const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
-        render::Scene scene;
-        scene.camera = render::defaultCamera(lattice);
+        scene::Scene scene;
+        scene.camera = scene::defaultCamera(lattice);
         const auto prepared =
-            render::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
+            prepare::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
         auto lost = std::make_shared<std::atomic<bool>>(false);
         const auto card = std::make_shared<gpu::FramePasses>(
             std::make_shared<gpu::Device>(std::make_unique<FragileContext>(lost)));
@@ -212,9 +212,9 @@ private slots:
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 32}});
         const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
-        render::Scene scene;
-        scene.camera = render::defaultCamera(lattice);
-        const auto layers = render::LayerSet::prepare(
+        scene::Scene scene;
+        scene.camera = scene::defaultCamera(lattice);
+        const auto layers = prepare::LayerSet::prepare(
             scene, 3,
             [&](std::size_t n, const task::Progress &) {
                 return classify::densityField(volume, {-900.0 + 400.0 * double(n), 2000.0});
@@ -229,7 +229,7 @@ private slots:
         connect(&copier, &ui::CardCopier::engineReady, this,
                 [&](const ui::ShownEngine &engine) { shown.push_back(engine); });
         const auto show = [&](double share) {
-            copier.show({std::make_shared<render::MixtureEngine>(
+            copier.show({std::make_shared<prepare::MixtureEngine>(
                              layers, std::vector<render::ChannelShares>{{share, 0.5, 0.5},
                                                                         {0.1, share, 0.0},
                                                                         {0.0, 0.2, 0.7}}),
@@ -326,8 +326,8 @@ private:
             qWarning("%s", command.readAllStandardError().constData());
         return QImage(out).convertToFormat(QImage::Format_RGBA8888);
     }
-    QImage composed(const render::ProjectionImage &image) {
-        const auto rgba = render::compose(image, projection()->sceneOfPicture().tone);
+    QImage composed(const picture::ProjectionImage &image) {
+        const auto rgba = picture::compose(image, projection()->sceneOfPicture().tone);
         return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
     }
     void chooseCard() {

@@ -17,7 +17,7 @@
 
 #include "core/decoder/read_volume_file.h"
 #include "tests/support/files.h"
-#include "ui/video_writer.h"
+#include "ui/export/video_writer.h"
 
 namespace pellucid {
 
@@ -59,7 +59,7 @@ private slots:
         // The values of the file are those of the picture.
         exported("Projection", 3, 1, false);
         const volume::Volume values = decoder::readVolumeFile(m_folder / "out.nrrd");
-        const render::ProjectionImage image =
+        const picture::ProjectionImage image =
             projection()->pictureRenderer()(projection()->sceneOfPicture().camera);
         QCOMPARE(values.lattice().size(), (volume::GridSize{image.width, image.height, 1}));
         QCOMPARE(float(values.value({100, 200, 0})),

@@ -13,9 +13,9 @@
 #include <QPushButton>
 
 #include "tests/ui/workstation.h"
-#include "ui/main_window.h"
 #include "ui/views/mpr_view.h"
-#include "ui/workstation.h"
+#include "ui/window/main_window.h"
+#include "ui/window/workstation.h"
 
 namespace pellucid {
 

@@ -80,7 +80,7 @@ private slots:
 
         m_window->document().undoStack()->undo();
         m_window->document().undoStack()->undo();
-        QCOMPARE(m_window->document().scene().tolerance, render::Scene().tolerance);
+        QCOMPARE(m_window->document().scene().tolerance, scene::Scene().tolerance);
         QCOMPARE(quality->currentText(), QString("Standard"));
         QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() == standard,
                                  patienceMs);
@@ -307,7 +307,7 @@ private slots:
         QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
         QCOMPARE(shading().lights[0].frame, shading::LightFrame::patient);
         const QPointF before = sphere->handleAt(0);
-        projection()->showStandardView(render::StandardView::back);
+        projection()->showStandardView(scene::StandardView::back);
         QTRY_VERIFY((sphere->handleAt(0) - before).manhattanLength() > 30.0);
         QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
         QCOMPARE(shading().lights[0].frame, shading::LightFrame::viewer);

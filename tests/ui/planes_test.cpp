@@ -7,8 +7,8 @@
 #include <QToolButton>
 #include <QTreeWidget>
 
-#include "ui/cine.h"
-#include "ui/measurement_store.h"
+#include "ui/document/measurement_store.h"
+#include "ui/views/cine.h"
 #include "ui/views/mpr_view.h"
 
 namespace pellucid {
@@ -187,7 +187,7 @@ private slots:
         QVERIFY(m_window->document().scene().camera == camera); // nothing turned
         save("projected_distance");
         const QImage shown = grab("projectionView");
-        projection()->showStandardView(render::StandardView::left);
+        projection()->showStandardView(scene::StandardView::left);
         settle();
         // A click on its row looks that way again.
         auto *list = find<QTreeWidget>("measurementList");

@@ -23,9 +23,9 @@
 #include <QTreeWidget>
 #include <QUndoView>
 
-#include "ui/recent_paths.h"
-#include "ui/shortcuts.h"
-#include "ui/workstation.h"
+#include "ui/opening/recent_paths.h"
+#include "ui/settings/shortcuts.h"
+#include "ui/window/workstation.h"
 
 namespace pellucid {
 
@@ -46,7 +46,7 @@ private slots:
         choosePreset("Bone");
         dragMouse(find<QWidget>("axialView"), Qt::LeftButton, {150, 150}, {60, -30});
         const auto window = document().displayWindow();
-        const render::Scene scene = document().scene();
+        const scene::Scene scene = document().scene();
         const int edits = document().undoStack()->count();
         QVERIFY(edits >= 2);
         // From here its brightness would be another.
@@ -151,7 +151,7 @@ private slots:
         cut.axes = cut.axes.turned(mpr::Orientation::axial, 0.3);
         document().setCut(cut);
         settleIn();
-        const render::Scene scene = document().scene();
+        const scene::Scene scene = document().scene();
         const auto crosshair = document().crosshair();
         const QImage picture = projectionOf()->picture();
         begin();
@@ -285,7 +285,7 @@ private slots:
 
     void theHistoryGoesBackToAnyEdit() {
         openIn(headPath());
-        const render::Scene before = document().scene();
+        const scene::Scene before = document().scene();
         choosePreset("Bone");
         find<QAction>("filmAction")->trigger();
         find<QDockWidget>("historyDock")->show();

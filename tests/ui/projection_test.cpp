@@ -7,7 +7,7 @@
 #include <QProcess>
 #include <QToolButton>
 
-#include "ui/commands.h"
+#include "ui/document/commands.h"
 #include "ui/views/mpr_view.h"
 
 namespace pellucid {
@@ -150,7 +150,7 @@ private slots:
         drag({30, 10});
         settle();
         ui::Document &document = m_window->document();
-        const render::Scene before = document.scene();
+        const scene::Scene before = document.scene();
         const auto window = document.displayWindow();
         auto *axial = find<ui::MprView>("axialView");
         axial->moveView({1.7, {5.0, -3.0}});
@@ -219,7 +219,7 @@ private:
         }
     }
     glm::dvec2 onPicture(volume::PatientPoint point) const {
-        const render::Camera &camera = m_window->document().scene().camera;
+        const scene::Camera &camera = m_window->document().scene().camera;
         const glm::dmat3 axes = camera.axes();
         const glm::dvec3 d = point.mm - m_window->document().volume()->lattice().center().mm;
         return glm::dvec2(glm::dot(axes[0], d), glm::dot(axes[1], d)) - camera.panMm;

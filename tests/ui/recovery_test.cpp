@@ -20,11 +20,11 @@
 #include "tests/support/files.h"
 #include "tests/support/little_memory.h"
 #include "tests/support/read_only_folder.h"
-#include "ui/file_menu.h"
-#include "ui/recent_paths.h"
-#include "ui/reopening.h"
-#include "ui/session.h"
-#include "ui/workstation.h"
+#include "ui/opening/recent_paths.h"
+#include "ui/opening/session.h"
+#include "ui/window/file_menu.h"
+#include "ui/window/reopening.h"
+#include "ui/window/workstation.h"
 
 namespace pellucid {
 
@@ -125,7 +125,7 @@ private slots:
 
     // A look that nobody has saved.
     void anUnsavedLookIsRecovered() {
-        render::Scene edited;
+        scene::Scene edited;
         {
             ui::Workstation program;
             program.window().openPaths({headPath()});
@@ -191,12 +191,12 @@ private slots:
     // Picture, letters, cube and scale are those of before.
     void whatIsTakenUpIsSeenAsBefore() {
         const auto turned = [](ui::Document &document) {
-            render::Camera camera = document.scene().camera;
+            scene::Camera camera = document.scene().camera;
             camera.orientation =
                 glm::normalize(glm::dquat(0.9, 0.1, 0.3, 0.0)) * camera.orientation;
             return camera;
         };
-        std::optional<render::ToneRange> brightness;
+        std::optional<picture::ToneRange> brightness;
         QImage picture;
         {
             ui::Workstation program;
@@ -206,7 +206,7 @@ private slots:
             auto *pane = program.window().findChild<ui::ProjectionView *>();
             const auto rests = [&] { return pane->showsWhatIsAskedFor(); };
             QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs); // and has its brightness, of the front
-            render::Camera camera = turned(document);
+            scene::Camera camera = turned(document);
             camera.panMm = {30.0, 0.0};
             emit program.bench().opener.cameraKept(camera);
             QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs);
@@ -225,7 +225,7 @@ private slots:
         auto *overlay = pane->findChild<QWidget *>("projectionOverlay");
         const QImage shown = overlay->grab().toImage();
         // As it is after another view.
-        const render::Camera camera = document.scene().camera;
+        const scene::Camera camera = document.scene().camera;
         document.setCamera(turned(document));
         const QImage other = overlay->grab().toImage();
         document.setCamera(camera);
@@ -251,7 +251,7 @@ private slots:
             program.window().openPaths(halves);
             ui::Document &document = program.bench().document;
             QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
-            render::Scene scene = document.scene();
+            scene::Scene scene = document.scene();
             scene.look.transferFunction.weights = {0.0, 0.25, 1.0};
             look = scene.look;
             document.setScene(scene);

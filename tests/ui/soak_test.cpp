@@ -12,7 +12,7 @@
 #include <QListWidget>
 
 #include "ui/views/mpr_view.h"
-#include "ui/workstation.h"
+#include "ui/window/workstation.h"
 
 #ifdef PELLUCID_SANITIZED // whose allocator the C library knows nothing of
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();

@@ -8,7 +8,7 @@
 #include <QToolButton>
 
 #include "ui/panels/spectrum_plot.h"
-#include "ui/spectrum_sampler.h"
+#include "ui/views/spectrum_sampler.h"
 
 namespace pellucid {
 
@@ -117,7 +117,7 @@ private slots:
         // picture where its pixels are larger. A logical pixel of the plot is at most a few
         // hundredths of the limit.
         for (const double pixelMm : {0.5, 7.0}) {
-            render::Camera zoomed = m_window->document().scene().camera;
+            scene::Camera zoomed = m_window->document().scene().camera;
             zoomed.pixelMm = pixelMm;
             m_window->document().setCamera(zoomed);
             follow();
@@ -141,9 +141,9 @@ private:
         QTRY_VERIFY_WITH_TIMEOUT(!sampler()->isBehind() && !plot()->picture().isNull(), patienceMs);
     }
     // Zoomed in, the band is that of the samples.
-    render::Camera camera() {
+    scene::Camera camera() {
         const ui::Document &document = m_window->document();
-        render::Camera camera = document.scene().camera;
+        scene::Camera camera = document.scene().camera;
         camera.pixelMm = std::max(camera.pixelMm, document.volume()->lattice().shortestStepMm());
         return camera;
     }

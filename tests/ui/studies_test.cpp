@@ -16,9 +16,9 @@
 #include <QToolButton>
 #include <QTreeView>
 
-#include "ui/file_menu.h"
-#include "ui/library/study_list.h"
-#include "ui/study_beside.h"
+#include "ui/beside/study_beside.h"
+#include "ui/panels/study_list.h"
+#include "ui/window/file_menu.h"
 
 namespace pellucid {
 
@@ -230,7 +230,7 @@ private slots:
     void aPriorStandsBesideAndMovesAlong() {
         open(headPath());
         import(m_folder / "three", false);
-        const render::Camera camera = m_window->document().scene().camera;
+        const scene::Camera camera = m_window->document().scene().camera;
         choose(volumeRow("Zhang Wei"), "openBesideAction");
         auto *beside = find<ui::StudyBeside>("studyBeside");
         auto *other = find<ui::ProjectionView>("beside_projectionView");
@@ -258,7 +258,7 @@ private slots:
              {static_cast<QWidget *>(projection()), static_cast<QWidget *>(other)}) {
             dragMouse(turned, Qt::LeftButton, turned->rect().center(), {50, -30});
             const auto onPicture = [](ui::Document &document) {
-                const render::Camera &view = document.scene().camera;
+                const scene::Camera &view = document.scene().camera;
                 const glm::dvec3 at =
                     document.crosshair().mm - document.volume()->lattice().center().mm;
                 return glm::dvec2(glm::dot(view.axes()[0], at), glm::dot(view.axes()[1], at)) -
@@ -302,7 +302,7 @@ private slots:
         const auto orientation = open.scene().camera.orientation;
         QTest::keyClick(other, Qt::Key_7, Qt::KeypadModifier);
         QVERIFY(prior.scene().camera.orientation ==
-                render::viewOrientation(render::StandardView::top));
+                scene::viewOrientation(scene::StandardView::top));
         QVERIFY(open.scene().camera.orientation == orientation);
         turnWheel(find<QWidget>("beside_axialView"), 1);
         const glm::dvec3 matched = prior.crosshair().mm - open.crosshair().mm;

@@ -19,12 +19,12 @@
 
 #include "core/dicom/write_series.h"
 #include "core/files/user_folders.h"
-#include "core/fourier/wisdom.h"
+#include "core/fourier/transforms/wisdom.h"
 #include "core/phantom/phantom.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/application.h"
-#include "ui/main_window.h"
 #include "ui/views/projection_view.h"
+#include "ui/window/application.h"
+#include "ui/window/main_window.h"
 
 namespace pellucid::test {
 

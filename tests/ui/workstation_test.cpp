@@ -13,8 +13,8 @@
 #include <QTreeView>
 
 #include "tests/support/little_memory.h"
-#include "ui/commands.h"
-#include "ui/kept_studies.h"
+#include "ui/document/commands.h"
+#include "ui/opening/kept_studies.h"
 #include "ui/panels/study_panel.h"
 #include "ui/views/mpr_view.h"
 
@@ -114,10 +114,10 @@ private slots:
         QTRY_VERIFY(meanGrey(grab("projectionView")) > meanGrey(before) + 40.0);
         find<QAction>("bandLimitedAction")->trigger();
         QVERIFY(m_window->document().scene().image.reconstruction ==
-                render::Reconstruction::bandLimited);
+                scene::Reconstruction::bandLimited);
         find<QAction>("undoAction")->trigger();
         find<QAction>("undoAction")->trigger();
-        QVERIFY(m_window->document().scene().tone == render::Tone());
+        QVERIFY(m_window->document().scene().tone == scene::Tone());
         QVERIFY(!find<QAction>("filmAction")->isChecked());
     }
 
@@ -148,10 +148,10 @@ private slots:
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 32}});
         const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
-        render::Scene scene;
-        scene.camera = render::defaultCamera(lattice);
+        scene::Scene scene;
+        scene.camera = scene::defaultCamera(lattice);
         const auto engine =
-            render::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
+            prepare::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
         ui::KeptStudies kept;
         ui::KeptStudy study{
             .volume = volume, .scene = scene, .preparedFor = ui::PreparedFor(), .engine = engine};
@@ -232,7 +232,7 @@ private slots:
 
     void aCancelledPreparationIsTakenUpByF5() {
         open(headPath());
-        render::Scene scene = m_window->document().scene();
+        scene::Scene scene = m_window->document().scene();
         scene.tolerance = 1e-5;
         auto *undo = m_window->document().undoStack();
         undo->push(new ui::EditScene(m_window->document(), scene, "Tolerance"));
@@ -258,7 +258,7 @@ private slots:
 #ifndef PELLUCID_SANITIZED // which reserve terabytes
     void aPreparationThatFailsSaysSoAndIsTriedAgainByF5() {
         open(headPath());
-        render::Scene scene = m_window->document().scene();
+        scene::Scene scene = m_window->document().scene();
         scene.tolerance = 1e-5;
         {
             const test::LittleMemory little(2); // too little for a thread
@@ -280,7 +280,7 @@ private slots:
         m_window->openPhantom("head");
         settle();
         const QImage former = projection()->picture();
-        render::Scene scene = m_window->document().scene();
+        scene::Scene scene = m_window->document().scene();
         scene.look.classes.push_back({.name = "Bone", .low = 200.0, .high = 3000.0});
         m_window->document().undoStack()->push(
             new ui::EditScene(m_window->document(), scene, "Bone"));
@@ -308,7 +308,7 @@ private slots:
         QVERIFY(m_window->document().scene().tone.high.has_value());
         projection()->setFocus();
         QTest::keyClick(projection(), Qt::Key_R);
-        QVERIFY(m_window->document().scene().tone == render::Tone());
+        QVERIFY(m_window->document().scene().tone == scene::Tone());
         QTest::keyClick(m_window.get(), Qt::Key_Z, Qt::ControlModifier);
         QVERIFY(m_window->document().scene().tone.high.has_value());
     }

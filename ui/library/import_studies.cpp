@@ -17,7 +17,7 @@
 #include "core/files/session_folder.h"
 #include "core/task/error.h"
 #include "core/volume/volume_file.h"
-#include "ui/library/thumbnail.h"
+#include "ui/studies/thumbnail.h"
 
 namespace pellucid::ui {
 

@@ -13,7 +13,7 @@
 
 #include "core/task/error.h"
 #include "ui/library/list_query.h"
-#include "ui/library/search_words.h"
+#include "ui/studies/search_words.h"
 
 namespace pellucid::ui {
 

@@ -8,7 +8,7 @@
 #include <QString>
 
 #include "core/dicom/catalogue.h"
-#include "ui/library/study_facts.h"
+#include "ui/studies/study_facts.h"
 
 namespace pellucid::ui {
 

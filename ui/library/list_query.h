@@ -9,7 +9,7 @@
 #include <QVariant>
 
 #include "core/dicom/catalogue.h"
-#include "ui/library/study_facts.h"
+#include "ui/studies/study_facts.h"
 
 class QSqlError;
 

@@ -13,8 +13,8 @@
 #include "core/files/atomic_file.h"
 #include "core/files/file_lock.h"
 #include "core/files/session_folder.h"
+#include "core/system/log.h"
 #include "core/task/error.h"
-#include "core/task/log.h"
 #include "ui/library/library.h"
 #include "ui/library/list_query.h"
 
@@ -239,9 +239,9 @@ OpenedLibrary openLibrary(const fs::path &folder) {
                     : LibraryTexts::tr("the study library was damaged and nothing of it could be "
                                        "read; the old file is kept under this name");
             opened.notices.push_back({kept, said.toStdString()});
-            task::log("the study library was damaged and has been rebuilt");
+            system::log("the study library was damaged and has been rebuilt");
         } catch (const Error &error) {
-            task::log("the study library is damaged and cannot be rebuilt");
+            system::log("the study library is damaged and cannot be rebuilt");
             opened.readable = std::move(found.saved);
             return forThisRun(std::move(opened),
                               LibraryTexts::tr("is damaged, and a new one cannot be written: %1")

@@ -2,10 +2,10 @@
 #include "ui/library/study_library.h"
 
 #include "core/files/user_folders.h"
+#include "core/system/log.h"
 #include "core/task/error.h"
-#include "core/task/log.h"
-#include "ui/failure.h"
-#include "ui/spoken.h"
+#include "ui/language/failure.h"
+#include "ui/language/spoken.h"
 
 namespace pellucid::ui {
 
@@ -64,7 +64,7 @@ StudyLibrary::~StudyLibrary() {
             if (!work.isOptional)
                 work.run(Job());
         } catch (...) {
-            task::log("the study library: " + currentFailure().what.toStdString());
+            system::log("the study library: " + currentFailure().what.toStdString());
         }
 }
 

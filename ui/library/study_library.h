@@ -8,7 +8,7 @@
 #include <QObject>
 
 #include "core/files/file_ids.h"
-#include "ui/job_runner.h"
+#include "ui/jobs/job_runner.h"
 #include "ui/library/import_studies.h"
 #include "ui/library/library.h"
 

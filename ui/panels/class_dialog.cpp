@@ -16,8 +16,8 @@
 #include <QPushButton>
 
 #include "core/task/error.h"
-#include "ui/document.h"
-#include "ui/spoken.h"
+#include "ui/document/document.h"
+#include "ui/language/spoken.h"
 
 namespace pellucid::ui {
 

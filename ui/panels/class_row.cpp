@@ -8,8 +8,8 @@
 #include <QStyle>
 #include <QToolButton>
 
+#include "ui/language/spoken.h"
 #include "ui/panels/value_slider.h"
-#include "ui/spoken.h"
 
 namespace pellucid::ui {
 

@@ -4,7 +4,7 @@
 #include <QWidget>
 
 #include "core/classify/tissue_class.h"
-#include "ui/commands.h"
+#include "ui/document/commands.h"
 
 class QLabel;
 class QToolButton;

@@ -11,10 +11,10 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
-#include "ui/document.h"
+#include "ui/document/document.h"
+#include "ui/language/spoken.h"
 #include "ui/panels/class_dialog.h"
 #include "ui/panels/class_row.h"
-#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -105,7 +105,7 @@ void ClassesPanel::showScene() {
 
 void ClassesPanel::change(const QString &what, const std::function<void(classify::Look &)> &edit,
                           DragId drag) {
-    render::Scene scene = m_document.scene();
+    scene::Scene scene = m_document.scene();
     edit(scene.look);
     if (!(scene == m_document.scene()))
         m_document.undoStack()->push(new EditScene(m_document, scene, what, drag));

@@ -7,8 +7,8 @@
 #include <QPointer>
 #include <QWidget>
 
-#include "core/render/scene.h"
-#include "ui/commands.h"
+#include "core/scene/scene.h"
+#include "ui/document/commands.h"
 
 class QLabel;
 class QPushButton;

@@ -7,8 +7,8 @@
 
 #include "core/classify/density_field.h"
 #include "core/classify/transfer_function.h"
-#include "ui/commands.h"
-#include "ui/theme.h"
+#include "ui/document/commands.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 

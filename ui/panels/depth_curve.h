@@ -4,8 +4,8 @@
 #include <QWidget>
 
 #include "core/shading/shading.h"
-#include "ui/commands.h"
-#include "ui/theme.h"
+#include "ui/document/commands.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 

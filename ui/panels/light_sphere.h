@@ -9,8 +9,8 @@
 #include <glm/vec3.hpp>
 
 #include "core/shading/shading.h"
-#include "ui/commands.h"
-#include "ui/theme.h"
+#include "ui/document/commands.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 

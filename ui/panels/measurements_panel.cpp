@@ -12,9 +12,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "ui/commands.h"
-#include "ui/document.h"
-#include "ui/measurement_text.h"
+#include "ui/document/commands.h"
+#include "ui/document/document.h"
+#include "ui/language/measurement_text.h"
 
 namespace pellucid::ui {
 

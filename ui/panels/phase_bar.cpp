@@ -7,7 +7,7 @@
 #include <QSlider>
 #include <QToolButton>
 
-#include "ui/phases.h"
+#include "ui/opening/phases.h"
 
 namespace pellucid::ui {
 

@@ -16,12 +16,12 @@
 
 #include "core/presets/slicer_preset.h"
 #include "core/task/error.h"
-#include "ui/commands.h"
-#include "ui/document.h"
-#include "ui/file_dialogs.h"
-#include "ui/look_previewer.h"
-#include "ui/spoken.h"
-#include "ui/theme.h"
+#include "ui/document/commands.h"
+#include "ui/document/document.h"
+#include "ui/engine/look_previewer.h"
+#include "ui/language/spoken.h"
+#include "ui/settings/file_dialogs.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
@@ -168,7 +168,7 @@ void PresetsPanel::setPicture(const QString &preset, const QImage &picture) {
 }
 
 void PresetsPanel::showCurrent() {
-    const render::Scene &scene = m_document.scene();
+    const scene::Scene &scene = m_document.scene();
     const classify::FieldWindow shown = m_document.fieldWindow();
     m_gallery->setCurrentItem(nullptr);
     if (!m_document.volume()) {
@@ -199,7 +199,7 @@ void PresetsPanel::apply(QListWidgetItem *item) {
     const auto *entry = m_library.find(item->data(nameRole).toString().toStdString());
     if (entry == nullptr || !m_document.volume())
         return;
-    render::Scene scene = m_document.scene();
+    scene::Scene scene = m_document.scene();
     scene.fieldWindow = entry->preset.window;
     scene.look = presets::lookFor(entry->preset,
                                   scene.fieldWindow.value_or(m_document.defaultFieldWindow()));

@@ -10,8 +10,8 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "ui/document.h"
-#include "ui/spoken.h"
+#include "ui/document/document.h"
+#include "ui/language/spoken.h"
 
 namespace pellucid::ui {
 

@@ -12,10 +12,10 @@
 #include <QPushButton>
 #include <QStyle>
 
-#include "ui/commands.h"
-#include "ui/document.h"
-#include "ui/overlay.h"
-#include "ui/spoken.h"
+#include "ui/document/commands.h"
+#include "ui/document/document.h"
+#include "ui/language/spoken.h"
+#include "ui/views/overlay.h"
 
 namespace pellucid::ui {
 
@@ -37,29 +37,29 @@ QComboBox *addBox(QFormLayout *form, const QString &text, const char *name, cons
     return box;
 }
 
-QString spectraName(render::SpectrumOf what) {
+QString spectraName(plan::SpectrumOf what) {
     switch (what) {
-    case render::SpectrumOf::look:
+    case plan::SpectrumOf::look:
         return QObject::tr("%1 look spectrum");
-    case render::SpectrumOf::channel:
+    case plan::SpectrumOf::channel:
         return QObject::tr("%1 colour spectra");
-    case render::SpectrumOf::layer:
+    case plan::SpectrumOf::layer:
         return QObject::tr("%1 layer spectra");
-    case render::SpectrumOf::gradient:
+    case plan::SpectrumOf::gradient:
         return QObject::tr("%1 gradient spectra");
     }
     return {};
 }
 
-QString whySpectra(render::SpectrumOf what) {
+QString whySpectra(plan::SpectrumOf what) {
     switch (what) {
-    case render::SpectrumOf::look:
+    case plan::SpectrumOf::look:
         return QObject::tr("All that is shown has one colour, so it adds up to one field");
-    case render::SpectrumOf::channel:
+    case plan::SpectrumOf::channel:
         return QObject::tr("Colours are mixed, so red, green and blue have a field each");
-    case render::SpectrumOf::layer:
+    case plan::SpectrumOf::layer:
         return QObject::tr("Weights are being changed, so each layer keeps a spectrum of its own");
-    case render::SpectrumOf::gradient:
+    case plan::SpectrumOf::gradient:
         return QObject::tr("Light shines on the gradient, which has a spectrum of its own");
     }
     return {};
@@ -88,7 +88,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     const std::array<QString, qualityCount> names{tr("Draft"), tr("Interactive"), tr("Standard"),
                                                   tr("Fine")};
     for (std::size_t n = 0; n < qualityCount; ++n)
-        m_quality->addItem(names[n], render::namedTolerances[n].tolerance);
+        m_quality->addItem(names[n], scene::namedTolerances[n].tolerance);
     m_quality->addItem(tr("Own"));
     m_tolerance = new QLineEdit;
     m_tolerance->setObjectName("toleranceEdit");
@@ -98,10 +98,10 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     form->addRow(tr("Tolerance"), m_tolerance);
     m_reconstruction = addBox(form, tr("Between"), "reconstructionBox",
                               tr("What lies between the samples of the volume"));
-    m_reconstruction->addItem(tr("Cubic"), int(render::Reconstruction::cubic));
-    m_reconstruction->addItem(tr("Linear"), int(render::Reconstruction::linear));
-    m_reconstruction->addItem(tr("Spline"), int(render::Reconstruction::spline));
-    m_reconstruction->addItem(tr("Sharp (band-limited)"), int(render::Reconstruction::bandLimited));
+    m_reconstruction->addItem(tr("Cubic"), int(scene::Reconstruction::cubic));
+    m_reconstruction->addItem(tr("Linear"), int(scene::Reconstruction::linear));
+    m_reconstruction->addItem(tr("Spline"), int(scene::Reconstruction::spline));
+    m_reconstruction->addItem(tr("Sharp (band-limited)"), int(scene::Reconstruction::bandLimited));
     m_kernel = addBox(form, tr("Kernel"), "kernelBox", tr("How the spectrum is interpolated"));
     m_kernel->addItem(tr("As needed"), QString());
     for (const char *name : {"LS3", "LS4", "LS5", "LS6", "LS7", "ES4", "ES5", "KB4", "KB5",
@@ -157,13 +157,13 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     connect(m_quality, &QComboBox::activated, this, &QualityPanel::chooseTolerance);
     connect(m_tolerance, &QLineEdit::editingFinished, this, &QualityPanel::typeTolerance);
     connect(m_reconstruction, &QComboBox::activated, this, [this] {
-        change(tr("Reconstruction"), [this](render::Scene &scene) {
+        change(tr("Reconstruction"), [this](scene::Scene &scene) {
             scene.image.reconstruction =
-                render::Reconstruction(m_reconstruction->currentData().toInt());
+                scene::Reconstruction(m_reconstruction->currentData().toInt());
         });
     });
     connect(m_kernel, &QComboBox::activated, this, [this] {
-        change(tr("Kernel"), [this](render::Scene &scene) {
+        change(tr("Kernel"), [this](scene::Scene &scene) {
             const std::string name = m_kernel->currentData().toString().toStdString();
             scene.interpolation.kernel.reset();
             if (!name.empty())
@@ -171,7 +171,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
         });
     });
     connect(m_padding, &QComboBox::activated, this, [this] {
-        change(tr("Padding"), [this](render::Scene &scene) {
+        change(tr("Padding"), [this](scene::Scene &scene) {
             const double padding = m_padding->currentData().toDouble();
             scene.interpolation.padding.reset();
             if (padding > 0.0)
@@ -179,7 +179,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
         });
     });
     connect(m_storage, &QComboBox::activated, this, [this] {
-        change(tr("Storage"), [this](render::Scene &scene) {
+        change(tr("Storage"), [this](scene::Scene &scene) {
             const std::string name = m_storage->currentData().toString().toStdString();
             scene.interpolation.storage.reset();
             if (!name.empty())
@@ -200,8 +200,8 @@ QWidget *QualityPanel::corner() {
     return m_more;
 }
 
-void QualityPanel::change(const QString &what, const std::function<void(render::Scene &)> &edit) {
-    render::Scene scene = m_document.scene();
+void QualityPanel::change(const QString &what, const std::function<void(scene::Scene &)> &edit) {
+    scene::Scene scene = m_document.scene();
     edit(scene);
     if (scene == m_document.scene())
         emit chosenAgain();
@@ -217,7 +217,7 @@ void QualityPanel::chooseTolerance(int index) {
         m_tolerance->selectAll();
         return;
     }
-    change(tr("Quality"), [&](render::Scene &scene) { scene.tolerance = tolerance.toDouble(); });
+    change(tr("Quality"), [&](scene::Scene &scene) { scene.tolerance = tolerance.toDouble(); });
 }
 
 void QualityPanel::typeTolerance() {
@@ -232,7 +232,7 @@ void QualityPanel::typeTolerance() {
     if (good) {
         // The box would take the undo keys for itself.
         m_tolerance->clearFocus();
-        change(tr("Tolerance"), [&](render::Scene &scene) { scene.tolerance = typed; });
+        change(tr("Tolerance"), [&](scene::Scene &scene) { scene.tolerance = typed; });
     } else {
         say(tr("'%1' is no tolerance: 0.0001 to 30 percent").arg(text), true);
     }
@@ -240,7 +240,7 @@ void QualityPanel::typeTolerance() {
 }
 
 void QualityPanel::showScene() {
-    const render::Scene &scene = m_document.scene();
+    const scene::Scene &scene = m_document.scene();
     const int own = m_quality->count() - 1;
     int quality = own;
     for (int n = 0; n < own; ++n)
@@ -255,7 +255,7 @@ void QualityPanel::showScene() {
             box->addItem(text, text);
         box->setCurrentIndex(box->findData(text));
     };
-    const render::Interpolation &fixed = scene.interpolation;
+    const scene::Interpolation &fixed = scene.interpolation;
     show(m_kernel, fixed.kernel ? fourier::kernelName(*fixed.kernel) : std::string());
     const double padding = fixed.padding.value_or(0.0);
     if (m_padding->findData(padding) < 0)
@@ -273,16 +273,16 @@ void QualityPanel::clearPlan() {
 
 void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     const bool coarse = stage == EngineStage::coarse;
-    const render::RenderPlan &plan = shown.prepared.plan;
+    const plan::RenderPlan &plan = shown.prepared.plan;
     const auto &spectrum = plan.spectrum;
     const bool missed = shown.predictedError > m_document.scene().tolerance;
     // A coarse picture lacks detail of the study, which no plan knows of.
     const bool isCoarse = shown.prepared.isCoarse;
     const QString unknown = tr("not known yet");
-    const std::optional<double> error =
-        render::errorAgainstStudy(shown.prepared, shown.predictedError, m_document.scene().shading);
+    const std::optional<double> error = prepare::errorAgainstStudy(
+        shown.prepared, shown.predictedError, m_document.scene().shading);
     // No bound is known for a sum of layers, only for each layer.
-    const bool isBound = !isCoarse && shown.prepared.of != render::SpectrumOf::layer;
+    const bool isBound = !isCoarse && shown.prepared.of != plan::SpectrumOf::layer;
     m_error->setText(!error    ? unknown
                      : isBound ? tr("at most %1").arg(percent(*error))
                                : tr("about %1").arg(percent(*error)));
@@ -303,7 +303,7 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
         !parts.spectra.gradients.empty()};
     showModel();
     const QString reason = spoken(plan.reason);
-    const bool isSum = shown.prepared.of == render::SpectrumOf::layer;
+    const bool isSum = shown.prepared.of == plan::SpectrumOf::layer;
     say(isSum ? tr("The parts of the look, summed while they change")
         : coarse || stage == EngineStage::live ? tr("A first, coarse picture; the full one follows")
         : missed                               ? tr("More error than allowed: %1").arg(reason)
@@ -314,13 +314,13 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
 void QualityPanel::showModel() {
     if (!m_document.volume() || !m_frameOf)
         return;
-    render::Scene scene = m_document.scene();
+    scene::Scene scene = m_document.scene();
     if (!m_frameOf->isLit)
         scene.shading.lights.clear();
-    const render::FrameModel model = render::modelFrame(m_frameOf->plan, scene, m_frameOf->fields,
-                                                        m_document.volume()->lattice());
+    const plan::FrameModel model =
+        plan::modelFrame(m_frameOf->plan, scene, m_frameOf->fields, m_document.volume()->lattice());
     QStringList spectra, reasons;
-    for (const render::FrameModel::Spectra &kind : model.spectra) {
+    for (const plan::FrameModel::Spectra &kind : model.spectra) {
         spectra << spectraName(kind.of).arg(kind.count);
         reasons << whySpectra(kind.of);
     }
@@ -331,22 +331,22 @@ void QualityPanel::showModel() {
                          .arg(1e-6 * model.multiplyAdds, 0, 'f', 1));
     m_model->setToolTip(reasons.join('\n'));
     QStringList leftOut;
-    for (const render::LeftOut what : model.leftOut)
+    for (const plan::LeftOut what : model.leftOut)
         switch (what) {
-        case render::LeftOut::light:
+        case plan::LeftOut::light:
             leftOut << tr("light");
             break;
-        case render::LeftOut::depthCue:
+        case plan::LeftOut::depthCue:
             leftOut << tr("depth cue");
             break;
-        case render::LeftOut::color:
+        case plan::LeftOut::color:
             leftOut << tr("colours");
             break;
-        case render::LeftOut::emptySpace:
+        case plan::LeftOut::emptySpace:
             leftOut << tr("empty space");
             break;
-        case render::LeftOut::secondHalf: // of every plan
-        case render::LeftOut::cornersOfBand:
+        case plan::LeftOut::secondHalf: // of every plan
+        case plan::LeftOut::cornersOfBand:
             break;
         }
     m_leftOut->setText(leftOut.isEmpty() ? tr("nothing") : leftOut.join(", "));
@@ -358,7 +358,7 @@ void QualityPanel::say(const QString &text, bool isWarning) {
     m_reason->style()->polish(m_reason); // the style sheet asks for the role
 }
 
-void QualityPanel::showFrame(const render::FrameTimes &times, bool draft) {
+void QualityPanel::showFrame(const picture::FrameTimes &times, bool draft) {
     const QString text = millisecondsText(times.totalMs());
     m_time->setText(draft ? tr("%1, draft").arg(text) : text);
     if (!draft) // the pane may have another size

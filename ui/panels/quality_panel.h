@@ -6,9 +6,9 @@
 
 #include <QWidget>
 
-#include "core/render/frame_model.h"
-#include "ui/look_preparer.h"
-#include "ui/shown_engine.h"
+#include "core/plan/frame_model.h"
+#include "ui/engine/look_preparer.h"
+#include "ui/engine/shown_engine.h"
 
 class QComboBox;
 class QLabel;
@@ -28,7 +28,7 @@ public:
     /// Stands beside the panel's heading: shows what experts choose.
     QWidget *corner();
     void showPlan(const ShownEngine &shown, EngineStage stage);
-    void showFrame(const render::FrameTimes &times, bool draft);
+    void showFrame(const picture::FrameTimes &times, bool draft);
 
 signals:
     /// What the scene asks for already was chosen once more, as after a cancelled preparation.
@@ -41,12 +41,12 @@ private:
     void say(const QString &text, bool isWarning);
     void chooseTolerance(int index);
     void typeTolerance();
-    void change(const QString &what, const std::function<void(render::Scene &)> &edit);
+    void change(const QString &what, const std::function<void(scene::Scene &)> &edit);
 
     /// What the frames shown are made of.
     struct FrameOf {
-        render::RenderPlan plan;
-        render::FrameFields fields;
+        plan::RenderPlan plan;
+        plan::FrameFields fields;
         bool isLit = false;
     };
 

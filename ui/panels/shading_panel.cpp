@@ -15,7 +15,7 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 
-#include "ui/document.h"
+#include "ui/document/document.h"
 #include "ui/panels/depth_curve.h"
 #include "ui/panels/light_sphere.h"
 #include "ui/panels/value_slider.h"
@@ -226,7 +226,7 @@ void ShadingPanel::change(const QString &what, DragId drag,
                           const std::function<void(Shading &)> &edit) {
     if (!m_document.volume())
         return;
-    render::Scene scene = m_document.scene();
+    scene::Scene scene = m_document.scene();
     edit(scene.shading);
     if (!(scene == m_document.scene()))
         m_document.undoStack()->push(new EditScene(m_document, scene, what, drag));

@@ -7,7 +7,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 
-#include "ui/overlay.h"
+#include "ui/views/overlay.h"
 
 namespace pellucid::ui {
 

@@ -7,7 +7,7 @@
 #include <QWidget>
 
 #include "core/render/spectrum_slice.h"
-#include "ui/theme.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 

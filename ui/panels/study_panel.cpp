@@ -18,11 +18,11 @@
 #include <QUrl>
 #include <QVBoxLayout>
 
-#include "ui/document.h"
-#include "ui/library/study_row_painter.h"
-#include "ui/panels/job_strip.h"
+#include "ui/document/document.h"
+#include "ui/jobs/job_strip.h"
 #include "ui/panels/problem_list.h"
-#include "ui/study_details.h"
+#include "ui/panels/study_details.h"
+#include "ui/panels/study_row_painter.h"
 
 namespace pellucid::ui {
 

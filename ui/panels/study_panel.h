@@ -5,9 +5,9 @@
 #include <QTimer>
 #include <QWidget>
 
-#include "ui/library/study_list.h"
-#include "ui/study_source.h"
-#include "ui/theme.h"
+#include "ui/panels/study_list.h"
+#include "ui/studies/study_source.h"
+#include "ui/theme/theme.h"
 
 class QLineEdit;
 class QMenu;

@@ -13,9 +13,9 @@
 #include <QVBoxLayout>
 
 #include "core/task/error.h"
-#include "ui/document.h"
+#include "ui/document/document.h"
+#include "ui/language/spoken.h"
 #include "ui/panels/curve_editor.h"
-#include "ui/spoken.h"
 
 namespace pellucid::ui {
 
@@ -118,7 +118,7 @@ const classify::TransferFunction &TransferFunctionPanel::function() const {
 
 void TransferFunctionPanel::change(const classify::TransferFunction &function, const QString &what,
                                    DragId drag) {
-    render::Scene scene = m_document.scene();
+    scene::Scene scene = m_document.scene();
     const int selected = m_document.selectedClass();
     if (selected < 0)
         scene.look.transferFunction = function;

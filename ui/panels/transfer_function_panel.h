@@ -4,8 +4,8 @@
 #include <QWidget>
 
 #include "core/volume/statistics.h"
-#include "ui/commands.h"
-#include "ui/theme.h"
+#include "ui/document/commands.h"
+#include "ui/theme/theme.h"
 
 class QDoubleSpinBox;
 class QLabel;

@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-#include "ui/commands.h"
+#include "ui/document/commands.h"
 
 class QDoubleSpinBox;
 class QSlider;

@@ -3,13 +3,13 @@
 
 namespace pellucid::ui {
 
-void AutomaticTone::take(const render::ToneRange &range) {
+void AutomaticTone::take(const picture::ToneRange &range) {
     m_range = range;
     m_isWanted = false;
     m_adoptedFor.reset();
 }
 
-void AutomaticTone::adopt(const render::ToneRange &range, const render::Scene &scene) {
+void AutomaticTone::adopt(const picture::ToneRange &range, const scene::Scene &scene) {
     take(range);
     m_adoptedFor.emplace(scene);
     m_lights = m_adoptedFor->lights;
@@ -25,7 +25,7 @@ bool AutomaticTone::outlivesVolume(bool hasNext) {
     return false;
 }
 
-void AutomaticTone::beginFields(const render::Scene &scene) {
+void AutomaticTone::beginFields(const scene::Scene &scene) {
     m_isWanted = m_isWanted || m_adoptedFor != ToneSubject(scene);
 }
 
@@ -36,7 +36,7 @@ void AutomaticTone::follow(const shading::Shading &drawn) {
     m_cue = drawn.cue.kind;
 }
 
-render::Tone AutomaticTone::completed(render::Tone tone) const {
+scene::Tone AutomaticTone::completed(scene::Tone tone) const {
     tone.low = tone.low.value_or(m_range.low);
     tone.high = tone.high.value_or(m_range.high);
     return tone;

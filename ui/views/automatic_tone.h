@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/render/compose.h"
-#include "ui/tone_subject.h"
+#include "core/picture/compose.h"
+#include "ui/document/tone_subject.h"
 
 namespace pellucid::ui {
 
@@ -19,25 +19,25 @@ public:
     /// The next frame tells the brightness anew; what is shown keeps its own till then.
     bool isWanted() const { return m_isWanted; }
     void retake() { m_isWanted = true; }
-    void take(const render::ToneRange &range);
+    void take(const picture::ToneRange &range);
     /// The scene is seen again, with the brightness that it had: the fields that come for it, a
     /// coarse picture's and then the full ones, keep it.
-    void adopt(const render::ToneRange &range, const render::Scene &scene);
+    void adopt(const picture::ToneRange &range, const scene::Scene &scene);
     /// The next volume is another phase: brightness and picture stay until its own are there.
     void hold() { m_isHeld = true; }
     /// The volume changes; `hasNext`: to another one. False: the brightness goes with it.
     bool outlivesVolume(bool hasNext);
     /// Fields other than those of the last frame are projected, for a scene.
-    void beginFields(const render::Scene &scene);
+    void beginFields(const scene::Scene &scene);
     /// The next frame is drawn with cue and lights like these.
     void follow(const shading::Shading &drawn);
 
-    const render::ToneRange &range() const { return m_range; }
+    const picture::ToneRange &range() const { return m_range; }
     /// With both ends: those that the user fixed, and for the rest the brightness that was taken.
-    render::Tone completed(render::Tone tone) const;
+    scene::Tone completed(scene::Tone tone) const;
 
 private:
-    render::ToneRange m_range;
+    picture::ToneRange m_range;
     bool m_isWanted = true, m_isHeld = false;
     std::optional<ToneSubject> m_adoptedFor;
     /// Of the last frame.

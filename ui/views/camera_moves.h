@@ -5,24 +5,23 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/render/camera.h"
+#include "core/scene/camera.h"
 
 namespace pellucid::ui {
 
 /// Cameras that a hand has moved. Turning keeps one point of the patient where it is in the
 /// picture. *Units*: `pivotMm`: from the middle of the volume, LPS; 0: about the middle.
-render::Camera turnedTo(const render::Camera &camera, const glm::dquat &orientation,
-                        const glm::dvec3 &pivotMm);
-/// The side that faces the viewer follows the hand. *Units*: logical pixels.
-render::Camera orbited(const render::Camera &camera, const QPoint &delta,
+scene::Camera turnedTo(const scene::Camera &camera, const glm::dquat &orientation,
                        const glm::dvec3 &pivotMm);
-render::Camera turnedAroundPatient(const render::Camera &camera, double degrees,
-                                   const glm::dvec3 &pivotMm);
+/// The side that faces the viewer follows the hand. *Units*: logical pixels.
+scene::Camera orbited(const scene::Camera &camera, const QPoint &delta, const glm::dvec3 &pivotMm);
+scene::Camera turnedAroundPatient(const scene::Camera &camera, double degrees,
+                                  const glm::dvec3 &pivotMm);
 /// The pan that shows a point where a camera shows another one, *units*: mm, both from the middle
 /// of their volumes.
-glm::dvec2 pannedTo(const render::Camera &camera, const glm::dvec3 &shownMm,
+glm::dvec2 pannedTo(const scene::Camera &camera, const glm::dvec3 &shownMm,
                     const glm::dvec3 &pointMm);
 /// *Units*: `delta`: logical pixels, `pixelRatio`: device pixels in one of them.
-render::Camera panned(const render::Camera &camera, const QPoint &delta, double pixelRatio);
+scene::Camera panned(const scene::Camera &camera, const QPoint &delta, double pixelRatio);
 
 } // namespace pellucid::ui

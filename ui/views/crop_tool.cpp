@@ -8,8 +8,8 @@
 #include <QPainter>
 #include <QPainterPath>
 
-#include "ui/commands.h"
-#include "ui/document.h"
+#include "ui/document/commands.h"
+#include "ui/document/document.h"
 
 namespace pellucid::ui {
 
@@ -95,7 +95,7 @@ void CropTool::release() {
     m_dragged.reset();
     if (m_moved == m_document.scene().crop)
         return;
-    render::Scene scene = m_document.scene();
+    scene::Scene scene = m_document.scene();
     scene.crop = m_moved;
     m_document.undoStack()->push(
         new EditScene(m_document, scene, QCoreApplication::translate("CropTool", "Crop")));

@@ -7,7 +7,7 @@
 
 #include "core/classify/crop_box.h"
 #include "core/mpr/box_outline.h"
-#include "ui/overlay.h"
+#include "ui/views/overlay.h"
 #include "ui/views/pane_mapping.h"
 
 class QPainter;

@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "ui/overlay.h"
+#include "ui/views/overlay.h"
 
 namespace pellucid::ui {
 

@@ -5,7 +5,7 @@
 
 #include <QPainter>
 
-#include "ui/document.h"
+#include "ui/document/document.h"
 
 namespace pellucid::ui {
 
@@ -23,7 +23,7 @@ void LookComparison::forget() {
 }
 
 void LookComparison::edited(int index) {
-    const render::Scene &scene = m_document.scene();
+    const scene::Scene &scene = m_document.scene();
     const bool isLook = scene.look != m_scene.look || scene.shading != m_scene.shading ||
                         scene.crop != m_scene.crop || scene.tone != m_scene.tone ||
                         scene.image != m_scene.image || scene.fieldWindow != m_scene.fieldWindow;

@@ -7,9 +7,9 @@
 #include <QImage>
 #include <QObject>
 
-#include "core/render/compose.h"
+#include "core/picture/compose.h"
 #include "core/render/cpu_engine.h"
-#include "core/render/scene.h"
+#include "core/scene/scene.h"
 
 namespace pellucid::ui {
 
@@ -18,9 +18,9 @@ class Document;
 /// A look that was shown, with what is needed to show it again from anywhere.
 struct ShownLook {
     std::shared_ptr<render::ProjectionEngine> engine;
-    render::ImageDefinition image;
+    scene::ImageDefinition image;
     shading::Shading shading;
-    render::Tone tone; ///< with both ends
+    scene::Tone tone; ///< with both ends
     QString name;
 };
 
@@ -41,7 +41,7 @@ private:
     void edited(int index);
 
     Document &m_document;
-    render::Scene m_scene; ///< after the last edit
+    scene::Scene m_scene; ///< after the last edit
     std::optional<ShownLook> m_now, m_before;
     int m_index = 0; ///< of the undo stack
 };

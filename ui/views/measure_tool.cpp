@@ -13,9 +13,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "ui/document.h"
-#include "ui/measurement_text.h"
-#include "ui/overlay.h"
+#include "ui/document/document.h"
+#include "ui/language/measurement_text.h"
+#include "ui/views/overlay.h"
 
 namespace pellucid::ui {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "ui/commands.h"
+#include "ui/document/commands.h"
 #include "ui/views/pane_mapping.h"
 
 class QPainter;

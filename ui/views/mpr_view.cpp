@@ -12,9 +12,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/mpr/reslice.h"
-#include "ui/document.h"
-#include "ui/overlay.h"
-#include "ui/theme.h"
+#include "ui/document/document.h"
+#include "ui/theme/theme.h"
+#include "ui/views/overlay.h"
 #include "ui/views/plane_texts.h"
 #include "ui/views/slice_picture.h"
 

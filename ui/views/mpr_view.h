@@ -9,12 +9,12 @@
 #include <QWidget>
 
 #include "core/mpr/plane.h"
-#include "ui/commands.h"
-#include "ui/overlay.h"
-#include "ui/tools.h"
+#include "ui/document/commands.h"
 #include "ui/views/crop_tool.h"
 #include "ui/views/crosshair.h"
 #include "ui/views/measure_tool.h"
+#include "ui/views/overlay.h"
+#include "ui/views/tools.h"
 
 namespace pellucid::ui {
 

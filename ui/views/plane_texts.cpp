@@ -9,10 +9,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/render/camera.h"
-#include "ui/document.h"
-#include "ui/overlay.h"
+#include "core/scene/camera.h"
+#include "ui/document/document.h"
 #include "ui/views/crosshair.h"
+#include "ui/views/overlay.h"
 
 namespace pellucid::ui {
 
@@ -31,7 +31,7 @@ QString slabText(const mpr::Slab &slab) {
 
 // "S 142.5": the side that the coordinate points to, and its size.
 QString coordinateText(const glm::dvec3 &axis, double mm) {
-    const std::string side = render::patientLetters(mm < 0.0 ? -axis : axis);
+    const std::string side = scene::patientLetters(mm < 0.0 ? -axis : axis);
     return QString("%1 %2").arg(QString::fromStdString(side)).arg(std::abs(mm), 0, 'f', 1);
 }
 

@@ -4,7 +4,7 @@
 #include <QString>
 
 #include "core/mpr/reslice.h"
-#include "ui/overlay.h"
+#include "ui/views/overlay.h"
 #include "ui/views/pane_mapping.h"
 
 class QPainter;

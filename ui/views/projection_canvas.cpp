@@ -8,8 +8,8 @@
 
 #include "core/task/error.h"
 #include "gpu/tone_pass.h"
-#include "ui/gl_probe.h"
-#include "ui/theme.h"
+#include "ui/engine/gl_probe.h"
+#include "ui/theme/theme.h"
 
 namespace pellucid::ui {
 
@@ -28,7 +28,7 @@ public:
     }
 
     QWidget *widget() override { return this; }
-    void setImage(const render::ProjectionImage &image) override {
+    void setImage(const picture::ProjectionImage &image) override {
         m_image = image;
         m_picture.reset();
         m_fresh = true;
@@ -39,7 +39,7 @@ public:
         m_image = {};
         update();
     }
-    void setTone(const render::ToneRange &range, bool inverted) override {
+    void setTone(const picture::ToneRange &range, bool inverted) override {
         m_range = range;
         m_inverted = inverted;
         update();
@@ -72,7 +72,7 @@ protected:
         if (m_image.samples.empty())
             return;
         if (!m_pass) {
-            const auto rgba = render::compose(m_image, {m_range.low, m_range.high, m_inverted});
+            const auto rgba = picture::compose(m_image, {m_range.low, m_range.high, m_inverted});
             QPainter(this).drawImage(rect(), QImage(rgba.data(), m_image.width, m_image.height,
                                                     QImage::Format_RGBA8888));
             return;
@@ -103,9 +103,9 @@ private:
     }
 
     std::unique_ptr<gpu::TonePass> m_pass;
-    render::ProjectionImage m_image;
+    picture::ProjectionImage m_image;
     std::shared_ptr<const gpu::CardPicture> m_picture;
-    render::ToneRange m_range;
+    picture::ToneRange m_range;
     bool m_inverted = false, m_fresh = false;
 };
 
@@ -114,7 +114,7 @@ public:
     explicit RasterCanvas(QWidget *parent) : QWidget(parent) { setObjectName("projectionCanvas"); }
 
     QWidget *widget() override { return this; }
-    void setImage(const render::ProjectionImage &image) override {
+    void setImage(const picture::ProjectionImage &image) override {
         m_image = image;
         m_stale = true;
         update();
@@ -126,7 +126,7 @@ public:
             // The card is gone; the next frame comes from the processor.
         }
     }
-    void setTone(const render::ToneRange &range, bool inverted) override {
+    void setTone(const picture::ToneRange &range, bool inverted) override {
         m_tone = {range.low, range.high, inverted};
         m_stale = true;
         update();
@@ -150,13 +150,13 @@ private:
         m_picture = {};
         if (m_image.samples.empty())
             return;
-        const auto rgba = render::compose(m_image, m_tone);
+        const auto rgba = picture::compose(m_image, m_tone);
         m_picture =
             QImage(rgba.data(), m_image.width, m_image.height, QImage::Format_RGBA8888).copy();
     }
 
-    render::ProjectionImage m_image;
-    render::Tone m_tone;
+    picture::ProjectionImage m_image;
+    scene::Tone m_tone;
     QImage m_picture;
     bool m_stale = false;
 };

@@ -6,8 +6,8 @@
 #include <QCoreApplication>
 #include <QPainter>
 
-#include "ui/document.h"
-#include "ui/overlay.h"
+#include "ui/document/document.h"
+#include "ui/views/overlay.h"
 
 namespace pellucid::ui {
 

@@ -4,8 +4,8 @@
 #include <QImage>
 #include <QWidget>
 
-#include "ui/overlay.h"
 #include "ui/views/measure_tool.h"
+#include "ui/views/overlay.h"
 
 namespace pellucid::ui {
 

@@ -11,10 +11,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/task/error.h"
-#include "ui/document.h"
-#include "ui/overlay.h"
-#include "ui/spoken.h"
+#include "ui/document/document.h"
+#include "ui/language/spoken.h"
 #include "ui/views/camera_moves.h"
+#include "ui/views/overlay.h"
 #include "ui/views/projection_overlay.h"
 
 namespace pellucid::ui {
@@ -140,9 +140,9 @@ void ProjectionView::jobStarted() {
         setMessage(tr("Preparing the projection"));
 }
 
-void ProjectionView::adoptCamera(const render::Camera &wanted,
+void ProjectionView::adoptCamera(const scene::Camera &wanted,
                                  const std::optional<glm::dvec3> &pivotMm) {
-    render::Camera camera = m_document.scene().camera;
+    scene::Camera camera = m_document.scene().camera;
     camera.orientation = wanted.orientation;
     camera.panMm = pannedTo(wanted, pivotMm.value_or(this->pivotMm()), this->pivotMm());
     m_document.setCamera(camera);
@@ -161,7 +161,7 @@ void ProjectionView::holdTone() {
         m_tone.hold();
 }
 
-void ProjectionView::adoptTone(const render::ToneRange &range) {
+void ProjectionView::adoptTone(const picture::ToneRange &range) {
     m_tone.adopt(range, m_document.scene());
     m_document.setBrightness(range);
     updateTone();
@@ -192,7 +192,7 @@ double ProjectionView::fittingPixelMm() const {
 }
 
 void ProjectionView::fitCamera() {
-    render::Camera camera = m_document.scene().camera;
+    scene::Camera camera = m_document.scene().camera;
     const double ratio = devicePixelRatioF();
     camera.width = std::max(2, int(std::lround(width() * ratio)));
     camera.height = std::max(2, int(std::lround(height() * ratio)));
@@ -202,13 +202,13 @@ void ProjectionView::fitCamera() {
 
 void ProjectionView::resetView() {
     m_zoom = 1.0;
-    render::Camera camera = m_document.scene().camera;
-    camera.orientation = render::viewOrientation(render::StandardView::front);
+    scene::Camera camera = m_document.scene().camera;
+    camera.orientation = scene::viewOrientation(scene::StandardView::front);
     camera.panMm = {0.0, 0.0};
     m_document.setCamera(camera);
     fitCamera();
     requestFrame(false);
-    render::Scene scene = m_document.scene();
+    scene::Scene scene = m_document.scene();
     if (scene.tone.low || scene.tone.high) {
         scene.tone.low.reset();
         scene.tone.high.reset();
@@ -216,7 +216,7 @@ void ProjectionView::resetView() {
     }
 }
 
-void ProjectionView::moveCamera(const render::Camera &camera, bool moving) {
+void ProjectionView::moveCamera(const scene::Camera &camera, bool moving) {
     m_document.setCamera(camera);
     requestFrame(moving);
 }
@@ -232,9 +232,8 @@ void ProjectionView::setOrbitsCrosshair(bool isAboutCrosshair) {
     m_overlay->setShowsCrosshair(isAboutCrosshair);
 }
 
-void ProjectionView::showStandardView(render::StandardView view) {
-    moveCamera(turnedTo(m_document.scene().camera, render::viewOrientation(view), pivotMm()),
-               false);
+void ProjectionView::showStandardView(scene::StandardView view) {
+    moveCamera(turnedTo(m_document.scene().camera, scene::viewOrientation(view), pivotMm()), false);
 }
 
 void ProjectionView::setComparing(bool isComparing) {
@@ -251,7 +250,7 @@ void ProjectionView::showComparison() {
     const ShownLook &before = *m_comparison.before();
     try {
         const QImage now = picture();
-        const auto rgba = render::compose(*m_frame->compared, before.tone);
+        const auto rgba = picture::compose(*m_frame->compared, before.tone);
         const QImage then(rgba.data(), m_frame->compared->width, m_frame->compared->height,
                           QImage::Format_RGBA8888);
         m_overlay->setComparison(besideEachOther(then.scaled(now.size()), now), before.name);
@@ -322,21 +321,21 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     showComparison();
 }
 
-render::Tone ProjectionView::shownTone() const {
+scene::Tone ProjectionView::shownTone() const {
     return m_tone.completed(m_document.scene().tone);
 }
 
 void ProjectionView::updateTone() {
-    const render::Tone tone = shownTone();
+    const scene::Tone tone = shownTone();
     m_canvas->setTone({*tone.low, *tone.high}, tone.inverted);
 }
 
 QImage ProjectionView::picture() const {
     if (!m_frame)
         return {};
-    const render::ProjectionImage image =
+    const picture::ProjectionImage image =
         m_frame->onCard ? m_frame->onCard->download() : m_frame->image;
-    const auto rgba = render::compose(image, shownTone());
+    const auto rgba = picture::compose(image, shownTone());
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
 }
 
@@ -344,31 +343,31 @@ bool ProjectionView::showsWhatIsAskedFor() const {
     return m_document.volume() && showsFinalImage() && m_planState == PlanState::holds;
 }
 
-render::Scene ProjectionView::sceneOfPicture(int scale) const {
-    render::Scene scene = m_document.scene();
+scene::Scene ProjectionView::sceneOfPicture(int scale) const {
+    scene::Scene scene = m_document.scene();
     scene.camera.width *= scale;
     scene.camera.height *= scale;
     scene.camera.pixelMm /= scale;
     scene.tone = shownTone();
-    scene.plannedFor = render::PlannedFor::volume;
+    scene.plannedFor = scene::PlannedFor::volume;
     return scene;
 }
 
-std::function<render::ProjectionImage(const render::Camera &)> ProjectionView::pictureRenderer() {
+std::function<picture::ProjectionImage(const scene::Camera &)> ProjectionView::pictureRenderer() {
     return
         [this, engine = m_prepared ? m_prepared->engine : nullptr, image = m_document.scene().image,
-         shading = m_drawnShading](const render::Camera &camera) {
+         shading = m_drawnShading](const scene::Camera &camera) {
             return m_worker.picture(engine, camera, image, shading).get();
         };
 }
 
-void ProjectionView::paintAnnotations(QPainter &painter, const render::Camera &camera,
+void ProjectionView::paintAnnotations(QPainter &painter, const scene::Camera &camera,
                                       Names names) const {
     m_overlay->paint(painter, mapping(camera), MeasureTool::Marks::plain, names);
 }
 
-render::Camera ProjectionView::turnedAroundPatient(const render::Camera &camera,
-                                                   double degrees) const {
+scene::Camera ProjectionView::turnedAroundPatient(const scene::Camera &camera,
+                                                  double degrees) const {
     return ui::turnedAroundPatient(camera, degrees, pivotMm());
 }
 
@@ -383,7 +382,7 @@ PaneMapping ProjectionView::mapping() const {
     return mapping(m_document.scene().camera);
 }
 
-PaneMapping ProjectionView::mapping(const render::Camera &camera) const {
+PaneMapping ProjectionView::mapping(const scene::Camera &camera) const {
     PaneMapping mapping;
     mapping.pixelRatio = devicePixelRatioF();
     const glm::dmat3 axes = camera.axes();
@@ -472,9 +471,9 @@ void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {
 }
 
 void ProjectionView::windowBy(const QPoint &delta) {
-    render::Scene scene = m_document.scene();
-    const render::ToneRange &automatic = m_tone.range();
-    const render::Tone shown = shownTone();
+    scene::Scene scene = m_document.scene();
+    const picture::ToneRange &automatic = m_tone.range();
+    const scene::Tone shown = shownTone();
     const double low = *shown.low, high = *shown.high;
     const double perPixel = (automatic.high - automatic.low) / 300.0;
     const double center = 0.5 * (low + high) - delta.y() * perPixel;
@@ -507,7 +506,7 @@ bool ProjectionView::event(QEvent *event) {
 }
 
 void ProjectionView::keyPressEvent(QKeyEvent *event) {
-    using render::StandardView;
+    using scene::StandardView;
     const bool keypad = (event->modifiers() & Qt::KeypadModifier) != 0;
     const bool shift = (event->modifiers() & Qt::ShiftModifier) != 0;
     // With Shift, or without Num Lock, keypad digits arrive as the keys printed below them.

@@ -8,16 +8,16 @@
 #include <QTimer>
 #include <QWidget>
 
-#include "ui/commands.h"
-#include "ui/look_preparer.h"
-#include "ui/overlay.h"
-#include "ui/render_worker.h"
-#include "ui/shown_engine.h"
-#include "ui/tools.h"
+#include "ui/document/commands.h"
+#include "ui/engine/look_preparer.h"
+#include "ui/engine/render_worker.h"
+#include "ui/engine/shown_engine.h"
 #include "ui/views/automatic_tone.h"
 #include "ui/views/look_comparison.h"
 #include "ui/views/measure_tool.h"
+#include "ui/views/overlay.h"
 #include "ui/views/projection_canvas.h"
+#include "ui/views/tools.h"
 
 namespace pellucid::ui {
 
@@ -41,19 +41,19 @@ public:
     /// Takes the brightness anew from the next frame.
     void retakeTone();
     /// What is shown next has this brightness.
-    void adoptTone(const render::ToneRange &range);
+    void adoptTone(const picture::ToneRange &range);
     /// The next volume is another phase: brightness and picture stay till its own is there.
     void holdTone();
     void setMessage(const QString &message);
     /// Looks the way another camera does, as far as the pane allows. One of another volume turns
     /// about a place of that, *units*: as `pivotMm()`; this view's own pivot is there then.
-    void adoptCamera(const render::Camera &wanted, const std::optional<glm::dvec3> &pivotMm = {});
+    void adoptCamera(const scene::Camera &wanted, const std::optional<glm::dvec3> &pivotMm = {});
     /// What turning leaves where it is in the picture, from the middle of the volume.
     glm::dvec3 pivotMm() const;
     /// A job is over; whatever it should have delivered is there or will not come.
     void jobEnded();
     void jobStarted();
-    void showStandardView(render::StandardView view);
+    void showStandardView(scene::StandardView view);
     void resetView();
     /// Of the tools only that of distances matters here; else the left button orbits.
     void setTool(Tool tool);
@@ -72,14 +72,14 @@ public:
     QImage picture() const;
     /// The scene that makes the picture of this pane again anywhere, pixel for pixel: with the
     /// brightness that is shown, planned as it was. `scale`: pixels for one of the pane, a side.
-    render::Scene sceneOfPicture(int scale = 1) const;
+    scene::Scene sceneOfPicture(int scale = 1) const;
     /// Makes the picture of any camera as it looks now, by the processor; to be called from any
     /// thread as long as the view is there. It *throws* as the engine.
-    std::function<render::ProjectionImage(const render::Camera &)> pictureRenderer();
+    std::function<picture::ProjectionImage(const scene::Camera &)> pictureRenderer();
     /// What stands over the picture of a camera of the pane's size. *Units*: logical pixels.
-    void paintAnnotations(QPainter &painter, const render::Camera &camera, Names names) const;
+    void paintAnnotations(QPainter &painter, const scene::Camera &camera, Names names) const;
     /// As the cine turns it.
-    render::Camera turnedAroundPatient(const render::Camera &camera, double degrees) const;
+    scene::Camera turnedAroundPatient(const scene::Camera &camera, double degrees) const;
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
     /// The final image of what the scene asks for.
     bool showsWhatIsAskedFor() const;
@@ -94,7 +94,7 @@ signals:
     void cardFailed(const QString &reason,
                     const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
     /// A frame is on the screen; what it took to make.
-    void frameShown(const pellucid::render::FrameTimes &times, bool draft);
+    void frameShown(const pellucid::picture::FrameTimes &times, bool draft);
 
 protected:
     void resizeEvent(QResizeEvent *event) override;
@@ -110,9 +110,9 @@ private:
     void fitCamera();
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
-    render::Tone shownTone() const;
+    scene::Tone shownTone() const;
     void updateTone();
-    void moveCamera(const render::Camera &camera, bool moving);
+    void moveCamera(const scene::Camera &camera, bool moving);
     void orbit(const QPoint &delta);
     void showComparison();
     void windowBy(const QPoint &delta);
@@ -121,7 +121,7 @@ private:
     void showTexts();
     void showCursor();
     PaneMapping mapping() const;
-    PaneMapping mapping(const render::Camera &camera) const;
+    PaneMapping mapping(const scene::Camera &camera) const;
 
     Document &m_document;
     std::unique_ptr<ProjectionCanvas> m_canvas;
@@ -130,7 +130,7 @@ private:
     RenderWorker m_worker;
     LookComparison m_comparison;
     QTimer m_rest;
-    std::optional<render::PreparedEngine> m_prepared;
+    std::optional<prepare::PreparedEngine> m_prepared;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
     QString m_engineReason;
     /// What is shown, and what made it: a new engine has to make its first picture yet.

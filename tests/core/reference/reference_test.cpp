@@ -61,8 +61,8 @@ TEST(Reference, EllipsoidsMatchTheirAnalyticIntegrals) {
     const auto field = classify::densityField(volume, window);
     const reference::WideKernel wide(field.values, field.support);
     const auto bodies = phantom::smoothEllipsoids(phantom::inscribedRadiusMm(lattice));
-    render::Camera camera = render::defaultCamera(lattice);
-    camera.orientation = render::viewOrientation(render::StandardView::left, {33, 21, 10});
+    scene::Camera camera = scene::defaultCamera(lattice);
+    camera.orientation = scene::viewOrientation(scene::StandardView::left, {33, 21, 10});
     const auto image = wide.image(camera, {});
     std::vector<double> truth(image.size());
     const auto axes = camera.axes();

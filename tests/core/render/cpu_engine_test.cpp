@@ -14,20 +14,20 @@ namespace pellucid {
 
 namespace {
 
-using render::Reconstruction;
-using render::StandardView;
+using scene::Reconstruction;
+using scene::StandardView;
 
-render::CpuEngine engineFor(const classify::DensityField &field, const render::Scene &scene = {}) {
-    const auto plan = render::planRender(scene, render::summarise(field));
+render::CpuEngine engineFor(const classify::DensityField &field, const scene::Scene &scene = {}) {
+    const auto plan = plan::planRender(scene, plan::summarise(field));
     return render::CpuEngine(std::make_shared<const fourier::Spectrum>(
                                  fourier::Spectrum::prepare(field.values, plan.spectrum)),
                              plan.room);
 }
 
-render::Camera cameraFor(const volume::Lattice &lattice, StandardView view,
-                         render::ViewAngles angles = {}) {
-    render::Camera camera = render::defaultCamera(lattice);
-    camera.orientation = render::viewOrientation(view, angles);
+scene::Camera cameraFor(const volume::Lattice &lattice, StandardView view,
+                        scene::ViewAngles angles = {}) {
+    scene::Camera camera = scene::defaultCamera(lattice);
+    camera.orientation = scene::viewOrientation(view, angles);
     return camera;
 }
 
@@ -50,8 +50,8 @@ TEST_P(Accuracy, NoiseThatFillsTheLatticeAgainstTheDirectSum) {
     const AccuracyCase &c = GetParam();
     const auto field = test::noiseField(test::tiltedLattice(c.size, c.spacingMm, c.tiltDeg));
     auto engine = engineFor(field);
-    const render::ImageDefinition image{c.reconstruction, 0.05};
-    for (const auto &angles : {render::ViewAngles{0, 0, 0}, {90, 0, 0}, {31, 17, 8}, {0, 90, 0}}) {
+    const scene::ImageDefinition image{c.reconstruction, 0.05};
+    for (const auto &angles : {scene::ViewAngles{0, 0, 0}, {90, 0, 0}, {31, 17, 8}, {0, 90, 0}}) {
         const auto camera = cameraFor(field.values.lattice(), StandardView::front, angles);
         const auto truth = reference::directSumImage(field.values, camera, image);
         EXPECT_LT(test::relativeL2(engine.render(camera, image).samples, truth), promisedError)
@@ -88,7 +88,7 @@ TEST(CpuEngine, RollOffsFromNarrowToWhole) {
     const auto camera = cameraFor(field.values.lattice(), StandardView::front, {31, 17, 8});
     for (const auto reconstruction : {Reconstruction::cubic, Reconstruction::bandLimited})
         for (const double rollOff : {0.04, 0.3, 1.0}) {
-            const render::ImageDefinition image{reconstruction, rollOff};
+            const scene::ImageDefinition image{reconstruction, rollOff};
             EXPECT_LT(test::relativeL2(engine.render(camera, image).samples,
                                        reference::directSumImage(field.values, camera, image)),
                       promisedError)
@@ -105,7 +105,7 @@ TEST(CpuEngine, PhantomsAgainstTheExactReference) {
         const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume));
         const reference::WideKernel wide(field.values, field.support);
         auto engine = engineFor(field);
-        for (const auto &angles : {render::ViewAngles{0, 0, 0}, {47, -20, 5}}) {
+        for (const auto &angles : {scene::ViewAngles{0, 0, 0}, {47, -20, 5}}) {
             const auto camera = cameraFor(lattice, StandardView::front, angles);
             EXPECT_LT(test::relativeL2(engine.render(camera, {}).samples, wide.image(camera, {})),
                       promisedError)
@@ -140,7 +140,7 @@ TEST(CpuEngine, ASmallerImageIsACropAndNeverWraps) {
     auto camera = cameraFor(field.values.lattice(), StandardView::front, {20, 10, 0});
     // A different slice grid folds the roll-off's tails elsewhere; a roll-off over the whole band
     // has hardly any.
-    const render::ImageDefinition image{Reconstruction::cubic, 1.0};
+    const scene::ImageDefinition image{Reconstruction::cubic, 1.0};
     const auto whole = engine.render(camera, image);
     auto part = camera;
     part.width = camera.width - 24;

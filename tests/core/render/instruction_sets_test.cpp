@@ -28,8 +28,8 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     const auto kernel = fourier::makeKernel(choice, 2.0);
     const fourier::SpectrumLayout layout{
         {kernel, kernel, kernel}, field.support, {48, 40, 24}, storage};
-    render::Camera camera = render::defaultCamera(lattice);
-    camera.orientation = render::viewOrientation(render::StandardView::left, {20, 30, 40});
+    scene::Camera camera = scene::defaultCamera(lattice);
+    camera.orientation = scene::viewOrientation(scene::StandardView::left, {20, 30, 40});
     render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(field.values, layout)));
     const auto exact = reference::WideKernel(field.values, field.support).image(camera, {});
@@ -37,28 +37,28 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     // The tolerance adds up the kernel's error at padding 2, from the energy of its aliases with
     // all of them inside the image, rounding, and the roll-off's tails that fold back for any
     // field.
-    const auto energy = render::energyMarginals(field.values, field.support);
-    std::array<render::AxisError, 3> axes;
+    const auto energy = plan::energyMarginals(field.values, field.support);
+    std::array<plan::AxisError, 3> axes;
     for (int d = 0; d < 3; ++d)
-        axes[d] = render::axisError(kernel, layout.padded[d], energy.axis[d]);
-    const double predicted = render::predictRelativeError(axes, storage, energy, {});
-    const auto room = render::roomOfBox(field.values.lattice(), field.support);
+        axes[d] = plan::axisError(kernel, layout.padded[d], energy.axis[d]);
+    const double predicted = plan::predictRelativeError(axes, storage, energy, {});
+    const auto room = plan::roomOfBox(field.values.lattice(), field.support);
     EXPECT_LT(error, std::hypot(predicted, room.foldedTails)) << predicted;
 
     // The same with a linear cue.
     const shading::DepthCue cue{shading::CueKind::linear, 1.0};
     for (int d = 0; d < 3; ++d)
-        render::addMomentError(axes[d], kernel,
-                               {kernel, double(layout.padded[d]) / field.support.size()[d]},
-                               layout.padded[d], render::evenSlabProducts(energy.axis[d]));
+        plan::addMomentError(axes[d], kernel,
+                             {kernel, double(layout.padded[d]) / field.support.size()[d]},
+                             layout.padded[d], plan::evenSlabProducts(energy.axis[d]));
     const auto shaded = reference::shadedField(field, {.cue = cue}, camera.axes(), 0,
                                                shading::shadingScale(lattice));
     const auto exactCued = reference::WideKernel(shaded.values, shaded.support).image(camera, {});
     const double cuedError =
         test::relativeL2(engine.render(camera, {}, {.cue = cue}).samples, exactCued);
-    const double predictedCued = render::predictRelativeError(
+    const double predictedCued = plan::predictRelativeError(
         axes, storage, energy, {},
-        render::cueWeight(cue, lattice, lattice.radiusMm(), layout, energy));
+        plan::cueWeight(cue, lattice, lattice.radiusMm(), layout, energy));
     EXPECT_LT(cuedError, std::hypot(predictedCued, room.foldedTails)) << predictedCued;
 }
 
@@ -81,7 +81,7 @@ const std::vector<shading::Shading> shadings{
 render::CpuEngine shadedEngine(const std::shared_ptr<const fourier::Spectrum> &spectrum,
                                int threads) {
     return {{{spectrum}, {spectrum}, shading::shadingScale(spectrum->lattice())},
-            render::roomOfBox(spectrum->lattice(), spectrum->layout().box),
+            plan::roomOfBox(spectrum->lattice(), spectrum->layout().box),
             threads};
 }
 
@@ -90,8 +90,8 @@ render::CpuEngine shadedEngine(const std::shared_ptr<const fourier::Spectrum> &s
 TEST(InstructionSets, AgreeWithinRounding) {
     const auto lattice = test::tiltedLattice({32, 30, 17}, {1, 1, 2}, 10);
     const auto field = test::noiseField(lattice);
-    render::Camera camera = render::defaultCamera(lattice);
-    camera.orientation = render::viewOrientation(render::StandardView::front, {25, 35, 45});
+    scene::Camera camera = scene::defaultCamera(lattice);
+    camera.orientation = scene::viewOrientation(scene::StandardView::front, {25, 35, 45});
     for (const shading::Shading &shading : shadings)
         for (const char *name : {"LS4", "LS6"})
             for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
@@ -129,8 +129,8 @@ TEST(InstructionSets, FourThreadsGiveTheBitsOfOne) {
     const auto kernel = fourier::Kernel::leastGhosts(4, 1.5);
     const auto spectrum = std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
         field.values, {{kernel, kernel, kernel}, field.support, {60, 60, 60}}));
-    render::Camera camera = render::defaultCamera(lattice);
-    camera.orientation = render::viewOrientation(render::StandardView::front, {25, 35, 45});
+    scene::Camera camera = scene::defaultCamera(lattice);
+    camera.orientation = scene::viewOrientation(scene::StandardView::front, {25, 35, 45});
     for (const shading::Shading &shading : shadings) {
         const auto one = shadedEngine(spectrum, 1).render(camera, {}, shading).samples;
         EXPECT_EQ(shadedEngine(spectrum, 2).render(camera, {}, shading).samples, one);

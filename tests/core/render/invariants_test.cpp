@@ -6,10 +6,10 @@
 
 #include <tbb/global_control.h>
 
-#include "core/fourier/padded_size.h"
+#include "core/fourier/transforms/padded_size.h"
 #include "core/phantom/phantom.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/render/cpu_engine.h"
-#include "core/render/prepared_engine.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {
@@ -19,20 +19,20 @@ namespace {
 struct Subject {
     classify::DensityField field;
     render::CpuEngine engine;
-    render::Camera camera;
+    scene::Camera camera;
 
-    explicit Subject(classify::DensityField f, double tolerance = render::Scene().tolerance)
+    explicit Subject(classify::DensityField f, double tolerance = scene::Scene().tolerance)
         : Subject(f, plan(f, tolerance).spectrum) {}
     Subject(classify::DensityField f, const fourier::SpectrumLayout &layout)
         : field(std::move(f)), engine(std::make_shared<const fourier::Spectrum>(
                                    fourier::Spectrum::prepare(field.values, layout))),
-          camera(render::defaultCamera(field.values.lattice())) {}
+          camera(scene::defaultCamera(field.values.lattice())) {}
 
-    static render::RenderPlan plan(const classify::DensityField &f, double tolerance) {
-        render::Scene scene;
-        scene.camera = render::defaultCamera(f.values.lattice());
+    static plan::RenderPlan plan(const classify::DensityField &f, double tolerance) {
+        scene::Scene scene;
+        scene.camera = scene::defaultCamera(f.values.lattice());
         scene.tolerance = tolerance;
-        return render::planRender(scene, render::summarise(f));
+        return plan::planRender(scene, plan::summarise(f));
     }
 };
 
@@ -46,7 +46,7 @@ fourier::SpectrumLayout linearLayout(const volume::Lattice &lattice) {
             fourier::Storage::float32};
 }
 
-Subject headSubject(double tolerance = render::Scene().tolerance) {
+Subject headSubject(double tolerance = scene::Scene().tolerance) {
     const auto lattice =
         phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{72, 70, 40},
                                                       .spacingMm = glm::dvec3(3.2, 3.3, 6.0),
@@ -55,7 +55,7 @@ Subject headSubject(double tolerance = render::Scene().tolerance) {
     return Subject(classify::densityField(volume, classify::defaultFieldWindow(volume)), tolerance);
 }
 
-double sum(const render::ProjectionImage &image) {
+double sum(const picture::ProjectionImage &image) {
     return std::accumulate(image.samples.begin(), image.samples.end(), 0.0) * image.pixelMm *
            image.pixelMm;
 }
@@ -84,7 +84,7 @@ TEST(Invariants, OppositeViewsMirror) {
     // differ by rounding in float, and by the roll-off's symmetric treatment of even sizes: not at
     // all.
     Subject head = headSubject();
-    head.camera.orientation = render::viewOrientation(render::StandardView::left, {12, 25, 5});
+    head.camera.orientation = scene::viewOrientation(scene::StandardView::left, {12, 25, 5});
     const auto front = head.engine.render(head.camera, {});
     const auto axes = head.camera.axes();
     head.camera.orientation = glm::quat_cast(glm::dmat3(-axes[0], axes[1], -axes[2]));
@@ -124,8 +124,7 @@ TEST(Invariants, TheSameBitsForAnyNumberOfThreads) {
     const auto render = [](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         Subject head = headSubject();
-        head.camera.orientation =
-            render::viewOrientation(render::StandardView::front, {10, 20, 30});
+        head.camera.orientation = scene::viewOrientation(scene::StandardView::front, {10, 20, 30});
         return head.engine.render(head.camera, {}).samples;
     };
     EXPECT_EQ(render(1), render(2));
@@ -137,17 +136,17 @@ TEST(Invariants, ViewsAlongTheGridDoNotDependOnRounding) {
     for (const double thickness : {1.0, 8.0}) {
         const auto lattice = volume::Lattice::centred({24, 20, 16}, {0.5, 1.0, thickness});
         const auto field = test::noiseField(lattice);
-        render::Scene scene{.camera = render::defaultCamera(lattice)};
+        scene::Scene scene{.camera = scene::defaultCamera(lattice)};
         scene.camera.pixelMm = 0.75 / 2.0; // thirds of a cell from column to column
-        const auto prepared = render::prepareEngine(scene, {{field}, {}}, {});
+        const auto prepared = prepare::prepareEngine(scene, {{field}, {}}, {});
         std::mt19937 random(6);
         std::normal_distribution<double> tiny(0.0, 1e-14);
         for (const auto view :
-             {render::StandardView::front, render::StandardView::left, render::StandardView::top}) {
-            scene.camera.orientation = render::viewOrientation(view);
+             {scene::StandardView::front, scene::StandardView::left, scene::StandardView::top}) {
+            scene.camera.orientation = scene::viewOrientation(view);
             const auto exact = prepared.engine->render(scene.camera, scene.image);
             for (int n = 0; n < 4; ++n) {
-                render::Camera camera = scene.camera;
+                scene::Camera camera = scene.camera;
                 camera.orientation = glm::normalize(
                     camera.orientation * glm::dquat(1.0, tiny(random), tiny(random), tiny(random)));
                 EXPECT_LT(test::relativeL2(prepared.engine->render(camera, scene.image).samples,

@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/phantom/phantom.h"
+#include "core/prepare/prepared_engine.h"
 #include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
-#include "core/render/prepared_engine.h"
 #include "core/shading/gradient_magnitude.h"
 #include "tests/support/fields.h"
 
@@ -18,7 +18,7 @@ namespace pellucid {
 
 namespace {
 
-using render::StandardView;
+using scene::StandardView;
 using shading::CueKind;
 using shading::DepthCue;
 using shading::Light;
@@ -50,33 +50,33 @@ std::ostream &operator<<(std::ostream &out, const Named &named) {
 // phase.
 std::vector<glm::dquat> someViews() {
     std::mt19937 random(5);
-    return {test::randomOrientation(random), render::viewOrientation(StandardView::front),
-            render::viewOrientation(StandardView::left)};
+    return {test::randomOrientation(random), scene::viewOrientation(StandardView::front),
+            scene::viewOrientation(StandardView::left)};
 }
 
 // A scene of a field, its engine, and the truth of every view.
 struct Subject {
     classify::ShownFields fields;
-    render::Scene scene;
-    render::PreparedEngine prepared;
+    scene::Scene scene;
+    prepare::PreparedEngine prepared;
 
     Subject(classify::ShownFields shown, const Shading &shading, double tolerance = 1.1e-3,
-            const render::Interpolation &interpolation = {})
+            const scene::Interpolation &interpolation = {})
         : fields(std::move(shown)),
-          scene({.camera = render::defaultCamera(fields.channels.front().values.lattice()),
+          scene({.camera = scene::defaultCamera(fields.channels.front().values.lattice()),
                  .shading = shading,
                  .tolerance = tolerance,
                  .interpolation = interpolation}),
-          prepared(render::prepareEngine(scene, fields, {})) {}
+          prepared(prepare::prepareEngine(scene, fields, {})) {}
     Subject(classify::DensityField field, const Shading &shading, double tolerance = 1.1e-3,
-            const render::Interpolation &interpolation = {})
+            const scene::Interpolation &interpolation = {})
         : Subject(classify::ShownFields{{std::move(field)}, {}}, shading, tolerance,
                   interpolation) {}
 
     shading::ShadingScale scale() const {
         return shading::shadingScale(fields.channels.front().values.lattice());
     }
-    render::ProjectionImage image(const glm::dquat &view) {
+    picture::ProjectionImage image(const glm::dquat &view) {
         scene.camera.orientation = view;
         return prepared.engine->render(scene.camera, scene.image, scene.shading);
     }
@@ -99,7 +99,7 @@ struct Subject {
     }
 };
 
-std::vector<float> channelOf(const render::ProjectionImage &image, std::size_t channel) {
+std::vector<float> channelOf(const picture::ProjectionImage &image, std::size_t channel) {
     std::vector<float> samples;
     for (std::size_t n = channel; n < image.samples.size(); n += std::size_t(image.channels))
         samples.push_back(image.samples[n]);
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // The figures that the width fixes: with four taps what the default keeps, with five 3e-4.
 TEST(Shading, FiveTapsLeaveAThirdOfAThousandth) {
-    const render::Interpolation five{
+    const scene::Interpolation five{
         .kernel = fourier::KernelChoice{fourier::KernelFamily::leastGhosts, 5}};
     for (const DepthCue &cue : {linear, sine}) {
         Subject subject(headField(), {.cue = cue}, 3e-4, five);
@@ -193,10 +193,10 @@ TEST(Shading, TheCorrectionOfCueAndLightMatters) {
 TEST(Shading, CuesFromBothSidesAddUpToTwiceThePlainImage) {
     for (const DepthCue &cue : {linear, sine}) {
         Subject subject(headField(), {.cue = cue}, 1e-4);
-        const auto front = subject.image(render::viewOrientation(StandardView::front));
-        const auto back = subject.image(render::viewOrientation(StandardView::back));
+        const auto front = subject.image(scene::viewOrientation(StandardView::front));
+        const auto back = subject.image(scene::viewOrientation(StandardView::back));
         subject.scene.shading = {};
-        const auto plain = subject.image(render::viewOrientation(StandardView::front));
+        const auto plain = subject.image(scene::viewOrientation(StandardView::front));
         std::vector<double> sum(front.samples.size()), twice(front.samples.size());
         for (int row = 0; row < front.height; ++row)
             for (int column = 0; column < front.width; ++column) {
@@ -242,7 +242,7 @@ TEST(Shading, WhatIsOffChangesNothingAndPreparesNothing) {
     EXPECT_EQ(off.image(someViews().front()).samples, expected);
     Subject lit(headField(), {.lights = {across}});
     EXPECT_TRUE(lit.prepared.takesLight);
-    const auto out = render::withoutLight(lit.prepared);
+    const auto out = prepare::withoutLight(lit.prepared);
     EXPECT_EQ(2 * out.bytes, lit.prepared.bytes);
     EXPECT_FALSE(out.takesLight);
     EXPECT_EQ(out.engine->render(plain.scene.camera, {}, {}).samples,
@@ -384,9 +384,9 @@ TEST(Shading, HardFieldsKeepTheTolerance) {
 TEST(Shading, AReducedVolumeIsShadedAlike) {
     Subject subject(headField(), {.cue = linear, .ambient = 0.2, .lights = {oblique}});
     const auto reduced =
-        render::prepareEngine(subject.scene, subject.fields,
-                              {subject.prepared.plan.bytes / 3 +
-                               render::bytesForLight(subject.scene.shading, {72, 70, 40}, 1)});
+        prepare::prepareEngine(subject.scene, subject.fields,
+                               {subject.prepared.plan.bytes / 3 +
+                                prepare::bytesForLight(subject.scene.shading, {72, 70, 40}, 1)});
     ASSERT_LT(reduced.bytes, subject.prepared.bytes / 2);
     const auto fine = subject.image(someViews().front()).samples;
     const auto coarse =

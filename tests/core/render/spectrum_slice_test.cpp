@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/fourier/padded_size.h"
+#include "core/fourier/transforms/padded_size.h"
 #include "core/task/error.h"
 #include "tests/support/fields.h"
 
@@ -44,22 +44,22 @@ render::EngineParts partsOf(const std::vector<volume::Volume> &fields,
                             const fourier::SpectrumLayout &layout,
                             std::vector<render::ChannelShares> shares = {{1.0, 1.0, 1.0}}) {
     render::EngineParts parts{
-        {}, std::move(shares), render::roomOfBox(fields.front().lattice(), layout.box)};
+        {}, std::move(shares), plan::roomOfBox(fields.front().lattice(), layout.box)};
     for (const volume::Volume &field : fields)
         parts.spectra.fields.push_back(
             std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field, layout)));
     return parts;
 }
 
-render::Camera obliqueCamera(double pixelMm) {
-    render::Camera camera;
-    camera.orientation = render::viewOrientation(render::StandardView::front, {31.0, 17.0, 8.0});
+scene::Camera obliqueCamera(double pixelMm) {
+    scene::Camera camera;
+    camera.orientation = scene::viewOrientation(scene::StandardView::front, {31.0, 17.0, 8.0});
     camera.pixelMm = pixelMm;
     return camera;
 }
 
 // The frequency of a row and column, as the declaration says.
-glm::dvec3 frequencyAt(const render::SpectrumSlice &slice, const render::Camera &camera, int row,
+glm::dvec3 frequencyAt(const render::SpectrumSlice &slice, const scene::Camera &camera, int row,
                        int column) {
     const glm::dmat3 axes = camera.axes();
     return slice.stepPerMm *
@@ -152,8 +152,8 @@ TEST(SpectrumSlice, TakesWhatTheKernelOfThePlanTakes) {
     const auto lattice = test::tiltedLattice({16, 1, 1}, {1.0, 1.0, 1.0}, 0.0);
     const auto layout = layoutOf(lattice, fourier::Kernel::trilinear(), 1.0);
     ASSERT_EQ(layout.padded.i, 16);
-    render::Camera camera;
-    camera.orientation = render::viewOrientation(render::StandardView::front);
+    scene::Camera camera;
+    camera.orientation = scene::viewOrientation(scene::StandardView::front);
     camera.pixelMm = 1.0;
     for (const int n : {2, 5, 7}) {
         const auto parts = partsOf({oneVoxel(lattice, {8 + n, 0, 0})}, layout);

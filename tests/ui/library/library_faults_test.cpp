@@ -14,7 +14,7 @@
 #include "tests/ui/library/library_folder.h"
 #include "ui/library/import_studies.h"
 #include "ui/library/study_library.h"
-#include "ui/study_source.h"
+#include "ui/studies/study_source.h"
 
 namespace pellucid {
 

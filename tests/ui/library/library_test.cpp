@@ -6,8 +6,8 @@
 #include "core/volume/nrrd.h"
 #include "tests/ui/library/library_folder.h"
 #include "ui/library/import_studies.h"
-#include "ui/library/study_list.h"
-#include "ui/study_source.h"
+#include "ui/panels/study_list.h"
+#include "ui/studies/study_source.h"
 
 namespace pellucid {
 

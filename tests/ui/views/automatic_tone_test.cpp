@@ -9,23 +9,23 @@ namespace pellucid::ui {
 
 namespace {
 
-const render::ToneRange bright{0.0, 300.0}, dark{0.0, 200.0};
+const picture::ToneRange bright{0.0, 300.0}, dark{0.0, 200.0};
 
-render::Scene litScene() {
-    render::Scene scene;
+scene::Scene litScene() {
+    scene::Scene scene;
     scene.look.transferFunction.weights = {0.0, 0.5, 1.0};
     scene.fieldWindow = {-500.0, 1500.0};
     scene.shading.lights.emplace_back();
     return scene;
 }
 
-AutomaticTone taken(const render::ToneRange &range) {
+AutomaticTone taken(const picture::ToneRange &range) {
     AutomaticTone tone;
     tone.take(range);
     return tone;
 }
 
-AutomaticTone adopted(const render::Scene &scene) {
+AutomaticTone adopted(const scene::Scene &scene) {
     AutomaticTone tone;
     tone.adopt(bright, scene);
     return tone;
@@ -70,7 +70,7 @@ TEST(AutomaticTone, IsTakenAnewForAnotherNumberOfLightsOrKindOfCueAndNotForWhatT
 }
 
 TEST(AutomaticTone, OfASceneThatIsSeenAgainIsThatOfBeforeForAllItsFields) {
-    const render::Scene scene = litScene();
+    const scene::Scene scene = litScene();
     AutomaticTone tone = adopted(scene);
     tone.beginFields(scene); // the coarse picture's
     tone.follow(scene.shading);
@@ -85,13 +85,13 @@ TEST(AutomaticTone, OfASceneThatIsSeenAgainIsThatOfBeforeForAllItsFields) {
 }
 
 TEST(AutomaticTone, OfASceneThatIsSeenAgainIsNotThatOfAnother) {
-    const std::function<void(render::Scene &)> changes[] = {
+    const std::function<void(scene::Scene &)> changes[] = {
         [](auto &s) { s.look.transferFunction.weights[1] = 1.0; },
         [](auto &s) { s.fieldWindow.reset(); }, [](auto &s) { s.crop.low.x += 0.25; },
         [](auto &s) { s.shading.lights.clear(); },
         [](auto &s) { s.shading.cue.kind = shading::CueKind::sine; }};
     for (const auto &change : changes) {
-        render::Scene other = litScene();
+        scene::Scene other = litScene();
         AutomaticTone tone = adopted(other);
         change(other);
         tone.beginFields(other);
@@ -107,7 +107,7 @@ TEST(AutomaticTone, GoesWithItsVolumeUnlessTheNextIsAnotherPhase) {
     EXPECT_EQ(tone.range(), bright);
     EXPECT_FALSE(tone.outlivesVolume(true)); // another study
     EXPECT_TRUE(tone.isWanted());
-    EXPECT_EQ(tone.range(), render::ToneRange());
+    EXPECT_EQ(tone.range(), picture::ToneRange());
 }
 
 } // namespace pellucid::ui

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/fourier/kernels/piecewise_basis.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/fourier/kernels/kernel.h"
+#include "core/fourier/kernels/quadrature.h"
+
+namespace pellucid::fourier {
+
+namespace {
+
+using Real = PiecewiseBasis::Real;
+using Vector = PiecewiseBasis::Vector;
+constexpr Real pi = std::numbers::pi_v<Real>;
+
+// cos(2 pi turns); beyond an eighth of a turn the library's own reduction takes most of the time.
+Real cosOfTurns(Real turns) {
+    turns = std::abs(turns - std::round(turns));
+    const bool negative = turns > 0.25L;
+    if (negative)
+        turns = 0.5L - turns;
+    const Real value =
+        turns > 0.125L ? std::sin(2 * pi * (0.25L - turns)) : std::cos(2 * pi * turns);
+    return negative ? -value : value;
+}
+Real sinOfTurns(Real turns) {
+    return cosOfTurns(turns - 0.25L);
+}
+
+// Legendre polynomials on [-1/2, 1/2] keep the system well conditioned.
+Vector legendre(int degree, Real c) {
+    Vector p(std::size_t(degree) + 1, 1);
+    if (degree > 0)
+        p[1] = 2 * c;
+    for (int n = 2; n <= degree; ++n)
+        p[n] = ((2 * n - 1) * 2 * c * p[n - 1] - (n - 1) * p[n - 2]) / n;
+    return p;
+}
+
+// Monomials in c of a Legendre series on [-1/2, 1/2].
+std::vector<double> monomials(const Vector &series) {
+    const int count = int(series.size());
+    std::vector<Vector> p(count, Vector(count, 0));
+    p[0][0] = 1;
+    if (count > 1)
+        p[1][1] = 2;
+    for (int n = 2; n < count; ++n)
+        for (int m = 0; m < count; ++m)
+            p[n][m] = ((2 * n - 1) * 2 * (m > 0 ? p[n - 1][m - 1] : 0) - (n - 1) * p[n - 2][m]) / n;
+    std::vector<double> result(count);
+    for (int m = 0; m < count; ++m) {
+        Real sum = 0;
+        for (int n = 0; n < count; ++n)
+            sum += series[n] * p[n][m];
+        result[m] = double(sum);
+    }
+    return result;
+}
+
+// A kernel's values at a tap's mirror image, over its own.
+Real mirrorSign(Parity parity) {
+    return parity == Parity::even ? 1 : -1;
+}
+
+} // namespace
+
+PiecewiseBasis::PiecewiseBasis(int width, int degree, Parity parity)
+    : m_width(width), m_degree(degree), m_parity(parity) {
+    for (int k = 0; k < (width + 1) / 2; ++k) {
+        const bool middle = 2 * k == width - 1;
+        for (int n = middle && parity == Parity::odd ? 1 : 0; n <= degree; n += middle ? 2 : 1)
+            m_at.emplace_back(k, n);
+    }
+}
+
+Vector PiecewiseBasis::transforms(Real x) const {
+    static const GaussLegendre<Real> quadrature(20);
+    static const std::vector<Vector> polynomials = [] {
+        std::vector<Vector> values;
+        for (const Real c : quadrature.at)
+            values.push_back(legendre(Kernel::largestWidth, c));
+        return values;
+    }();
+    std::vector<Vector> sums((m_width + 1) / 2, Vector(std::size_t(m_degree) + 1, 0));
+    for (std::size_t g = 0; g < quadrature.at.size(); ++g) {
+        const Vector &p = polynomials[g];
+        for (std::size_t k = 0; k < sums.size(); ++k) {
+            const Real t = Real(k) - Real(m_width - 1) / 2 + quadrature.at[g];
+            const Real wave = quadrature.weight[g] *
+                              (m_parity == Parity::even ? cosOfTurns(t * x) : sinOfTurns(t * x));
+            for (int n = 0; n <= m_degree; ++n)
+                sums[k][n] += wave * p[n];
+        }
+    }
+    Vector result;
+    for (const auto &[k, n] : m_at)
+        result.push_back((2 * k == m_width - 1 ? 1 : 2) * sums[k][n]);
+    return result;
+}
+
+std::pair<Vector, Vector> PiecewiseBasis::transformsAt(Real c, Real x) const {
+    const Vector p = legendre(m_degree, c), mirrored = legendre(m_degree, -c);
+    Vector real, imaginary;
+    for (const auto &[k, n] : m_at) {
+        const Real t = c + Real(k) - Real(m_width - 1) / 2;
+        const Real other = c + Real(m_width - 1 - k) - Real(m_width - 1) / 2;
+        real.push_back(p[n] * cosOfTurns(t * x));
+        imaginary.push_back(p[n] * sinOfTurns(t * x));
+        if (2 * k == m_width - 1)
+            continue;
+        real.back() += mirrorSign(m_parity) * mirrored[n] * cosOfTurns(other * x);
+        imaginary.back() += mirrorSign(m_parity) * mirrored[n] * sinOfTurns(other * x);
+    }
+    return {real, imaginary};
+}
+
+std::vector<std::vector<double>> PiecewiseBasis::pieces(const Vector &coefficients) const {
+    std::vector<Vector> series((m_width + 1) / 2, Vector(std::size_t(m_degree) + 1, 0));
+    for (std::size_t n = 0; n < coefficients.size(); ++n)
+        series[m_at[n].first][m_at[n].second] = coefficients[n];
+    std::vector<std::vector<double>> result(m_width);
+    for (int k = 0; k < (m_width + 1) / 2; ++k) {
+        result[k] = monomials(series[k]);
+        if (2 * k == m_width - 1)
+            continue; // of the parity already
+        result[m_width - 1 - k] = result[k];
+        for (int n = m_parity == Parity::even ? 1 : 0; n <= m_degree; n += 2)
+            result[m_width - 1 - k][n] = -result[k][n];
+    }
+    return result;
+}
+
+// Gaussian elimination of a symmetric positive matrix, of which the upper half is given: it needs
+// no pivoting and stays symmetric.
+Vector solveSymmetric(std::vector<Vector> a, Vector right) {
+    const std::size_t n = right.size();
+    for (std::size_t p = 0; p < n; ++p)
+        for (std::size_t q = p + 1; q < n; ++q) {
+            const Real factor = a[p][q] / a[p][p];
+            for (std::size_t s = q; s < n; ++s)
+                a[q][s] -= factor * a[p][s];
+            right[q] -= factor * right[p];
+        }
+    for (std::size_t p = n; p-- > 0;) {
+        for (std::size_t q = p + 1; q < n; ++q)
+            right[p] -= a[p][q] * right[q];
+        right[p] /= a[p][p];
+    }
+    return right;
+}
+
+} // namespace pellucid::fourier

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/volume/volume.h"
+
+namespace pellucid::plan {
+
+/// Distribution of a field's energy f^2: its distance from the centre and its concentration.
+struct EnergySpread {
+    /// Shares of the energy by distance from the centre of the lattice, along 13 directions: the
+    /// edges, face diagonals and body diagonals of a cube in patient space. Entry n holds the
+    /// distances from n to n + 1 times `distanceStepMm`.
+    std::vector<std::vector<double>> byDistance;
+    double distanceStepMm = 1.0;
+    /// The sum of the squared energy shares of blocks of samples: 1 for a point, 1 over the number
+    /// of blocks for a uniform field.
+    double concentration = 1.0;
+    /// Distance from the centre of the lattice to the farthest nonzero sample, mm.
+    double radiusMm = 0.0;
+    /// An upper bound on the mean area of the field's shadow over all directions, mm^2: a quarter
+    /// of the surface of its box, or of the sphere that encloses it if that is smaller.
+    double shadowMm2 = 0.0;
+    /// For a field without negative samples: in any view, a part's share of the projection's energy
+    /// is at most this many times its share of the mass. With f_a the part,
+    /// <P f_a, P f> <= max(P f) * mass_a, and `largestLineIntegral` bounds max(P f). |P f|^2 has
+    /// two lower bounds, of which the larger counts: m(R)^2 / (pi R^2), where m(R) is the mass in
+    /// any ball of radius R, and a little less than the smallest energy of coarse projections from
+    /// all around. Infinite for a field with negative samples, which may cancel positive ones in
+    /// some view.
+    double peakedness = std::numeric_limits<double>::infinity();
+};
+
+/// The spread of noise that fills a box evenly.
+EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &box);
+
+/// The first and last sample of a block along an axis, both inclusive.
+struct BlockRange {
+    int first = 0, last = 0;
+};
+
+/// The blocks that an axis of so many samples is cut into.
+std::vector<BlockRange> blockRanges(int samples);
+
+/// A block's shares of the field's energy and mass.
+struct FieldBlock {
+    std::array<std::uint8_t, 3> at{}; ///< index along each axis, see `blockRanges`
+    float energy = 0.0F, mass = 0.0F; ///< shares of the whole field's
+};
+
+/// The statistics of a field from which the error of its images is predicted.
+struct EnergyMarginals {
+    /// Shares of the energy along each axis of the box; each axis sums to 1. *Shape*: one entry per
+    /// sample of the box.
+    std::array<std::vector<double>, 3> axis;
+    std::vector<FieldBlock> blocks; ///< all blocks that are not empty
+    /// The integrals of f and of f^2, mm^3.
+    double massMm3 = 0.0, energyMm3 = 0.0;
+    std::shared_ptr<const EnergySpread> spread;
+};
+
+EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box);
+
+/// The correlation matrix C of a field's slabs across an axis. Entry (a, b) is a sum over all lines
+/// along the axis: the line's integral in slab a times its integral in slab b. If each slab has a
+/// weight w, the projection of the weighted field along the axis has the energy w^T C w. This gives
+/// the energy of an error that depends on depth, whether its slabs add up in phase or not.
+struct SlabProducts {
+    /// Slab n starts at sample n * samples / slabs.
+    int samples = 1, slabs = 1;
+    /// C, scaled so that the plain projection has energy 1. *Shape*: slabs x slabs, symmetric.
+    std::vector<double> products;
+
+    /// w^T C w, the energy of the projection with these weights.
+    double energy(std::span<const double> weights) const;
+};
+
+/// The products of white noise with zero mean: no correlation between slabs. *Shape*: `energy` has
+/// one entry per sample along the axis.
+SlabProducts evenSlabProducts(std::span<const double> energy);
+
+/// The products of a field for each axis of a box.
+std::array<SlabProducts, 3> slabProducts(const volume::Volume &field, const volume::VoxelBox &box);
+
+} // namespace pellucid::plan

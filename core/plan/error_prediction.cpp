@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/plan/error_prediction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace pellucid::plan {
+
+namespace {
+
+// Of fields with negative samples single views scatter about what is expected; this much more
+// energy was the worst of the views of the fields in the bench's hard suite.
+constexpr double viewMargin = 1.5;
+// The same of rounding, which a few cells can decide; of what is bounded already, less. All cells
+// of a field of a few samples are alike and round alike, so theirs averages out as little.
+constexpr double fewMargin = 3.0, boundedMargin = 1.5;
+
+double roundingMargin(const EnergySpread &spread) {
+    const double alike =
+        std::isinf(spread.peakedness) ? 1.0 : std::min(1.0, 2.5 * spread.concentration);
+    return boundedMargin + (fewMargin - boundedMargin) * alike;
+}
+
+// Calls use(e, brightest, x): some forty positions x (in periods) along an axis are enough, since
+// the amplitudes change slowly; e their energies, and the largest of a sample of each.
+template <class F> void forPositions(const std::vector<double> &energy, int padded, const F &use) {
+    const int samples = int(energy.size()), bins = std::min(samples, 40);
+    for (int bin = 0; bin < bins; ++bin) {
+        const int first = bin * samples / bins, last = (bin + 1) * samples / bins;
+        double e = 0.0, moment = 0.0, here = 0.0;
+        for (int n = first; n < last; ++n) {
+            here = std::max(here, energy[n]);
+            e += energy[n];
+            moment += energy[n] * (n - samples / 2);
+        }
+        if (e > 0.0)
+            use(e, here, moment / e / padded);
+    }
+}
+
+// What the taps that a frequency t off the grid reads make of a sample at x. `Any`: a Kernel or a
+// MomentKernel.
+template <class Any> std::complex<double> offGrid(const Any &kernel, double x, double t) {
+    const double half = 0.5 * kernel.width();
+    std::complex<double> sum = 0.0;
+    for (double tap = std::ceil(-half - t) + t; tap < half; tap += 1.0)
+        sum += kernel.value(tap) * std::polar(1.0, 2.0 * std::numbers::pi * tap * x);
+    return sum;
+}
+template <class Any> std::complex<double> onGrid(const Any &kernel, double x) {
+    return offGrid(kernel, x, 0.0);
+}
+
+// The kernels' transforms fall at least as 1/m beyond.
+constexpr std::array<int, 6> ghostPeriods{-3, -2, -1, 1, 2, 3};
+
+} // namespace
+
+namespace {
+
+BlockAmplitudes amplitudesAt(const fourier::Kernel &kernel, double x) {
+    const double h = kernel.apodisation(x);
+    BlockAmplitudes of;
+    for (const int m : ghostPeriods) {
+        const double r = kernel.apodisation(x + m) / h;
+        of.ghosts += r * r;
+    }
+    const auto at = [&](double t) { return std::norm(offGrid(kernel, x, t) / h - 1.0); };
+    // Steps in common with the grid: every frequency on it, every second, every third.
+    const double whole = at(0.0);
+    of.inPhase =
+        std::max({of.ghosts, whole, 0.5 * (whole + at(0.5)), (whole + 2.0 * at(1.0 / 3.0)) / 3.0});
+    of.inverse = 1.0 / (h * h);
+    return of;
+}
+
+// The largest mean of a value over the parts of a field that their shares allow; or, with negative
+// samples, what is expected and a margin. The values are sorted into classes, each of which counts
+// as its largest.
+class LargestMean {
+public:
+    LargestMean(const EnergyMarginals &field) : m_field(field) {}
+
+    template <class F> double of(const F &value) const {
+        const double peakedness = m_field.spread->peakedness;
+        if (std::isinf(peakedness)) {
+            double sum = 0.0;
+            for (const FieldBlock &block : m_field.blocks)
+                sum += double(block.energy) * value(block.at);
+            return viewMargin * sum;
+        }
+        constexpr int classes = 256;
+        constexpr double octaves = 64.0, perOctave = classes / octaves;
+        std::array<double, classes> share{}, most{};
+        for (const FieldBlock &block : m_field.blocks) {
+            const double v = value(block.at);
+            const int n =
+                std::clamp(int(perOctave * (std::log2(std::max(v, 1e-18)) + 58.0)), 0, classes - 1);
+            share[std::size_t(n)] += peakedness * double(block.mass);
+            most[std::size_t(n)] = std::max(most[std::size_t(n)], v);
+        }
+        double sum = 0.0, left = 1.0;
+        for (int n = classes - 1; n >= 0 && left > 0.0; --n) {
+            const double part = std::min(left, share[std::size_t(n)]);
+            sum += part * most[std::size_t(n)];
+            left -= part;
+        }
+        return sum;
+    }
+
+private:
+    const EnergyMarginals &m_field;
+};
+
+} // namespace
+
+AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
+    const int samples = int(energy.size());
+    const double mostEnergy = *std::max_element(energy.begin(), energy.end());
+    AxisError error;
+    for (const BlockRange &range : blockRanges(samples)) {
+        double brightest = 0.0;
+        for (int n = range.first; n <= range.last; ++n)
+            brightest = std::max(brightest, energy[std::size_t(n)]);
+        // Amplitudes grow outward: both ends of a part bound it.
+        BlockAmplitudes worst;
+        for (const int n : {range.first, range.last}) {
+            const BlockAmplitudes at =
+                amplitudesAt(kernel, double(n - samples / 2) / padded); // NOLINT: whole
+            worst.ghosts = std::max(worst.ghosts, at.ghosts);
+            worst.inPhase = std::max(worst.inPhase, at.inPhase);
+            worst.inverse = std::max(worst.inverse, at.inverse);
+        }
+        if (mostEnergy > 0.0)
+            error.brightest =
+                std::max(error.brightest, std::sqrt(worst.ghosts * brightest / mostEnergy));
+        error.blocks.push_back(worst);
+    }
+    error.kernelEnergy = kernel.energy();
+    error.isShort = samples <= 4;
+    return error;
+}
+
+double filterError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
+    constexpr int offsets = 64;
+    constexpr double rounding = 1e-7; // of the taps themselves
+    double squares = 0.0;
+    for (int n = 0; n < offsets; ++n) {
+        const double c = (n + 0.5) / offsets - 0.5, middle = 0.5 * (kernel.width() - 1);
+        for (int k = 0; k < kernel.width(); k += 2) {
+            const double first = kernel.value(c + k - middle);
+            const double second = k + 1 < kernel.width() ? kernel.value(c + k + 1 - middle) : 0.0;
+            if (std::min(first, second) < -rounding)
+                return std::numeric_limits<double>::infinity();
+            // One tap alone is read at its middle.
+            if (k + 1 < kernel.width())
+                squares += (first + second) * (first + second) / offsets;
+        }
+    }
+    double differences = 0.0;
+    forPositions(energy, padded, [&](double e, double, double x) {
+        const double h = kernel.apodisation(x), sine = 2.0 * std::sin(std::numbers::pi * x);
+        differences += e * sine * sine / (h * h);
+    });
+    return std::ldexp(1.0, -16) / 12.0 * squares * differences;
+}
+
+void addMomentError(AxisError &error, const fourier::Kernel &kernel,
+                    const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs) {
+    // Beyond the second ghost the responses fall fast.
+    constexpr std::array<int, 5> periods{0, -1, 1, -2, 2};
+    const auto count = std::size_t(slabs.slabs);
+    std::array<std::vector<double>, periods.size()> apart;
+    std::vector<double> real(count), imaginary(count);
+    for (auto &weights : apart)
+        weights.resize(count);
+    for (std::size_t n = 0; n < count; ++n) {
+        const double middle = (double(n) + 0.5) * slabs.samples / double(count) - 0.5;
+        const double x = (middle - slabs.samples / 2) / padded; // NOLINT: the wrap voxel is whole
+        const double h = kernel.apodisation(x);
+        double squares = 0.0;
+        for (std::size_t p = 0; p < periods.size(); ++p) {
+            const double ideal = periods[p] == 0 ? x : 0.0;
+            apart[p][n] = moment.response(x + periods[p]) / h - ideal;
+            squares += apart[p][n] * apart[p][n];
+        }
+        const std::complex<double> left = onGrid(moment, x) / h - std::complex<double>(0.0, x);
+        real[n] = left.real();
+        imaginary[n] = left.imag();
+        error.brightestMoment = std::max(error.brightestMoment, std::sqrt(squares));
+    }
+    double ghosts = 0.0;
+    for (const auto &weights : apart)
+        ghosts += slabs.energy(weights);
+    error.moment = std::max(ghosts, slabs.energy(real) + slabs.energy(imaginary));
+}
+
+double cueRms(const shading::DepthCue &cue) {
+    const double square = cue.strength * cue.strength;
+    switch (cue.kind) {
+    case shading::CueKind::none:
+        break;
+    case shading::CueKind::linear:
+        return std::sqrt(1.0 + square / 3.0);
+    case shading::CueKind::sine:
+        return std::sqrt(1.0 + square / 2.0);
+    case shading::CueKind::curve: {
+        const std::vector<double> cosines = shading::cosinesOf(cue.curve);
+        const double mean = 1.0 + cue.strength * (cosines.front() - 1.0);
+        double sum = mean * mean;
+        for (std::size_t k = 1; k < cosines.size(); ++k)
+            sum += 0.5 * square * cosines[k] * cosines[k];
+        return std::sqrt(sum);
+    }
+    }
+    return 1.0;
+}
+
+namespace {
+
+// How far the middle of the energy lies from the centre, mm.
+double middleOffsetMm(const volume::Lattice &lattice, const volume::VoxelBox &box,
+                      const EnergyMarginals &energy) {
+    const std::array<int, 3> first{box.lo.i, box.lo.j, box.lo.k};
+    glm::dvec3 middle(0.0);
+    for (int d = 0; d < 3; ++d) {
+        double all = 0.0;
+        const std::vector<double> &axis = energy.axis[std::size_t(d)];
+        for (std::size_t n = 0; n < axis.size(); ++n) {
+            middle[d] += axis[n] * (double(n) + first[std::size_t(d)]);
+            all += axis[n];
+        }
+        if (!(all > 0.0)) // an empty field has no middle, and no error
+            return 0.0;
+        middle[d] /= all;
+    }
+    return glm::distance(lattice.patient(volume::VoxelPoint{middle}).mm, lattice.center().mm);
+}
+
+// The least root mean square of the cue over the depths of the energy, of the directions of its
+// profiles, which tell distances but not sides: both alike, or, of energy that lies at one side,
+// the darker one.
+double leastRms(const std::function<double(double)> &cue, const EnergySpread &spread,
+                double radiusMm, double offsetMm) {
+    double least = 1.0;
+    for (const auto &shares : spread.byDistance) {
+        double both = 0.0, darker = 0.0, all = 0.0, squares = 0.0;
+        for (std::size_t n = 0; n < shares.size(); ++n) {
+            const double mm = (double(n) + 0.5) * spread.distanceStepMm, t = mm / radiusMm;
+            const double near = cue(t) * cue(t), far = cue(-t) * cue(-t);
+            both += 0.5 * shares[n] * (near + far);
+            darker += shares[n] * std::min(near, far);
+            all += shares[n];
+            squares += shares[n] * mm * mm;
+        }
+        if (all > 0.0) {
+            const bool oneSided = offsetMm > 0.5 * std::sqrt(squares / all);
+            least = std::min(least, std::sqrt((oneSided ? darker : both) / all));
+        }
+    }
+    return least;
+}
+
+// What is left where the cue is darkest: neighbours are brighter.
+constexpr double darkest = 0.02;
+
+} // namespace
+
+CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice, double radiusMm,
+                    const fourier::SpectrumLayout &layout, const EnergyMarginals &energy) {
+    CueWeight weight;
+    if (!cue.isActive())
+        return weight;
+    const auto value = shading::cueFunction(cue);
+    const double offset = middleOffsetMm(lattice, layout.box, energy);
+    double least = 1.0;
+    if (cue.kind == shading::CueKind::curve)
+        least = leastRms(value, *energy.spread, radiusMm, offset);
+    else
+        for (const double t : {-offset / radiusMm, offset / radiusMm}) // both are monotonic
+            least = std::min(least, value(t));
+    least = std::max(darkest, least);
+    weight.ghosts = cueRms(cue) / least;
+    if (cue.kind == shading::CueKind::linear)
+        for (int d = 0; d < 3; ++d)
+            weight.moments[std::size_t(d)] =
+                cue.strength * lattice.spacingMm(d) * layout.padded[d] / radiusMm / least;
+    return weight;
+}
+
+// A rounding error is evenly spread up to half a unit in the last place, 2^-11 of the leading power
+// of two; over the mantissas that is 0.73 * 2^-11/sqrt(3).
+static double relativeRounding(fourier::Storage storage) {
+    return storage == fourier::Storage::binary16 ? 2.1e-4 : 3e-7;
+}
+
+static double roundingNoise(const std::array<AxisError, 3> &axes, const EnergyMarginals &field) {
+    double energy = 1.0;
+    for (const AxisError &axis : axes)
+        energy *= axis.isShort ? 1.0 : axis.kernelEnergy;
+    return energy * LargestMean(field).of([&](const auto &at) {
+        double inverse = 1.0;
+        for (std::size_t d = 0; d < axes.size(); ++d)
+            inverse *= axes[d].isShort ? 1.0 : axes[d].blocks[at[d]].inverse;
+        return inverse;
+    });
+}
+
+double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
+                      const EnergyMarginals &field, const CueWeight &cue) {
+    double ghosts = 0.0, moment = 0.0;
+    for (std::size_t d = 0; d < axes.size(); ++d) {
+        ghosts += axes[d].brightest;
+        moment = std::max(moment, cue.moments[d] * axes[d].brightestMoment);
+    }
+    const double rounding = relativeRounding(storage);
+    return cue.ghosts *
+               (ghosts + 4.5 * std::sqrt(0.2 * rounding * rounding * roundingNoise(axes, field))) +
+           moment;
+}
+
+double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
+                            const EnergyMarginals &field, double share, const CueWeight &cue) {
+    const double ghosts = LargestMean(field).of([&](const auto &at) {
+        double sum = 0.0;
+        for (std::size_t d = 0; d < axes.size(); ++d)
+            sum += std::sqrt(axes[d].blocks[at[d]].inPhase);
+        return sum * sum;
+    });
+    double moment = 0.0;
+    for (std::size_t d = 0; d < axes.size(); ++d) {
+        // Depth is along one direction, so that one axis's moment stands for all.
+        moment = std::max(moment, cue.moments[d] * cue.moments[d] * axes[d].moment);
+    }
+    const double weight = cue.ghosts * cue.ghosts;
+    const double rounding = relativeRounding(storage);
+    // Rounding is spread as h^2 is, nearly all of it where the field is.
+    return std::sqrt((weight * ghosts + viewMargin * moment) / share +
+                     weight * roundingMargin(*field.spread) * rounding * rounding *
+                         roundingNoise(axes, field));
+}
+
+} // namespace pellucid::plan

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/plan/frame_model.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/shading/slice_shading.h"
+
+namespace pellucid::plan {
+
+FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const FrameFields &fields,
+                      const volume::Lattice &lattice) {
+    const shading::Shading &shading = scene.shading;
+    const fourier::SpectrumLayout &layout = plan.spectrum;
+    const SliceGrid grid = sliceGrid(scene.camera, plan.room, lattice, scene.image);
+    FrameModel model;
+    model.spectra.push_back({fields.of, fields.count});
+    if (shading.isLit())
+        model.spectra.push_back({SpectrumOf::gradient, fields.count});
+    int spectra = 0;
+    for (const FrameModel::Spectra &kind : model.spectra)
+        spectra += kind.count;
+    const shading::SliceShading slices =
+        shading::sliceShading(shading, scene.camera.axes(), shading::shadingScale(lattice));
+    model.slices = spectra * int(slices.terms.size());
+    // Fields of one colour add up before the transform, as their slices do.
+    const bool hasChannels =
+        (fields.count > 1 && fields.isColored) || (shading.isLit() && !shading.isGrey());
+    model.images = hasChannels ? 3 : 1;
+    model.combination = hasChannels        ? Combination::channels
+                        : fields.isColored ? Combination::tinted
+                                           : Combination::one;
+    // The half of a disc; each tap is a real weight times a complex cell. A linear cue weighs the
+    // same cells a second time.
+    const double frequencies = double(grid.columns) * grid.rows,
+                 sampled = std::numbers::pi / 8.0 * frequencies,
+                 taps = std::pow(layout.width(), 3.0) * (slices.slope != 0.0 ? 2.0 : 1.0);
+    model.multiplyAdds = 2.0 * model.slices * sampled * taps;
+    model.transformOperations = 2.5 * model.images * frequencies * std::log2(frequencies);
+    model.spectrumBytes = std::size_t(spectra) * layout.bytes();
+    model.frameBytes = std::size_t(model.images) * frameBytes(grid, scene.camera);
+    model.leftOut = {LeftOut::secondHalf, LeftOut::cornersOfBand};
+    if (layout.box != lattice.bounds())
+        model.leftOut.push_back(LeftOut::emptySpace);
+    if (!shading.isLit())
+        model.leftOut.push_back(LeftOut::light);
+    if (!shading.cue.isActive())
+        model.leftOut.push_back(LeftOut::depthCue);
+    if (model.images == 1)
+        model.leftOut.push_back(LeftOut::color);
+    return model;
+}
+
+std::string spectrumText(SpectrumOf what) {
+    switch (what) {
+    case SpectrumOf::look:
+        return "density of the whole look";
+    case SpectrumOf::channel:
+        return "density of red, green or blue";
+    case SpectrumOf::layer:
+        return "density of a class or a point of the transfer function";
+    case SpectrumOf::gradient:
+        return "length of a density's gradient";
+    }
+    return {};
+}
+
+std::string reasonText(SpectrumOf what) {
+    switch (what) {
+    case SpectrumOf::look:
+        return "everything shown has one colour, so it adds up to one field";
+    case SpectrumOf::channel:
+        return "several colours are mixed, so each channel has a field of its own";
+    case SpectrumOf::layer:
+        return "the weights change, so each layer keeps its own spectrum and their slices add up";
+    case SpectrumOf::gradient:
+        return "light shines on the gradient, whose length is not linear in the density";
+    }
+    return {};
+}
+
+std::string leftOutText(LeftOut what) {
+    switch (what) {
+    case LeftOut::secondHalf:
+        return "half of each spectrum: of real values it mirrors the other";
+    case LeftOut::emptySpace:
+        return "the empty part of the volume";
+    case LeftOut::light:
+        return "spectra of gradients: there is no light";
+    case LeftOut::depthCue:
+        return "further slices of each spectrum: there is no depth cue";
+    case LeftOut::color:
+        return "two of three images: there is one colour";
+    case LeftOut::cornersOfBand:
+        return "frequencies beyond the circle of the band";
+    }
+    return {};
+}
+
+std::string combinationText(Combination how) {
+    switch (how) {
+    case Combination::one:
+        return "one grey image";
+    case Combination::tinted:
+        return "one image, tinted pixel by pixel";
+    case Combination::channels:
+        return "an image for each of red, green and blue";
+    }
+    return {};
+}
+
+} // namespace pellucid::plan

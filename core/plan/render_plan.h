@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/fourier/spectrum.h"
+#include "core/plan/error_prediction.h"
+#include "core/plan/slice_grid.h"
+#include "core/scene/scene.h"
+
+namespace pellucid::plan {
+
+/// What the planner needs to know of a field.
+struct FieldSummary {
+    volume::Lattice lattice;
+    volume::VoxelBox support;
+    EnergyMarginals energy;
+    /// For linear cues; without it the field is taken for noise.
+    std::optional<std::array<SlabProducts, 3>> slabs;
+    /// What the depth of a cue is measured by; the lattice's own radius if absent.
+    std::optional<double> depthRadiusMm;
+};
+
+FieldSummary summarise(const classify::DensityField &field);
+/// Of fields on one lattice that share a plan: each in the box that holds all.
+std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields);
+
+/// The memory that a plan may ask for, bytes.
+struct Budget {
+    std::size_t bytes = std::numeric_limits<std::size_t>::max();
+};
+
+/// Says how an image of a scene is computed, what it costs and how far from the exact integral it
+/// will be. Pure: made and tested without rendering.
+struct RenderPlan {
+    fourier::SpectrumLayout spectrum;
+    SliceRoom room;
+    /// Relative L2 error of the image, predicted from the field.
+    double predictedError = 0.0;
+    /// Largest error of a pixel over the largest pixel, predicted, see predictMaximum.
+    double predictedMaximum = 0.0;
+    /// What a graphics card adds to the relative L2 error if it reads pairs of taps with its own
+    /// filter, see filterError; infinite if it cannot.
+    double filterError = 0.0;
+    /// Most bytes held at once by the spectrum, its preparation and the frames of the planned
+    /// camera.
+    std::size_t bytes = 0;
+    /// Why it is this one, a line for the user.
+    std::string reason;
+};
+
+/// The cheapest kernel, padding of each axis, storage and slice grid whose predicted error is
+/// within the scene's tolerance; if none is, or none of those fits the budget, the most accurate
+/// that fits. What the scene's `interpolation` fixes stays fixed.
+/// *Throws* Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
+RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
+                      const Budget &budget = {});
+
+/// The same for fields whose spectra share a layout, so that a slice can be their weighted sum: the
+/// errors are those of the worst, the bytes are of all. *Shape*: `channels` images are made of
+/// them.
+RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
+                      const Budget &budget = {});
+
+} // namespace pellucid::plan

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include "core/plan/energy_marginals.h"
+
+namespace pellucid::plan {
+
+namespace {
+
+// Weights change slowly with the depth.
+constexpr int mostSlabs = 32;
+
+// The sums of the samples of each slab across an axis, [slab][second of the other axes][first].
+std::vector<std::vector<float>> slabsAcross(const volume::Volume &field,
+                                            const volume::VoxelBox &box, int axis, int slabs) {
+    const volume::GridSize lattice = field.lattice().size(), size = box.size();
+    const int samples = size[axis], first = axis == 0 ? size.j : size.i,
+              second = axis == 2 ? size.j : size.k;
+    std::vector<std::vector<float>> sums(std::size_t(slabs),
+                                         std::vector<float>(std::size_t(first) * second, 0.0F));
+    const auto firstOf = [&](int slab) { return int(std::int64_t(slab) * samples / slabs); };
+    field.visit([&](auto all) {
+        const auto rowAt = [&](int j, int k) {
+            return all.data() + (std::size_t(k + box.lo.k) * lattice.j + j + box.lo.j) * lattice.i +
+                   box.lo.i;
+        };
+        // Each task writes what no other does: a row of the sums.
+        tbb::parallel_for(0, second, [&](int row) {
+            for (int slab = 0; slab < slabs; ++slab) {
+                float *const to = sums[std::size_t(slab)].data() + std::size_t(row) * first;
+                if (axis == 0) {
+                    for (int j = 0; j < first; ++j)
+                        to[j] = std::accumulate(rowAt(j, row) + firstOf(slab),
+                                                rowAt(j, row) + firstOf(slab + 1), 0.0F);
+                    continue;
+                }
+                for (int n = firstOf(slab); n < firstOf(slab + 1); ++n) {
+                    const auto *const from = axis == 1 ? rowAt(n, row) : rowAt(row, n);
+                    for (int i = 0; i < first; ++i)
+                        to[i] += float(from[i]);
+                }
+            }
+        });
+    });
+    return sums;
+}
+
+} // namespace
+
+double SlabProducts::energy(std::span<const double> weights) const {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < weights.size(); ++a)
+        for (std::size_t b = 0; b < weights.size(); ++b)
+            sum += weights[a] * weights[b] * products[a * weights.size() + b];
+    return std::max(0.0, sum);
+}
+
+SlabProducts evenSlabProducts(std::span<const double> energy) {
+    SlabProducts of{int(energy.size()), std::min(mostSlabs, int(energy.size())), {}};
+    const auto count = std::size_t(of.slabs);
+    of.products.resize(count * count);
+    for (std::size_t n = 0; n < energy.size(); ++n) {
+        const std::size_t slab = (n * count + count - 1) / energy.size();
+        of.products[slab * count + slab] += energy[n];
+    }
+    return of;
+}
+
+std::array<SlabProducts, 3> slabProducts(const volume::Volume &field, const volume::VoxelBox &box) {
+    std::array<SlabProducts, 3> result;
+    for (int axis = 0; axis < 3; ++axis) {
+        SlabProducts &of = result[std::size_t(axis)];
+        of.samples = box.size()[axis];
+        of.slabs = std::min(mostSlabs, of.samples);
+        const auto sums = slabsAcross(field, box, axis, of.slabs);
+        const auto count = std::size_t(of.slabs);
+        of.products.resize(count * count);
+        tbb::parallel_for(std::size_t(0), count, [&](std::size_t a) {
+            for (std::size_t b = a; b < count; ++b) {
+                double sum = 0.0;
+                for (std::size_t n = 0; n < sums[a].size(); ++n)
+                    sum += double(sums[a][n]) * double(sums[b][n]);
+                of.products[a * count + b] = of.products[b * count + a] = sum;
+            }
+        });
+        double all = 0.0;
+        for (const double product : of.products)
+            all += product;
+        if (all > 0.0)
+            for (double &product : of.products)
+                product /= all;
+    }
+    return result;
+}
+
+} // namespace pellucid::plan

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/plan/slice_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/fourier/transforms/padded_size.h"
+#include "core/task/error.h"
+
+namespace pellucid::plan {
+
+namespace {
+
+// Larger slices take more memory than any image is worth.
+constexpr int largestSliceGrid = 65536;
+
+// How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
+double reachPixels(const scene::Camera &camera, const SliceRoom &room,
+                   const volume::Lattice &lattice, const scene::ImageDefinition &image) {
+    const double longest =
+        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
+    double radiusMm = 0.0;
+    for (const auto &spread : room.spreads)
+        radiusMm = std::max(radiusMm, spread->radiusMm);
+    return (radiusMm + scene::reconstructionReach(image) * longest) / camera.pixelMm;
+}
+
+} // namespace
+
+std::size_t frameBytes(const SliceGrid &grid, const scene::Camera &camera) {
+    return (std::size_t(grid.columns) * grid.rows * 2 + std::size_t(camera.width) * camera.height) *
+           sizeof(float);
+}
+
+SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box) {
+    return {{std::make_shared<const EnergySpread>(evenSpread(lattice, box))}};
+}
+
+SliceGrid sliceGrid(const scene::Camera &camera, const SliceRoom &room,
+                    const volume::Lattice &lattice, const scene::ImageDefinition &image) {
+    const double projection = reachPixels(camera, room, lattice, image);
+    const auto cells = [&](int side, double panMm) {
+        const double pan = std::abs(panMm) / camera.pixelMm;
+        // A copy of the projection, a period away, must stay outside the image: its near edge lies
+        // at period - radius, the image's far edge at half its size plus the pan.
+        const double reach = projection + 0.5 * side + pan;
+        if (!(reach < largestSliceGrid))
+            throw task::Error(
+                task::ErrorCode::outOfMemory,
+                fmt::format("pixels of {:.3g} mm, {:.3g} mm off the centre, need a slice of more "
+                            "than {} frequencies a side",
+                            camera.pixelMm, std::abs(panMm), largestSliceGrid));
+        const auto keeps = [&](int period) {
+            // Half for each axis, of what the image holds of the projection.
+            return std::all_of(room.spreads.begin(), room.spreads.end(), [&](const auto &spread) {
+                return foldedTailEnergy(*spread, image.rollOff, camera.pixelMm, period, side,
+                                        pan) <=
+                       0.5 * room.foldedTails * room.foldedTails * shareInImage(camera, *spread);
+            });
+        };
+        const int least = fourier::smoothEvenSize(int(std::ceil(reach)));
+        const int most = std::min(largestSliceGrid, std::max(512, 2 * least));
+        if (keeps(least))
+            return least;
+        if (!keeps(most))
+            return fourier::smoothEvenSize(most);
+        int tooFew = least, enough = most; // tails fall with the period
+        while (enough - tooFew > 1) {
+            const int between = (tooFew + enough) / 2;
+            (keeps(between) ? enough : tooFew) = between;
+        }
+        return fourier::smoothEvenSize(enough);
+    };
+    return {cells(camera.width, camera.panMm.x), cells(camera.height, camera.panMm.y)};
+}
+
+} // namespace pellucid::plan

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/prepare/layer_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/classify/coarse_field.h"
+#include "core/render/frame_job.h"
+#include "core/task/error.h"
+
+namespace pellucid::prepare {
+
+namespace {
+
+constexpr std::size_t mostSamples = std::size_t(1) << 25;
+constexpr int fewestSamples = 32;
+constexpr render::ChannelShares none{0.0, 0.0, 0.0};
+
+int leastReduction(const volume::GridSize &size) {
+    int reduction = 1;
+    while (size.count() / (std::size_t(reduction) * reduction * reduction) > mostSamples)
+        ++reduction;
+    return reduction;
+}
+
+} // namespace
+
+LayerSet::LayerSet(std::shared_ptr<render::CpuEngine> engine, plan::RenderPlan plan, int reduction,
+                   std::shared_ptr<const accuracy::ViewErrorModel> viewError,
+                   std::shared_ptr<const accuracy::DetailLoss> detailLoss)
+    : m_engine(std::move(engine)), m_plan(std::move(plan)), m_reduction(reduction),
+      m_viewError(std::move(viewError)), m_detailLoss(std::move(detailLoss)) {}
+
+std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size_t count,
+                                            const FieldOf &fieldOf, const plan::Budget &budget,
+                                            const task::Progress &progress,
+                                            const std::optional<shading::ShadingScale> &given) {
+    std::vector<classify::DensityField> fields;
+    accuracy::AxisProjections fine; // of the layers before samples are joined
+    int reduction = 1, longest = 0;
+    shading::ShadingScale scale; // of the volume, however coarse its layers become
+    const auto reduce = [&](std::size_t n) {
+        fields[n] = classify::coarseField(fields[n], (longest + reduction - 1) / reduction);
+    };
+    const auto held = [&] {
+        std::size_t sum = 0;
+        for (const classify::DensityField &field : fields)
+            sum += field.values.bytes();
+        return sum;
+    };
+    for (std::size_t n = 0; n < count; ++n) {
+        fields.push_back(fieldOf(n, progress.part(0.5 * double(n) / double(count),
+                                                  0.5 * double(n + 1) / double(count))));
+        const volume::GridSize size = fields.back().values.lattice().size();
+        if (n == 0) {
+            longest = std::max({size.i, size.j, size.k});
+            scale = given.value_or(shading::shadingScale(fields.back().values.lattice()));
+            reduction = leastReduction(size);
+        }
+        fine.add(fields.back(), progress);
+        if (reduction > 1)
+            reduce(n);
+        // The fields alone may not take what their spectra need.
+        while (held() > budget.bytes / 2 && longest / (reduction + 1) >= fewestSamples) {
+            progress.check();
+            ++reduction;
+            for (std::size_t m = 0; m <= n; ++m)
+                reduce(m);
+        }
+    }
+    const std::size_t keptBytes =
+        count * sizeof(float) * std::size_t(scene.camera.width) * std::size_t(scene.camera.height);
+    for (;;) {
+        progress.check();
+        const std::size_t taken = held() + keptBytes;
+        try {
+            const auto summaries = summarise({fields, {}, scale}, scene.shading.cue);
+            plan::RenderPlan plan =
+                plan::planRender(scene, summaries, render::FrameJob::mostChannels,
+                                 {budget.bytes > taken ? budget.bytes - taken : 0});
+            render::EngineSpectra spectra{{}, {}, scale};
+            for (std::size_t n = 0; n < count; ++n) {
+                const double done = 0.5 + 0.5 * double(n) / double(count);
+                spectra.fields.push_back(std::make_shared<const fourier::Spectrum>(
+                    fourier::Spectrum::prepare(fields[n].values, plan.spectrum,
+                                               progress.part(done, done + 0.5 / double(count)))));
+            }
+            auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.room);
+            auto viewError = std::make_shared<const accuracy::ViewErrorModel>(plan, summaries);
+            std::shared_ptr<const accuracy::DetailLoss> loss;
+            if (reduction > 1) {
+                accuracy::AxisProjections coarse;
+                for (const classify::DensityField &field : fields)
+                    coarse.add(field, progress);
+                loss =
+                    std::make_shared<const accuracy::DetailLoss>(fine, coarse, count, scale.stepMm);
+            }
+            return std::shared_ptr<LayerSet>(new LayerSet(std::move(engine), std::move(plan),
+                                                          reduction, std::move(viewError),
+                                                          std::move(loss)));
+        } catch (const task::Error &error) {
+            if (error.code() != task::ErrorCode::outOfMemory ||
+                longest / (reduction + 1) < fewestSamples)
+                throw;
+        }
+        ++reduction;
+        for (std::size_t n = 0; n < count; ++n)
+            reduce(n);
+    }
+}
+
+void LayerSet::keep(std::size_t layer) {
+    std::vector<render::ChannelShares> alone(count(), none);
+    alone[layer] = {1.0, 1.0, 1.0};
+    m_engine->setShares(std::move(alone));
+    m_kept->projections[layer] =
+        std::move(m_engine->render(m_kept->camera, m_kept->image, m_kept->shading).samples);
+}
+
+picture::ProjectionImage
+LayerSet::sumOfKept(const std::vector<render::ChannelShares> &shares) const {
+    const scene::Camera &camera = m_kept->camera;
+    picture::ProjectionImage image{
+        camera.width, camera.height, camera.pixelMm, {}, render::areGrey(shares) ? 1 : 3};
+    const auto channels = std::size_t(image.channels);
+    const std::size_t pixels = std::size_t(camera.width) * camera.height;
+    image.samples.resize(pixels * channels);
+    // A block of sums stays in the first cache.
+    constexpr std::size_t block = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (pixels + block - 1) / block, 16),
+                      [&](const tbb::blocked_range<std::size_t> &range) {
+                          std::array<std::array<float, block>, render::FrameJob::mostChannels> sums;
+                          for (std::size_t b = range.begin(); b != range.end(); ++b) {
+                              const std::size_t first = b * block,
+                                                size = std::min(block, pixels - first);
+                              for (std::size_t c = 0; c < channels; ++c)
+                                  sums[c].fill(0.0F);
+                              for (std::size_t n = 0; n < shares.size(); ++n)
+                                  for (std::size_t c = 0; c < channels; ++c) {
+                                      const auto share = float(shares[n][c]);
+                                      if (share == 0.0F)
+                                          continue;
+                                      const float *const from =
+                                          m_kept->projections[n].data() + first;
+                                      float *const to = sums[c].data();
+                                      for (std::size_t p = 0; p < size; ++p)
+                                          to[p] += share * from[p];
+                                  }
+                              float *const to = image.samples.data() + first * channels;
+                              for (std::size_t p = 0; p < size; ++p)
+                                  for (std::size_t c = 0; c < channels; ++c)
+                                      to[p * channels + c] = sums[c][p];
+                          }
+                      });
+    return image;
+}
+
+picture::ProjectionImage LayerSet::render(const scene::Camera &camera,
+                                          const scene::ImageDefinition &image,
+                                          const shading::Shading &shading,
+                                          const std::vector<render::ChannelShares> &shares,
+                                          picture::FrameTimes *times) {
+    const bool sameView =
+        m_kept && m_kept->camera == camera && m_kept->image == image && m_kept->shading == shading;
+    if (!sameView) {
+        // The view moves: what would be kept now would not be asked for again.
+        m_kept = Kept{camera, image, shading, std::vector<std::vector<float>>(count())};
+        m_engine->setShares(shares);
+        return m_engine->render(camera, image, shading, times);
+    }
+    const double start = render::frameClockSeconds();
+    try {
+        for (std::size_t n = 0; n < shares.size(); ++n)
+            if (shares[n] != none && m_kept->projections[n].empty())
+                keep(n);
+        picture::ProjectionImage sum = sumOfKept(shares);
+        if (times != nullptr)
+            *times = {1e3 * (render::frameClockSeconds() - start), 0.0};
+        return sum;
+    } catch (const std::bad_alloc &) {
+        m_kept.reset();
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          "not enough memory to keep the projections of the layers");
+    }
+}
+
+render::EngineParts LayerSet::parts(const std::vector<render::ChannelShares> &shares) const {
+    return {m_engine->spectra(), shares, m_engine->room()};
+}
+
+MixtureEngine::MixtureEngine(std::shared_ptr<LayerSet> layers,
+                             std::vector<render::ChannelShares> shares)
+    : m_layers(std::move(layers)), m_shares(std::move(shares)) {}
+
+std::string MixtureEngine::description() const {
+    return m_layers->description();
+}
+
+picture::ProjectionImage MixtureEngine::render(const scene::Camera &camera,
+                                               const scene::ImageDefinition &image,
+                                               const shading::Shading &shading,
+                                               picture::FrameTimes *times) {
+    return m_layers->render(camera, image, shading, m_shares, times);
+}
+
+} // namespace pellucid::prepare

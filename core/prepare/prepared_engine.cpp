@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/prepare/prepared_engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/classify/coarse_field.h"
+#include "core/task/error.h"
+
+namespace pellucid::prepare {
+
+namespace {
+
+constexpr int fewestSamples = 32;
+
+double energy(const volume::Volume &field) {
+    return field.visit([](auto samples) {
+        double sum = 0.0;
+        for (const auto f : samples)
+            sum += double(f) * double(f);
+        return sum;
+    });
+}
+
+} // namespace
+
+double lostDetail(const classify::DensityField &field, const classify::DensityField &means) {
+    const double all = energy(field.values);
+    const double kept = energy(means.values) * (means.values.lattice().cellVolumeMm3() /
+                                                field.values.lattice().cellVolumeMm3());
+    return all > 0.0 ? std::sqrt(std::max(0.0, 1.0 - kept / all)) : 0.0;
+}
+
+FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
+                       std::span<const plan::FieldSummary> summaries, const plan::Budget &budget,
+                       const task::Progress &progress) {
+    scene::validate(scene);
+    const std::vector<classify::DensityField> &fields = shaded.fields;
+    const int channels = imagesOf(fields.size(), scene.shading);
+    // An image too large for the memory stays so, however coarse the field.
+    const plan::SliceGrid least =
+        plan::sliceGrid(scene.camera, {{summaries.front().energy.spread}, 1.0},
+                        summaries.front().lattice, scene.image);
+    const std::size_t frame = std::size_t(channels) * plan::frameBytes(least, scene.camera);
+    if (frame > budget.bytes)
+        throw task::Error(task::ErrorCode::outOfMemory,
+                          fmt::format("an image of {} x {} pixels needs {} MB, {} MB are allowed",
+                                      scene.camera.width, scene.camera.height, (frame >> 20) + 1,
+                                      budget.bytes >> 20));
+    try {
+        return {plan::planRender(scene, summaries, channels, budget), {}, 1};
+    } catch (const task::Error &error) {
+        if (error.code() != task::ErrorCode::outOfMemory)
+            throw;
+        const volume::GridSize n = fields.front().values.lattice().size();
+        const int longest = std::max({n.i, n.j, n.k});
+        for (int reduction = 2; longest / reduction >= fewestSamples; ++reduction) {
+            std::vector<classify::DensityField> reduced;
+            std::size_t held = 0; // samples need memory too
+            double lost = 0.0;
+            for (const classify::DensityField &field : fields) {
+                progress.check();
+                reduced.push_back(
+                    classify::coarseField(field, (longest + reduction - 1) / reduction));
+                lost = std::max(lost, lostDetail(field, reduced.back()));
+            }
+            // The gradient of the means, so that no sample turns darker than black.
+            ShadedFields coarse = shadedFields(std::move(reduced), scene.shading, shaded.scale);
+            for (const auto *const samples : {&coarse.fields, &coarse.gradients})
+                for (const classify::DensityField &field : *samples)
+                    held += field.values.bytes();
+            // A gradient over longer ways has less energy; a low pass leaves out no more than that.
+            for (std::size_t g = 0; g < coarse.gradients.size(); ++g)
+                lost = std::max(lost, lostDetail(shaded.gradients[g], coarse.gradients[g]));
+            if (held >= budget.bytes)
+                continue;
+            try {
+                FittingPlan fitting{plan::planRender(scene, summarise(coarse, scene.shading.cue),
+                                                     channels, {budget.bytes - held}),
+                                    std::move(coarse), reduction};
+                plan::RenderPlan &plan = fitting.plan;
+                plan.predictedError = std::hypot(plan.predictedError, lost);
+                plan.predictedMaximum = std::max(plan.predictedMaximum, lost);
+                plan.bytes += held;
+                const volume::GridSize size =
+                    fitting.reduced->fields.front().values.lattice().size();
+                plan.reason = fmt::format("means, {} x {} x {} in place of {} x {} x {}: more does "
+                                          "not fit the memory",
+                                          size.i, size.j, size.k, n.i, n.j, n.k);
+                return fitting;
+            } catch (const task::Error &smaller) {
+                if (smaller.code() != task::ErrorCode::outOfMemory)
+                    throw;
+            }
+        }
+        throw;
+    }
+}
+
+std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
+                                              const classify::Color &color,
+                                              const plan::RenderPlan &plan,
+                                              const task::Progress &progress) {
+    render::EngineSpectra spectra{{}, {}, channels.scale};
+    const double count = double(channels.fields.size() + channels.gradients.size());
+    double done = 0.0;
+    const auto prepare = [&](const classify::DensityField &field) {
+        const task::Progress part = progress.part(done / count, (done + 1.0) / count);
+        done += 1.0;
+        return std::make_shared<const fourier::Spectrum>(
+            fourier::Spectrum::prepare(field.values, plan.spectrum, part));
+    };
+    for (const classify::DensityField &field : channels.fields)
+        spectra.fields.push_back(prepare(field));
+    for (const classify::DensityField &gradient : channels.gradients)
+        spectra.gradients.push_back(prepare(gradient));
+    auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.room);
+    if (channels.fields.size() == 1)
+        engine->setShares({{color.red, color.green, color.blue}});
+    else
+        engine->setShares({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
+    return engine;
+}
+
+PreparedEngine prepareEngine(const scene::Scene &scene, const ShadedFields &fields,
+                             const classify::Color &color, const plan::Budget &budget,
+                             const task::Progress &progress) {
+    const auto summaries = summarise(fields, scene.shading.cue);
+    FittingPlan fitting = planWithin(scene, fields, summaries, budget, progress);
+    std::shared_ptr<const accuracy::ViewErrorModel> viewError;
+    if (!fitting.reduced)
+        viewError = std::make_shared<const accuracy::ViewErrorModel>(fitting.plan, summaries);
+    auto engine =
+        makeEngine(fitting.reduced ? *fitting.reduced : fields, color, fitting.plan, progress);
+    const std::size_t bytes = engine->bytes();
+    const bool takesLight = engine->takesLight();
+    const plan::SpectrumOf of =
+        fields.fields.size() > 1 ? plan::SpectrumOf::channel : plan::SpectrumOf::look;
+    return {std::move(engine),
+            std::move(fitting.plan),
+            bytes,
+            takesLight,
+            std::move(viewError),
+            false,
+            {},
+            of};
+}
+
+PreparedEngine prepareEngine(const scene::Scene &scene, const classify::ShownFields &fields,
+                             const plan::Budget &budget, const task::Progress &progress,
+                             const std::optional<shading::ShadingScale> &scale) {
+    const volume::Lattice &lattice = fields.channels.front().values.lattice();
+    const ShadedFields shaded =
+        shadedFields(fields.channels, scene.shading, scale.value_or(shading::shadingScale(lattice)),
+                     progress.part(0.0, 0.1));
+    const std::size_t light = bytesForLight(scene.shading, lattice.size(), fields.channels.size());
+    return prepareEngine(scene, shaded, fields.color,
+                         {budget.bytes > light ? budget.bytes - light : 0},
+                         progress.part(0.1, 1.0));
+}
+
+std::optional<double> errorOf(const PreparedEngine &prepared,
+                              const picture::ProjectionImage &picture, const scene::Camera &camera,
+                              const scene::ImageDefinition &image,
+                              const shading::Shading &shading) {
+    if (prepared.isCoarse && !prepared.detailLoss)
+        return std::nullopt;
+    const render::EngineParts parts = prepared.engine->parts();
+    const double ofFields =
+        prepared.viewError
+            ? prepared.viewError->relativeError(picture, camera, image, parts, shading)
+            : prepared.plan.predictedError;
+    return prepared.isCoarse
+               ? std::hypot(ofFields,
+                            prepared.detailLoss->relativeError(picture, parts.shares, shading))
+               : ofFields;
+}
+
+std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double ofFields,
+                                        const shading::Shading &shading) {
+    if (!prepared.isCoarse)
+        return ofFields;
+    if (!prepared.detailLoss)
+        return std::nullopt;
+    return std::hypot(ofFields,
+                      prepared.detailLoss->relativeError(prepared.engine->parts().shares, shading));
+}
+
+PreparedEngine withoutLight(const PreparedEngine &prepared) {
+    render::EngineParts parts = prepared.engine->parts();
+    parts.spectra.gradients.clear();
+    auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.room);
+    engine->setShares(std::move(parts.shares));
+    const std::size_t bytes = engine->bytes();
+    plan::RenderPlan plan = prepared.plan;
+    plan.bytes -= prepared.bytes - bytes;
+    return {std::move(engine), std::move(plan),     bytes,      false, prepared.viewError,
+            prepared.isCoarse, prepared.detailLoss, prepared.of};
+}
+
+} // namespace pellucid::prepare

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/prepare/shaded_fields.h"
+
+#include <algorithm>
+
+#include "core/shading/gradient_magnitude.h"
+
+namespace pellucid::prepare {
+
+ShadedFields shadedFields(std::vector<classify::DensityField> fields,
+                          const shading::Shading &shading, const shading::ShadingScale &scale,
+                          const task::Progress &progress) {
+    ShadedFields result{std::move(fields), {}, scale};
+    if (!shading.isLit())
+        return result;
+    if (!std::all_of(result.fields.begin(), result.fields.end(), shading::holdsGradient))
+        for (classify::DensityField &field : result.fields)
+            field = shading::grown(field);
+    const double count = double(result.fields.size());
+    for (const classify::DensityField &field : result.fields) {
+        const double done = double(result.gradients.size());
+        result.gradients.push_back(shading::gradientMagnitude(
+            field, scale.stepMm, progress.part(done / count, (done + 1.0) / count)));
+    }
+    return result;
+}
+
+std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSize &size,
+                          std::size_t channels) {
+    const volume::GridSize larger{size.i + 2, size.j + 2, size.k + 2};
+    return shading.isLit() ? 2 * channels * larger.count() * sizeof(float) : 0;
+}
+
+std::vector<plan::FieldSummary> summarise(const ShadedFields &fields,
+                                          const shading::DepthCue &cue) {
+    std::vector<classify::DensityField> all = fields.fields;
+    all.insert(all.end(), fields.gradients.begin(), fields.gradients.end());
+    std::vector<plan::FieldSummary> summaries =
+        plan::summarise(std::span<const classify::DensityField>(all));
+    if (cue.isActive() && cue.kind == shading::CueKind::linear)
+        for (std::size_t n = 0; n < all.size(); ++n)
+            summaries[n].slabs = plan::slabProducts(all[n].values, summaries[n].support);
+    for (plan::FieldSummary &summary : summaries)
+        summary.depthRadiusMm = fields.scale.radiusMm;
+    return summaries;
+}
+
+int imagesOf(std::size_t fields, const shading::Shading &shading) {
+    return shading.isLit() && !shading.isGrey() ? 3 : int(fields);
+}
+
+} // namespace pellucid::prepare

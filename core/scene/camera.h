@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+
+#include "core/volume/lattice.h"
+
+namespace pellucid::scene {
+
+/// The six standard views; front: the viewer stands before the patient, patient right at image
+/// left, superior up.
+enum class StandardView { front, back, left, right, top, bottom };
+
+/// Angles added to a standard view, degrees.
+struct ViewAngles {
+    double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0;
+};
+
+/// A parallel view of the patient. Pixel (row r, column c) is centred at
+/// u = pan.x + (c - (width-1)/2) pixel, v = pan.y + ((height-1)/2 - r) pixel about the centre of
+/// rotation, which is the centre of the lattice.
+struct Camera {
+    /// The rotation [U V W]: columns U (image right), V (image up), W (toward the viewer), LPS.
+    glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+    double pixelMm = 1.0;
+    int width = 2, height = 2;
+    glm::dvec2 panMm{0.0};
+
+    glm::dmat3 axes() const { return glm::mat3_cast(orientation); }
+    bool operator==(const Camera &) const = default;
+};
+
+/// [U V W] = Rz(azimuth) Rx(90) Rx(-elevation) Rz(roll), the angles of the standard view plus
+/// these.
+glm::dquat viewOrientation(StandardView view, const ViewAngles &angles = {});
+
+/// The side of the patient that a unit direction (LPS) points to: up to two letters of R L A P S I,
+/// the strongest component first.
+std::string patientLetters(const glm::dvec3 &direction);
+
+/// Where rows and columns of a picture lead, as DICOM says it (PS3.3 C.7.6.1.1.1): "L\F", with H
+/// and F for superior and inferior.
+std::string dicomOrientation(const glm::dvec3 &right, const glm::dvec3 &up);
+
+/// Pixel = shortest step; the smallest even square size that holds every view of the lattice.
+/// *Throws* Error{usage} if that is more than `largestImageSize`.
+Camera defaultCamera(const volume::Lattice &lattice);
+
+/// Images larger than this on a side are refused.
+inline constexpr int largestImageSize = 16384;
+
+} // namespace pellucid::scene

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/scene/image_definition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pellucid::scene {
+
+namespace {
+
+double sinc(double q) {
+    const double x = std::numbers::pi * q;
+    // The series' next term, x^4/120, is below rounding here.
+    return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
+}
+
+} // namespace
+
+double rollOffFactor(double rollOff, double q) {
+    if (q >= 1.0)
+        return 0.0;
+    if (q <= 1.0 - rollOff)
+        return 1.0;
+    return 0.5 * (1.0 + std::cos(std::numbers::pi * (q - (1.0 - rollOff)) / rollOff));
+}
+
+double reconstructionFactor(const ImageDefinition &definition, double q) {
+    const double s = sinc(q);
+    switch (definition.reconstruction) {
+    case Reconstruction::linear:
+        return s * s;
+    case Reconstruction::bandLimited:
+        return rollOffFactor(definition.rollOff, 2.0 * std::abs(q));
+    case Reconstruction::cubic:
+        return s * s * (3.0 * s * s - 2.0 * sinc(2.0 * q));
+    case Reconstruction::spline:
+        break;
+    }
+    return 3.0 * s * s * s * s / (2.0 + std::cos(2.0 * std::numbers::pi * q));
+}
+
+double reconstructionReach(const ImageDefinition &definition) {
+    switch (definition.reconstruction) {
+    case Reconstruction::linear:
+        return 1.0;
+    case Reconstruction::cubic:
+        return 2.0;
+    case Reconstruction::bandLimited:
+        return 0.5 * ringingPixels(definition.rollOff);
+    case Reconstruction::spline:
+        break;
+    }
+    return 6.0;
+}
+
+double ringingPixels(double rollOff) {
+    return 4.0 / std::max(1.0 / 64.0, rollOff);
+}
+
+} // namespace pellucid::scene

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace pellucid::scene {
+
+/// The interpolation between samples. `cubic` is Keys' cubic convolution with a = -1/2 (Catmull-Rom
+/// along each axis of the lattice); beyond a cut face it has a single negative lobe, one sample
+/// wide. `linear` is the limit of a trilinear ray caster with ever finer steps. `bandLimited` is
+/// the sinc. `spline` is the interpolating cubic B-spline; it rings on both sides of a cut face,
+/// with +2.7 % two samples away. *Source*: Keys 1981.
+enum class Reconstruction { cubic, linear, bandLimited, spline };
+
+/// The definition of an image, independent of the method that computes it: the image is the
+/// integral of P(s) = D(s) prod_d K(a_d.s) t(2 pixel |s|). Engines and the exact reference share
+/// this definition and nothing else.
+struct ImageDefinition {
+    Reconstruction reconstruction = Reconstruction::cubic;
+    /// F, the share of the band that the roll-off takes, 0..1.
+    double rollOff = 0.05;
+
+    bool operator==(const ImageDefinition &) const = default;
+};
+
+/// t(q): 1 below q = 1 - F, then a raised cosine that falls to 0 at q = 1, then 0.
+double rollOffFactor(double rollOff, double q);
+
+/// K(q) for one axis, with q = a_d.s in cycles per sample. linear: sinc^2 q; cubic: sinc^2 q
+/// (3 sinc^2 q - 2 sinc 2q); spline: 3 sinc^4 q/(2 + cos 2 pi q); bandLimited: t(2|q|).
+double reconstructionFactor(const ImageDefinition &definition, double q);
+
+/// The radius of a sample's footprint, in samples: two for `cubic` and one for `linear`, where the
+/// footprint ends, and six for `spline`, where it has fallen to 4e-4. The tapered sinc of
+/// `bandLimited` rings farther.
+double reconstructionReach(const ImageDefinition &definition);
+
+/// The length after which the ringing of a raised-cosine roll-off over a share F of the band has
+/// faded, in samples of that band: 4/F, and at most 256.
+double ringingPixels(double rollOff);
+
+} // namespace pellucid::scene

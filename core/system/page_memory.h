@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace pellucid::system {
+
+/// Uninitialised memory on large pages where the system has them (2 MB aligned): scattered reads of
+/// a spectrum otherwise miss the address cache as often as the data cache.
+/// *Throws* Error{outOfMemory}, naming `what`.
+std::shared_ptr<std::byte[]> allocatePages(std::size_t bytes, const char *what);
+
+} // namespace pellucid::system

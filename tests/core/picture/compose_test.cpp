@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/picture/compose.h"
+
+namespace pellucid {
+
+namespace {
+
+TEST(Compose, MapsTheRangeAndInverts) {
+    const picture::ProjectionImage image{4, 1, 1.0, {-1.0F, 0.0F, 5.0F, 20.0F}};
+    const auto bright = picture::compose(image, {0.0, 10.0, false});
+    const auto film = picture::compose(image, {0.0, 10.0, true});
+    EXPECT_EQ(bright[0], 0);
+    EXPECT_EQ(bright[12], 255);
+    EXPECT_EQ(bright[8], std::lround(255 * std::pow(0.5, picture::toneExponent)));
+    for (int n = 0; n < 4; ++n)
+        EXPECT_NEAR(int(bright[4 * n]) + film[4 * n], 255, 1);
+    EXPECT_EQ(bright[3], 255);
+}
+
+TEST(Compose, TheAutomaticRangeIgnoresTheBackground) {
+    picture::ProjectionImage image{1000, 1, 1.0, std::vector<float>(1000, 0.0F)};
+    for (int n = 0; n < 100; ++n)
+        image.samples[n] = float(n + 1);
+    const auto range = picture::toneRange(image, {});
+    EXPECT_EQ(range.low, 0.0);
+    EXPECT_EQ(range.high, 99.0); // rank 0.998 * 99 of the hundred pixels inside
+    EXPECT_EQ(picture::toneRange({2, 1, 1.0, {0.0F, 0.0F}}, {}).high, 1.0);
+}
+
+// Bright colours stay what they are: the channels keep their ratio up to and beyond the range.
+TEST(Compose, ColorsKeepTheirHue) {
+    const picture::ProjectionImage image{
+        4,
+        1,
+        1.0,
+        {10.0F, 5.0F, 0.0F, 40.0F, 20.0F, 0.0F, 2.0F, 2.0F, 2.0F, -1.0F, -2.0F, -3.0F},
+        3};
+    const auto bright = picture::compose(image, {0.0, 10.0, false});
+    EXPECT_EQ(bright[0], 255);
+    EXPECT_NEAR(bright[1], 127.5, 0.5);
+    EXPECT_EQ(bright[2], 0);
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(bright[4 + c], bright[c]); // four times as bright: the same colour
+    EXPECT_EQ(bright[8], bright[10]);        // grey stays grey, on the curve of grey images
+    EXPECT_EQ(bright[8], std::lround(255 * std::pow(0.2, picture::toneExponent)));
+    EXPECT_EQ(bright[12] + bright[13] + bright[14], 0);
+    const auto film = picture::compose(image, {0.0, 10.0, true});
+    for (int n = 0; n < 16; ++n)
+        EXPECT_NEAR(int(bright[n]) + film[n], n % 4 == 3 ? 510 : 255, 1);
+    // A range that begins below zero lifts the noise of what is empty, but to no colour.
+    const auto lifted = picture::compose({1, 1, 1.0, {0.1F, 0.0F, -0.1F}, 3}, {-60.0, 10.0, false});
+    EXPECT_GT(lifted[0], 200);
+    EXPECT_LE(lifted[0] - lifted[2], 1);
+    // What is below zero is grey too, and the brighter the higher it is.
+    const auto below = picture::compose({2, 1, 1.0, {-9.5F, -9.7F, -9.9F, -1.0F, -3.0F, -5.0F}, 3},
+                                        {-10.0, 90.0, false});
+    for (int n = 0; n < 8; n += 4)
+        EXPECT_TRUE(below[n] == below[n + 1] && below[n] == below[n + 2]);
+    EXPECT_LT(below[0], below[4]);
+    EXPECT_NEAR(picture::toneRange(image, {}).high, 10.0, 1e-6); // of 40, 10 and 2: rank 1.996
+}
+
+} // namespace
+} // namespace pellucid

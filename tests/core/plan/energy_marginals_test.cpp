@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "core/plan/energy_marginals.h"
+#include "tests/support/fields.h"
+
+namespace pellucid {
+
+namespace {
+
+double sum(const std::vector<double> &values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(EnergyMarginals, OnePointIsWhereItIs) {
+    const auto lattice = volume::Lattice::centred({21, 21, 21}, {1, 1, 2});
+    std::vector<float> samples(lattice.size().count(), 0.0F);
+    samples[(std::size_t(10) * 21 + 10) * 21 + 16] = 3.0F; // 6 mm from the centre along x
+    const volume::Volume field(lattice, samples, volume::ValueUnit::none);
+    const auto energy = plan::energyMarginals(field, lattice.bounds());
+    const plan::EnergySpread &spread = *energy.spread;
+    EXPECT_DOUBLE_EQ(energy.axis[0][16], 1.0);
+    EXPECT_DOUBLE_EQ(energy.axis[1][10], 1.0);
+    EXPECT_DOUBLE_EQ(spread.radiusMm, 6.0);
+    EXPECT_DOUBLE_EQ(spread.concentration, 1.0);
+    // The distance is 6 mm along x, 6/sqrt(2) along a face diagonal and 0 along y.
+    int far = 0, near = 0;
+    for (const auto &shares : spread.byDistance) {
+        EXPECT_NEAR(sum(shares), 1.0, 1e-12);
+        far += shares.back() == 1.0 ? 1 : 0;
+        near += shares.front() == 1.0 ? 1 : 0;
+    }
+    EXPECT_EQ(far, 1);
+    EXPECT_EQ(near, 4); // y, z, and the diagonals of the face across x
+}
+
+// The projection of a uniform ball is 2 sqrt(R^2 - r^2), so peak times mass over energy is 4/3. The
+// bound may be larger because blocks blur the field.
+TEST(EnergyMarginals, NoPartOfABallHasMuchMoreOfTheProjectionThanOfTheMass) {
+    const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
+    std::vector<float> samples;
+    for (int k = 0; k < 64; ++k)
+        for (int j = 0; j < 64; ++j)
+            for (int i = 0; i < 64; ++i)
+                samples.push_back(
+                    glm::length(lattice.patient(volume::VoxelIndex{i, j, k}).mm) < 28.0 ? 1.0F
+                                                                                        : 0.0F);
+    const volume::Volume field(lattice, samples, volume::ValueUnit::none);
+    const double peakedness = plan::energyMarginals(field, lattice.bounds()).spread->peakedness;
+    EXPECT_GT(peakedness, 4.0 / 3.0);
+    EXPECT_LT(peakedness, 2.5);
+}
+
+// A rod along the diagonal: the line through it has the largest integral; lines in other directions
+// have less.
+TEST(EnergyMarginals, TheLargestLineIntegralIsNotBelowThatThroughARod) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 2});
+    std::vector<float> samples(lattice.size().count(), 0.0F);
+    for (int n = 0; n < 40; ++n)
+        samples[(std::size_t(n) * 40 + n) * 40 + n] = 1.0F;
+    const volume::Volume field(lattice, samples, volume::ValueUnit::none);
+    const auto energy = plan::energyMarginals(field, lattice.bounds());
+    const double length = 40.0 * std::sqrt(6.0), areaMm2 = 2.0 / std::sqrt(6.0);
+    // Seen along the rod, all of its mass falls within the shadow of one sample.
+    const double mass = 40.0 * 2.0;
+    EXPECT_NEAR(energy.massMm3, mass, 1e-9);
+    EXPECT_GE(energy.spread->peakedness, length * areaMm2 / mass);
+    EXPECT_TRUE(std::isfinite(energy.spread->peakedness));
+}
+
+TEST(EnergyMarginals, AnEmptyFieldHasNoEnergyAnywhere) {
+    const auto lattice = volume::Lattice::centred({8, 8, 8}, {1, 1, 1});
+    const volume::Volume field(lattice, std::vector<float>(512, 0.0F), volume::ValueUnit::none);
+    const auto energy = plan::energyMarginals(field, {{4, 4, 4}, {5, 5, 5}});
+    for (const auto &axis : energy.axis)
+        EXPECT_EQ(sum(axis), 0.0);
+    for (const auto &shares : energy.spread->byDistance)
+        EXPECT_EQ(sum(shares), 0.0);
+}
+
+} // namespace
+} // namespace pellucid

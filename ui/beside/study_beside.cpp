@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/beside/study_beside.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "ui/engine/graphics_card.h"
+#include "ui/jobs/job_strip.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/pane_area.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid::ui {
+
+QString headingText(const StudySource &source) {
+    return patientText(source.study) + ", " + studyText(source.study) + ", " +
+           seriesText(source.volume);
+}
+
+StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *parent)
+    : QWidget(parent), m_preparer(m_document, m_jobs), m_copier(m_document, m_jobs, card),
+      m_opener(m_document, m_jobs, m_preparer), m_viewer(makeViewer()),
+      m_link(new StudyLink(leader, m_viewer, this)), m_name(new QLabel), m_linked(new QToolButton) {
+    setObjectName("studyBeside");
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(makeHeading());
+    layout->addWidget(m_viewer.area, 1);
+    m_viewer.area->arrangeAs(*leader.area);
+    ProjectionView *const projection = m_viewer.projection;
+    connect(&m_preparer, &LookPreparer::engineReady, &m_copier, &CardCopier::show);
+    connect(&m_copier, &CardCopier::engineReady, projection, &ProjectionView::setEngine);
+    connect(projection, &ProjectionView::cardFailed, &card, &GraphicsCard::giveUp);
+    connect(&m_preparer, &LookPreparer::planChanged, projection, &ProjectionView::setPlanState);
+    connect(&m_opener, &StudyOpener::brightnessKept, projection, &ProjectionView::adoptTone);
+    connect(&m_opener, &StudyOpener::notProjectable, projection, &ProjectionView::setMessage);
+    connect(&m_jobs, &JobRunner::started, projection, &ProjectionView::jobStarted);
+    connect(&m_jobs, &JobRunner::finished, projection, &ProjectionView::jobEnded);
+    connect(&m_jobs, &JobRunner::failed, this, [this](const QString &what, const QString &path) {
+        m_viewer.projection->setMessage(what);
+        emit failed(what, path);
+    });
+    connect(&m_document, &Document::volumeChanged, this, [this] {
+        if (!m_document.volume() || m_document.isPreview())
+            return;
+        m_link->begin();
+    });
+}
+
+StudyBeside::~StudyBeside() {
+    // Work that still runs looks at the members; the panes at the document.
+    m_jobs.join();
+    delete m_link;
+    delete m_viewer.area;
+}
+
+Viewer StudyBeside::makeViewer() {
+    Viewer viewer{m_document, {}, nullptr, nullptr};
+    std::array<QWidget *, 4> panes{};
+    for (const auto orientation : mpr::allOrientations) {
+        auto *plane = new MprView(m_document, orientation);
+        plane->setObjectName("beside_" + plane->objectName());
+        connect(plane, &MprView::readoutChanged, this, &StudyBeside::readoutChanged);
+        panes[std::size_t(orientation)] = viewer.planes[std::size_t(orientation)] = plane;
+    }
+    viewer.projection = new ProjectionView(m_document);
+    viewer.projection->setObjectName("beside_projectionView");
+    panes[3] = viewer.projection;
+    viewer.area = new PaneArea(panes);
+    viewer.area->setObjectName("beside_paneArea");
+    for (MprView *plane : viewer.planes)
+        connect(plane, &MprView::maximizeRequested, viewer.area, &PaneArea::toggleMaximized);
+    connect(viewer.projection, &ProjectionView::maximizeRequested, viewer.area,
+            &PaneArea::toggleMaximized);
+    return viewer;
+}
+
+QWidget *StudyBeside::makeHeading() {
+    auto *heading = new QWidget;
+    heading->setAttribute(Qt::WA_StyledBackground);
+    heading->setProperty("role", "studyHeading");
+    heading->setFixedHeight(headingHeight);
+    m_name->setObjectName("besideName");
+    // A long name gives way to the buttons.
+    m_name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_linked->setObjectName("linkButton");
+    m_linked->setText(tr("Linked"));
+    m_linked->setCheckable(true);
+    m_linked->setChecked(true);
+    m_linked->setToolTip(tr("View, planes and window of both studies move together; unlink, match "
+                            "the planes by hand, and link again (Shift+Y)"));
+    auto *close = new QToolButton;
+    close->setObjectName("closeBesideButton");
+    close->setText(tr("Close"));
+    close->setToolTip(tr("Close the study beside"));
+    auto *row = new QHBoxLayout(heading);
+    row->setContentsMargins(10, 2, 6, 2);
+    row->addWidget(m_name, 1);
+    row->addWidget(new JobStrip(m_jobs, "beside"));
+    row->addWidget(m_linked);
+    row->addWidget(close);
+    connect(m_linked, &QToolButton::toggled, this, [this](bool isLinked) {
+        m_link->setLinked(isLinked);
+        emit linkChanged(isLinked);
+    });
+    connect(close, &QToolButton::clicked, this, &StudyBeside::closeRequested);
+    return heading;
+}
+
+void StudyBeside::open(const StudySource &source) {
+    m_name->setText(headingText(source));
+    m_name->setToolTip(headingText(source));
+    m_link->hold();
+    m_opener.openSource(m_document.addSources({source}).front());
+    if (m_document.volume() && !m_document.isPreview()) // it was there already
+        m_link->begin();
+}
+
+void StudyBeside::setTool(Tool tool) {
+    const Tool here = measuredBy(tool) || tool == Tool::crop ? Tool::window : tool;
+    for (MprView *plane : m_viewer.planes)
+        plane->setTool(here);
+    m_viewer.projection->setTool(here);
+}
+
+} // namespace pellucid::ui

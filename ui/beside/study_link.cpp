@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/beside/study_link.h"
+
+#include <glm/common.hpp>
+
+#include "ui/document/commands.h"
+#include "ui/document/document.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/pane_area.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid::ui {
+
+StudyLink::StudyLink(const Viewer &leader, const Viewer &follower, QObject *parent)
+    : QObject(parent), m_leader(leader), m_follower(follower) {
+    linkViews(leader, follower);
+    linkViews(follower, leader);
+    linkPanes(leader, follower);
+    linkPanes(follower, leader);
+    connect(&leader.document, &Document::crosshairChanged, this,
+            [this] { passCrosshair(m_leader, m_follower, 1.0); });
+    connect(&follower.document, &Document::crosshairChanged, this,
+            [this] { passCrosshair(m_follower, m_leader, -1.0); });
+    for (const auto changed : {&Document::sceneChanged, &Document::displayWindowChanged})
+        connect(&leader.document, changed, this, &StudyLink::follow);
+    // Look and crosshair of the leader's next volume are set after it.
+    connect(&leader.document, &Document::volumeChanged, this, [this] {
+        const bool isWaited = m_isHeld;
+        m_isHeld = true;
+        if (!isWaited)
+            QMetaObject::invokeMethod(this, &StudyLink::begin, Qt::QueuedConnection);
+    });
+    // Told after every edit, one that was merged too.
+    connect(follower.document.undoStack(), &QUndoStack::indexChanged, this,
+            &StudyLink::passWindowBack);
+}
+
+template <class F> void StudyLink::pass(F &&f) {
+    if (!m_isLinked || m_isHeld || m_isPassing || !m_leader.document.volume() ||
+        !m_follower.document.volume())
+        return;
+    m_isPassing = true;
+    f();
+    m_isPassing = false;
+}
+
+bool StudyLink::sharesUnit() const {
+    return m_leader.document.volume()->unit() == m_follower.document.volume()->unit();
+}
+
+void StudyLink::setLinked(bool isLinked) {
+    m_isLinked = isLinked;
+    matchCrosshairs();
+    follow();
+}
+
+void StudyLink::begin() {
+    m_isHeld = false;
+    matchCrosshairs();
+    follow();
+}
+
+void StudyLink::matchCrosshairs() {
+    if (m_leader.document.volume() && m_follower.document.volume())
+        m_offsetMm = m_follower.document.crosshair().mm - m_leader.document.crosshair().mm;
+}
+
+void StudyLink::follow() {
+    pass([this] {
+        if (!m_follower.document.isPreview() && sharesUnit()) {
+            const scene::Scene &shown = m_leader.document.scene();
+            scene::Scene scene = m_follower.document.scene();
+            scene.look = shown.look;
+            scene.crop = shown.crop;
+            scene.shading = shown.shading;
+            scene.image = shown.image;
+            scene.tolerance = shown.tolerance;
+            scene.interpolation = shown.interpolation;
+            scene.tone = shown.tone;
+            // Values without a unit have windows of their own volume.
+            if (m_leader.document.volume()->unit() == volume::ValueUnit::hounsfield) {
+                scene.fieldWindow = shown.fieldWindow;
+                m_follower.document.setDisplayWindow(m_leader.document.displayWindow());
+            }
+            if (!(scene == m_follower.document.scene()))
+                m_follower.document.setScene(scene);
+        }
+        m_follower.document.setCut(m_leader.document.cut());
+        passCamera(m_leader, m_follower);
+    });
+}
+
+void StudyLink::linkViews(const Viewer &from, const Viewer &to) {
+    connect(&from.document, &Document::cameraChanged, this,
+            [this, from, to] { pass([&] { passCamera(from, to); }); });
+    connect(&from.document, &Document::cutChanged, this,
+            [this, from, to] { pass([&] { to.document.setCut(from.document.cut()); }); });
+    for (std::size_t n = 0; n < from.planes.size(); ++n)
+        connect(from.planes[n], &MprView::viewMoved, this, [this, from, to, n] {
+            pass([&] { to.planes[n]->moveView(from.planes[n]->view()); });
+        });
+}
+
+void StudyLink::passCamera(const Viewer &from, const Viewer &to) {
+    to.projection->setOrbitsCrosshair(from.projection->orbitsCrosshair());
+    to.projection->adoptCamera(from.document.scene().camera, from.projection->pivotMm());
+}
+
+void StudyLink::linkPanes(const Viewer &from, const Viewer &to) {
+    // Layouts are alike even where the studies are not linked: panes are compared in pairs.
+    connect(from.area, &PaneArea::arranged, to.area,
+            [from, to] { to.area->arrangeAs(*from.area); });
+}
+
+void StudyLink::passCrosshair(const Viewer &from, const Viewer &to, double sign) {
+    pass([&] {
+        const volume::Lattice &lattice = to.document.volume()->lattice();
+        const glm::dvec3 wanted = from.document.crosshair().mm + sign * m_offsetMm;
+        // Where one study ends the other still goes on.
+        const glm::dvec3 last(lattice.size().i - 1, lattice.size().j - 1, lattice.size().k - 1);
+        const glm::dvec3 voxel =
+            glm::clamp(lattice.voxel(volume::PatientPoint{wanted}).v, glm::dvec3(0.0), last);
+        to.document.setCrosshair(lattice.patient(volume::VoxelPoint{voxel}));
+    });
+}
+
+void StudyLink::passWindowBack() {
+    pass([this] {
+        const QUndoStack &edits = *m_follower.document.undoStack();
+        const auto *const last =
+            dynamic_cast<const EditDisplayWindow *>(edits.command(edits.index() - 1));
+        if (last == nullptr || !sharesUnit() ||
+            m_leader.document.volume()->unit() != volume::ValueUnit::hounsfield)
+            return;
+        // One drag there is one step back here.
+        m_leader.document.undoStack()->push(new EditDisplayWindow(
+            m_leader.document, m_follower.document.displayWindow(), last->drag()));
+    });
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/beside/study_pair.h"
+
+#include <QLabel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "ui/beside/study_beside.h"
+#include "ui/document/document.h"
+#include "ui/views/pane_area.h"
+
+namespace pellucid::ui {
+
+StudyPair::StudyPair(const Viewer &open, GraphicsCard &card, QWidget *parent)
+    : QSplitter(parent), m_open(open), m_card(card), m_heading(new QLabel) {
+    setObjectName("viewers");
+    setChildrenCollapsible(false);
+    m_heading->setObjectName("studyHeading");
+    m_heading->setProperty("role", "studyHeading");
+    m_heading->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    m_heading->setFixedHeight(headingHeight);
+    m_heading->hide();
+    auto *panes = new QWidget;
+    auto *column = new QVBoxLayout(panes);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(m_heading);
+    column->addWidget(open.area, 1);
+    addWidget(panes);
+    for (const auto changed : {&Document::volumeChanged, &Document::currentSourceChanged})
+        connect(&open.document, changed, this, &StudyPair::showHeading);
+}
+
+void StudyPair::openBeside(const StudySource &source) {
+    if (m_beside == nullptr)
+        makeBeside();
+    showHeading();
+    m_beside->open(source);
+}
+
+void StudyPair::makeBeside() {
+    m_beside = new StudyBeside(m_open, m_card);
+    addWidget(m_beside);
+    setSizes({1, 1});
+    m_beside->setTool(m_tool);
+    connect(m_beside, &StudyBeside::closeRequested, this, &StudyPair::closeBeside,
+            Qt::QueuedConnection); // a button of what is deleted then
+    connect(m_beside, &StudyBeside::linkChanged, this, &StudyPair::linkChanged);
+    connect(m_beside, &StudyBeside::readoutChanged, this, &StudyPair::readoutChanged);
+    connect(m_beside, &StudyBeside::failed, this, &StudyPair::failed);
+    emit besideChanged(true);
+}
+
+void StudyPair::closeBeside() {
+    if (m_beside == nullptr)
+        return;
+    delete m_beside;
+    m_beside = nullptr;
+    emit besideChanged(false);
+    showHeading();
+}
+
+void StudyPair::toggleLink() {
+    m_beside->findChild<QToolButton *>("linkButton")->toggle();
+}
+
+void StudyPair::setTool(Tool tool) {
+    m_tool = tool;
+    if (m_beside != nullptr)
+        m_beside->setTool(tool);
+}
+
+// Which is which is asked only where there are two.
+void StudyPair::showHeading() {
+    const Document &document = m_open.document;
+    const int open = document.currentSource();
+    m_heading->setVisible(m_beside != nullptr && open >= 0);
+    if (open >= 0)
+        m_heading->setText(headingText(document.sources()[std::size_t(open)]));
+}
+
+} // namespace pellucid::ui

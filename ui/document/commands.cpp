@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/document/commands.h"
+
+#include <QCoreApplication>
+
+#include "ui/document/document.h"
+
+namespace pellucid::ui {
+
+EditScene::EditScene(Document &document, const scene::Scene &after, const QString &text,
+                     DragId drag)
+    : EditValue(document, document.scene(), after, text, drag) {}
+
+void EditScene::apply(const scene::Scene &wanted) {
+    scene::Scene scene = wanted;
+    scene.camera = m_document.scene().camera;
+    m_document.setScene(scene);
+}
+
+EditDisplayWindow::EditDisplayWindow(Document &document, const volume::ValueWindow &after,
+                                     DragId drag)
+    : EditValue(document, document.displayWindow(), after,
+                QCoreApplication::translate("Commands", "Window"), drag) {}
+
+void EditDisplayWindow::apply(const volume::ValueWindow &window) {
+    m_document.setDisplayWindow(window);
+}
+
+EditMeasurements::EditMeasurements(Document &document,
+                                   const std::vector<measure::Measurement> &after,
+                                   const QString &text, DragId drag)
+    : EditValue(document, document.measurements(), after, text, drag) {}
+
+void EditMeasurements::apply(const std::vector<measure::Measurement> &measurements) {
+    m_document.setMeasurements(measurements);
+}
+
+DragId nextDragId() {
+    static DragId last = 0;
+    return ++last;
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <QUndoCommand>
+
+#include "core/measure/measurement.h"
+#include "core/scene/scene.h"
+#include "core/volume/volume.h"
+
+namespace pellucid::ui {
+
+class Document;
+
+/// Commands of one drag carry the same number and merge; 0 never merges.
+using DragId = int;
+
+/// Replaces a value of the document. A kind of command tells its number, by which commands of one
+/// kind find each other, and how the value is set.
+template <class Value> class EditValue : public QUndoCommand {
+public:
+    void undo() override { apply(m_before); }
+    void redo() override { apply(m_after); }
+    DragId drag() const { return m_drag; }
+    bool mergeWith(const QUndoCommand *other) override {
+        const auto *next = static_cast<const EditValue *>(other); // of the same id
+        if (m_drag == 0 || next->m_drag != m_drag)
+            return false;
+        m_after = next->m_after;
+        return true;
+    }
+
+protected:
+    EditValue(Document &document, Value before, Value after, const QString &text, DragId drag)
+        : QUndoCommand(text), m_document(document), m_before(std::move(before)),
+          m_after(std::move(after)), m_drag(drag) {}
+    virtual void apply(const Value &value) = 0;
+
+    Document &m_document;
+
+private:
+    Value m_before, m_after;
+    DragId m_drag;
+};
+
+/// Replaces what the scene shows; the camera stays where it is looking.
+class EditScene : public EditValue<scene::Scene> {
+public:
+    EditScene(Document &document, const scene::Scene &after, const QString &text, DragId drag = 0);
+    int id() const override { return 1; }
+
+private:
+    void apply(const scene::Scene &scene) override;
+};
+
+/// Replaces the display window of the panes.
+class EditDisplayWindow : public EditValue<volume::ValueWindow> {
+public:
+    EditDisplayWindow(Document &document, const volume::ValueWindow &after, DragId drag = 0);
+    int id() const override { return 2; }
+
+private:
+    void apply(const volume::ValueWindow &window) override;
+};
+
+/// Replaces the measurements.
+class EditMeasurements : public EditValue<std::vector<measure::Measurement>> {
+public:
+    EditMeasurements(Document &document, const std::vector<measure::Measurement> &after,
+                     const QString &text, DragId drag = 0);
+    int id() const override { return 3; }
+
+private:
+    void apply(const std::vector<measure::Measurement> &measurements) override;
+};
+
+/// A number no other drag has.
+DragId nextDragId();
+
+} // namespace pellucid::ui

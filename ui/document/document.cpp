@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/document/document.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <QFileInfo>
+
+#include "core/files/file_ids.h"
+#include "core/task/error.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr int fewSlices = 6;
+
+volume::PatientPoint middleSample(const volume::Lattice &lattice) {
+    const volume::GridSize n = lattice.size();
+    return lattice.patient(volume::VoxelIndex{n.i / 2, n.j / 2, n.k / 2});
+}
+
+} // namespace
+
+Document::Document(QObject *parent) : QObject(parent) {}
+
+std::vector<int> Document::addSources(std::vector<StudySource> sources) {
+    std::vector<int> indices;
+    for (StudySource &source : sources) {
+        const QString key = source.key();
+        const int index = m_sourceIndices.value(key, int(m_sources.size()));
+        indices.push_back(index);
+        if (index == int(m_sources.size())) {
+            m_sourceIndices.insert(key, index);
+            m_sources.push_back(std::move(source));
+        } else {
+            m_sources[std::size_t(index)] = std::move(source);
+        }
+    }
+    emit sourcesChanged();
+    return indices;
+}
+
+void Document::closeSource(int index) {
+    m_sources.at(std::size_t(index)).isClosed = true;
+    emit sourcesChanged();
+}
+
+QString Document::place() const {
+    return m_currentSource < 0 ? QString() : m_sources[std::size_t(m_currentSource)].place();
+}
+
+void Document::setCurrentSource(int index) {
+    if (index == m_currentSource)
+        return;
+    m_currentSource = index;
+    emit currentSourceChanged();
+}
+
+void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
+    if (problems.empty())
+        return;
+    // The same folder opened again has the same ones.
+    std::set<std::pair<std::string, std::string>> known;
+    for (const dicom::Skipped &problem : m_problems)
+        known.emplace(problem.path.native(), problem.reason);
+    for (const dicom::Skipped &problem : problems)
+        if (known.emplace(problem.path.native(), problem.reason).second)
+            m_problems.push_back(problem);
+    emit problemsChanged();
+}
+
+void Document::requireOther(const std::vector<std::filesystem::path> &targets) const {
+    const files::FileIds there(targets);
+    if (there.isEmpty())
+        return;
+    for (const StudySource &source : m_sources)
+        for (const QString &file : source.files + source.lasting)
+            if (there.find(file.toStdString()))
+                throw task::Error(task::ErrorCode::usage, tr("%1 is a file of an open study")
+                                                              .arg(QFileInfo(file).fileName())
+                                                              .toStdString());
+}
+
+void Document::clearProblems() {
+    m_problems.clear();
+    emit problemsChanged();
+}
+
+void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow &initialWindow,
+                         const classify::FieldWindow &fieldWindow, bool preview) {
+    m_initialWindow = initialWindow;
+    m_fieldWindow = fieldWindow;
+    const bool same = m_volume && m_preview && m_volume->lattice() == volume.lattice();
+    m_volume = volume;
+    m_preview = preview;
+    if (!same) {
+        // Edits belong to the study they were made on.
+        m_undo.clear();
+        m_brightness.reset();
+        m_crosshair = middleSample(volume.lattice());
+        // Of few slices only their own planes show more than a strip.
+        m_cut.axes = volume.lattice().size().k < fewSlices && volume.notes().placed
+                         ? mpr::PlaneAxes::along(volume.lattice())
+                         : mpr::PlaneAxes();
+        m_measured.clear();
+        m_selectedMeasurement = -1;
+        // How well pictures are made belongs to the person, what they show to the study.
+        scene::Scene fresh;
+        fresh.tolerance = m_scene.tolerance;
+        fresh.interpolation = m_scene.interpolation;
+        m_scene = fresh;
+        m_selectedClass = -1;
+        m_scene.camera.orientation = scene::viewOrientation(scene::StandardView::front);
+    }
+    // A preview's quantiles are those of the slices that happened to come first; a window that the
+    // user has set meanwhile stays.
+    if (!same || (!preview && m_undo.count() == 0))
+        m_window = initialWindow;
+    emit volumeChanged();
+}
+
+void Document::closeVolume() {
+    m_volume.reset();
+    m_brightness.reset();
+    m_measured.clear();
+    m_selectedMeasurement = -1;
+    m_preview = false;
+    m_undo.clear();
+    emit volumeChanged();
+}
+
+void Document::announce() {
+    emit sourcesChanged();
+    emit problemsChanged();
+    emit currentSourceChanged();
+    if (!m_volume)
+        return;
+    emit volumeChanged();
+    emit sceneChanged();
+    emit displayWindowChanged();
+    emit crosshairChanged();
+    emit cutChanged();
+    emit measurementsChanged();
+}
+
+void Document::setCamera(const scene::Camera &camera) {
+    if (m_scene.camera == camera)
+        return;
+    m_scene.camera = camera;
+    emit cameraChanged();
+}
+
+void Document::setScene(const scene::Scene &scene) {
+    const bool isOtherCamera = m_scene.camera != scene.camera;
+    m_scene = scene;
+    emit sceneChanged();
+    if (isOtherCamera)
+        emit cameraChanged();
+}
+
+int Document::selectedClass() const {
+    const int count = int(m_scene.look.classes.size());
+    return count == 0 ? -1 : std::clamp(m_selectedClass, 0, count - 1);
+}
+
+void Document::selectClass(int index) {
+    if (index == m_selectedClass)
+        return;
+    m_selectedClass = index;
+    emit selectedClassChanged();
+}
+
+void Document::setTint(const std::optional<classify::TissueClass> &tint) {
+    if (tint == m_tint)
+        return;
+    m_tint = tint;
+    emit tintChanged();
+}
+
+void Document::setDisplayWindow(const volume::ValueWindow &window) {
+    m_window = window;
+    emit displayWindowChanged();
+}
+
+void Document::centerCrosshair() {
+    if (m_volume)
+        setCrosshair(middleSample(m_volume->lattice()));
+}
+
+void Document::setCut(const Cut &cut) {
+    if (cut == m_cut)
+        return;
+    m_cut = cut;
+    emit cutChanged();
+}
+
+std::vector<measure::Measurement> Document::measurements() const {
+    std::vector<measure::Measurement> all;
+    for (const Measured &m : m_measured)
+        all.push_back(m.measurement);
+    return all;
+}
+
+void Document::setMeasurements(const std::vector<measure::Measurement> &measurements) {
+    if (!m_volume || m_preview) // of what is there in part nothing is measured
+        return;
+    std::vector<Measured> measured;
+    for (const measure::Measurement &m : measurements) {
+        const std::size_t n = measured.size();
+        // Of a drag one changes, many times.
+        measured.push_back({m, n < m_measured.size() && m_measured[n].measurement == m
+                                   ? m_measured[n].result
+                                   : measure::measure(m, *m_volume)});
+    }
+    m_measured = std::move(measured);
+    emit measurementsChanged();
+    if (m_selectedMeasurement >= int(m_measured.size()))
+        selectMeasurement(-1);
+}
+
+void Document::selectMeasurement(int index) {
+    if (index == m_selectedMeasurement)
+        return;
+    m_selectedMeasurement = index;
+    emit selectedMeasurementChanged();
+}
+
+std::optional<picture::ToneRange> Document::brightness() const {
+    return m_brightness && m_brightness->of == ToneSubject(m_scene)
+               ? std::optional(m_brightness->range)
+               : std::nullopt;
+}
+
+void Document::setBrightness(const picture::ToneRange &range) {
+    const Brightness brightness{range, ToneSubject(m_scene)};
+    if (brightness == m_brightness)
+        return;
+    m_brightness = brightness;
+    emit brightnessChanged();
+}
+
+void Document::setCrosshair(volume::PatientPoint point) {
+    if (m_crosshair.mm == point.mm)
+        return;
+    m_crosshair = point;
+    emit crosshairChanged();
+}
+
+} // namespace pellucid::ui

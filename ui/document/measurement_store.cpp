@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/document/measurement_store.h"
+
+#include <utility>
+
+#include <QScopedValueRollback>
+
+#include "core/files/atomic_file.h"
+#include "core/files/read_text.h"
+#include "core/files/user_folders.h"
+#include "core/task/error.h"
+#include "ui/document/document.h"
+#include "ui/language/spoken.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int restMs = 400;
+constexpr std::size_t mostOfMeasurements = 64 << 20; // far more than anybody draws
+
+void write(const fs::path &path, const std::string &text) {
+    files::AtomicFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+} // namespace
+
+MeasurementStore::MeasurementStore(Document &document, QObject *parent)
+    : QObject(parent), m_document(document) {
+    connect(&document, &Document::volumeChanged, this, &MeasurementStore::load);
+    connect(&document, &Document::measurementsChanged, this, &MeasurementStore::rememberToWrite);
+    m_rest.setSingleShot(true);
+    m_rest.setInterval(restMs);
+    connect(&m_rest, &QTimer::timeout, this, &MeasurementStore::writePending);
+}
+
+MeasurementStore::~MeasurementStore() {
+    writePending();
+}
+
+std::optional<fs::path> MeasurementStore::file() const {
+    const auto folder = files::userDataFolder();
+    const int source = m_document.currentSource();
+    if (!folder || source < 0)
+        return std::nullopt;
+    const QString digest = m_document.sources()[std::size_t(source)].digest();
+    return *folder / "measurements" / (digest.toStdString() + ".json");
+}
+
+void MeasurementStore::load() {
+    writePending(); // of the study before
+    if (!m_document.volume() || m_document.isPreview())
+        return;
+    const auto path = file();
+    std::error_code ignored;
+    if (!path || !fs::exists(*path, ignored))
+        return;
+    const QScopedValueRollback loading(m_isLoading, true);
+    try {
+        m_document.setMeasurements(
+            measure::measurementsFromJson(files::readText(*path, mostOfMeasurements)));
+    } catch (const task::Error &error) {
+        // What cannot be read is kept under another name: the next save would write over it.
+        std::string kept = path->string() + ".unreadable";
+        std::error_code notMoved;
+        fs::rename(*path, kept, notMoved);
+        if (notMoved) {
+            m_untouched = *path;
+            kept = path->string();
+        }
+        emit failed(
+            tr("The measurements of this study cannot be read: %1").arg(spoken(error.reason())),
+            QString::fromStdString(kept));
+    }
+}
+
+void MeasurementStore::rememberToWrite() {
+    const auto path = file();
+    if (m_isLoading || !m_document.volume())
+        return;
+    if (!path) {
+        emit failed(tr("The measurements cannot be kept: there is no folder for them"), {});
+        return;
+    }
+    m_pending =
+        Pending{*path, m_document.measured().empty() ? std::string()
+                                                     : measure::toJson(m_document.measurements())};
+    m_rest.start();
+}
+
+void MeasurementStore::writePending() {
+    m_rest.stop();
+    if (!m_pending)
+        return;
+    const Pending pending = *std::exchange(m_pending, std::nullopt);
+    try {
+        if (pending.path == m_untouched)
+            throw task::Error(task::ErrorCode::output, "those of before cannot be read");
+        std::error_code problem;
+        if (pending.text.empty())
+            fs::remove(pending.path, problem);
+        else
+            fs::create_directories(pending.path.parent_path(), problem);
+        if (problem)
+            throw task::Error(task::ErrorCode::output, problem.message());
+        if (!pending.text.empty())
+            write(pending.path, pending.text);
+    } catch (const task::Error &error) {
+        emit failed(tr("The measurements cannot be kept: %1").arg(spoken(error.reason())),
+                    QString::fromStdString(pending.path.string()));
+    }
+}
+
+void MeasurementStore::exportTable(const QString &path) const {
+    if (!m_document.volume())
+        throw task::Error(task::ErrorCode::usage, tr("No study is open").toStdString());
+    write(path.toStdString(), measure::toCsv(m_document.measurements(), *m_document.volume()));
+}
+
+} // namespace pellucid::ui

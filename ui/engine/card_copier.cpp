@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/engine/card_copier.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "ui/document/document.h"
+#include "ui/engine/graphics_card.h"
+#include "ui/jobs/job_runner.h"
+#include "ui/language/spoken.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr std::size_t mostCopies = 2;
+
+bool isHeld(const gpu::GpuEngine &copy, const render::EngineParts &parts) {
+    const render::EngineSpectra &spectra = copy.textures().spectra();
+    return spectra.fields == parts.spectra.fields &&
+           (parts.spectra.gradients.empty() || spectra.gradients == parts.spectra.gradients);
+}
+
+} // namespace
+
+struct CardCopier::Copied {
+    std::shared_ptr<gpu::GpuEngine> engine;
+    QString refusal; ///< if there is none
+    bool isLost = false;
+};
+
+CardCopier::Copied CardCopier::copyTo(const std::shared_ptr<gpu::FramePasses> &passes,
+                                      const render::ProjectionEngine &engine, gpu::Fetch fetch,
+                                      const task::Progress &progress) {
+    try {
+        return {gpu::copyToCard(passes, engine, fetch, progress), {}};
+    } catch (const task::Error &error) {
+        return {nullptr, spoken(error.reason()), error.code() == task::ErrorCode::noSuchDevice};
+    } catch (const std::bad_alloc &) {
+        return {nullptr, tr("not enough memory to copy to the graphics card")};
+    }
+}
+
+CardCopier::CardCopier(Document &document, JobRunner &jobs, GraphicsCard &card, QObject *parent)
+    : QObject(parent), m_document(document), m_jobs(jobs), m_card(card) {
+    connect(&document, &Document::volumeChanged, this, [this] {
+        if (!m_document.isPreview())
+            forget();
+    });
+    connect(&card, &GraphicsCard::changed, this, &CardCopier::cardChanged);
+    connect(
+        &jobs, &JobRunner::finished, this,
+        [this] {
+            // The copy was not delivered: the next job stopped it, or somebody who wants none.
+            if (std::exchange(m_isCopying, false) && !m_jobs.isRunning()) {
+                m_isGivenUp = true;
+                m_reason = tr("the copy to the graphics card was cancelled");
+                if (m_current)
+                    announceAgain();
+            }
+            copyWhenIdle();
+        },
+        // Whoever ended the job may be about to start the next.
+        Qt::QueuedConnection);
+}
+
+void CardCopier::forget() {
+    m_current.reset();
+    m_copies.clear();
+    m_isGivenUp = false;
+}
+
+void CardCopier::cardChanged() {
+    m_copies.clear();
+    m_isGivenUp = false;
+    // Nobody wants what is under way.
+    if (std::exchange(m_isCopying, false))
+        m_jobs.cancel();
+    if (!m_current)
+        return;
+    announceAgain();
+    copyWhenIdle();
+}
+
+void CardCopier::show(const prepare::PreparedEngine &engine, EngineStage stage) {
+    m_current = Current{engine, stage};
+    m_isGivenUp = false;
+    announce(stage);
+    copyWhenIdle();
+}
+
+std::shared_ptr<gpu::GpuEngine> CardCopier::copyOf(const render::EngineParts &parts) {
+    const auto held = std::find_if(m_copies.begin(), m_copies.end(),
+                                   [&](const auto &copy) { return isHeld(*copy, parts); });
+    if (held == m_copies.end())
+        return nullptr;
+    if (parts.spectra.gradients.empty() && (*held)->textures().takesLight())
+        *held = (*held)->withoutLight();
+    return (*held)->withShares(parts.shares);
+}
+
+void CardCopier::announceAgain() {
+    announce(m_current->stage == EngineStage::full ? EngineStage::settled : m_current->stage);
+}
+
+void CardCopier::announce(EngineStage stage) {
+    const prepare::PreparedEngine &engine = m_current->engine;
+    ShownEngine shown{engine, copyOf(engine.engine->parts()), engine.plan.predictedError,
+                      m_card.reason()};
+    if (shown.onCard)
+        shown.predictedError =
+            std::max(shown.predictedError, gpu::planFetch(engine.plan, m_document.scene().tolerance,
+                                                          m_document.scene().shading)
+                                               .predictedError);
+    else if (m_card.passes())
+        shown.reason = m_isGivenUp                    ? m_reason
+                       : stage == EngineStage::coarse ? tr("a first, coarse picture")
+                                                      : tr("not on the graphics card yet");
+    emit engineReady(shown, stage);
+}
+
+void CardCopier::copyWhenIdle() {
+    // The first, small picture is gone before it is copied.
+    if (!m_current || m_current->stage == EngineStage::coarse || !m_card.passes() || m_isGivenUp ||
+        m_jobs.isRunning() || copyOf(m_current->engine.engine->parts()))
+        return;
+    // What else the card holds goes before it is short of memory, but for a look and its layers.
+    m_copies.resize(std::min(m_copies.size(), mostCopies - 1));
+    const auto engine = m_current->engine.engine;
+    const gpu::Fetch fetch =
+        gpu::planFetch(m_current->engine.plan, m_document.scene().tolerance).fetch;
+    m_jobs.start(tr("Copying to the graphics card"),
+                 [this, engine, fetch, passes = m_card.passes()](const Job &job) {
+                     const Copied copied = copyTo(passes, *engine, fetch, job.progress());
+                     job.deliver([this, engine, passes, copied] { take(copied, engine, passes); });
+                 });
+    m_isCopying = true;
+}
+
+void CardCopier::take(const Copied &copied, const std::shared_ptr<render::ProjectionEngine> &engine,
+                      const std::shared_ptr<gpu::FramePasses> &passes) {
+    m_isCopying = false;
+    if (copied.isLost)
+        m_card.giveUp(copied.refusal, passes);
+    if (passes != m_card.passes())
+        return;
+    if (copied.engine)
+        m_copies.insert(m_copies.begin(), copied.engine);
+    if (!m_current)
+        return;
+    m_isGivenUp = !copied.engine && m_current->engine.engine == engine;
+    m_reason = copied.refusal;
+    announceAgain();
+}
+
+} // namespace pellucid::ui

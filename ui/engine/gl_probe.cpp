@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/engine/gl_probe.h"
+
+#include <QGuiApplication>
+#include <QLibrary>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+
+namespace pellucid::ui {
+
+const std::optional<gpu::Capabilities> &windowCapabilities() {
+    static const auto capabilities = []() -> std::optional<gpu::Capabilities> {
+        // These have contexts, where there is a display, but no windows that show what they draw.
+        const QStringList withoutSurfaces{"offscreen", "minimal", "linuxfb", "vnc"};
+        if (withoutSurfaces.contains(QGuiApplication::platformName()))
+            return std::nullopt;
+#ifdef Q_OS_LINUX
+        // libepoxy looks a context of GLX up there, and ends the program without it.
+        if (!QLibrary("GL", 1).load())
+            return std::nullopt;
+#endif
+        QOffscreenSurface surface;
+        surface.create();
+        QOpenGLContext context;
+        if (!surface.isValid() || !context.create() || !context.makeCurrent(&surface))
+            return std::nullopt;
+        const gpu::Capabilities found = gpu::currentCapabilities();
+        context.doneCurrent();
+        return found;
+    }();
+    return capabilities;
+}
+
+} // namespace pellucid::ui

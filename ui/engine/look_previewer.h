@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <QImage>
+#include <QObject>
+
+#include "core/presets/preset_library.h"
+#include "core/volume/statistics.h"
+#include "ui/jobs/job_runner.h"
+
+namespace pellucid::ui {
+
+class Document;
+
+/// Looks at the open volume in the background: its histogram, and small pictures of it through
+/// presets.
+class LookPreviewer : public QObject {
+    Q_OBJECT
+public:
+    explicit LookPreviewer(Document &document, QObject *parent = nullptr);
+
+    /// Pictures of the open volume through presets, one after the other.
+    void preview(const std::vector<presets::Preset> &presets);
+
+    static constexpr int pictureWidth = 60, pictureHeight = 52;
+
+signals:
+    void histogramReady(const pellucid::volume::Histogram &histogram);
+    void pictureReady(const QString &preset, const QImage &picture);
+
+private:
+    Document &m_document;
+    JobRunner m_jobs; // its own: it stops for nobody and shows no progress
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/engine/render_worker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "core/task/error.h"
+#include "ui/language/failure.h"
+#include "ui/language/spoken.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr std::chrono::milliseconds cardPatience(150);
+
+} // namespace
+
+RenderWorker::RenderWorker(QObject *parent)
+    : QObject(parent), m_thread([this](const std::stop_token &stop) { run(stop); }) {
+    qRegisterMetaType<std::shared_ptr<const RenderedFrame>>();
+    qRegisterMetaType<std::shared_ptr<gpu::FramePasses>>();
+}
+
+RenderWorker::~RenderWorker() {
+    m_thread.request_stop();
+    m_thread.join();
+    if (m_card.valid())
+        m_card.wait();
+}
+
+void RenderWorker::setEngine(const std::optional<prepare::PreparedEngine> &prepared,
+                             std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation) {
+    const std::lock_guard lock(m_mutex);
+    m_prepared = prepared;
+    m_onCard = std::move(onCard);
+    if (m_generation != generation)
+        m_next.reset();
+    m_generation = generation;
+    m_last.reset();
+    if (!m_prepared) {
+        m_dropsCard = true;
+        m_wake.notify_one();
+    }
+}
+
+std::uint64_t RenderWorker::request(const scene::Camera &camera,
+                                    const scene::ImageDefinition &image,
+                                    const shading::Shading &shading, const Reduction &reduction,
+                                    bool wantsTone, bool wantsError,
+                                    const std::optional<Compared> &compared) {
+    const std::lock_guard lock(m_mutex);
+    if (!m_prepared)
+        return m_number;
+    m_next = Request{*m_prepared, m_onCard,  m_generation, camera,   image,     shading,
+                     reduction,   wantsTone, wantsError,   compared, ++m_number};
+    m_wake.notify_one();
+    return m_number;
+}
+
+std::future<picture::ProjectionImage>
+RenderWorker::picture(std::shared_ptr<render::ProjectionEngine> engine, const scene::Camera &camera,
+                      const scene::ImageDefinition &image, const shading::Shading &shading) {
+    const std::lock_guard lock(m_mutex);
+    m_pictures.emplace_back([engine = std::move(engine), camera, image, shading] {
+        if (!engine)
+            throw task::Error(task::ErrorCode::usage, "there is no projection yet");
+        return engine->render(camera, image, shading);
+    });
+    m_wake.notify_one();
+    return m_pictures.back().get_future();
+}
+
+void RenderWorker::run(const std::stop_token &stop) {
+    for (;;) {
+        std::optional<Request> request;
+        bool dropsCard = false;
+        std::packaged_task<picture::ProjectionImage()> picture;
+        {
+            std::unique_lock lock(m_mutex);
+            if (!m_wake.wait(lock, stop,
+                             [this] { return m_next || m_dropsCard || !m_pictures.empty(); }))
+                return;
+            dropsCard = std::exchange(m_dropsCard, false);
+            if (!m_pictures.empty()) {
+                picture = std::move(m_pictures.front());
+                m_pictures.pop_front();
+            } else if (m_next) {
+                m_last = m_next;
+                request = std::move(m_next);
+                m_next.reset();
+            }
+        }
+        if (dropsCard && m_card.valid())
+            m_card.get();
+        if (picture.valid())
+            picture();
+        if (!request)
+            continue;
+        scene::Camera &camera = request->camera;
+        const double factor = std::max(request->reduction.draft ? 2.0 : 1.0,
+                                       request->reduction.finestPixelMm / camera.pixelMm);
+        if (factor > 1.0) {
+            // The reduced image covers the same part of the patient, up to a pixel.
+            camera.width = std::max(1, int(std::lround(camera.width / factor)));
+            camera.height = std::max(1, int(std::lround(camera.height / factor)));
+            camera.pixelMm *= factor;
+        }
+        makeFrame(*request);
+    }
+}
+
+std::shared_ptr<RenderedFrame> RenderWorker::frameFor(const Request &request) const {
+    auto frame = std::make_shared<RenderedFrame>();
+    frame->generation = request.generation;
+    frame->number = request.number;
+    frame->draft = request.reduction.draft;
+    return frame;
+}
+
+void RenderWorker::makeFrame(const Request &request) {
+    try {
+        auto frame = frameFor(request);
+        if (!request.onCard || !renderOnCard(frame, request))
+            renderInto(*frame, request);
+        if (const auto &other = request.compared)
+            frame->compared = other->engine->render(request.camera, other->image, other->shading);
+        emit frameReady(std::move(frame));
+    } catch (...) {
+        emit failed(currentFailure().what);
+    }
+}
+
+RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
+    CardFrame answer;
+    answer.number = request.number;
+    answer.onCard = request.onCard;
+    try {
+        auto frame = frameFor(request);
+        gpu::CardTimes times;
+        frame->onCard =
+            request.onCard->renderOnCard(request.camera, request.image, request.shading, &times);
+        // The loss of detail depends on the part that is shown.
+        const bool wantsError = request.wantsError && request.prepared.isCoarse;
+        if (request.wantsTone || wantsError) {
+            const picture::ProjectionImage image = frame->onCard->download();
+            if (request.wantsTone)
+                frame->automaticTone = picture::toneRange(image, {});
+            if (wantsError)
+                frame->error = prepare::errorOf(request.prepared, image, request.camera,
+                                                request.image, request.shading);
+        }
+        frame->times = {times.sliceMs, times.transformMs};
+        answer.frame = std::move(frame);
+    } catch (const task::Error &error) {
+        answer.refusal = spoken(error.reason());
+        // A picture too large for the card is none of its next.
+        answer.isLost = error.code() != task::ErrorCode::outOfMemory;
+    } catch (...) {
+        answer.refusal = currentFailure().what;
+    }
+    const std::lock_guard lock(m_mutex);
+    m_cardIsDone = true;
+    // The processor made this one meanwhile: what was asked for last is asked for once more, now
+    // that the card is ready.
+    if (m_cardIsLate && !m_next && m_last && m_last->onCard) {
+        m_next = m_last;
+        m_wake.notify_one();
+    }
+    return answer;
+}
+
+// Whether the card made the frame. A driver compiles what a new kind of frame needs, which may take
+// longer than a hand waits.
+bool RenderWorker::renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Request &request) {
+    const auto isBusy = [this] {
+        const std::lock_guard lock(m_mutex);
+        m_cardIsLate = !m_cardIsDone;
+        return m_cardIsLate;
+    };
+    if (m_card.valid()) {
+        if (isBusy()) {
+            frame->refusal = tr("the graphics card is being prepared");
+            return false;
+        }
+        // What came late: it may be what is asked for, or say that the card is gone.
+        const CardFrame late = m_card.get();
+        if (late.onCard == request.onCard && (late.number == request.number || late.isLost))
+            return take(late, frame);
+    }
+    m_cardIsDone = m_cardIsLate = false; // nobody else looks at them now
+    m_card = std::async(std::launch::async, [this, request] { return askCard(request); });
+    if (m_card.wait_for(cardPatience) != std::future_status::ready && isBusy()) {
+        frame->refusal = tr("the graphics card is being prepared");
+        return false;
+    }
+    return take(m_card.get(), frame);
+}
+
+bool RenderWorker::take(const CardFrame &answer, std::shared_ptr<RenderedFrame> &frame) {
+    if (answer.frame) {
+        frame = answer.frame;
+        return true;
+    }
+    frame->refusal = answer.refusal;
+    if (!answer.isLost)
+        return false;
+    {
+        const std::lock_guard lock(m_mutex);
+        if (m_onCard == answer.onCard)
+            m_onCard.reset();
+    }
+    emit cardFailed(answer.refusal, answer.onCard->textures().passes());
+    return false;
+}
+
+void RenderWorker::renderInto(RenderedFrame &frame, const Request &request) {
+    frame.image = request.prepared.engine->render(request.camera, request.image, request.shading,
+                                                  &frame.times);
+    if (request.wantsTone)
+        frame.automaticTone = picture::toneRange(frame.image, {});
+    if (request.wantsError)
+        frame.error = prepare::errorOf(request.prepared, frame.image, request.camera, request.image,
+                                       request.shading);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include <QObject>
+
+#include "core/picture/compose.h"
+#include "core/prepare/prepared_engine.h"
+#include "gpu/gpu_engine.h"
+
+namespace pellucid::ui {
+
+/// A finished frame.
+struct RenderedFrame {
+    /// Of the request: frames of what is no longer shown are dropped.
+    std::uint64_t generation = 0;
+    picture::ProjectionImage image;
+    /// In place of the image, where the graphics card made it.
+    std::shared_ptr<const gpu::CardPicture> onCard;
+    /// Why the processor made it and not the card, if that was to.
+    QString refusal;
+    /// What an automatic tone makes of it, if that was asked for.
+    std::optional<picture::ToneRange> automaticTone;
+    /// The same view of what it is compared with, if that was asked for.
+    std::optional<picture::ProjectionImage> compared;
+    picture::FrameTimes times;
+    /// Of this picture against the study, where that was asked for and is known.
+    std::optional<double> error;
+    std::uint64_t number = 0; ///< of the request it answers
+    bool draft = false;
+};
+
+/// Makes projections on a thread of its own, so that the event loop never waits for one. Only the
+/// latest request counts: older ones that have not begun are dropped.
+class RenderWorker : public QObject {
+    Q_OBJECT
+public:
+    explicit RenderWorker(QObject *parent = nullptr);
+    ~RenderWorker() override;
+
+    /// Sets the engine that makes the frames, or none. `onCard`: the same engine on the graphics
+    /// card, or none; it is used until it fails. `generation`: the number that its frames will
+    /// carry; a pending request of another generation is dropped.
+    void setEngine(const std::optional<prepare::PreparedEngine> &prepared,
+                   std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation);
+    /// How a frame is made smaller than it is shown.
+    struct Reduction {
+        bool draft = false; ///< half the pixels a side: the central part of the same spectrum
+        /// Pixels are made at least this large; finer ones would only magnify.
+        double finestPixelMm = 0.0;
+    };
+    /// Another look that each frame is made of too.
+    struct Compared {
+        std::shared_ptr<render::ProjectionEngine> engine;
+        scene::ImageDefinition image;
+        shading::Shading shading;
+    };
+    /// Returns the number of the request, which its frame will carry. `wantsError`: not while the
+    /// view moves, as computing the error takes longer than the frame.
+    std::uint64_t request(const scene::Camera &camera, const scene::ImageDefinition &image,
+                          const shading::Shading &shading, const Reduction &reduction,
+                          bool wantsTone, bool wantsError,
+                          const std::optional<Compared> &compared = {});
+    /// A picture of one's own, before the next frame: engines render on this thread alone. *Throws*
+    /// what rendering throws, and std::future_error if the worker ends before.
+    std::future<picture::ProjectionImage> picture(std::shared_ptr<render::ProjectionEngine> engine,
+                                                  const scene::Camera &camera,
+                                                  const scene::ImageDefinition &image,
+                                                  const shading::Shading &shading);
+
+signals:
+    void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
+    void failed(const QString &reason);
+    /// The card cannot be used any more; the frame was made on the processor instead.
+    void cardFailed(const QString &reason,
+                    const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
+
+private:
+    struct Request {
+        prepare::PreparedEngine prepared;
+        std::shared_ptr<gpu::GpuEngine> onCard;
+        std::uint64_t generation;
+        scene::Camera camera;
+        scene::ImageDefinition image;
+        shading::Shading shading;
+        Reduction reduction;
+        bool wantsTone, wantsError;
+        std::optional<Compared> compared;
+        std::uint64_t number;
+    };
+    /// What became of a frame on the card.
+    struct CardFrame {
+        std::uint64_t number = 0; ///< of the request
+        std::shared_ptr<gpu::GpuEngine> onCard;
+        std::shared_ptr<RenderedFrame> frame; ///< none: refused
+        QString refusal;
+        bool isLost = false;
+    };
+    void run(const std::stop_token &stop);
+    void makeFrame(const Request &request);
+    std::shared_ptr<RenderedFrame> frameFor(const Request &request) const;
+    void renderInto(RenderedFrame &frame, const Request &request);
+    bool renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Request &request);
+    CardFrame askCard(const Request &request);
+    bool take(const CardFrame &answer, std::shared_ptr<RenderedFrame> &frame);
+
+    std::optional<prepare::PreparedEngine> m_prepared;
+    std::shared_ptr<gpu::GpuEngine> m_onCard;
+    std::uint64_t m_generation = 0;
+    std::mutex m_mutex;
+    std::condition_variable_any m_wake;
+    std::optional<Request> m_next, m_last;
+    bool m_dropsCard = false; ///< what the card made late is of a study that is closed
+    std::deque<std::packaged_task<picture::ProjectionImage()>> m_pictures;
+    std::uint64_t m_number = 0;
+    /// A frame that the card takes long for; meanwhile the processor makes them.
+    std::future<CardFrame> m_card;
+    bool m_cardIsLate = false, m_cardIsDone = false;
+    std::jthread m_thread;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/engine/shared_context.h"
+
+#include <QCoreApplication>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QThread>
+
+#include "core/system/log.h"
+#include "core/task/error.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+[[noreturn]] void refuse(const QString &why) {
+    throw task::Error(task::ErrorCode::noSuchDevice, why.toStdString());
+}
+
+// Whoever lets go of the device last may be any thread.
+template <class Object> void remove(std::unique_ptr<Object> object) {
+    if (object->thread() == QThread::currentThread())
+        object.reset();
+    else
+        object.release()->deleteLater();
+}
+
+} // namespace
+
+SharedContext::SharedContext()
+    : m_surface(std::make_unique<QOffscreenSurface>()),
+      m_context(std::make_unique<QOpenGLContext>()) {
+    if (QOpenGLContext::globalShareContext() == nullptr)
+        refuse("no OpenGL here");
+    QSurfaceFormat format = QSurfaceFormat::defaultFormat();
+    format.setVersion(4, 3);
+    m_surface->setFormat(format);
+    m_surface->create();
+    m_context->setFormat(format);
+    m_context->setShareContext(QOpenGLContext::globalShareContext());
+    if (!m_surface->isValid() || !m_context->create())
+        refuse("OpenGL here gives no second context");
+    if (!QOpenGLContext::areSharing(m_context.get(), QOpenGLContext::globalShareContext()))
+        refuse("OpenGL contexts here do not share what they hold");
+    if (!m_context->format().testOption(QSurfaceFormat::ResetNotification))
+        system::log("OpenGL here does not tell when its driver is reset");
+    // Without a thread, so that the one that needs it may take it.
+    m_context->moveToThread(nullptr);
+}
+
+SharedContext::~SharedContext() {
+    remove(std::move(m_surface));
+    remove(std::move(m_context));
+}
+
+void SharedContext::makeCurrent() {
+    if (m_context->thread() == nullptr)
+        m_context->moveToThread(QThread::currentThread());
+    if (!m_context->makeCurrent(m_surface.get()))
+        refuse("the OpenGL context cannot be used");
+}
+
+void SharedContext::doneCurrent() {
+    m_context->doneCurrent();
+    if (QCoreApplication *application = QCoreApplication::instance())
+        m_context->moveToThread(application->thread());
+}
+
+} // namespace pellucid::ui

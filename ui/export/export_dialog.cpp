@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/export/export_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QStyle>
+
+#include "core/dicom/scan.h"
+#include "core/task/error.h"
+#include "ui/document/document.h"
+#include "ui/jobs/job_runner.h"
+#include "ui/jobs/job_strip.h"
+#include "ui/language/spoken.h"
+#include "ui/opening/recent_paths.h"
+#include "ui/settings/file_dialogs.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+QComboBox *box(const char *name, const QStringList &entries) {
+    auto *box = new QComboBox;
+    box->setObjectName(name);
+    box->addItems(entries);
+    return box;
+}
+
+} // namespace
+
+ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunner &jobs,
+                           QWidget *parent)
+    : QDialog(parent), m_document(document), m_panes(panes), m_jobs(jobs),
+      m_pane(box("exportPaneBox", {tr("Axial"), tr("Coronal"), tr("Sagittal"), tr("Projection")})),
+      m_format(box("exportFormatBox", {tr("As it looks (PNG)"), tr("Grey in 16 bits (PNG)"),
+                                       tr("Values (NumPy, float)"), tr("Values (NRRD, float)"),
+                                       tr("DICOM Secondary Capture"), tr("Turntable, frames (PNG)"),
+                                       tr("Turntable, video (MP4)")})),
+      m_scale(box("exportScaleBox", {"1 x", "2 x", "3 x", "4 x"})),
+      m_annotated(new QCheckBox(tr("With annotations"))),
+      m_deidentified(new QCheckBox(tr("Without the patient's identity"))), m_path(new QLineEdit),
+      m_frames(new QSpinBox), m_said(new QLabel) {
+    setObjectName("exportDialog");
+    setWindowTitle(tr("Export picture"));
+    setAttribute(Qt::WA_DeleteOnClose);
+    m_pane->setCurrentIndex(int(Pane::projection));
+    m_annotated->setObjectName("exportAnnotatedBox");
+    m_annotated->setChecked(true);
+    m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them a picture "
+                               "has no patient's side on it"));
+    m_deidentified->setObjectName("exportDeidentifiedBox");
+    m_deidentified->setToolTip(tr("No name, number, dates or study of the patient, and a new study "
+                                  "UID (DICOM PS3.15, basic profile)"));
+    m_frames->setObjectName("exportFramesBox");
+    m_frames->setRange(2, 720);
+    m_frames->setValue(PictureExport().frameCount);
+    m_frames->setToolTip(tr("Pictures of one turn around the patient"));
+    m_path->setObjectName("exportPathEdit");
+    m_path->setMinimumWidth(360);
+    m_path->setText(QDir(exportFolder()).filePath("projection.png"));
+    m_said->setObjectName("exportSaidLabel");
+    m_said->setWordWrap(true);
+    auto *other = new QPushButton(tr("Browse..."));
+    other->setObjectName("exportBrowseButton");
+    auto *where = new QHBoxLayout;
+    where->addWidget(m_path, 1);
+    where->addWidget(other);
+    auto *form = new QFormLayout(this);
+    form->addRow(tr("Picture of"), m_pane);
+    form->addRow(tr("Format"), m_format);
+    form->addRow(tr("Size"), m_scale);
+    form->addRow(QString(), m_annotated);
+    form->addRow(QString(), m_deidentified);
+    form->addRow(tr("Frames"), m_frames);
+    form->addRow(tr("File"), where);
+    form->addRow(m_said);
+    auto *buttons = new QDialogButtonBox;
+    m_write = buttons->addButton(tr("Write"), QDialogButtonBox::AcceptRole);
+    m_write->setObjectName("exportWriteButton");
+    buttons->addButton(QDialogButtonBox::Cancel);
+    form->addRow(new JobStrip(jobs, "export"));
+    form->addRow(buttons);
+    for (QComboBox *choice : {m_pane, m_format, m_scale})
+        connect(choice, &QComboBox::currentIndexChanged, this, &ExportDialog::showChosen);
+    connect(m_deidentified, &QCheckBox::toggled, this, &ExportDialog::showChosen);
+    connect(m_panes.projection, &ProjectionView::finalImageShown, this, &ExportDialog::showChosen);
+    connect(&document, &Document::volumeChanged, this, &ExportDialog::showChosen);
+    connect(other, &QPushButton::clicked, this, &ExportDialog::browse);
+    connect(buttons, &QDialogButtonBox::accepted, this, &ExportDialog::write);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
+    connect(&jobs, &JobRunner::failed, this, [this](const QString &what) { m_failure = what; });
+    connect(&jobs, &JobRunner::finished, this, [this] {
+        showChosen();
+        if (!m_failure.isEmpty())
+            say(m_failure, "warning");
+        m_failure.clear();
+    });
+    showChosen();
+}
+
+ExportDialog::~ExportDialog() {
+    m_jobs.cancel();
+}
+
+PictureExport ExportDialog::chosen() const {
+    return {Pane(m_pane->currentIndex()),
+            PictureFormat(m_format->currentIndex()),
+            m_scale->currentIndex() + 1,
+            m_annotated->isChecked(),
+            m_frames->value(),
+            m_deidentified->isEnabled() && m_deidentified->isChecked()};
+}
+
+void ExportDialog::showChosen() {
+    const PictureExport what = chosen();
+    m_annotated->setEnabled(what.isPicture());
+    m_frames->setEnabled(what.isTurn());
+    m_deidentified->setEnabled(what.format == PictureFormat::capture);
+    const QWidget *const pane = m_panes.of(what.pane);
+    const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
+    const QString why = obstacle(what, m_panes, m_document);
+    if (m_jobs.isRunning()) // what it writes is decided
+        return;
+    QString text = tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height());
+    if (what.format == PictureFormat::capture)
+        text +=
+            "; " + (m_deidentified->isChecked() ? tr("holds nothing of the patient's identity")
+                                                : tr("holds the patient's name and identifier"));
+    if (what.format == PictureFormat::frames)
+        text += "; " + tr("one file for each frame, numbered");
+    say(why.isEmpty() ? text : why, why.isEmpty() ? "muted" : "warning");
+    m_write->setEnabled(why.isEmpty());
+    // The name goes with the format, as long as it is one of ours.
+    QString path = m_path->text();
+    for (int format = 0; format < m_format->count(); ++format)
+        if (const QString known = suffixOf(PictureFormat(format));
+            path.endsWith(known, Qt::CaseInsensitive)) {
+            path.chop(known.size());
+            m_path->setText(path + suffixOf(what.format));
+            break;
+        }
+}
+
+void ExportDialog::browse() {
+    const QString suffix = suffixOf(chosen().format);
+    const QString path = askWhereToWrite(this, tr("Export picture"), m_path->text(), "*" + suffix);
+    if (path.isEmpty())
+        return;
+    m_path->setText(path);
+    m_confirmed = path; // it was asked there
+}
+
+bool ExportDialog::mayReplace(const QString &path) {
+    const QString first = firstFileOf(chosen(), path);
+    if (path == m_confirmed && first == path)
+        return true;
+    if (!QFileInfo::exists(first))
+        return true;
+    QMessageBox question(QMessageBox::NoIcon, tr("Export picture"),
+                         tr("%1 is there already. Replace it?").arg(QFileInfo(first).fileName()),
+                         QMessageBox::Yes | QMessageBox::No, this);
+    question.setDefaultButton(QMessageBox::No);
+    return question.exec() == QMessageBox::Yes;
+}
+
+void ExportDialog::say(const QString &text, const char *role) {
+    m_said->setText(text);
+    m_said->setProperty("role", role);
+    m_said->style()->polish(m_said);
+}
+
+void ExportDialog::write() {
+    try {
+        const QString path = m_path->text();
+        if (!mayReplace(path))
+            return;
+        m_jobs.start(
+            tr("Writing"),
+            [this, path,
+             isCapture = chosen().format == PictureFormat::capture && !chosen().isDeidentified,
+             writer = pictureWriter(chosen(), m_panes, m_document, path)](const Job &job) {
+                writer(job.progress());
+                std::shared_ptr<const dicom::Catalogue> capture;
+                if (isCapture)
+                    capture =
+                        std::make_shared<const dicom::Catalogue>(dicom::scan({path.toStdString()}));
+                job.deliver([this, path, capture] {
+                    setExportFolder(QFileInfo(path).absolutePath(), m_document);
+                    emit written(path);
+                    if (capture)
+                        emit captured(capture);
+                    close();
+                });
+            });
+        m_write->setEnabled(false);
+    } catch (const task::Error &error) {
+        say(spoken(error.reason()), "warning");
+    }
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/export/picture_export.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <QCoreApplication>
+#include <QImage>
+#include <QPainter>
+#include <QPicture>
+
+#include "core/dicom/write_capture.h"
+#include "core/files/atomic_file.h"
+#include "core/files/file_set.h"
+#include "core/files/image_files.h"
+#include "core/picture/projection_volume.h"
+#include "core/task/error.h"
+#include "core/volume/nrrd.h"
+#include "ui/document/document.h"
+#include "ui/export/scene_files.h"
+#include "ui/export/video_writer.h"
+#include "ui/views/camera_moves.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int framesPerSecond = 25;
+
+struct PictureExportTexts {
+    Q_DECLARE_TR_FUNCTIONS(PictureExportTexts)
+};
+
+// From the lower to the upper end of the window in a straight line: figures, not looks.
+QImage sixteenBits(const picture::ProjectionImage &image, const scene::Tone &tone) {
+    QImage out(image.width, image.height, QImage::Format_Grayscale16);
+    const double scale = 65535.0 / (*tone.high - *tone.low);
+    for (int r = 0; r < image.height; ++r) {
+        auto *const row = reinterpret_cast<quint16 *>(out.scanLine(r));
+        const float *const in = image.samples.data() + std::size_t(r) * std::size_t(image.width);
+        for (int c = 0; c < image.width; ++c) {
+            const double v = std::clamp((double(in[c]) - *tone.low) * scale, 0.0, 65535.0);
+            row[c] = quint16(std::lround(tone.inverted ? 65535.0 - v : v));
+        }
+    }
+    return out;
+}
+
+QImage asItLooks(const picture::ProjectionImage &image, const scene::Tone &tone) {
+    const auto rgba = picture::compose(image, tone);
+    return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888)
+        .convertToFormat(QImage::Format_RGB32);
+}
+
+// What is drawn over a picture is drawn once, where the panes are, and put over it elsewhere.
+// *Units*: logical pixels.
+using Annotations = std::shared_ptr<const QPicture>;
+
+template <class Paint> Annotations recorded(bool isWanted, const Paint &paint) {
+    auto picture = std::make_shared<QPicture>();
+    if (isWanted) {
+        QPainter painter(picture.get());
+        paint(painter);
+    }
+    return picture;
+}
+
+void putOver(QImage &picture, const Annotations &annotations, double pixelRatio) {
+    if (annotations->isNull())
+        return;
+    picture.setDevicePixelRatio(pixelRatio);
+    QPainter painter(&picture);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.drawPicture(0, 0, *annotations);
+    painter.end();
+    picture.setDevicePixelRatio(1.0);
+}
+
+// `isGrey`: the picture is, whatever the colour of its annotations: captures in colour are read by
+// fewer programs.
+void write(const QImage &picture, PictureFormat format, const QString &path,
+           const dicom::CaptureLabels &labels, bool isGrey = false) {
+    if (format != PictureFormat::capture) {
+        QImage said = picture;
+        said.setText("Comment", "Not for diagnostic use");
+        writePictureFile(path, said);
+        return;
+    }
+    const QImage rgba = (isGrey ? picture.convertToFormat(QImage::Format_Grayscale8) : picture)
+                            .convertToFormat(QImage::Format_RGBA8888);
+    dicom::writeCapture(path.toStdString(), {rgba.constBits(), std::size_t(rgba.sizeInBytes())},
+                        rgba.height(), rgba.width(), labels);
+}
+
+// `seen`: the axes of the picture, of pixels of that size.
+dicom::CaptureLabels labelsOf(const Document &document, const mpr::Axes &seen, double pixelMm) {
+    const StudySource &source = document.sources().at(std::size_t(document.currentSource()));
+    dicom::CaptureLabels labels;
+    labels.pixelMm = document.volume()->notes().hasSpacing ? pixelMm : 0.0;
+    if (document.volume()->notes().placed)
+        labels.patientOrientation = scene::dicomOrientation(seen.right, seen.up);
+    if (!source.volume.file.isEmpty() || !source.phantom.isEmpty())
+        return labels; // a file or a phantom is nobody's
+    const StudyFacts &study = source.study;
+    labels.patientId = study.patientId.toStdString();
+    labels.patientName = study.patientName.toStdString();
+    labels.birthDate = study.birthDate.toStdString();
+    labels.sex = study.sex.toStdString();
+    labels.studyUid = study.uid.toStdString();
+    labels.studyDate = study.date.toStdString();
+    labels.studyDescription = study.description.toStdString();
+    return labels;
+}
+
+PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const Document &document,
+                          const QString &path) {
+    const MprView &view = *panes.planes[std::size_t(what.pane)];
+    const double ratio = view.devicePixelRatioF() * what.scale;
+    const mpr::Plane plane = view.plane();
+    dicom::CaptureLabels labels = labelsOf(document, plane.axes, plane.pixelMm / what.scale);
+    labels.seriesDescription = "Plane";
+    labels.derivation = "Reformatted plane";
+    if (what.isDeidentified)
+        labels = dicom::deidentified(labels);
+    const Names names = what.isDeidentified ? Names::hidden : Names::shown;
+    return [make = view.pictureMaker(what.scale), what, path, ratio, labels,
+            isGrey = !document.tint(), over = recorded(what.isAnnotated, [&](QPainter &painter) {
+                                           view.paintOver(painter, names);
+                                       })](const task::Progress &progress) {
+        QImage picture = make();
+        progress.report(0.3);
+        putOver(picture, over, ratio);
+        write(picture, what.format, path, labels, isGrey);
+    };
+}
+
+// Frame by frame: each has letters and a cube of its own.
+struct Turn {
+    std::vector<scene::Camera> cameras;
+    std::vector<Annotations> over;
+};
+
+// DESTINATION_0007.png of DESTINATION.png, as the command line names them.
+QString framePath(const QString &path, int frame) {
+    const QString stem = path.endsWith(".png", Qt::CaseInsensitive) ? path.chopped(4) : path;
+    return QString("%1_%2.png").arg(stem).arg(frame, 4, 10, QChar('0'));
+}
+
+PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
+                               const Document &document, const QString &path) {
+    ProjectionView &view = *panes.projection;
+    const scene::Scene scene = view.sceneOfPicture(what.scale);
+    const auto render = view.pictureRenderer();
+    const double ratio = view.devicePixelRatioF() * what.scale;
+    Turn turn;
+    const int count = what.isTurn() ? what.frameCount : 1;
+    const Names names = what.isDeidentified ? Names::hidden : Names::shown;
+    for (int n = 0; n < count; ++n) {
+        const double degrees = 360.0 * n / count;
+        turn.cameras.push_back(view.turnedAroundPatient(scene.camera, degrees));
+        turn.over.push_back(recorded(what.isAnnotated && what.isPicture(), [&](QPainter &painter) {
+            view.paintAnnotations(
+                painter, view.turnedAroundPatient(document.scene().camera, degrees), names);
+        }));
+    }
+    dicom::CaptureLabels labels =
+        labelsOf(document, {scene.camera.axes()[0], scene.camera.axes()[1]}, scene.camera.pixelMm);
+    if (what.isDeidentified)
+        labels = dicom::deidentified(labels);
+    return [what, path, scene, render, ratio, turn, labels, lattice = document.volume()->lattice(),
+            isGrey = classify::isGrey(scene.look) &&
+                     scene.shading.isGrey()](const task::Progress &progress) {
+        const auto picture = [&](std::size_t n) {
+            QImage made = asItLooks(render(turn.cameras[n]), scene.tone);
+            putOver(made, turn.over[n], ratio);
+            return made;
+        };
+        const std::string file = path.toStdString();
+        const auto everyFrame = [&](const auto &add) {
+            for (std::size_t n = 0; n < turn.cameras.size(); ++n) {
+                progress.report(double(n) / double(turn.cameras.size()));
+                add(picture(n), int(n));
+            }
+        };
+        switch (what.format) {
+        case PictureFormat::png:
+        case PictureFormat::capture:
+            write(picture(0), what.format, path, labels, isGrey);
+            break;
+        case PictureFormat::png16:
+            writePictureFile(path, sixteenBits(render(scene.camera), scene.tone));
+            break;
+        case PictureFormat::npy: {
+            const picture::ProjectionImage image = render(scene.camera);
+            files::writeNpy(file, image.samples, image.height, image.width, image.channels);
+            break;
+        }
+        case PictureFormat::nrrd:
+            volume::writeNrrd(
+                file, picture::projectionVolume(render(scene.camera), scene.camera, lattice));
+            break;
+        case PictureFormat::frames: {
+            files::FileSet frames(file);
+            everyFrame([&](const QImage &frame, int n) {
+                const fs::path aside = frames.aside(framePath(path, n).toStdString());
+                write(frame, PictureFormat::png, QString::fromStdString(aside.string()), {});
+            });
+            frames.commit();
+            break;
+        }
+        case PictureFormat::video: {
+            VideoWriter video(path, {scene.camera.width, scene.camera.height}, framesPerSecond);
+            everyFrame([&](const QImage &frame, int) { video.add(frame, progress); });
+            video.finish(progress);
+            break;
+        }
+        }
+    };
+}
+
+// All files that an export gives.
+std::vector<fs::path> targets(const PictureExport &what, const QString &path) {
+    std::vector<fs::path> files;
+    for (int n = 0; n < (what.format == PictureFormat::frames ? what.frameCount : 0); ++n)
+        files.emplace_back(framePath(path, n).toStdString());
+    if (files.empty())
+        files.emplace_back(path.toStdString());
+    return files;
+}
+
+} // namespace
+
+QWidget *Panes::of(Pane pane) const {
+    return pane == Pane::projection ? static_cast<QWidget *>(projection)
+                                    : planes[std::size_t(pane)];
+}
+
+QString suffixOf(PictureFormat format) {
+    switch (format) {
+    case PictureFormat::npy:
+        return ".npy";
+    case PictureFormat::nrrd:
+        return ".nrrd";
+    case PictureFormat::capture:
+        return ".dcm";
+    case PictureFormat::video:
+        return ".mp4";
+    default:
+        return ".png";
+    }
+}
+
+QString firstFileOf(const PictureExport &what, const QString &path) {
+    return what.format == PictureFormat::frames ? framePath(path, 0) : path;
+}
+
+QString obstacle(const PictureExport &what, const Panes &panes, const Document &document) {
+    if (!document.volume() || document.currentSource() < 0)
+        return PictureExportTexts::tr("No study is open");
+    const bool isPlane = what.pane != Pane::projection;
+    if (!isPlane && !panes.projection->showsWhatIsAskedFor())
+        return PictureExportTexts::tr("The projection is still being made");
+    if (isPlane && !what.isPicture())
+        return PictureExportTexts::tr("Values are written of the projection only");
+    if (isPlane && what.isTurn())
+        return PictureExportTexts::tr("Only the projection turns");
+    if (what.format == PictureFormat::video && !VideoWriter::isAvailable())
+        return PictureExportTexts::tr(
+            "Videos need the program ffmpeg, which is not installed; frames do not");
+    const scene::Scene &scene = document.scene();
+    const bool isGrey = classify::isGrey(scene.look) && scene.shading.isGrey();
+    if (!isGrey && (what.format == PictureFormat::png16 || what.format == PictureFormat::nrrd))
+        return PictureExportTexts::tr(
+            "A picture in colour has no grey values: write it as it looks, or as NumPy");
+    const scene::Camera &camera = scene.camera;
+    if (std::max(camera.width, camera.height) * what.scale > scene::largestImageSize)
+        return PictureExportTexts::tr("Pictures have at most %1 pixels a side")
+            .arg(scene::largestImageSize);
+    return {};
+}
+
+PictureWriter pictureWriter(const PictureExport &what, const Panes &panes, const Document &document,
+                            const QString &path) {
+    if (const QString why = obstacle(what, panes, document); !why.isEmpty())
+        throw task::Error(task::ErrorCode::usage, why.toStdString());
+    document.requireOther(targets(what, path));
+    return what.pane == Pane::projection ? projectionWriter(what, panes, document, path)
+                                         : planeWriter(what, panes, document, path);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/jobs/job_strip.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+
+#include "ui/jobs/job_runner.h"
+
+namespace pellucid::ui {
+
+JobStrip::JobStrip(JobRunner &jobs, const QString &name, QWidget *parent)
+    : QWidget(parent), m_progress(new QProgressBar), m_title(new QLabel),
+      m_cancel(new QPushButton(tr("Cancel"))) {
+    setObjectName(name + "Strip");
+    m_progress->setObjectName(name + "Progress");
+    m_progress->setTextVisible(false);
+    m_progress->setRange(0, 1000);
+    m_progress->setMinimumWidth(60);
+    m_progress->setMaximumWidth(220);
+    m_title->setObjectName(name + "Title");
+    m_cancel->setObjectName(name + "Cancel");
+    m_cancel->setProperty("role", "link");
+    m_cancel->setToolTip(tr("Stop what runs (Esc)"));
+    auto *row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    for (QWidget *widget : {static_cast<QWidget *>(m_progress), static_cast<QWidget *>(m_title),
+                            static_cast<QWidget *>(m_cancel)})
+        row->addWidget(widget);
+    hide();
+    if (jobs.isRunning()) // of a window before this one
+        showStarted(jobs.title());
+    connect(m_cancel, &QPushButton::clicked, &jobs, &JobRunner::cancel);
+    connect(&jobs, &JobRunner::started, this, &JobStrip::showStarted);
+    connect(&jobs, &JobRunner::progressed, this,
+            [this](double fraction) { m_progress->setValue(int(1000 * fraction)); });
+    connect(&jobs, &JobRunner::finished, this, [this] {
+        m_title->clear();
+        hide();
+    });
+}
+
+void JobStrip::showStarted(const QString &title) {
+    if (!isVisible()) // another stage of the same job goes on
+        m_progress->setValue(0);
+    m_title->setText(title);
+    show();
+}
+
+} // namespace pellucid::ui

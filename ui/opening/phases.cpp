@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/opening/phases.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "ui/document/document.h"
+#include "ui/jobs/job_runner.h"
+#include "ui/language/spoken.h"
+#include "ui/opening/study_opener.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr int playMs = 200;
+
+bool arePhases(const StudySource &a, const StudySource &b) {
+    return !a.isClosed && !b.isClosed && a.study.key() == b.study.key() &&
+           arePhases(a.volume, b.volume);
+}
+
+} // namespace
+
+Phases::Phases(Document &document, StudyOpener &opener, JobRunner &jobs, QObject *parent)
+    : QObject(parent), m_document(document), m_opener(opener), m_jobs(jobs) {
+    m_timer.setInterval(playMs);
+    connect(&document, &Document::sourcesChanged, this, &Phases::findPhases);
+    connect(&document, &Document::currentSourceChanged, this, &Phases::findPhases);
+    connect(&jobs, &JobRunner::finished, this, [this] {
+        // Cancelled, or it cannot be loaded: playing would ask for it again and again.
+        if (const int asked = std::exchange(m_asked, -1); asked >= 0 && asked != current())
+            m_timer.stop();
+        emit changed();
+    });
+    connect(&m_timer, &QTimer::timeout, this, [this] {
+        if (!m_jobs.isRunning()) // one that is not there yet is waited for
+            step(1);
+    });
+}
+
+void Phases::findPhases() {
+    m_sources.clear();
+    const auto &sources = m_document.sources();
+    const int open = m_document.currentSource();
+    if (open >= 0)
+        for (int n = 0; n < int(sources.size()); ++n)
+            if (arePhases(sources[std::size_t(n)], sources[std::size_t(open)]))
+                m_sources.push_back(n);
+    if (count() < 2)
+        m_timer.stop();
+    emit changed();
+}
+
+int Phases::current() const {
+    const auto at = std::find(m_sources.begin(), m_sources.end(), m_document.currentSource());
+    return at == m_sources.end() ? -1 : int(at - m_sources.begin());
+}
+
+QString Phases::label(int phase) const {
+    return spoken(m_document.sources()[std::size_t(m_sources.at(std::size_t(phase)))].volume.label);
+}
+
+void Phases::show(int phase) {
+    if (phase < 0 || phase >= count() || phase == current())
+        return;
+    m_opener.openPhase(m_sources[std::size_t(phase)]);
+    m_asked = m_jobs.isRunning() ? phase : -1;
+}
+
+void Phases::step(int phases) {
+    if (count() > 1 && current() >= 0)
+        show(((current() + phases) % count() + count()) % count());
+}
+
+void Phases::togglePlaying() {
+    if (isPlaying())
+        m_timer.stop();
+    else if (count() > 1)
+        m_timer.start();
+    emit changed();
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include <QStringList>
+
+#include "ui/studies/study_facts.h"
+
+namespace pellucid::ui {
+
+class Document;
+class StudyLibrary;
+
+/// What was opened last, newest first, from the user's settings: paths, and studies of the library
+/// by number and digest, without a name.
+QStringList recentPaths();
+/// A study of the library as such an entry; the study that an entry means, if it is one and there.
+QString recentEntry(const StudyFacts &study);
+std::optional<StudyFacts> recentStudy(const QString &entry, StudyLibrary &library);
+/// Whether a path below the user's home, or elsewhere, holds a name, the number or the birth date
+/// of the patient, as folders of a disc often do: in the letters of the header, whatever their
+/// case, accents and what stands between them.
+bool namesPatient(const QString &path, const StudyFacts &study);
+/// Whether the settings may keep a path: if studies are remembered, and it names no patient of the
+/// document, or names are chosen to be shown.
+bool mayBeKept(const QString &path, const Document &document);
+/// Puts paths in front; the oldest beyond eight go.
+void addRecentPaths(const QStringList &paths);
+/// One of them; those that are no studies of the library, with the folder of exports; all.
+void forgetRecentPath(const QString &path);
+void forgetPaths();
+void forgetRecentPaths();
+
+/// Where the next export goes, if nothing else is said; kept as paths are.
+QString exportFolder();
+void setExportFolder(const QString &folder, const Document &document);
+
+} // namespace pellucid::ui

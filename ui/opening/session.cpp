@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/opening/session.h"
+
+#include <filesystem>
+#include <set>
+
+namespace pellucid::ui {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What could not be used of the folders that the files of a session are in. What is opened again is
+// looked at again; texts and programs lie beside images, and are nobody's loss.
+std::vector<dicom::Skipped> leftOutOf(const StudySource &source,
+                                      const std::vector<dicom::Skipped> &problems) {
+    constexpr std::size_t most = 1000;
+    std::set<fs::path> folders, opened;
+    for (const QString &file : source.lasting) {
+        opened.insert(file.toStdString());
+        folders.insert(fs::path(file.toStdString()).parent_path());
+    }
+    std::vector<dicom::Skipped> left;
+    for (const dicom::Skipped &problem : problems)
+        if (folders.contains(problem.path.parent_path()) && !opened.contains(problem.path) &&
+            problem.reason != "is not a DICOM file" && left.size() < most)
+            left.push_back(problem);
+    return left;
+}
+
+} // namespace
+
+std::optional<Session> currentSession(const Document &document) {
+    const int open = document.currentSource();
+    if (open < 0 || !document.volume() || document.isPreview())
+        return std::nullopt;
+    const StudySource &source = document.sources()[std::size_t(open)];
+    Session session;
+    session.files = source.lasting;
+    session.leftOut = leftOutOf(source, document.problems());
+    session.phantom = source.phantom;
+    session.key = source.digest();
+    session.shown = {document.scene(), document.displayWindow(), document.crosshair(),
+                     document.cut(), document.brightness()};
+    if (session.files.isEmpty() && session.phantom.isEmpty())
+        return std::nullopt;
+    return session;
+}
+
+void resume(const Session &session, StudyOpener &opener) {
+    const StudyOpener::Resumption resumption{session.key, session.shown, session.leftOut};
+    if (!session.phantom.isEmpty())
+        opener.openPhantom(session.phantom, resumption);
+    else
+        opener.openPaths(session.files, resumption);
+}
+
+} // namespace pellucid::ui

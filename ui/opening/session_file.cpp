@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/opening/session.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+
+#include "core/files/atomic_file.h"
+#include "core/files/read_text.h"
+#include "core/files/user_folders.h"
+#include "core/phantom/phantom.h"
+#include "core/system/log.h"
+#include "core/task/error.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr const char *schema = "pellucid-session/1";
+constexpr std::size_t mostOfSession = 64 << 20; // it may name each file of a study
+
+constexpr int mostPrograms = 100;
+
+std::filesystem::path fileOf(const std::filesystem::path &folder, int program,
+                             const char *extension) {
+    return folder /
+           ("session" + (program == 0 ? "" : "-" + std::to_string(program + 1)) + extension);
+}
+
+// Of the programs that have, or had, a file.
+int places(const std::filesystem::path &folder) {
+    std::error_code unknown;
+    int n = 0;
+    while (n < mostPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
+                                std::filesystem::exists(fileOf(folder, n, ".lock"), unknown)))
+        ++n;
+    return n;
+}
+
+// None where nothing was kept.
+std::optional<Session> readSession(const std::filesystem::path &path) {
+    std::error_code unknown;
+    if (!std::filesystem::exists(path, unknown))
+        return std::nullopt;
+    try {
+        return sessionFromJson(files::readText(path, mostOfSession));
+    } catch (const task::Error &error) {
+        throw task::Error(error.code(), error.reason(), path);
+    }
+}
+
+QJsonArray toJson(const glm::dvec3 &v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dvec3 vectorFrom(const QJsonValue &value) {
+    const QJsonArray in = value.toArray();
+    return {in[0].toDouble(), in[1].toDouble(), in[2].toDouble()};
+}
+
+QJsonArray toJson(const mpr::PlaneAxes &axes) {
+    QJsonArray out;
+    for (const auto o : mpr::allOrientations)
+        out << QJsonObject{{"right", toJson(axes.of(o).right)}, {"up", toJson(axes.of(o).up)}};
+    return out;
+}
+
+mpr::PlaneAxes planesFrom(const QJsonArray &in) {
+    if (in.size() != 3) // an earlier program kept none
+        return {};
+    std::array<mpr::Axes, 3> axes;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const QJsonObject a = in[qsizetype(n)].toObject();
+        axes[n] = {vectorFrom(a["right"]), vectorFrom(a["up"])};
+    }
+    return mpr::PlaneAxes(axes);
+}
+
+std::optional<picture::ToneRange> brightnessFrom(const QJsonValue &value) {
+    const QJsonArray in = value.toArray();
+    const picture::ToneRange range{in[0].toDouble(), in[1].toDouble()};
+    return range.low < range.high ? std::optional(range) : std::nullopt; // none, of old programs
+}
+
+QJsonObject objectOf(const Session &s) {
+    const mpr::ResliceOptions &cut = s.shown.cut.options;
+    QJsonArray leftOut;
+    for (const dicom::Skipped &skipped : s.leftOut)
+        leftOut << QJsonObject{{"path", QString::fromStdString(skipped.path.string())},
+                               {"reason", QString::fromStdString(skipped.reason)}};
+    QJsonArray brightness;
+    if (s.shown.brightness)
+        brightness = {s.shown.brightness->low, s.shown.brightness->high};
+    return {
+        {"schema", schema},
+        {"ended", s.hasEnded},
+        {"files", QJsonArray::fromStringList(s.files)},
+        {"left_out", leftOut},
+        {"phantom", s.phantom},
+        {"key", s.key},
+        {"scene",
+         QJsonDocument::fromJson(QByteArray::fromStdString(scene::toJson(s.shown.scene))).object()},
+        {"window", QJsonObject{{"center", s.shown.displayWindow.center},
+                               {"width", s.shown.displayWindow.width},
+                               {"name", QString::fromStdString(s.shown.displayWindow.name)}}},
+        {"brightness", brightness},
+        {"crosshair", toJson(s.shown.crosshair.mm)},
+        {"planes", toJson(s.shown.cut.axes)},
+        {"slab", QJsonObject{{"mm", cut.slab.thicknessMm}, {"mode", int(cut.slab.mode)}}},
+        {"nearest", cut.interpolation == mpr::Interpolation::nearest}};
+}
+
+Session fromJson(const QJsonObject &in) {
+    if (in["schema"].toString() != schema)
+        throw task::Error(task::ErrorCode::unusable, "is not a session");
+    Session s;
+    for (const QJsonValue file : in["files"].toArray())
+        s.files << file.toString();
+    for (const QJsonValue skipped : in["left_out"].toArray())
+        s.leftOut.push_back(
+            {skipped["path"].toString().toStdString(), skipped["reason"].toString().toStdString()});
+    s.phantom = in["phantom"].toString();
+    s.key = in["key"].toString();
+    s.hasEnded = in["ended"].toBool(true); // an earlier program wrote at its end only
+    if (!s.phantom.isEmpty())              // of a newer program it may be unknown
+        phantom::kindFromName(s.phantom.toStdString());
+    s.shown.scene = scene::sceneFromJson(
+        QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());
+    const QJsonObject window = in["window"].toObject();
+    s.shown.displayWindow = {window["center"].toDouble(),
+                             std::max(1e-6, window["width"].toDouble(1.0)),
+                             window["name"].toString().toStdString()};
+    s.shown.brightness = brightnessFrom(in["brightness"]);
+    s.shown.crosshair = {vectorFrom(in["crosshair"])};
+    s.shown.cut.axes = planesFrom(in["planes"].toArray());
+    const QJsonObject slab = in["slab"].toObject();
+    s.shown.cut.options.slab = {std::clamp(slab["mm"].toDouble(), 0.0, 500.0),
+                                mpr::SlabMode(std::clamp(slab["mode"].toInt(), 0, 2))};
+    if (in["nearest"].toBool())
+        s.shown.cut.options.interpolation = mpr::Interpolation::nearest;
+    return s;
+}
+
+} // namespace
+
+std::string toJson(const Session &session) {
+    return QJsonDocument(objectOf(session)).toJson(QJsonDocument::Compact).toStdString();
+}
+
+Session sessionFromJson(const std::string &text) {
+    return fromJson(QJsonDocument::fromJson(QByteArray::fromStdString(text)).object());
+}
+
+SessionFile::SessionFile() {
+    choose();
+    m_thread = std::jthread([this](const std::stop_token &stop) { write(stop); });
+}
+
+void SessionFile::choose() {
+    const auto folder = files::userDataFolder();
+    if (!folder)
+        return;
+    const int all = places(*folder);
+    // What was killed is more urgent than what ended, and what is there at all than a free place.
+    std::tuple<int, std::filesystem::file_time_type> best;
+    std::vector<std::filesystem::path> ended;
+    for (int n = 0; n <= all; ++n) {
+        if (n == all && m_lock)
+            break;
+        files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Others::areLetBe);
+        if (!lock.isHeld())
+            continue;
+        const auto path = fileOf(*folder, n, ".json");
+        int urgency = 0;
+        try {
+            if (const auto session = readSession(path)) {
+                urgency = session->hasEnded ? 1 : 2;
+                if (session->hasEnded)
+                    ended.push_back(path);
+            }
+        } catch (const task::Error &) {
+            urgency = 1; // it is to be said that it cannot be read
+        }
+        std::error_code none;
+        const std::tuple rank{urgency, std::filesystem::last_write_time(path, none)};
+        if (!m_lock || (urgency > 0 && rank > best)) {
+            best = rank;
+            m_path = path;
+            m_lock = std::move(lock);
+        }
+    }
+    // Of those that ended, only the last is of use.
+    for (const auto &path : ended)
+        if (std::error_code ignored; path != m_path)
+            std::filesystem::remove(path, ignored);
+}
+
+SessionFile::~SessionFile() {
+    m_thread.request_stop();
+    m_thread.join();
+}
+
+void SessionFile::write(const std::stop_token &stop) {
+    std::unique_lock lock(m_mutex);
+    while (m_changed.wait(lock, stop, [this] { return m_next.has_value(); })) {
+        const Session session = *std::exchange(m_next, std::nullopt);
+        m_isWriting = true;
+        lock.unlock();
+        try {
+            if (m_path) {
+                files::AtomicFile file(*m_path);
+                file.write(toJson(session));
+                file.commit();
+            }
+        } catch (const std::exception &error) {
+            // Without the path: it may be the patient's.
+            const auto *const known = dynamic_cast<const task::Error *>(&error);
+            system::log("the session is not kept: " + (known ? known->reason() : error.what()));
+        }
+        lock.lock();
+        m_isWriting = false;
+        m_changed.notify_all();
+    }
+}
+
+std::unique_lock<std::mutex> SessionFile::rest() const {
+    std::unique_lock lock(m_mutex);
+    m_changed.wait(lock, [this] { return !m_isWriting; });
+    return lock;
+}
+
+void SessionFile::keep(const Session &session) {
+    const std::lock_guard lock(m_mutex);
+    m_next = session; // what was not begun is old
+    m_changed.notify_all();
+}
+
+void SessionFile::forget() {
+    const auto lock = rest();
+    m_next.reset();
+    std::error_code ignored;
+    if (m_path)
+        std::filesystem::remove(*m_path, ignored);
+}
+
+void SessionFile::forgetAll() {
+    forget();
+    const auto folder = files::userDataFolder();
+    for (int n = 0, all = folder ? places(*folder) : 0; n < all; ++n) {
+        const files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Others::areLetBe);
+        std::error_code ignored;
+        if (lock.isHeld())
+            std::filesystem::remove(fileOf(*folder, n, ".json"), ignored);
+    }
+}
+
+std::optional<Session> SessionFile::kept() const {
+    const auto lock = rest();
+    if (m_next)
+        return m_next;
+    if (!m_path)
+        return std::nullopt;
+    try {
+        return readSession(*m_path);
+    } catch (const task::Error &) {
+        return std::nullopt;
+    }
+}
+
+std::optional<task::Error> SessionFile::fault() const {
+    const auto lock = rest();
+    try {
+        if (m_path)
+            readSession(*m_path);
+    } catch (const task::Error &error) {
+        return error;
+    }
+    return std::nullopt;
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/opening/study_opener.h"
+
+#include <filesystem>
+
+#include "core/dicom/scan.h"
+#include "core/system/memory.h"
+#include "ui/document/document.h"
+#include "ui/engine/look_preparer.h"
+#include "ui/jobs/job_runner.h"
+#include "ui/language/spoken.h"
+#include "ui/studies/study_source.h"
+#include "ui/studies/window_presets.h"
+
+namespace pellucid::ui {
+
+StudyOpener::StudyOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
+                         QObject *parent)
+    : QObject(parent), m_document(document), m_jobs(jobs), m_preparer(preparer) {
+    connect(&jobs, &JobRunner::finished, this, &StudyOpener::endScan);
+}
+
+void StudyOpener::endScan() {
+    if (!m_preparer.isHeld())
+        return;
+    m_preparer.setHeld(false);
+    m_preparer.prepareAgain(); // what the scan stopped, or what changed meanwhile
+}
+
+void StudyOpener::keepCurrent() {
+    const auto &volume = m_document.volume();
+    if (!volume || m_document.isPreview() || m_document.currentSource() < 0)
+        return;
+    m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
+                 m_document.defaultFieldWindow(), m_document.scene(), m_preparer.preparedFor(),
+                 m_preparer.fullEngine(), m_document.displayWindow(), m_document.crosshair(),
+                 m_document.cut().axes, m_document.brightness()});
+    // Half of what there is belongs to what comes.
+    m_kept.trim(system::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
+}
+
+void StudyOpener::goOn(const Continuity &continuity) {
+    m_preparer.setHeld(true);
+    scene::Scene scene = continuity.scene;
+    m_document.setScene(scene);
+    m_preparer.setHeld(false);
+    m_document.setDisplayWindow(continuity.displayWindow);
+    m_document.setCrosshair(continuity.crosshair);
+    m_document.setCut(continuity.cut);
+    emit cameraKept(scene.camera);
+    if (continuity.brightness)
+        emit brightnessKept(*continuity.brightness);
+}
+
+void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &continuity) {
+    m_document.setVolume(study.volume, study.initialWindow, study.fieldWindow, false);
+    if (continuity) {
+        goOn(*continuity);
+        if (study.engine)
+            m_preparer.adopt(*study.preparedFor, *study.engine);
+        m_preparer.prepareAgain();
+        return;
+    }
+    scene::Scene scene = study.scene;
+    // The pane may have another size by now; the picture's quality is the person's, not the
+    // study's.
+    scene.camera = m_document.scene().camera;
+    scene.tolerance = m_document.scene().tolerance;
+    scene.interpolation = m_document.scene().interpolation;
+    // The scene first: without a brightness of its own it is taken from the engine's first frame.
+    m_preparer.setHeld(true);
+    m_document.setScene(scene);
+    m_preparer.setHeld(false);
+    if (study.engine)
+        m_preparer.adopt(*study.preparedFor, *study.engine);
+    m_document.setDisplayWindow(study.displayWindow);
+    m_document.setCrosshair(study.crosshair);
+    Cut cut = m_document.cut();
+    cut.axes = study.axes;
+    m_document.setCut(cut);
+    emit cameraKept(study.scene.camera);
+    if (study.brightness)
+        emit brightnessKept(*study.brightness);
+    m_preparer.prepareAgain(); // what changed, or was dropped
+}
+
+void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resumption> &resumption,
+                            const dicom::ScanOptions &options) {
+    if (paths.isEmpty())
+        return;
+    m_resumption = resumption;
+    std::vector<std::filesystem::path> files;
+    for (const QString &path : paths)
+        files.emplace_back(path.toStdString());
+    m_jobs.start(
+        tr("Reading headers"),
+        [this, files, paths, options](const Job &job) {
+            auto catalogue = std::make_shared<const dicom::Catalogue>(
+                dicom::scan(files, job.progress(), options));
+            job.deliver([this, catalogue, files, paths] {
+                m_document.addProblems(catalogue->skipped);
+                std::vector<dicom::Skipped> huge = catalogue->skipped;
+                std::erase_if(huge, [](const dicom::Skipped &s) { return !s.isHuge; });
+                if (!huge.empty())
+                    emit hugeFound(paths, huge);
+                if (catalogue->empty()) {
+                    if (catalogue->skipped.empty())
+                        m_document.addProblems({{files.front(), "holds no images"}});
+                    endScan();
+                    return;
+                }
+                const auto indices = m_document.addSources(sourcesFrom(catalogue));
+                // Files may have changed since.
+                for (const int index : indices)
+                    m_kept.take(index);
+                const auto resumed = resumedOf(indices);
+                if (!m_resumption) // what the user named was remembered then
+                    emit pathsOpened(paths);
+                else if (!resumed)
+                    m_document.addProblems(
+                        {{files.front(), "is not the study that was open here"}});
+                m_preparer.setHeld(false); // another volume comes, or the open one goes on
+                openSource(resumed.value_or(indices[defaultSource(*catalogue)]));
+            });
+        },
+        paths.front());
+    if (m_jobs.isRunning()) // there may have been no thread for it
+        m_preparer.setHeld(true);
+}
+
+std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) const {
+    if (m_resumption)
+        for (const int index : indices)
+            if (m_document.sources()[std::size_t(index)].digest() == m_resumption->digest)
+                return index;
+    return std::nullopt;
+}
+
+void StudyOpener::takeUp() {
+    if (!m_resumption)
+        return;
+    const Resumption resumption = *m_resumption;
+    m_resumption.reset();
+    if (m_document.currentSource() < 0)
+        return;
+    const StudySource &open = m_document.sources()[std::size_t(m_document.currentSource())];
+    if (open.digest() == resumption.digest) {
+        m_document.addProblems(resumption.leftOut);
+        goOn(resumption.shown);
+    }
+}
+
+void StudyOpener::openPhantom(const QString &kind, const std::optional<Resumption> &resumption) {
+    m_resumption = resumption;
+    openSource(m_document.addSources({phantomSource(kind)}).front());
+}
+
+void StudyOpener::openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
+                                  const QString &volume,
+                                  const std::vector<dicom::InstanceFile> &files) {
+    std::vector<StudySource> sources;
+    for (const VolumeFacts &v : series)
+        sources.push_back(librarySource(study, v, files));
+    const auto indices = m_document.addSources(sources);
+    for (std::size_t n = 0; n < series.size(); ++n)
+        if (series[n].key() == volume)
+            openSource(indices[n]);
+}
+
+void StudyOpener::closeSource(int index) {
+    m_kept.take(index);
+    if (index == m_document.currentSource()) {
+        m_jobs.cancel();
+        m_preparer.forgetVolume();
+        m_document.closeVolume();
+        m_document.setCurrentSource(-1);
+    }
+    m_document.closeSource(index);
+}
+
+Continuity StudyOpener::leavePhase(int next) {
+    Continuity stays{m_document.scene(), m_document.displayWindow(), m_document.crosshair(),
+                     m_document.cut(), m_document.brightness()};
+    // A volume's own window would differ from phase to phase.
+    if (m_document.volume()->unit() == volume::ValueUnit::none)
+        stays.scene.fieldWindow = m_document.fieldWindow();
+    keepCurrent();
+    m_preparer.forgetVolume();
+    m_document.setCurrentSource(next);
+    emit phaseLeft();
+    return stays;
+}
+
+void StudyOpener::openPhase(int index) {
+    if (!m_document.volume() || m_document.isPreview()) {
+        openSource(index);
+        return;
+    }
+    m_jobs.cancel();
+    // Taken first: keeping the phase that is left may drop another one.
+    if (const auto kept = m_kept.take(index)) {
+        const Continuity stays = leavePhase(index);
+        show(*kept, stays);
+        return;
+    }
+    // The former phase stays until this one is there.
+    const StudySource source = m_document.sources().at(std::size_t(index));
+    scene::Scene scene = m_document.scene();
+    if (m_document.volume()->unit() == volume::ValueUnit::none)
+        scene.fieldWindow = m_document.fieldWindow();
+    const PreparedFor wanted(scene);
+    m_jobs.start(
+        tr("Loading %1").arg(seriesText(source.volume)),
+        [this, source, index, wanted,
+         prepare = m_preparer.preparation(wanted, 0.6, false)](const Job &job) {
+            const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), {});
+            const volume::ValueWindow window = initialWindow(loaded.volume);
+            const auto field = classify::defaultFieldWindow(loaded.volume);
+            job.deliver([this, loaded, window, field, index, wanted] {
+                const Continuity stays = leavePhase(index);
+                m_document.addProblems(loaded.skipped);
+                m_document.setVolume(loaded.volume, window, field, false);
+                m_preparer.expect(wanted);
+                goOn(stays);
+                m_preparer.prepareAgain(); // the look may have been changed meanwhile
+            });
+            job.stage(tr("Preparing the projection"));
+            prepare(job, loaded.volume);
+        },
+        source.place());
+}
+
+void StudyOpener::openSource(int index) {
+    // What is shown or on its way already need not come again.
+    if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning())) {
+        if (m_document.volume())
+            m_preparer.prepareAgain(); // what a scan stopped
+        return;
+    }
+    const StudySource source = m_document.sources().at(std::size_t(index));
+    // First, because the end of the former job tidies up after it.
+    m_jobs.cancel();
+    keepCurrent();
+    const PreparedFor wanted = m_preparer.forgetVolume();
+    m_document.setCurrentSource(index);
+    m_document.closeVolume();
+    if (const auto kept = m_kept.take(index)) {
+        show(*kept, std::nullopt);
+        return;
+    }
+    m_jobs.start(
+        tr("Loading %1").arg(seriesText(source.volume)),
+        [this, source, prepare = m_preparer.preparation(wanted, 0.6, true)](const Job &job) {
+            dicom::LoadObserver observer;
+            observer.preview = [&](const volume::Volume &soFar) {
+                const volume::ValueWindow window = initialWindow(soFar);
+                job.deliver(
+                    [this, soFar, window] { m_document.setVolume(soFar, window, {}, true); });
+            };
+            const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
+            const volume::Volume volume = loaded.volume;
+            const volume::ValueWindow window = initialWindow(volume);
+            const classify::FieldWindow field = classify::defaultFieldWindow(volume);
+            job.deliver([this, loaded, window, field] {
+                m_document.addProblems(loaded.skipped);
+                m_document.setVolume(loaded.volume, window, field, false);
+                takeUp();
+                // The quality may have been changed while the volume came.
+                m_preparer.prepareAgain();
+            });
+            if (!volume.notes().placed) {
+                job.deliver([this, volume] {
+                    const auto &warnings = volume.notes().warnings;
+                    emit notProjectable(warnings.empty() ? tr("images only")
+                                                         : spoken(warnings.back()));
+                });
+                return;
+            }
+            job.stage(tr("Preparing the projection"));
+            prepare(job, volume);
+        },
+        source.place());
+    m_preparer.expect(wanted);
+}
+
+} // namespace pellucid::ui

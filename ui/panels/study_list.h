@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <QAbstractItemModel>
+#include <QHash>
+
+#include "ui/library/study_library.h"
+#include "ui/library/thumbnail_maker.h"
+#include "ui/studies/study_facts.h"
+
+namespace pellucid::ui {
+
+class Document;
+
+/// What the list of studies shows: the open ones that the library does not have, then those of the
+/// library that match, a page at a time; below each its volumes, read when somebody looks.
+class StudyList : public QAbstractItemModel {
+    Q_OBJECT
+public:
+    StudyList(Document &document, StudyLibrary &library, QObject *parent = nullptr);
+
+    void setSearch(const QString &search);
+    void setOrder(StudyOrder order);
+    const QString &search() const { return m_search; }
+    StudyOrder order() const { return m_order; }
+    /// How many there are, shown or not yet.
+    int studyCount() const { return m_openCount + m_libraryCount; }
+
+    /// Of a row, or of the study that a volume's row is below.
+    const StudyFacts &study(const QModelIndex &index) const;
+    /// Null for the row of a study.
+    const VolumeFacts *volume(const QModelIndex &index) const;
+    QImage thumbnail(const QModelIndex &index) const;
+    /// The row of a source of the document; not valid if it is not among those that are read.
+    QModelIndex find(int source);
+    /// The source of the document that a volume is open as; -1: none.
+    int source(const QModelIndex &index) const;
+    /// Whether it is the volume that is shown.
+    bool isOpen(const QModelIndex &index) const;
+
+    QModelIndex index(int row, int column, const QModelIndex &parent = {}) const override;
+    QModelIndex parent(const QModelIndex &index) const override;
+    int rowCount(const QModelIndex &parent = {}) const override;
+    int columnCount(const QModelIndex & = {}) const override { return 1; }
+    bool hasChildren(const QModelIndex &parent = {}) const override;
+    bool canFetchMore(const QModelIndex &parent) const override;
+    void fetchMore(const QModelIndex &parent) override;
+    QVariant data(const QModelIndex &index, int role) const override;
+
+private:
+    struct Entry {
+        StudyFacts study;
+        std::vector<VolumeFacts> volumes; ///< a row each: phases have one
+        std::vector<QStringList> keys;    ///< of the volumes of each row
+        bool isRead = false;
+        int row = 0;
+    };
+    void rebuild();
+    void append(StudyFacts study, bool isRead);
+    static void addVolumes(Entry &entry, const std::vector<VolumeFacts> &volumes);
+    bool matches(const StudyFacts &study, const std::vector<VolumeFacts> &volumes) const;
+
+    Document &m_document;
+    StudyLibrary &m_library;
+    QString m_search;
+    StudyOrder m_order = StudyOrder::newestFirst;
+    std::vector<std::unique_ptr<Entry>> m_entries;
+    int m_openCount = 0, m_libraryCount = 0;
+    /// Of volumes that are open only, by key; asked for when first looked at.
+    mutable QHash<QString, QImage> m_thumbnails;
+    mutable ThumbnailMaker m_maker;
+};
+
+} // namespace pellucid::ui

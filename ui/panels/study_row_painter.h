@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QStyledItemDelegate>
+
+#include "ui/theme/theme.h"
+
+namespace pellucid::ui {
+
+class StudyList;
+
+/// Rows of the list of studies: a study as its patient over date and description; a volume as a
+/// card with thumbnail, name, size, spacing, and what is to be known of its geometry.
+class StudyRowPainter : public QStyledItemDelegate {
+    Q_OBJECT
+public:
+    StudyRowPainter(const StudyList &list, const Theme &theme, QObject *parent = nullptr);
+
+    void paint(QPainter *painter, const QStyleOptionViewItem &option,
+               const QModelIndex &index) const override;
+    QSize sizeHint(const QStyleOptionViewItem &option, const QModelIndex &index) const override;
+
+private:
+    void paintStudy(QPainter &painter, const QStyleOptionViewItem &option,
+                    const QModelIndex &index) const;
+    void paintVolume(QPainter &painter, const QStyleOptionViewItem &option,
+                     const QModelIndex &index) const;
+
+    const StudyList &m_list;
+    Theme m_theme;
+};
+
+} // namespace pellucid::ui

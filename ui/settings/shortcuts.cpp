@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/settings/shortcuts.h"
+
+#include <QAction>
+#include <QMainWindow>
+#include <QMenu>
+#include <QMenuBar>
+#include <QRegularExpression>
+#include <QSettings>
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr const char *usualProperty = "usualShortcut";
+
+QString keyOf(const QString &name) {
+    return "shortcuts/" + name;
+}
+
+QString plain(QString text) {
+    text = text.section('\t', 0, 0); // a hint of a fixed key stands behind
+    // Chinese names its access key behind the text.
+    static const QRegularExpression accessKey("\\(&.\\)");
+    return text.remove(accessKey).remove('&').remove("...").remove(QString::fromUtf8("…"));
+}
+
+// The usual key is remembered before another one is given for the first time.
+QKeySequence usualOf(QAction *action) {
+    const QVariant known = action->property(usualProperty);
+    if (known.isValid())
+        return QKeySequence(known.toString(), QKeySequence::PortableText);
+    action->setProperty(usualProperty, action->shortcut().toString(QKeySequence::PortableText));
+    return action->shortcut();
+}
+
+void add(const QMenu &menu, const QString &path, std::vector<ShortcutEntry> &entries) {
+    for (QAction *action : menu.actions()) {
+        const QString text = path + plain(action->text());
+        if (action->menu() != nullptr)
+            add(*action->menu(), text + " > ", entries);
+        else if (!action->isSeparator() && !action->objectName().isEmpty())
+            entries.push_back({action, action->objectName(), text, usualOf(action)});
+    }
+}
+
+} // namespace
+
+std::vector<ShortcutEntry> shortcutEntries(const QWidget &window) {
+    std::vector<ShortcutEntry> entries;
+    const auto *const main = qobject_cast<const QMainWindow *>(&window);
+    for (QAction *top : main->menuBar()->actions())
+        if (top->menu() != nullptr)
+            add(*top->menu(), plain(top->text()) + " > ", entries);
+    return entries;
+}
+
+void applyShortcuts(const QWidget &window) {
+    const QSettings settings;
+    for (const ShortcutEntry &entry : shortcutEntries(window))
+        if (const QVariant chosen = settings.value(keyOf(entry.name)); chosen.isValid())
+            entry.action->setShortcut(QKeySequence(chosen.toString(), QKeySequence::PortableText));
+}
+
+void setShortcut(const ShortcutEntry &entry, const QKeySequence &key) {
+    entry.action->setShortcut(key);
+    if (key == entry.usual)
+        QSettings().remove(keyOf(entry.name));
+    else
+        QSettings().setValue(keyOf(entry.name), key.toString(QKeySequence::PortableText));
+}
+
+} // namespace pellucid::ui

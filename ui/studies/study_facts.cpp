@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/studies/study_facts.h"
+
+#include <QCoreApplication>
+
+#include "ui/language/spoken.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+struct StudyFactsTexts {
+    Q_DECLARE_TR_FUNCTIONS(StudyFactsTexts)
+};
+
+QString text(const std::string &utf8) {
+    return QString::fromStdString(utf8);
+}
+
+// What tells stacks of a series apart that are no phases of each other: other directions, spaces or
+// kinds of values. The scan puts it last in the label.
+QString stackOf(const QString &label) {
+    const QString last = label.mid(label.lastIndexOf(", ") + 1).trimmed();
+    for (const char *direction : {"axial", "coronal", "sagittal", "images"})
+        if (last.startsWith(QLatin1String(direction)))
+            return last;
+    return {};
+}
+
+} // namespace
+
+bool StudyFacts::hasPatient() const {
+    return !uid.isEmpty() || (patientId != "phantoms" && patientId != "files");
+}
+
+QString VolumeFacts::key() const {
+    return seriesUid + "\n" + label + "\n" +
+           QString("%1 %2 %3 %4 %5 %6")
+               .arg(size.i)
+               .arg(size.j)
+               .arg(size.k)
+               .arg(spacingMm.x, 0, 'f', 2)
+               .arg(spacingMm.y, 0, 'f', 2)
+               .arg(spacingMm.z, 0, 'f', 2) +
+           "\n" + file;
+}
+
+StudyFacts studyFacts(const dicom::Selection &s) {
+    StudyFacts facts;
+    facts.patientId = text(s.patient->id);
+    facts.patientName = text(s.patient->name);
+    facts.birthDate = text(s.patient->birthDate);
+    facts.sex = text(s.patient->sex);
+    facts.uid = text(s.study->uid);
+    facts.date = text(s.study->date);
+    facts.description = text(s.study->description);
+    QStringList modalities;
+    for (const dicom::Series &series : s.study->series)
+        if (const QString modality = text(series.modality);
+            !modality.isEmpty() && !modalities.contains(modality))
+            modalities << modality;
+    facts.modalities = modalities.join(' ');
+    return facts;
+}
+
+VolumeFacts volumeFacts(const dicom::Selection &s) {
+    const volume::Lattice &lattice = s.volume->geometry.lattice;
+    VolumeFacts facts;
+    facts.seriesUid = text(s.series->uid);
+    facts.modality = text(s.series->modality);
+    facts.bodyPart = text(s.series->bodyPart);
+    facts.description = text(s.series->description);
+    facts.label = text(s.volume->label);
+    facts.seriesNumber = s.series->number;
+    facts.size = lattice.size();
+    if (s.volume->notes.hasSpacing)
+        facts.spacingMm = {lattice.spacingMm(0), lattice.spacingMm(1),
+                           s.volume->placed ? lattice.sliceDistanceMm() : 0.0};
+    facts.tiltDeg = lattice.shearRad() * 180.0 / 3.14159265358979323846;
+    facts.placed = s.volume->placed;
+    for (const std::string &warning : s.volume->notes.warnings)
+        facts.warnings << text(warning);
+    facts.file = text(s.volume->volumeFile.string());
+    facts.files = int(s.series->files.size());
+    return facts;
+}
+
+QString patientText(const StudyFacts &study) {
+    if (study.patientId == "phantoms")
+        return StudyFactsTexts::tr("Phantoms");
+    if (study.patientId == "files") // of which nobody says whose they are
+        return StudyFactsTexts::tr("Files");
+    const QString name = QString(study.patientName).replace('^', ' ').simplified();
+    if (!name.isEmpty())
+        return name;
+    return study.patientId.isEmpty() ? StudyFactsTexts::tr("Without name") : study.patientId;
+}
+
+QString studyText(const StudyFacts &study) {
+    if (study.patientId == "files")
+        return StudyFactsTexts::tr("Volume files");
+    const QString said =
+        (dateText(study.date) + " " + study.modalities + " " + study.description).simplified();
+    return said.isEmpty() ? StudyFactsTexts::tr("Study") : said;
+}
+
+bool arePhases(const VolumeFacts &a, const VolumeFacts &b) {
+    const bool isOneSeries = !a.seriesUid.isEmpty() ? a.seriesUid == b.seriesUid
+                                                    : !a.file.isEmpty() && b.seriesUid.isEmpty();
+    return isOneSeries && a.file == b.file && a.placed && b.placed && a.size == b.size &&
+           a.spacingMm == b.spacingMm && stackOf(a.label) == stackOf(b.label);
+}
+
+QString seriesText(const VolumeFacts &volume) {
+    QString said = QString("%1 %2")
+                       .arg(volume.seriesNumber)
+                       .arg(volume.description.isEmpty() ? volume.modality : volume.description);
+    if (volume.phases > 1)
+        said += ", " + StudyFactsTexts::tr("%n phases", "", volume.phases);
+    else if (!volume.label.isEmpty())
+        said += ", " + spoken(volume.label);
+    return said;
+}
+
+QString sizeText(const VolumeFacts &v) {
+    QString said = QString::fromUtf8("%1 × %2 × %3").arg(v.size.i).arg(v.size.j).arg(v.size.k);
+    if (v.spacingMm.x > 0.0)
+        said += QString::fromUtf8("\n%1 × %2")
+                    .arg(v.spacingMm.x, 0, 'f', 2)
+                    .arg(v.spacingMm.y, 0, 'f', 2);
+    if (v.spacingMm.z > 0.0)
+        said += QString::fromUtf8(" × %1").arg(v.spacingMm.z, 0, 'f', 2);
+    return v.spacingMm.x > 0.0 ? said + " mm" : said;
+}
+
+QStringList warningTexts(const VolumeFacts &volume) {
+    QStringList texts;
+    for (const QString &warning : volume.warnings)
+        texts << spoken(warning);
+    return texts;
+}
+
+QString dateText(const QString &date) {
+    return date.size() == 8 ? date.left(4) + "-" + date.mid(4, 2) + "-" + date.right(2) : date;
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/studies/study_source.h"
+
+#include <QCoreApplication>
+#include <QCryptographicHash>
+#include <QFileInfo>
+
+#include "core/dicom/scan.h"
+#include "core/phantom/phantom.h"
+#include "core/task/error.h"
+#include "ui/studies/thumbnail.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudySourceTexts {
+    Q_DECLARE_TR_FUNCTIONS(StudySourceTexts)
+};
+
+// A phantom's thumbnail is cut out of a small one.
+constexpr volume::GridSize thumbnailPhantom{96, 96, 96};
+
+// The volume that a library means. Files that are gone change its size; its label stays.
+const dicom::VolumeEntry &meant(const dicom::Catalogue &catalogue, const VolumeFacts &volume) {
+    const auto all = dicom::selections(catalogue);
+    std::vector<const dicom::VolumeEntry *> alike;
+    for (const dicom::Selection &s : all) {
+        const VolumeFacts facts = volumeFacts(s);
+        if (facts.key() == volume.key())
+            return *s.volume;
+        if (facts.label == volume.label)
+            alike.push_back(s.volume);
+    }
+    if (alike.size() == 1)
+        return *alike.front();
+    throw task::Error(
+        task::ErrorCode::unusable,
+        StudySourceTexts::tr("the files of this volume have changed; import them again")
+            .toStdString());
+}
+
+dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
+                                    const std::vector<dicom::InstanceFile> &files,
+                                    const task::Progress &progress,
+                                    const dicom::LoadObserver &observer) {
+    std::vector<fs::path> there;
+    std::vector<dicom::Skipped> skipped;
+    for (const dicom::InstanceFile &file : files) {
+        std::error_code ignored;
+        if (fs::is_regular_file(file.path, ignored))
+            there.push_back(file.path);
+        else
+            skipped.push_back({file.path, "is not there any more"});
+    }
+    if (there.empty())
+        throw task::Error(
+            task::ErrorCode::unusable,
+            StudySourceTexts::tr("the files of this series are not there any more; the disc or the "
+                                 "drive they are on may be away")
+                .toStdString(),
+            skipped.empty() ? fs::path() : skipped.front().path.parent_path());
+    const dicom::Catalogue catalogue =
+        dicom::scan(there, progress.part(0.0, 0.2), {.takesHuge = true}); // it is kept
+    skipped.insert(skipped.end(), catalogue.skipped.begin(), catalogue.skipped.end());
+    dicom::LoadedVolume loaded =
+        dicom::loadVolume(meant(catalogue, volume), progress.part(0.2, 1.0), observer);
+    loaded.skipped.insert(loaded.skipped.begin(), skipped.begin(), skipped.end());
+    return loaded;
+}
+
+} // namespace
+
+QString StudySource::place() const {
+    return lasting.size() > 1 ? QFileInfo(lasting.front()).path() : lasting.value(0);
+}
+
+QString StudySource::digest() const {
+    return QCryptographicHash::hash(key().toUtf8(), QCryptographicHash::Sha256).toHex();
+}
+
+std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogue> &catalogue) {
+    std::vector<StudySource> sources;
+    for (const dicom::Selection &s : dicom::selections(*catalogue)) {
+        StudySource source;
+        source.study = studyFacts(s);
+        source.volume = volumeFacts(s);
+        for (const dicom::InstanceFile &file : s.series->files)
+            source.files << QString::fromStdString(file.path.string());
+        for (const dicom::InstanceFile &file : s.series->files) {
+            const auto archive = catalogue->archiveOf(file.path);
+            const auto lasting = QString::fromStdString(archive.value_or(file.path).string());
+            if (source.lasting.isEmpty() || source.lasting.back() != lasting)
+                source.lasting << lasting;
+        }
+        source.lasting.removeDuplicates();
+        source.volume.file =
+            QString::fromStdString(catalogue->named(s.volume->volumeFile).string());
+        // The catalogue is kept alive by whoever may load from it.
+        source.load = [catalogue, entry = s.volume](const task::Progress &progress,
+                                                    const dicom::LoadObserver &observer) {
+            try {
+                dicom::LoadedVolume loaded = dicom::loadVolume(*entry, progress, observer);
+                for (dicom::Skipped &skipped : loaded.skipped)
+                    skipped.path = catalogue->named(skipped.path);
+                return loaded;
+            } catch (const task::Error &error) {
+                throw task::Error(error.code(), error.reason(), catalogue->named(error.path()));
+            }
+        };
+        source.makeThumbnail = [catalogue, entry = s.volume] { return makeThumbnail(*entry); };
+        sources.push_back(std::move(source));
+    }
+    return sources;
+}
+
+std::size_t defaultSource(const dicom::Catalogue &catalogue) {
+    const auto all = dicom::selections(catalogue);
+    const dicom::VolumeEntry *const wanted = dicom::defaultSelection(catalogue).volume;
+    std::size_t n = 0;
+    while (all[n].volume != wanted)
+        ++n;
+    return n;
+}
+
+StudySource librarySource(const StudyFacts &study, const VolumeFacts &volume,
+                          const std::vector<dicom::InstanceFile> &files) {
+    StudySource source;
+    source.study = study;
+    source.volume = volume;
+    for (const dicom::InstanceFile &file : files)
+        source.files << QString::fromStdString(file.path.string());
+    source.lasting = source.files;
+    source.load = [volume, files](const task::Progress &progress,
+                                  const dicom::LoadObserver &observer) {
+        return loadFromLibrary(volume, files, progress, observer);
+    };
+    return source;
+}
+
+StudySource phantomSource(const QString &name) {
+    const phantom::Kind kind = phantom::kindFromName(name.toStdString());
+    const volume::Lattice lattice = phantom::phantomLattice(kind, {});
+    StudySource source;
+    source.phantom = name;
+    source.study.patientId = "phantoms";
+    source.study.patientName = "Phantoms"; // said in the user's language by patientText
+    source.study.description = StudySourceTexts::tr("Made by Pellucid");
+    source.volume.seriesUid = name;
+    source.volume.seriesNumber = name == "head" ? 1 : 2;
+    source.volume.description = name == "head"    ? StudySourceTexts::tr("Head phantom")
+                                : name == "chest" ? StudySourceTexts::tr("Chest phantom")
+                                                  : name;
+    source.volume.size = lattice.size();
+    source.volume.spacingMm = {lattice.spacingMm(0), lattice.spacingMm(1),
+                               lattice.sliceDistanceMm()};
+    source.load = [kind, lattice](const task::Progress &progress, const dicom::LoadObserver &) {
+        return dicom::LoadedVolume{phantom::makePhantom(kind, lattice, progress), {}};
+    };
+    source.makeThumbnail = [kind] {
+        return makeThumbnail(phantom::makePhantom(
+            kind, phantom::phantomLattice(kind, {.size = thumbnailPhantom}), {}));
+    };
+    return source;
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/studies/thumbnail.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dicom/load_volume.h"
+#include "core/task/error.h"
+#include "ui/studies/window_presets.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// A NRRD file has no middle slice that could be read alone.
+constexpr std::size_t mostVoxelsRead = std::size_t(64) << 20;
+
+} // namespace
+
+QImage makeThumbnail(const volume::Volume &volume) {
+    const volume::Lattice &lattice = volume.lattice();
+    const int columns = lattice.size().i, rows = lattice.size().j, slices = lattice.size().k;
+    const volume::ValueWindow window = initialWindow(volume);
+    const double low = window.center - 0.5 * window.width;
+    QImage picture(columns, rows, QImage::Format_Grayscale8);
+    volume.visit([&](const auto &samples) {
+        const auto *in = samples.data() + std::size_t(columns) * rows * std::size_t(slices / 2);
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; ++x, ++in) {
+                const double share = std::clamp((double(*in) - low) / window.width, 0.0, 1.0);
+                // What is not a number is as dark as what is outside.
+                const int grey = std::isnan(share) ? 0 : int(std::lround(255.0 * share));
+                picture.scanLine(y)[x] = uchar(volume.notes().darkIsHigh ? 255 - grey : grey);
+            }
+    });
+    const double width = columns * lattice.spacingMm(0), height = rows * lattice.spacingMm(1);
+    const double scale = thumbnailPixels / std::max(width, height);
+    return picture.scaled(std::max(1, int(std::lround(width * scale))),
+                          std::max(1, int(std::lround(height * scale))), Qt::IgnoreAspectRatio,
+                          Qt::SmoothTransformation);
+}
+
+QImage makeThumbnail(const dicom::VolumeEntry &entry) {
+    try {
+        if (!entry.volumeFile.empty())
+            return entry.voxels() > mostVoxelsRead ? QImage()
+                                                   : makeThumbnail(dicom::loadVolume(entry).volume);
+        const volume::Lattice &lattice = entry.geometry.lattice;
+        dicom::VolumeEntry one = entry;
+        one.frames = {entry.frames.at(entry.frames.size() / 2)};
+        one.geometry = {volume::Lattice::make({lattice.size().i, lattice.size().j, 1},
+                                              lattice.origin(),
+                                              {lattice.step(0), lattice.step(1), lattice.step(2)}),
+                        {}};
+        return makeThumbnail(dicom::loadVolume(one).volume);
+    } catch (const task::Error &) {
+        return {}; // whoever opens it is told why
+    }
+}
+
+} // namespace pellucid::ui

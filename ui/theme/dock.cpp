@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/theme/dock.h"
+
+#include <QCoreApplication>
+#include <QDockWidget>
+#include <QHBoxLayout>
+#include <QToolButton>
+
+namespace pellucid::ui {
+
+QDockWidget *makeDock(const QString &title, const char *name, QWidget *panel, QWidget *corner) {
+    auto *dock = new QDockWidget(title);
+    dock->setObjectName(name);
+    dock->setWidget(panel);
+    // A click on the heading folds the panel.
+    auto *heading = new QToolButton;
+    heading->setObjectName(QString(name) + "Heading");
+    heading->setText(title);
+    heading->setToolTip(QCoreApplication::translate("Dock", "Fold or unfold"));
+    heading->setProperty("role", "heading");
+    QObject::connect(heading, &QToolButton::clicked, panel,
+                     [panel] { panel->setVisible(!panel->isVisible()); });
+    auto *bar = new QWidget;
+    bar->setAttribute(Qt::WA_StyledBackground);
+    bar->setProperty("role", "dockTitle");
+    auto *row = new QHBoxLayout(bar);
+    row->setContentsMargins(8, 6, 8, 0);
+    row->addWidget(heading);
+    row->addStretch();
+    if (corner != nullptr)
+        row->addWidget(corner);
+    dock->setTitleBarWidget(bar);
+    return dock;
+}
+
+} // namespace pellucid::ui

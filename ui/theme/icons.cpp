@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/theme/icons.h"
+
+#include <QAction>
+#include <QFile>
+#include <QIconEngine>
+#include <QPainter>
+#include <QSvgRenderer>
+
+#include "core/task/error.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// Drawn for the size that is asked for, not scaled from another.
+class ThemedIcon : public QIconEngine {
+public:
+    ThemedIcon(QByteArray drawing, const Theme &theme)
+        : m_drawing(std::move(drawing)), m_theme(theme) {}
+
+    void paint(QPainter *painter, const QRect &rect, QIcon::Mode mode,
+               QIcon::State state) override {
+        const char *const role = mode == QIcon::Disabled ? "muted"
+                                 : state == QIcon::On    ? "accent"
+                                                         : "text";
+        QByteArray drawing = m_drawing;
+        drawing.replace("currentColor", m_theme.color(role).name().toUtf8());
+        QSvgRenderer(drawing).render(painter, rect);
+    }
+    QPixmap pixmap(const QSize &size, QIcon::Mode mode, QIcon::State state) override {
+        QPixmap pixmap(size);
+        pixmap.fill(Qt::transparent);
+        QPainter painter(&pixmap);
+        paint(&painter, QRect(QPoint(), size), mode, state);
+        return pixmap;
+    }
+    QIconEngine *clone() const override { return new ThemedIcon(*this); }
+
+private:
+    QByteArray m_drawing;
+    Theme m_theme;
+};
+
+} // namespace
+
+QIcon themedIcon(const QString &name, const Theme &theme) {
+    QFile file(":/pellucid/icons/" + name + ".svg");
+    if (!file.open(QIODevice::ReadOnly))
+        throw task::Error(task::ErrorCode::internal, "no icon " + name.toStdString());
+    return QIcon(new ThemedIcon(file.readAll(), theme));
+}
+
+void giveIcons(QObject &window, const Theme &theme) {
+    const struct {
+        const char *action, *icon;
+    } icons[] = {{"openFilesAction", "open"},
+                 {"importAction", "import"},
+                 {"savePictureAction", "picture"},
+                 {"exportPictureAction", "export"},
+                 {"preferencesAction", "preferences"},
+                 {"undoAction", "undo"},
+                 {"redoAction", "redo"},
+                 {"findStudyAction", "search"},
+                 {"windowToolAction", "window"},
+                 {"panToolAction", "pan"},
+                 {"zoomToolAction", "zoom"},
+                 {"crosshairToolAction", "crosshair"},
+                 {"slabAction", "slab"},
+                 {"distanceToolAction", "distance"},
+                 {"angleToolAction", "angle"},
+                 {"ellipseToolAction", "ellipse"},
+                 {"rectangleToolAction", "rectangle"},
+                 {"cropToolAction", "crop"},
+                 {"playAction", "play"},
+                 {"onePlusThreeAction", "one-plus-three"},
+                 {"twoByTwoAction", "two-by-two"},
+                 {"linkStudiesAction", "link"},
+                 {"manualAction", "manual"}};
+    for (const auto &[action, icon] : icons) {
+        QAction *const found = window.findChild<QAction *>(action);
+        found->setIcon(themedIcon(icon, theme));
+        // Menus stay words; the same drawings beside them would be noise.
+        found->setIconVisibleInMenu(false);
+    }
+}
+
+} // namespace pellucid::ui

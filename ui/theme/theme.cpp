@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/theme/theme.h"
+
+#include <QApplication>
+#include <QFile>
+#include <QFont>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QPalette>
+#include <QRegularExpression>
+#include <QStyleFactory>
+
+#include "core/task/error.h"
+
+// Resources of a static library are registered by hand; the macro wants the global namespace.
+static void registerResources() {
+    Q_INIT_RESOURCE(resources);
+}
+
+namespace pellucid::ui {
+
+namespace {
+
+QByteArray resource(const QString &path) {
+    QFile file(path);
+    if (!file.open(QIODevice::ReadOnly))
+        throw task::Error(task::ErrorCode::internal, "no resource " + path.toStdString());
+    return file.readAll();
+}
+
+} // namespace
+
+Theme Theme::named(const QString &name) {
+    registerResources();
+    Theme theme;
+    const QJsonObject roles = QJsonDocument::fromJson(resource(":/pellucid/styles/colors.json"))
+                                  .object()[name]
+                                  .toObject();
+    for (auto it = roles.begin(); it != roles.end(); ++it)
+        theme.m_colors.insert(it.key(), QColor(it.value().toString()));
+    return theme;
+}
+
+QColor Theme::color(const QString &role) const {
+    const auto it = m_colors.find(role);
+    if (it == m_colors.end())
+        throw task::Error(task::ErrorCode::internal, "no color for role " + role.toStdString());
+    return *it;
+}
+
+void Theme::apply(QApplication &application) const {
+    application.setStyle(QStyleFactory::create("Fusion"));
+    QPalette palette;
+    palette.setColor(QPalette::Window, color("background"));
+    palette.setColor(QPalette::Base, color("panel"));
+    palette.setColor(QPalette::AlternateBase, color("raised"));
+    palette.setColor(QPalette::Button, color("raised"));
+    for (const auto role :
+         {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText})
+        palette.setColor(role, color("text"));
+    palette.setColor(QPalette::PlaceholderText, color("muted"));
+    palette.setColor(QPalette::ToolTipBase, color("raised"));
+    palette.setColor(QPalette::Highlight, color("accent"));
+    palette.setColor(QPalette::Link, color("accent"));
+    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+        palette.setColor(QPalette::Disabled, role, color("muted"));
+    application.setPalette(palette);
+    QFont font = application.font();
+    font.setPointSizeF(9.0);
+    // Else Chinese is drawn with whatever comes first, in Japanese forms and too bold.
+    QStringList families = font.families();
+    for (const char *family : {"Noto Sans CJK TC", "Microsoft JhengHei", "PingFang TC"})
+        if (!families.contains(family))
+            families << family;
+    font.setFamilies(families);
+    application.setFont(font);
+
+    QString sheet = QString::fromUtf8(resource(":/pellucid/styles/workstation.qss"));
+    static const QRegularExpression role("@([a-z]+)");
+    for (auto match = role.match(sheet); match.hasMatch();
+         match = role.match(sheet, match.capturedStart())) {
+        // The comment that explains the notation names no role.
+        const auto it = m_colors.find(match.captured(1));
+        const QString value = it == m_colors.end() ? match.captured(1) : it->name();
+        sheet.replace(match.capturedStart(), match.capturedLength(), value);
+    }
+    application.setStyleSheet(sheet);
+}
+
+} // namespace pellucid::ui

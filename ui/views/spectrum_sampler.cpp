@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Before Qt, which makes a macro of a name that oneTBB uses.
+#include <tbb/task_arena.h>
+
+#include "ui/views/spectrum_sampler.h"
+
+#include <algorithm>
+
+#include "ui/document/document.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// From the start of one slice to the next.
+constexpr int pauseMs = 100;
+
+} // namespace
+
+SpectrumSampler::SpectrumSampler(Document &document, QObject *parent)
+    : QObject(parent), m_document(document) {
+    m_pause.setSingleShot(true);
+    m_pause.setInterval(pauseMs);
+    connect(&m_pause, &QTimer::timeout, this, &SpectrumSampler::sampleNext);
+    connect(&m_jobs, &JobRunner::finished, this, &SpectrumSampler::sampleNext);
+    connect(&m_jobs, &JobRunner::failed, this, &SpectrumSampler::cleared);
+    connect(&document, &Document::cameraChanged, this, &SpectrumSampler::follow);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        if (m_document.volume() && m_document.isPreview())
+            return;
+        // What was prepared is of another volume; its own comes with its engine.
+        m_parts.reset();
+        m_isStale = false;
+        m_jobs.cancel();
+        emit cleared({});
+    });
+}
+
+void SpectrumSampler::setEngine(const ShownEngine &shown) {
+    m_parts = shown.prepared.engine->parts();
+    follow();
+}
+
+void SpectrumSampler::setActive(bool isActive) {
+    if (isActive == m_isActive)
+        return;
+    m_isActive = isActive;
+    if (isActive) {
+        follow();
+        return;
+    }
+    m_isStale = false;
+    m_pause.stop();
+    m_jobs.cancel();
+}
+
+scene::Camera SpectrumSampler::camera() const {
+    scene::Camera camera = m_document.scene().camera;
+    // Beyond the band of the samples the spectrum only repeats itself.
+    camera.pixelMm = std::max(camera.pixelMm, m_document.volume()->lattice().shortestStepMm());
+    return camera;
+}
+
+void SpectrumSampler::follow() {
+    if (!m_isActive || !m_parts || !m_document.volume())
+        return;
+    m_isStale = true;
+    sampleNext();
+}
+
+void SpectrumSampler::sampleNext() {
+    if (!m_isStale || m_jobs.isRunning() || m_pause.isActive())
+        return;
+    m_isStale = false;
+    m_pause.start();
+    m_jobs.start({}, [this, parts = *m_parts, camera = camera()](const Job &job) {
+        // On one thread: the others are the frames'.
+        render::SpectrumSlice slice;
+        tbb::task_arena alone(1);
+        alone.execute([&] { slice = render::spectrumSlice(parts, camera, side, job.progress()); });
+        job.deliver([this, slice] { emit sampled(slice); });
+    });
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include <QObject>
+#include <QTimer>
+
+#include "core/render/spectrum_slice.h"
+#include "ui/engine/shown_engine.h"
+#include "ui/jobs/job_runner.h"
+
+namespace pellucid::ui {
+
+class Document;
+
+/// Samples the slice of the spectrum that the projection's view takes, over the band of the picture
+/// or of the volume's shortest step, whichever is smaller. It works in the background and only
+/// while it is asked to. While the view turns, it samples the latest one, a few times a second.
+class SpectrumSampler : public QObject {
+    Q_OBJECT
+public:
+    explicit SpectrumSampler(Document &document, QObject *parent = nullptr);
+
+    void setEngine(const ShownEngine &shown);
+    /// Whether anyone sees the result. It starts switched off.
+    void setActive(bool isActive);
+    /// Whether the last slice is not, or will not remain, that of the present view.
+    bool isBehind() const { return m_isStale || m_jobs.isRunning(); }
+
+    /// Frequencies a side.
+    static constexpr int side = 256;
+
+signals:
+    void sampled(const pellucid::render::SpectrumSlice &slice);
+    /// There is no slice, and why, if that is not because nothing is open.
+    void cleared(const QString &reason);
+
+private:
+    void follow();
+    void sampleNext();
+    scene::Camera camera() const;
+
+    Document &m_document;
+    std::optional<render::EngineParts> m_parts;
+    JobRunner m_jobs; // its own: it stops for nobody and shows no progress
+    QTimer m_pause;
+    bool m_isActive = false, m_isStale = false;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/application.h"
+
+#include "core/task/progress.h"
+#include "ui/language/failure.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr qint64 silenceMs = 2000;
+
+} // namespace
+
+bool Application::notify(QObject *receiver, QEvent *event) {
+    try {
+        return QApplication::notify(receiver, event);
+    } catch (const task::Cancelled &) {
+        // Nobody waits for it any more.
+    } catch (...) {
+        const Failure failure = currentFailure();
+        const bool isKnown = failure.what == m_lastFailure && m_sinceFailure.isValid() &&
+                             m_sinceFailure.elapsed() < silenceMs;
+        m_lastFailure = failure.what;
+        m_sinceFailure.start();
+        if (!isKnown) // later: here the event that failed is still being handled
+            QMetaObject::invokeMethod(
+                this, [this, failure] { emit failed(failure.what, failure.path); },
+                Qt::QueuedConnection);
+    }
+    return true;
+}
+
+} // namespace pellucid::ui

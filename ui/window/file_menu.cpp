@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/file_menu.h"
+
+#include <QAction>
+#include <QFileInfo>
+#include <QMenu>
+
+#include "core/task/error.h"
+#include "ui/document/add_command.h"
+#include "ui/document/commands.h"
+#include "ui/export/export_dialog.h"
+#include "ui/export/scene_files.h"
+#include "ui/language/spoken.h"
+#include "ui/settings/file_dialogs.h"
+#include "ui/views/projection_view.h"
+#include "ui/window/import_dialog.h"
+#include "ui/window/workbench.h"
+
+namespace pellucid::ui {
+
+FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &panes)
+    : QObject(&menu), m_window(window), m_bench(bench), m_panes(panes) {
+    const auto add = [&](QMenu &to, const QString &text, const char *name, const QKeySequence &key,
+                         const std::function<void()> &run) {
+        return addCommand(to, text, name, key, this, run);
+    };
+    add(menu, tr("&Open files..."), "openFilesAction", QKeySequence::Open, [this] {
+        chooseFiles();
+    })->setIconText(tr("Open"));
+    add(menu, tr("Open &folder..."), "openFolderAction", QKeySequence("Ctrl+Shift+O"),
+        [this] { chooseFolder(); });
+    add(menu, tr("&Import into the library..."), "importAction", QKeySequence("Ctrl+I"), [this] {
+        importPaths({});
+    })->setIconText(tr("Import"));
+    QMenu *phantoms = menu.addMenu(tr("Open &phantom"));
+    add(*phantoms, tr("&Head"), "headPhantomAction", {}, [this] { emit phantomChosen("head"); });
+    add(*phantoms, tr("&Chest"), "chestPhantomAction", {}, [this] { emit phantomChosen("chest"); });
+    menu.addSeparator();
+    add(menu, tr("Open &scene..."), "openSceneAction", {}, [this] { openScene(); });
+    add(menu, tr("Save s&cene as..."), "saveSceneAction", {}, [this] { saveScene(); });
+    add(menu, tr("Save p&icture as..."), "savePictureAction", QKeySequence("F12"), [this] {
+        savePicture();
+    })->setIconText(tr("Picture"));
+    add(menu, tr("&Export picture..."), "exportPictureAction", QKeySequence("Ctrl+E"), [this] {
+        exportPicture();
+    })->setIconText(tr("Export"));
+    add(menu, tr("Export &measurements..."), "exportMeasurementsAction", {},
+        [this] { exportMeasurements(); });
+    menu.addSeparator();
+    add(menu, tr("P&references..."), "preferencesAction", QKeySequence("Ctrl+,"),
+        [this] { emit preferencesRequested(); });
+    add(menu, tr("For&get recent studies"), "forgetRecentAction", {},
+        [this] { emit recentForgotten(); });
+    add(menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { emit quitRequested(); });
+}
+
+void FileMenu::attempt(const std::function<void()> &what) {
+    try {
+        what();
+    } catch (const task::Error &error) {
+        emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));
+    }
+}
+
+void FileMenu::chooseFiles() {
+    emit pathsChosen(askForFiles(&m_window, tr("Open files")));
+}
+
+void FileMenu::chooseFolder() {
+    const QString folder = askForFolder(&m_window, tr("Open folder"));
+    if (!folder.isEmpty())
+        emit pathsChosen({folder});
+}
+
+void FileMenu::importPaths(const QStringList &paths) {
+    auto *dialog = new ImportDialog(paths, &m_window);
+    connect(dialog, &ImportDialog::chosen, this,
+            [this](const Import &import) { m_bench.library.import(import); });
+    dialog->open();
+}
+
+void FileMenu::sayWritten(const QString &path) {
+    emit said(tr("Written: %1").arg(QFileInfo(path).fileName()));
+}
+
+void FileMenu::savePicture() {
+    attempt([&] {
+        const QImage picture = m_panes.projection->picture();
+        if (picture.isNull()) {
+            emit said(tr("There is no projection to save yet"));
+            return;
+        }
+        const QString path = askWhereToWrite(&m_window, tr("Save picture"), "projection.png",
+                                             tr("PNG image (*.png)"));
+        if (path.isEmpty())
+            return;
+        m_bench.document.requireOther({path.toStdString()});
+        writePictureFile(path, picture);
+        sayWritten(path);
+    });
+}
+
+void FileMenu::exportPicture() {
+    if (auto *shown = m_window.findChild<ExportDialog *>()) {
+        shown->raise();
+        shown->activateWindow();
+        return;
+    }
+    // Beside the window, which goes on: it may be turned to what is to be written.
+    auto *dialog = new ExportDialog(m_bench.document, m_panes, m_bench.exports, &m_window);
+    connect(dialog, &ExportDialog::written, this, &FileMenu::sayWritten);
+    connect(dialog, &ExportDialog::captured, this,
+            [this](const std::shared_ptr<const dicom::Catalogue> &capture) {
+                m_bench.document.addSources(sourcesFrom(capture));
+            });
+    dialog->show();
+}
+
+void FileMenu::exportMeasurements() {
+    if (m_bench.document.measured().empty()) {
+        emit said(tr("There are no measurements to export yet"));
+        return;
+    }
+    const QString path = askWhereToWrite(&m_window, tr("Export measurements"), "measurements.csv",
+                                         tr("Table (*.csv)"));
+    if (path.isEmpty())
+        return;
+    attempt([&] {
+        m_bench.document.requireOther({path.toStdString()});
+        m_bench.measurements.exportTable(path);
+        sayWritten(path);
+    });
+}
+
+void FileMenu::saveScene() {
+    if (!m_panes.projection->showsWhatIsAskedFor()) {
+        emit said(tr("There is no projection of this scene yet"));
+        return;
+    }
+    const QString path =
+        askWhereToWrite(&m_window, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
+    if (path.isEmpty())
+        return;
+    attempt([&] {
+        m_bench.document.requireOther({path.toStdString()});
+        writeSceneFile(path, m_panes.projection->sceneOfPicture());
+        sayWritten(path);
+    });
+}
+
+void FileMenu::openScene() {
+    const QString path = askForFile(&m_window, tr("Open scene"), tr("Scene (*.json)"));
+    if (path.isEmpty())
+        return;
+    attempt([&] {
+        scene::Scene scene = readSceneFile(path);
+        scene.plannedFor = {}; // the window plans for the volume, whatever a file says
+        Document &document = m_bench.document;
+        document.undoStack()->push(new EditScene(document, scene, tr("Open scene")));
+        m_panes.projection->adoptCamera(scene.camera);
+    });
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <QObject>
+#include <QStringList>
+
+#include "ui/export/picture_export.h"
+
+class QMenu;
+class QWidget;
+
+namespace pellucid::ui {
+
+struct Workbench;
+
+/// The menu of what comes in and goes out: studies, scenes, pictures, measurements.
+class FileMenu : public QObject {
+    Q_OBJECT
+public:
+    FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &panes);
+
+    void chooseFiles();
+    void chooseFolder();
+    /// Asks how, and for what is to be imported if there are no paths.
+    void importPaths(const QStringList &paths);
+    void exportMeasurements();
+
+signals:
+    void pathsChosen(const QStringList &paths);
+    void phantomChosen(const QString &kind);
+    void recentForgotten();
+    void preferencesRequested();
+    void quitRequested();
+    void said(const QString &text);
+    void failed(const QString &what, const QString &path);
+
+private:
+    void savePicture();
+    void sayWritten(const QString &path);
+    void exportPicture();
+    void saveScene();
+    void openScene();
+    /// Runs it and reports what it throws.
+    void attempt(const std::function<void()> &what);
+
+    QWidget &m_window;
+    Workbench &m_bench;
+    Panes m_panes;
+};
+
+} // namespace pellucid::ui

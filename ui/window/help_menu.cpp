@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/help_menu.h"
+
+#include <QCoreApplication>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QFile>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
+#include <QMenu>
+#include <QPlainTextEdit>
+#include <QShortcut>
+#include <QTabWidget>
+#include <QTextBrowser>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "ui/document/add_command.h"
+#include "ui/window/libraries.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+struct HelpMenuTexts {
+    Q_DECLARE_TR_FUNCTIONS(HelpMenuTexts)
+};
+
+// The manual in the language of the program, as far as there is one.
+QUrl manual() {
+    const QString translated = QCoreApplication::translate("HelpMenuTexts", "manual.html",
+                                                           "file name of the translated manual");
+    const QString usual = "manual.html";
+    return QUrl("qrc:/pellucid/manual/" +
+                (QFile::exists(":/pellucid/manual/" + translated) ? translated : usual));
+}
+
+void showManual() {
+    // Beside the window, not over it: people read and try.
+    auto *browser = new QTextBrowser;
+    browser->setObjectName("manual");
+    browser->setAttribute(Qt::WA_DeleteOnClose);
+    browser->setAttribute(Qt::WA_QuitOnClose, false); // the program ends with its window
+    browser->setWindowTitle(HelpMenuTexts::tr("Pellucid manual"));
+    browser->setSource(manual());
+    browser->resize(760, 800);
+    QObject::connect(new QShortcut(Qt::Key_Escape, browser), &QShortcut::activated, browser,
+                     &QWidget::close);
+    browser->show();
+}
+
+QWidget *libraryTable() {
+    auto *table = new QTreeWidget;
+    table->setObjectName("aboutLibraries");
+    table->setAccessibleName(HelpMenuTexts::tr("Libraries"));
+    table->setHeaderLabels(
+        {HelpMenuTexts::tr("Library"), HelpMenuTexts::tr("Version"), HelpMenuTexts::tr("Licence")});
+    table->setRootIsDecorated(false);
+    for (const ThirdParty &library : thirdParties)
+        new QTreeWidgetItem(table, {library.name,
+                                    QString(library.name) == "Qt" ? qVersion() : library.version,
+                                    library.licence});
+    table->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    return table;
+}
+
+QWidget *licence() {
+    auto *text = new QPlainTextEdit;
+    text->setReadOnly(true);
+    text->setAccessibleName(HelpMenuTexts::tr("Licence"));
+    QFile file(":/pellucid/LICENSE");
+    if (file.open(QIODevice::ReadOnly))
+        text->setPlainText(QString::fromUtf8(file.readAll()));
+    return text;
+}
+
+void showAbout(QWidget &window) {
+    auto *dialog = new QDialog(&window);
+    dialog->setObjectName("aboutDialog");
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(HelpMenuTexts::tr("About Pellucid"));
+    auto *name = new QLabel("Pellucid " + QCoreApplication::applicationVersion());
+    name->setProperty("role", "title");
+    auto *what =
+        new QLabel(HelpMenuTexts::tr("Projections of DICOM studies in the frequency domain."));
+    auto *warning = new QLabel(HelpMenuTexts::tr("Not for diagnostic use."));
+    warning->setObjectName("aboutWarning");
+    warning->setProperty("role", "warning");
+    auto *terms = new QLabel(
+        HelpMenuTexts::tr("Free software under the GNU General Public License, version 3 "
+                          "or later; without any warranty."));
+    terms->setWordWrap(true);
+    auto *tabs = new QTabWidget;
+    tabs->addTab(libraryTable(), HelpMenuTexts::tr("Libraries"));
+    tabs->addTab(licence(), HelpMenuTexts::tr("Licence"));
+    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
+    auto *layout = new QVBoxLayout(dialog);
+    for (QWidget *part : std::initializer_list<QWidget *>{name, what, warning, terms})
+        layout->addWidget(part);
+    layout->addWidget(tabs, 1);
+    layout->addWidget(buttons);
+    dialog->resize(560, 560);
+    dialog->show();
+}
+
+} // namespace
+
+void addHelpMenu(QMenu &menu, QWidget &window) {
+    addCommand(menu, HelpMenuTexts::tr("&Manual"), "manualAction", QKeySequence("F1"), &menu,
+               [] { showManual(); });
+    addCommand(menu, HelpMenuTexts::tr("&About Pellucid"), "aboutAction", {}, &menu,
+               [&window] { showAbout(window); });
+}
+
+} // namespace pellucid::ui

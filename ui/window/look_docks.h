@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+
+#include "ui/engine/look_previewer.h"
+#include "ui/theme/theme.h"
+
+class QDockWidget;
+class QMainWindow;
+
+namespace pellucid::ui {
+
+class ClassesPanel;
+class CardCopier;
+class LookPreparer;
+class PresetsPanel;
+class ProjectionView;
+class QualityPanel;
+class ShadingPanel;
+class TransferFunctionPanel;
+
+/// The docks at the right of the window, which say what is shown and how: presets, classes,
+/// transfer function, shading, quality. Connects them with what they act on.
+class LookDocks : public QObject {
+    Q_OBJECT
+public:
+    LookDocks(QMainWindow &window, Document &document, LookPreparer &preparer, CardCopier &copier,
+              ProjectionView &projection, const Theme &theme);
+
+    const std::vector<QDockWidget *> &docks() const { return m_docks; }
+    PresetsPanel &presets() { return *m_presets; }
+    ShadingPanel &shading() { return *m_shading; }
+    /// Shows a panel whose dock may be closed or folded.
+    void unfold(QWidget &panel);
+
+private:
+    /// `corner`: what stands beside the heading; may be null.
+    void dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
+              QWidget *corner, int height);
+
+    LookPreviewer m_previewer;
+    PresetsPanel *m_presets;
+    ClassesPanel *m_classes;
+    TransferFunctionPanel *m_function;
+    ShadingPanel *m_shading;
+    QualityPanel *m_quality;
+    std::vector<QDockWidget *> m_docks;
+    std::vector<int> m_heights;
+};
+
+} // namespace pellucid::ui

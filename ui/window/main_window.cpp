@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/main_window.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QCloseEvent>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QScreen>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QTimer>
+#include <QToolBar>
+#include <QToolButton>
+#include <QUndoView>
+#include <QVBoxLayout>
+
+#include "core/system/log.h"
+#include "ui/beside/study_pair.h"
+#include "ui/document/add_command.h"
+#include "ui/jobs/job_strip.h"
+#include "ui/panels/measurements_panel.h"
+#include "ui/panels/phase_bar.h"
+#include "ui/panels/presets_panel.h"
+#include "ui/panels/spectrum_panel.h"
+#include "ui/panels/start_page.h"
+#include "ui/panels/study_panel.h"
+#include "ui/settings/shortcuts.h"
+#include "ui/theme/dock.h"
+#include "ui/theme/icons.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/pane_area.h"
+#include "ui/views/projection_view.h"
+#include "ui/views/spectrum_sampler.h"
+#include "ui/window/application.h"
+#include "ui/window/file_menu.h"
+#include "ui/window/help_menu.h"
+#include "ui/window/huge_question.h"
+#include "ui/window/look_docks.h"
+#include "ui/window/look_menu.h"
+#include "ui/window/preferences_dialog.h"
+#include "ui/window/projection_keys.h"
+#include "ui/window/reopening.h"
+#include "ui/window/tools_menu.h"
+#include "ui/window/view_menu.h"
+#include "ui/window/window_chooser.h"
+
+namespace pellucid::ui {
+
+MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &preferences,
+                       QWidget *parent)
+    : QMainWindow(parent), m_bench(bench), m_theme(theme), m_preferences(preferences) {
+    const scene::Camera camera = bench.document.scene().camera; // panes fit their own
+    const auto brightness = bench.document.brightness();
+    setObjectName("mainWindow");
+    setAcceptDrops(true);
+    resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
+    createPanes();
+    createStudyDock();
+    createMeasurementsDock();
+    createHistoryDock();
+    createSpectrumDock();
+    m_look = new LookDocks(*this, m_bench.document, m_bench.preparer, m_bench.copier, *m_projection,
+                           m_theme);
+    connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
+    createFileMenu();
+    createEditMenu();
+    createViewMenu();
+    auto *lookMenu =
+        new LookMenu(*menuBar()->addMenu(tr("&Look")), m_bench.document, *m_look, *m_projection);
+    m_windowMenu = &lookMenu->windowMenu();
+    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_bench.document, m_mpr,
+                            *m_projection, m_bench.phases);
+    m_pair->setTool(m_tools->tool());
+    connect(m_tools, &ToolsMenu::toolChosen, m_pair, &StudyPair::setTool);
+    createHelpMenu();
+    giveIcons(*this, m_theme);
+    createToolBar();
+    createStatusBar();
+    applyShortcuts(*this);
+    connect(&m_bench.document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
+    connect(&m_bench.copier, &CardCopier::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(m_projection, &ProjectionView::cardFailed, &m_bench.card, &GraphicsCard::giveUp);
+    connect(&m_bench.card, &GraphicsCard::changed, this, [this] {
+        if (!m_bench.document.volume())
+            m_engine->setText(m_bench.card.description());
+    });
+    connect(&m_bench.preparer, &LookPreparer::planChanged, m_projection,
+            &ProjectionView::setPlanState);
+    connect(&m_bench.opener, &StudyOpener::cameraKept, this,
+            [this](const scene::Camera &kept) { m_projection->adoptCamera(kept); });
+    connect(&m_bench.opener, &StudyOpener::brightnessKept, m_projection,
+            &ProjectionView::adoptTone);
+    connect(&m_bench.opener, &StudyOpener::hugeFound, this,
+            [this](const QStringList &paths, const std::vector<dicom::Skipped> &huge) {
+                askForHuge(this, huge, [this, paths] {
+                    m_bench.opener.openPaths(paths, {}, {.takesHuge = true});
+                });
+            });
+    connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
+    connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
+            &ProjectionView::setMessage);
+    connect(&m_bench.document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
+    const QSettings settings;
+    restoreGeometry(settings.value("geometry").toByteArray());
+    restoreState(settings.value("windowState").toByteArray());
+    connect(new ProjectionKeys(*this, *m_projection), &ProjectionKeys::comparisonRequested, this,
+            &MainWindow::compareLooks);
+    showVolumeState();
+    bench.document.announce(); // what is open already
+    if (brightness)
+        m_projection->adoptTone(*brightness);
+    bench.preparer.announce();
+    if (bench.document.volume()) // once the panes have their sizes
+        QTimer::singleShot(0, m_projection, [this, camera] { m_projection->adoptCamera(camera); });
+}
+
+MainWindow::~MainWindow() {
+    m_bench.exports.join();              // they look at the panes
+    m_pair->closeBeside();               // it looks at the open study
+    m_bench.measurements.writePending(); // while somebody can say that it failed
+}
+
+void MainWindow::createPanes() {
+    std::array<QWidget *, 4> panes{};
+    std::size_t n = 0;
+    for (const auto orientation :
+         {mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal}) {
+        m_mpr[n] = new MprView(m_bench.document, orientation);
+        panes[n] = m_mpr[n];
+        ++n;
+    }
+    m_projection = new ProjectionView(m_bench.document);
+    panes[3] = m_projection;
+    m_panes = new PaneArea(panes);
+    for (MprView *view : m_mpr)
+        connect(view, &MprView::maximizeRequested, m_panes, &PaneArea::toggleMaximized);
+    connect(m_projection, &ProjectionView::maximizeRequested, m_panes, &PaneArea::toggleMaximized);
+
+    m_start = new StartPage;
+    connect(m_start, &StartPage::phantomRequested, this, &MainWindow::openPhantom);
+    m_reopening = new Reopening(m_bench, *m_start, m_preferences, this);
+    m_stack = new QStackedWidget;
+    m_stack->addWidget(m_start);
+    auto *viewing = new QWidget;
+    auto *column = new QVBoxLayout(viewing);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    m_pair = new StudyPair({m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
+    connect(m_pair, &StudyPair::failed, this, &MainWindow::report);
+    column->addWidget(m_pair, 1);
+    column->addWidget(new PhaseBar(m_bench.phases));
+    m_stack->addWidget(viewing);
+    setCentralWidget(m_stack);
+}
+
+void MainWindow::createStudyDock() {
+    m_studies = new StudyPanel(m_bench.document, m_bench.library, m_theme);
+    connect(m_studies, &StudyPanel::sourceActivated, &m_bench.opener, &StudyOpener::openSource);
+    connect(m_studies, &StudyPanel::closeRequested, &m_bench.opener, &StudyOpener::closeSource);
+    connect(m_studies, &StudyPanel::besideRequested, m_pair, &StudyPair::openBeside);
+    connect(m_studies, &StudyPanel::libraryVolumeActivated, m_reopening,
+            &Reopening::openFromLibrary);
+    connect(&m_bench.library, &StudyLibrary::failed, this, &MainWindow::report);
+    connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
+        m_bench.document.addProblems(result.skipped);
+        statusBar()->showMessage(tr("Imported: %1 series, %2 files; %3 not used")
+                                     .arg(result.series)
+                                     .arg(result.files)
+                                     .arg(result.skipped.size()),
+                                 8000);
+    });
+    QDockWidget *dock = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
+    m_studies->setMinimumWidth(250);
+    addDockWidget(Qt::LeftDockWidgetArea, dock);
+}
+
+void MainWindow::createMeasurementsDock() {
+    m_measurements = new MeasurementsPanel(m_bench.document);
+    connect(m_measurements, &MeasurementsPanel::viewRequested, m_projection,
+            &ProjectionView::lookAlong);
+    connect(&m_bench.measurements, &MeasurementStore::failed, this, &MainWindow::report);
+    auto *dock =
+        makeDock(tr("MEASUREMENTS"), "measurementsDock", m_measurements, m_measurements->corner());
+    addDockWidget(Qt::LeftDockWidgetArea, dock);
+    resizeDocks({findChild<QDockWidget *>("studyDock"), dock}, {700, 180}, Qt::Vertical);
+}
+
+void MainWindow::createHistoryDock() {
+    auto *history = new QUndoView(m_bench.document.undoStack());
+    history->setObjectName("historyView");
+    history->setAccessibleName(tr("History of edits"));
+    history->setToolTip(tr("A click goes back to how it was after that edit"));
+    history->setEmptyLabel(tr("As it was opened"));
+    QDockWidget *dock = makeDock(tr("HISTORY"), "historyDock", history, nullptr);
+    addDockWidget(Qt::LeftDockWidgetArea, dock);
+    dock->hide();
+}
+
+void MainWindow::createSpectrumDock() {
+    auto *sampler = new SpectrumSampler(m_bench.document, this);
+    auto *panel = new SpectrumPanel(m_theme);
+    connect(&m_bench.copier, &CardCopier::engineReady, sampler, &SpectrumSampler::setEngine);
+    connect(sampler, &SpectrumSampler::sampled, panel, &SpectrumPanel::showSlice);
+    connect(sampler, &SpectrumSampler::cleared, panel, &SpectrumPanel::clear);
+    connect(panel, &SpectrumPanel::visibilityChanged, sampler, &SpectrumSampler::setActive);
+    QDockWidget *dock = makeDock(tr("SPECTRUM"), "spectrumDock", panel, nullptr);
+    addDockWidget(Qt::LeftDockWidgetArea, dock);
+    dock->hide();
+}
+
+QAction *MainWindow::command(QMenu &menu, const QString &text, const char *name,
+                             const QKeySequence &key, const std::function<void()> &run) {
+    return addCommand(menu, text, name, key, this, run);
+}
+
+void MainWindow::createFileMenu() {
+    m_file = new FileMenu(*menuBar()->addMenu(tr("&File")), *this, m_bench, {m_mpr, m_projection});
+    connect(m_file, &FileMenu::pathsChosen, this, &MainWindow::openPaths);
+    connect(m_file, &FileMenu::phantomChosen, this, &MainWindow::openPhantom);
+    connect(m_file, &FileMenu::failed, this, &MainWindow::report);
+    if (const auto *const application = qobject_cast<Application *>(qApp))
+        connect(application, &Application::failed, this, &MainWindow::report);
+    connect(m_file, &FileMenu::said, this,
+            [this](const QString &text) { statusBar()->showMessage(text, 4000); });
+    connect(m_file, &FileMenu::quitRequested, this, &QWidget::close);
+    connect(m_file, &FileMenu::recentForgotten, m_reopening, &Reopening::forgetAll);
+    connect(m_file, &FileMenu::preferencesRequested, this, [this] { openPreferences(); });
+    connect(m_measurements, &MeasurementsPanel::exportRequested, m_file,
+            &FileMenu::exportMeasurements);
+    connect(m_studies, &StudyPanel::importRequested, m_file, &FileMenu::importPaths);
+    connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
+    connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
+}
+
+PreferencesDialog &MainWindow::openPreferences() {
+    auto *dialog = findChild<PreferencesDialog *>();
+    if (dialog == nullptr) {
+        dialog = new PreferencesDialog(this);
+        connect(dialog, &PreferencesDialog::changed, this, &MainWindow::preferencesChanged);
+    }
+    dialog->show();
+    dialog->raise();
+    dialog->activateWindow();
+    return *dialog;
+}
+
+void MainWindow::createEditMenu() {
+    QMenu *menu = menuBar()->addMenu(tr("&Edit"));
+    QAction *undo = m_bench.document.undoStack()->createUndoAction(this, tr("Undo"));
+    undo->setObjectName("undoAction");
+    undo->setShortcut(QKeySequence::Undo);
+    QAction *redo = m_bench.document.undoStack()->createRedoAction(this, tr("Redo"));
+    redo->setObjectName("redoAction");
+    redo->setShortcut(QKeySequence("Ctrl+Shift+Z"));
+    menu->addActions({undo, redo});
+    menu->addSeparator();
+    command(*menu, tr("&Find a study"), "findStudyAction", QKeySequence::Find, [this] {
+        findChild<QDockWidget *>("studyDock")->show();
+        m_studies->focusSearch();
+    });
+    menu->addSeparator();
+    command(*menu, tr("&Delete measurement"), "deleteMeasurementAction", QKeySequence::Delete,
+            [this] { m_measurements->removeSelected(); });
+}
+
+void MainWindow::createViewMenu() {
+    m_view = new ViewMenu(*menuBar()->addMenu(tr("&View")), *this,
+                          {m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
+    m_view->addPane(*findChild<QDockWidget *>("spectrumDock")->toggleViewAction(), tr("Spectr&um"),
+                    "spectrumAction", QKeySequence("Shift+S"));
+    connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
+    connect(m_view, &ViewMenu::linkRequested, m_pair, &StudyPair::toggleLink);
+    connect(m_view, &ViewMenu::closeBesideRequested, m_pair, &StudyPair::closeBeside);
+    connect(m_pair, &StudyPair::besideChanged, m_view, &ViewMenu::setBeside);
+    connect(m_pair, &StudyPair::linkChanged, m_view, &ViewMenu::setLinked);
+    connect(m_view, &ViewMenu::preparationRequested, &m_bench.preparer,
+            &LookPreparer::prepareAgain);
+}
+
+void MainWindow::createHelpMenu() {
+    QMenu *window = menuBar()->addMenu(tr("W&indow"));
+    for (const char *dock : {"studyDock", "measurementsDock", "historyDock"})
+        window->addAction(findChild<QDockWidget *>(dock)->toggleViewAction());
+    for (QDockWidget *dock : m_look->docks())
+        window->addAction(dock->toggleViewAction());
+    addHelpMenu(*menuBar()->addMenu(tr("&Help")), *this);
+}
+
+void MainWindow::createToolBar() {
+    QToolBar *bar = addToolBar(tr("Tools"));
+    bar->setObjectName("toolBar");
+    bar->setMovable(false);
+    bar->setIconSize({20, 20});
+    bar->setToolButtonStyle(m_preferences.toolBar == ToolBarStyle::icons ? Qt::ToolButtonIconOnly
+                            : m_preferences.toolBar == ToolBarStyle::words
+                                ? Qt::ToolButtonTextOnly
+                                : Qt::ToolButtonTextBesideIcon);
+    bar->addAction(findChild<QAction *>("openFilesAction"));
+    bar->addAction(findChild<QAction *>("importAction"));
+    bar->addSeparator();
+    m_tools->addTo(*bar);
+    bar->addSeparator();
+    bar->addActions(m_view->layouts());
+    bar->addSeparator();
+    bar->addAction(findChild<QAction *>("savePictureAction"));
+    bar->addAction(findChild<QAction *>("exportPictureAction"));
+    auto *space = new QWidget;
+    space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    bar->addWidget(space);
+    auto *windowBox = new QComboBox;
+    windowBox->setObjectName("windowBox");
+    windowBox->setAccessibleName(tr("Window of the planes"));
+    windowBox->setToolTip(tr("Window of the planes: width / center (keys 0 to 5)"));
+    windowBox->setMinimumWidth(64); // on a screen of 960 points, too
+    windowBox->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    windowBox->setMinimumContentsLength(22);
+    windowBox->setMaximumWidth(260);
+    bar->addWidget(windowBox);
+    new WindowChooser(m_bench.document, *m_windowMenu, *windowBox);
+    // What does not fit is behind an arrow, which Qt draws in the colours of its own style.
+    if (auto *more = bar->findChild<QToolButton *>("qt_toolbar_ext_button")) {
+        more->setIcon(themedIcon("down", m_theme));
+        more->setToolTip(tr("More"));
+        more->setAccessibleName(tr("More"));
+    }
+}
+
+void MainWindow::createStatusBar() {
+    m_readout = new QLabel;
+    m_readout->setObjectName("cursorReadout");
+    m_readout->setMinimumWidth(280);
+    m_engine = new QLabel;
+    m_engine->setObjectName("engineLabel");
+    statusBar()->setSizeGripEnabled(false);
+    statusBar()->addWidget(m_readout);
+    statusBar()->addWidget(new JobStrip(m_bench.jobs, "job"));
+    statusBar()->addPermanentWidget(m_engine);
+    connect(&m_bench.jobs, &JobRunner::started, m_projection, &ProjectionView::jobStarted);
+    connect(&m_bench.jobs, &JobRunner::finished, this, [this] {
+        m_projection->jobEnded();
+        // A load that was cancelled leaves nothing selected.
+        if (!m_bench.document.volume())
+            m_bench.document.setCurrentSource(-1);
+    });
+    connect(&m_bench.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
+    connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
+        if (text != m_engine->text())
+            system::log(text.toStdString());
+        m_engine->setText(text);
+    });
+    for (MprView *view : m_mpr)
+        connect(view, &MprView::readoutChanged, m_readout, &QLabel::setText);
+    connect(m_pair, &StudyPair::readoutChanged, m_readout, &QLabel::setText);
+    m_engine->setText(m_bench.card.description());
+}
+
+void MainWindow::showVolumeState() {
+    showTitle();
+    m_stack->setCurrentWidget(m_bench.document.volume() || m_bench.document.currentSource() >= 0
+                                  ? m_pair->parentWidget()
+                                  : m_start);
+}
+
+void MainWindow::openPaths(const QStringList &paths) {
+    // They are remembered, and opened again from another folder.
+    QStringList absolute;
+    for (const QString &path : paths)
+        absolute << QFileInfo(path).absoluteFilePath();
+    m_bench.opener.openPaths(absolute);
+}
+
+void MainWindow::setPreferences(const Preferences &preferences) {
+    m_preferences = preferences;
+    m_reopening->setPreferences(preferences);
+    showTitle();
+}
+
+// A name only where its owner asked for it.
+void MainWindow::showTitle() {
+    const int open = m_bench.document.currentSource();
+    setWindowTitle(m_preferences.showsPatient && open >= 0
+                       ? patientText(m_bench.document.sources()[std::size_t(open)].study) +
+                             " - Pellucid"
+                       : QString("Pellucid"));
+}
+
+void MainWindow::openPhantom(const QString &kind) {
+    m_bench.opener.openPhantom(kind);
+}
+
+void MainWindow::report(const QString &what, const QString &path) {
+    m_bench.document.addProblems({{path.toStdString(), what.toStdString()}});
+    statusBar()->showMessage(what, 8000);
+}
+
+void MainWindow::reportLoad(const QString &what, const QString &path) {
+    report(what, path);
+    // The window stays usable: what was open stays, or the start page is there again.
+    if (!m_bench.document.volume())
+        m_bench.document.setCurrentSource(-1);
+    else
+        m_projection->setMessage(what);
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent *event) {
+    if (event->mimeData()->hasUrls())
+        event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent *event) {
+    QStringList paths;
+    for (const QUrl &url : event->mimeData()->urls())
+        if (url.isLocalFile())
+            paths << url.toLocalFile();
+    event->acceptProposedAction();
+    if (!paths.isEmpty())
+        openPaths(paths);
+}
+
+void MainWindow::compareLooks(bool isComparing) {
+    m_projection->setComparing(isComparing);
+    if (isComparing && !m_projection->isComparing())
+        statusBar()->showMessage(tr("There is no look before this one"), 4000);
+}
+
+void MainWindow::keyPressEvent(QKeyEvent *event) {
+    if (event->key() == Qt::Key_Escape && m_bench.jobs.isRunning())
+        m_bench.jobs.cancel();
+    else
+        QMainWindow::keyPressEvent(event);
+}
+
+void MainWindow::changeEvent(QEvent *event) {
+    // Who goes to another window lets go there.
+    if (event->type() == QEvent::ActivationChange && !isActiveWindow() && m_projection != nullptr)
+        m_projection->setComparing(false);
+    QMainWindow::changeEvent(event);
+}
+
+void MainWindow::keepLayout() {
+    QSettings settings;
+    settings.setValue("geometry", saveGeometry());
+    settings.setValue("windowState", saveState());
+}
+
+void MainWindow::closeEvent(QCloseEvent *event) {
+    keepLayout();
+    m_bench.jobs.cancel();
+    QMainWindow::closeEvent(event);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+
+#include "ui/settings/preferences.h"
+#include "ui/settings/shortcuts.h"
+
+class QCheckBox;
+class QComboBox;
+class QKeySequenceEdit;
+class QLabel;
+class QLineEdit;
+class QTabWidget;
+class QTreeWidget;
+
+namespace pellucid::ui {
+
+/// The preferences and the keys of all commands. What is changed is kept and holds at once.
+class PreferencesDialog : public QDialog {
+    Q_OBJECT
+public:
+    explicit PreferencesDialog(QWidget *window);
+
+    /// Where it stands and what is looked at in it, for one that takes its place.
+    struct Place {
+        QByteArray geometry;
+        int tab = 0;
+        QString focus, filter;
+    };
+    Place place() const;
+    void setPlace(const Place &place);
+
+signals:
+    void changed(const pellucid::ui::Preferences &preferences);
+
+private:
+    QWidget *makeGeneral();
+    QWidget *makeShortcuts();
+    void change();
+    void showShortcuts();
+    void showChosenKey();
+    void giveKey();
+    int chosen() const;
+
+    std::vector<ShortcutEntry> m_entries;
+    QTabWidget *m_tabs;
+    QComboBox *m_language, *m_theme, *m_toolBar;
+    QCheckBox *m_remembers, *m_resumes, *m_title;
+    QLineEdit *m_filter;
+    QTreeWidget *m_commands;
+    QKeySequenceEdit *m_key;
+    QLabel *m_conflict;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/tools_menu.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <QActionGroup>
+#include <QInputDialog>
+#include <QMenu>
+#include <QToolBar>
+#include <QToolButton>
+
+#include "ui/document/add_command.h"
+#include "ui/document/commands.h"
+#include "ui/document/document.h"
+#include "ui/opening/phases.h"
+#include "ui/views/cine.h"
+#include "ui/views/mpr_view.h"
+#include "ui/views/projection_view.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// Off, and what is read of chests, vessels and joints.
+constexpr double thicknessesMm[] = {0.0, 2.0, 3.0, 5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 100.0};
+constexpr double mostMm = 500.0;
+
+} // namespace
+
+ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *, 3> &planes,
+                     ProjectionView &projection, Phases &phases)
+    : QObject(&menu), m_document(document), m_planes(planes), m_projection(projection),
+      m_cine(new Cine(planes, projection, this)), m_tools(new QActionGroup(this)),
+      m_thicknesses(new QActionGroup(this)), m_modes(new QActionGroup(this)),
+      m_interpolations(new QActionGroup(this)) {
+    addTools(menu);
+    menu.addSeparator();
+    addSlab(menu);
+    addInterpolation(menu);
+    m_wholeVolume = addCommand(menu, tr("S&how the whole volume"), "wholeVolumeAction",
+                               QKeySequence("Shift+K"), this, [this] {
+                                   scene::Scene scene = m_document.scene();
+                                   scene.crop = {};
+                                   m_document.undoStack()->push(
+                                       new EditScene(m_document, scene, tr("Whole volume")));
+                               });
+    connect(&document, &Document::sceneChanged, this, &ToolsMenu::showCut);
+    m_straighten = addCommand(menu, tr("S&traighten the planes"), "straightenAction",
+                              QKeySequence("Shift+C"), this, [this] {
+                                  Cut cut = m_document.cut();
+                                  cut.axes = {};
+                                  m_document.setCut(cut);
+                              });
+    m_alongScan = addCommand(menu, tr("Planes a&long the scan"), "alongScanAction",
+                             QKeySequence("Shift+P"), this, [this] {
+                                 Cut cut = m_document.cut();
+                                 cut.axes = mpr::PlaneAxes::along(m_document.volume()->lattice());
+                                 m_document.setCut(cut);
+                             });
+    menu.addSeparator();
+    addCine(menu);
+    addPhases(menu, phases);
+    connect(&document, &Document::cutChanged, this, &ToolsMenu::showCut);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        m_cine->stop();
+        showCut();
+    });
+    showCut();
+}
+
+void ToolsMenu::addTools(QMenu &menu) {
+    const struct {
+        QString text, hint;
+        const char *name;
+        Tool tool;
+        const char *key;
+    } tools[] = {
+        {tr("Window"), tr("drag for width and center"), "windowToolAction", Tool::window, "W"},
+        {tr("Pan"), tr("drag the picture"), "panToolAction", Tool::pan, "P"},
+        {tr("Zoom"), tr("drag up and down"), "zoomToolAction", Tool::zoom, "Z"},
+        {tr("Crosshair"), tr("drag the crosshair; its dots turn the planes"), "crosshairToolAction",
+         Tool::crosshair, "C"},
+        {tr("Distance"), tr("drag a line; in the projection too"), "distanceToolAction",
+         Tool::distance, "M"},
+        {tr("Angle"), tr("drag one leg, click the end of the other"), "angleToolAction",
+         Tool::angle, "A"},
+        {tr("Ellipse"), tr("drag the box around it"), "ellipseToolAction", Tool::ellipse, "E"},
+        {tr("Rectangle"), tr("drag from corner to corner"), "rectangleToolAction", Tool::rectangle,
+         "B"},
+        {tr("Crop"), tr("drag the sides of the box in the planes"), "cropToolAction", Tool::crop,
+         "K"}};
+    for (const auto &t : tools) {
+        QAction *action = addCommand(menu, t.text, t.name, QKeySequence(t.key), this,
+                                     [this, tool = t.tool] { chooseTool(tool); });
+        action->setToolTip(tr("%1: %2 (%3)").arg(t.text, t.hint, t.key));
+        action->setCheckable(true);
+        action->setActionGroup(m_tools);
+    }
+    m_tools->actions().first()->setChecked(true);
+}
+
+void ToolsMenu::chooseTool(Tool tool) {
+    for (MprView *plane : m_planes)
+        plane->setTool(tool);
+    m_projection.setTool(tool);
+    m_tool = tool;
+    emit toolChosen(tool);
+}
+
+void ToolsMenu::addSlab(QMenu &menu) {
+    m_slabMenu = menu.addMenu(tr("&Slab"));
+    m_slab = addCommand(*m_slabMenu, tr("&Slab"), "slabAction", QKeySequence("S"), this,
+                        [this] { toggleSlab(); });
+    m_slab->setCheckable(true);
+    m_slab->setToolTip(tr("Slab: planes with a thickness (S; [ and ] change it)"));
+    m_slabMenu->addSeparator();
+    const struct {
+        QString text;
+        const char *name;
+        mpr::SlabMode mode;
+    } modes[] = {{tr("&Mean"), "meanSlabAction", mpr::SlabMode::mean},
+                 {tr("M&aximum (MIP)"), "maximumSlabAction", mpr::SlabMode::maximum},
+                 {tr("M&inimum (MinIP)"), "minimumSlabAction", mpr::SlabMode::minimum}};
+    for (const auto &m : modes) {
+        QAction *action = addCommand(*m_slabMenu, m.text, m.name, {}, this, [this, mode = m.mode] {
+            const double now = m_document.cut().options.slab.thicknessMm;
+            setSlab({now > 0.0 ? now : m_lastThicknessMm, mode});
+        });
+        action->setCheckable(true);
+        action->setActionGroup(m_modes);
+        action->setData(int(m.mode));
+    }
+    m_slabMenu->addSeparator();
+    for (const double mm : thicknessesMm) {
+        if (mm == 0.0)
+            continue;
+        QAction *action =
+            addCommand(*m_slabMenu, tr("%1 mm").arg(mm),
+                       qPrintable(QString("slab%1Action").arg(mm)), {}, this, [this, mm] {
+                           setSlab({mm, m_document.cut().options.slab.mode});
+                       });
+        action->setCheckable(true);
+        action->setActionGroup(m_thicknesses);
+        action->setData(mm);
+    }
+    addCommand(*m_slabMenu, tr("&Other thickness..."), "otherSlabAction", {}, this,
+               [this] { askForThickness(); });
+    addCommand(*m_slabMenu, tr("T&hicker"), "thickerAction", QKeySequence("]"), this,
+               [this] { changeThickness(1); });
+    addCommand(*m_slabMenu, tr("Thi&nner"), "thinnerAction", QKeySequence("["), this,
+               [this] { changeThickness(-1); });
+}
+
+void ToolsMenu::setSlab(const mpr::Slab &slab) {
+    if (slab.thicknessMm > 0.0)
+        m_lastThicknessMm = slab.thicknessMm;
+    Cut cut = m_document.cut();
+    cut.options.slab = slab;
+    m_document.setCut(cut);
+    showCut(); // a click on what is checked unchecks it
+}
+
+void ToolsMenu::toggleSlab() {
+    const mpr::Slab &slab = m_document.cut().options.slab;
+    setSlab({slab.thicknessMm > 0.0 ? 0.0 : m_lastThicknessMm, slab.mode});
+}
+
+void ToolsMenu::changeThickness(int steps) {
+    const mpr::Slab &slab = m_document.cut().options.slab;
+    const auto *const first = std::begin(thicknessesMm), *const end = std::end(thicknessesMm);
+    const auto *at = steps > 0 ? std::upper_bound(first, end, slab.thicknessMm)
+                               : std::lower_bound(first, end, slab.thicknessMm);
+    if (steps > 0 && at == end)
+        return;
+    if (steps < 0 && at-- == first)
+        return;
+    setSlab({*at, slab.mode});
+}
+
+void ToolsMenu::askForThickness() {
+    bool isGiven = false;
+    const double mm = QInputDialog::getDouble(
+        m_planes.front()->window(), tr("Slab"), tr("Thickness of the slab, mm"),
+        m_document.cut().options.slab.thicknessMm, 0.0, mostMm, 1, &isGiven);
+    if (isGiven)
+        setSlab({mm, m_document.cut().options.slab.mode});
+}
+
+void ToolsMenu::addInterpolation(QMenu &menu) {
+    QMenu *between = menu.addMenu(tr("&Between samples"));
+    const struct {
+        QString text;
+        const char *name;
+        mpr::Interpolation which;
+    } ways[] = {{tr("&Linear"), "linearPlanesAction", mpr::Interpolation::linear},
+                {tr("&Nearest sample"), "nearestPlanesAction", mpr::Interpolation::nearest}};
+    for (const auto &w : ways) {
+        QAction *action = addCommand(*between, w.text, w.name, {}, this, [this, which = w.which] {
+            Cut cut = m_document.cut();
+            cut.options.interpolation = which;
+            m_document.setCut(cut);
+        });
+        action->setCheckable(true);
+        action->setActionGroup(m_interpolations);
+        action->setData(int(w.which));
+    }
+}
+
+void ToolsMenu::addCine(QMenu &menu) {
+    QAction *play = addCommand(menu, tr("Pla&y"), "playAction", QKeySequence(Qt::Key_Space), this,
+                               [this] { m_cine->toggle(); });
+    play->setCheckable(true);
+    play->setToolTip(tr("Play: the slices of the plane, or the projection around the patient "
+                        "(Space)"));
+    // Elsewhere Space presses what has the keyboard.
+    play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    m_projection.parentWidget()->addAction(play);
+    connect(m_cine, &Cine::playingChanged, play, &QAction::setChecked);
+    QMenu *rates = menu.addMenu(tr("S&peed"));
+    auto *group = new QActionGroup(this);
+    for (const int rate : {5, 10, 15, 25, 40}) {
+        QAction *action = addCommand(*rates, tr("%1 pictures per second").arg(rate),
+                                     qPrintable(QString("rate%1Action").arg(rate)), {}, this,
+                                     [this, rate] { m_cine->setFramesPerSecond(rate); });
+        action->setCheckable(true);
+        action->setActionGroup(group);
+        action->setChecked(rate == 15);
+    }
+}
+
+void ToolsMenu::addPhases(QMenu &menu, Phases &phases) {
+    const struct {
+        QString text;
+        const char *name, *key;
+        std::function<void()> run;
+    } commands[] = {
+        {tr("&Next phase"), "nextPhaseAction", ".", [&phases] { phases.step(1); }},
+        {tr("P&revious phase"), "previousPhaseAction", ",", [&phases] { phases.step(-1); }},
+        {tr("Play p&hases"), "playPhasesAction", "Shift+Space",
+         [&phases] { phases.togglePlaying(); }}};
+    QList<QAction *> actions;
+    for (const auto &c : commands)
+        actions << addCommand(menu, c.text, c.name, QKeySequence(c.key), this, c.run);
+    actions.back()->setCheckable(true);
+    const auto show = [actions, &phases] {
+        for (QAction *action : actions)
+            action->setEnabled(phases.count() > 1);
+        actions.back()->setChecked(phases.isPlaying());
+    };
+    connect(&phases, &Phases::changed, this, show);
+    show();
+}
+
+void ToolsMenu::addTo(QToolBar &bar) {
+    const QList<QAction *> tools = m_tools->actions();
+    for (qsizetype n = 0; n < tools.size(); ++n) {
+        if (measuredBy(Tool(n)) == measure::Kind::distance) {
+            auto *slab = new QToolButton;
+            slab->setObjectName("slabButton");
+            slab->setDefaultAction(m_slab);
+            slab->setMenu(m_slabMenu);
+            slab->setPopupMode(QToolButton::MenuButtonPopup);
+            slab->setToolButtonStyle(bar.toolButtonStyle());
+            bar.addWidget(slab);
+            bar.addSeparator();
+        }
+        bar.addAction(tools[n]);
+    }
+}
+
+void ToolsMenu::showCut() {
+    const Cut &cut = m_document.cut();
+    const mpr::Slab &slab = cut.options.slab;
+    m_slab->setChecked(slab.thicknessMm > 0.0);
+    for (QAction *action : m_modes->actions())
+        action->setChecked(action->data().toInt() == int(slab.mode));
+    m_thicknesses->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
+    for (QAction *action : m_thicknesses->actions())
+        action->setChecked(action->data().toDouble() == slab.thicknessMm);
+    for (QAction *action : m_interpolations->actions())
+        action->setChecked(action->data().toInt() == int(cut.options.interpolation));
+    m_straighten->setEnabled(!cut.axes.areStandard());
+    m_alongScan->setEnabled(m_document.volume() && m_document.volume()->notes().placed &&
+                            !(cut.axes == mpr::PlaneAxes::along(m_document.volume()->lattice())));
+    m_wholeVolume->setEnabled(!m_document.scene().crop.isWhole());
+}
+
+} // namespace pellucid::ui

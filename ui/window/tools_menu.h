@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include <QObject>
+
+#include "core/mpr/reslice.h"
+#include "ui/views/tools.h"
+
+class QAction;
+class QActionGroup;
+class QMenu;
+class QToolBar;
+
+namespace pellucid::ui {
+
+class Cine;
+class Document;
+class MprView;
+class Phases;
+class ProjectionView;
+
+/// The menu of what the mouse does and how the planes cut: tools, slab, what is between samples,
+/// turned planes, cine. The tools and the slab stand in the tool bar too.
+class ToolsMenu : public QObject {
+    Q_OBJECT
+public:
+    ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *, 3> &planes,
+              ProjectionView &projection, Phases &phases);
+
+    void addTo(QToolBar &bar);
+    Tool tool() const { return m_tool; }
+
+signals:
+    void toolChosen(pellucid::ui::Tool tool);
+
+private:
+    void addTools(QMenu &menu);
+    void addSlab(QMenu &menu);
+    void addInterpolation(QMenu &menu);
+    void addCine(QMenu &menu);
+    void addPhases(QMenu &menu, Phases &phases);
+    void chooseTool(Tool tool);
+    void setSlab(const mpr::Slab &slab);
+    void toggleSlab();
+    /// To the next thickness of the menu, or the one before.
+    void changeThickness(int steps);
+    void askForThickness();
+    void showCut();
+
+    Document &m_document;
+    std::array<MprView *, 3> m_planes;
+    ProjectionView &m_projection;
+    Cine *m_cine;
+    Tool m_tool = Tool::window;
+    QActionGroup *m_tools, *m_thicknesses, *m_modes, *m_interpolations;
+    QMenu *m_slabMenu = nullptr;
+    QAction *m_slab = nullptr, *m_alongScan = nullptr, *m_straighten = nullptr,
+            *m_wholeVolume = nullptr;
+    double m_lastThicknessMm = 10.0;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include <QList>
+#include <QObject>
+
+#include "ui/views/viewer.h"
+
+class QAction;
+class QActionGroup;
+class QKeySequence;
+class QMenu;
+class QMainWindow;
+
+namespace pellucid::ui {
+
+class GraphicsCard;
+
+/// The menu of where one looks from, and of how the panes are laid out.
+class ViewMenu : public QObject {
+    Q_OBJECT
+public:
+    ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, GraphicsCard &card);
+
+    QList<QAction *> layouts() const;
+    /// A pane that is shown and hidden, below the layouts.
+    void addPane(QAction &toggle, const QString &text, const char *name, const QKeySequence &key);
+    /// Whether there is a study beside; it is linked first.
+    void setBeside(bool isThere);
+    void setLinked(bool isLinked);
+
+signals:
+    void comparisonRequested(bool isComparing);
+    void linkRequested();
+    void closeBesideRequested();
+    void preparationRequested();
+
+private:
+    QAction *add(const QString &text, const char *name, const QKeySequence &key,
+                 const std::function<void()> &run);
+    void addStandardViews();
+    void addBeside();
+    void addLayouts();
+
+    QMenu &m_menu;
+    Viewer m_viewer;
+    QActionGroup *m_layouts;
+    QAction *m_afterPanes = nullptr;
+    QAction *m_link = nullptr, *m_closeBeside = nullptr;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/workstation.h"
+
+#include <algorithm>
+#include <set>
+
+#include <QApplication>
+#include <QFileInfo>
+#include <QLibraryInfo>
+#include <QLocale>
+
+#include "ui/opening/recent_paths.h"
+#include "ui/opening/session.h"
+#include "ui/window/main_window.h"
+#include "ui/window/preferences_dialog.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+constexpr int keepingMs = 1500;
+
+// Whether no path of it names a patient. A series has hundreds of files in a folder.
+bool mayStay(const Session &session, const Document &document) {
+    std::set<QString> folders, names;
+    const auto look = [&](const QString &file) {
+        folders.insert(QFileInfo(file).path());
+        names.insert(QFileInfo(file).fileName());
+    };
+    for (const QString &file : session.files)
+        look(file);
+    for (const dicom::Skipped &skipped : session.leftOut)
+        look(QString::fromStdString(skipped.path.string()));
+    QString all;
+    for (const QString &name : names)
+        all += "/" + name;
+    return mayBeKept(all, document) &&
+           std::all_of(folders.begin(), folders.end(),
+                       [&](const QString &folder) { return mayBeKept(folder, document); });
+}
+
+} // namespace
+
+Workstation::Workstation(std::optional<EngineChoice> engine)
+    : m_preferences(Preferences::load()), m_bench(engine) {
+    speak(m_preferences.language);
+    makeWindow();
+    m_keeping.setSingleShot(true);
+    m_keeping.setInterval(keepingMs);
+    connect(&m_keeping, &QTimer::timeout, this, [this] { keepWhatIsOpen(false); });
+    for (const auto changed :
+         {&Document::volumeChanged, &Document::sceneChanged, &Document::cameraChanged,
+          &Document::displayWindowChanged, &Document::brightnessChanged,
+          &Document::crosshairChanged, &Document::cutChanged})
+        connect(&m_bench.document, changed, this, [this] {
+            if (!m_keeping.isActive()) // a hand that does not rest is kept, too
+                m_keeping.start();
+        });
+}
+
+Workstation::~Workstation() {
+    keepWhatIsOpen(true);
+}
+
+void Workstation::keepWhatIsOpen(bool hasEnded) {
+    if (!m_preferences.remembersStudies) {
+        m_bench.session.forget();
+        return;
+    }
+    // Who opened nothing still has what was open before; what was closed since is not of a crash.
+    auto session = currentSession(m_bench.document);
+    if (!session && hasEnded && m_hasKept)
+        session = m_bench.session.kept();
+    if (!session)
+        return;
+    m_hasKept = true;
+    session->hasEnded = hasEnded;
+    // A program that is killed may lose nothing; of one that ends no name is to stay.
+    if (hasEnded && !mayStay(*session, m_bench.document))
+        m_bench.session.forget();
+    else
+        m_bench.session.keep(*session);
+}
+
+// English stands in the program; what is missing of another language stays English.
+void Workstation::speak(const QString &language) {
+    QCoreApplication::removeTranslator(&m_texts);
+    QCoreApplication::removeTranslator(&m_ofQt);
+    const QLocale locale = language.isEmpty() ? QLocale() : QLocale(language);
+    // English has a file too, of its plurals.
+    if (m_texts.load(locale, "pellucid", "_", ":/i18n"))
+        QCoreApplication::installTranslator(&m_texts);
+    if (m_ofQt.load(locale, "qtbase", "_", QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
+        QCoreApplication::installTranslator(&m_ofQt);
+}
+
+void Workstation::makeWindow() {
+    const Theme theme = Theme::named(m_preferences.theme);
+    theme.apply(*qApp);
+    const bool wasThere = m_window != nullptr;
+    QByteArray geometry;
+    if (wasThere) {
+        geometry = m_window->saveGeometry();
+        m_window->keepLayout();
+    }
+    std::optional<PreferencesDialog::Place> preferences; // it is in the middle of a choice
+    if (wasThere)
+        if (const auto *const dialog = m_window->findChild<PreferencesDialog *>())
+            preferences = dialog->place();
+    m_window.reset();
+    m_window = std::make_unique<MainWindow>(m_bench, theme, m_preferences);
+    if (wasThere)
+        m_window->restoreGeometry(geometry);
+    connect(m_window.get(), &MainWindow::preferencesChanged, this, &Workstation::follow);
+    m_window->show();
+    if (preferences)
+        m_window->openPreferences().setPlace(*preferences);
+}
+
+// What is being written looks at the panes: it is finished first.
+void Workstation::makeWindowWhenIdle() {
+    if (m_bench.exports.isRunning())
+        connect(&m_bench.exports, &JobRunner::finished, this, &Workstation::makeWindowWhenIdle,
+                Qt::ConnectionType(Qt::QueuedConnection | Qt::SingleShotConnection));
+    else
+        makeWindow();
+}
+
+void Workstation::follow(const Preferences &preferences) {
+    const Preferences before = m_preferences;
+    m_preferences = preferences;
+    if (!preferences.remembersStudies) {
+        m_bench.session.forgetAll();
+        forgetRecentPaths();
+    }
+    if (before.showsPatient && !preferences.showsPatient)
+        forgetPaths();
+    if (preferences.language != before.language)
+        speak(preferences.language);
+    if (preferences.language != before.language || preferences.theme != before.theme ||
+        preferences.toolBar != before.toolBar)
+        // Not from within a dialog of the window that goes.
+        QMetaObject::invokeMethod(this, &Workstation::makeWindowWhenIdle, Qt::QueuedConnection);
+    else
+        m_window->setPreferences(preferences);
+}
+
+} // namespace pellucid::ui
