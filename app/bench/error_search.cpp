@@ -42,7 +42,7 @@ private:
 };
 
 constexpr std::array kinds{"points", "corners", "rods",  "sheet", "shell", "comb",
-                           "chirp",  "body",    "noise", "cloud", "metal"};
+                           "chirp",  "body",    "noise", "cloud", "metal", "pattern"};
 
 volume::Lattice latticeOf(Genes &genes) {
     constexpr std::array<volume::GridSize, 8> sizes{{{24, 24, 24},
@@ -150,6 +150,20 @@ void addSamples(int kind, Genes &genes, const volume::GridSize &size, std::vecto
         const int i = end(size.i), j = end(size.j), k = end(size.k);
         at(i, j, k) = 1.0F;
         at(size.i - 1 - i, size.j - 1 - j, size.k - 1 - k) = float(genes.between(0.3, 1.0));
+    } else if (kind == 11) { // every second sample of one, two or three axes
+        const std::array<bool, 3> alternates{true, genes.next() < 0.5, genes.next() < 0.3};
+        const int turned = genes.choice(3);
+        const float between = genes.next() < 0.5 ? 0.0F : float(genes.between(0.0, 0.9));
+        for (int k = 0; k < size.k; ++k)
+            for (int j = 0; j < size.j; ++j)
+                for (int i = 0; i < size.i; ++i) {
+                    const std::array<int, 3> n{i, j, k};
+                    bool isBright = true;
+                    for (int d = 0; d < 3; ++d)
+                        isBright = isBright && (n[std::size_t(d)] % 2 == 1 ||
+                                                !alternates[std::size_t((d + turned) % 3)]);
+                    at(i, j, k) = isBright ? 1.0F : between;
+                }
     } else if (kind == 8) { // positive noise, from white to smooth
         std::minstd_rand random(unsigned(1.0 + 1e6 * genes.next()));
         std::uniform_real_distribution<float> value(0.0F, 1.0F);
@@ -241,7 +255,9 @@ Trial trialOf(const Candidate &candidate, Asked asked) {
     constexpr std::array<double, 4> tolerances{1e-2, 1.1e-3, 1e-4, 1e-5};
     const int kind = genes.choice(int(kinds.size()));
     const double tolerance = tolerances[std::size_t(genes.choice(int(tolerances.size())))];
-    const double zoom = genes.next() < 0.7 ? 1.0 : genes.between(0.5, 2.5);
+    double zoom = genes.next() < 0.7 ? 1.0 : genes.between(0.5, 2.5);
+    if (kind == 11) // so that the pattern's lines lie in the roll-off
+        zoom = genes.between(0.94, 1.0);
     const volume::Lattice lattice = latticeOf(genes);
     const Shape shape = shapeOf(kind, genes, lattice);
     std::string view;

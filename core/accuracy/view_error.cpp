@@ -22,8 +22,9 @@ namespace {
 // central cells, whose rounding is known; for tails. `unseenShare` is the part of the plan's bound
 // that every picture is charged with for what no term describes. They were fitted to 600 random
 // pictures, none of which the tests or the bench's suite `pictures` make by their own seeds.
-constexpr double coherentMargin = 2.2, detailMargin = 2.8, restMargin = 1.4, aloneMargin = 7.1,
-                 pointMargin = 4.7, centralMargin = 3.1, tailMargin = 98.0, unseenShare = 0.09;
+constexpr double coherentMargin = 1.9, detailMargin = 2.4, restMargin = 1.4, aloneMargin = 7.1,
+                 coarsePixelMargin = 2.5, pointMargin = 6.0, centralMargin = 3.1, tailMargin = 98.0,
+                 unseenShare = 0.09;
 // Cells of a few samples' spectrum are alike and round alike: less averages out.
 constexpr int fewSamples = 10;
 
@@ -176,18 +177,24 @@ ViewErrorModel::ViewErrorModel(const plan::RenderPlan &plan,
         m_periods[axis] = double(padded[axis]) * m_lattice.step(d);
         m_kernelEnergy *= size[d] <= fewSamples ? 1.0 : kernel.energy();
         for (const plan::BlockRange &range : ranges[axis]) {
-            // Root mean squares over the block; the sign of its middle.
-            double before = 0.0, after = 0.0, inverse = 0.0;
-            const int samples = range.last - range.first + 1;
+            // Root mean squares over the block, as the energy lies in it; the sign of its middle.
+            double before = 0.0, after = 0.0, inverse = 0.0, all = 0.0;
             for (int n = range.first; n <= range.last; ++n) {
+                double weight = 1e-12; // for blocks without energy
+                for (const plan::FieldSummary &field : fields)
+                    weight += field.energy.axis[axis][std::size_t(n)];
                 const double x = double(n - size[d] / 2) / padded[axis]; // NOLINT: whole
                 const double h = kernel.apodisation(x);
                 for (const int m : {-2, -1})
-                    before += std::pow(kernel.apodisation(x + m) / h, 2) / samples;
+                    before += weight * std::pow(kernel.apodisation(x + m) / h, 2);
                 for (const int m : {1, 2})
-                    after += std::pow(kernel.apodisation(x + m) / h, 2) / samples;
-                inverse += 1.0 / (h * h) / samples;
+                    after += weight * std::pow(kernel.apodisation(x + m) / h, 2);
+                inverse += weight / (h * h);
+                all += weight;
             }
+            before /= all;
+            after /= all;
+            inverse /= all;
             const double middle = 0.5 * (range.first + range.last),
                          x = (middle - size[d] / 2) / padded[axis]; // NOLINT: whole
             axes[axis].push_back({middle + first[axis],
@@ -318,13 +325,27 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
                         (cue.isActive() ? std::max(1.0, dimmed) : 1.0) *
                         std::max(0.05 * whole, whole - centralImage);
     // Tails come from what the picture has at the edge of its band, along each of its axes.
-    // What lies beside a part of it is at most as rough as white samples are, seen in such pixels.
+    // What lies beside a part of it is as rough as the field, at most as white samples are, seen in
+    // such pixels.
+    double roughness = 0.0;
+    for (const auto &spread : m_spreads)
+        roughness = std::max(roughness, spread->roughness);
     const double white =
         std::min(1.0, 0.2 * std::pow(std::max(1.0, pixel / m_lattice.shortestStepMm()), 2.0));
     const auto tails = [&](double rough) {
-        return rough * energies.image + std::min(rough, white) * beside;
+        return rough * energies.image + std::min(std::max(rough, 0.4 * roughness), white) * beside;
     };
-    const double folded = (tails(sums.across) * tailsAcross + tails(sums.down) * tailsDown) / sum;
+    double folded =
+        tailMargin * (tails(sums.across) * tailsAcross + tails(sums.down) * tailsDown) / sum;
+    // Tails of the lattice's own band cannot be told by what the picture has at the edge of its
+    // own, which may be finer.
+    if (image.reconstruction == scene::Reconstruction::bandLimited)
+        for (const auto &spread : m_spreads)
+            folded =
+                std::max(folded, whole * plan::shareInImage(camera, *spread) *
+                                     std::pow(plan::predictFoldedTails(image, camera, grid.columns,
+                                                                       grid.rows, *spread),
+                                              2));
     energies.isWhole = outside < 1e-9 * sum;
     // All cells of a few samples' spectrum are alike and round alike, so the known ones represent
     // all. Under light a sample's gradient is several.
@@ -334,8 +355,10 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
     // Alike errors make points again, a quarter of which may lie in any part of the picture.
     const double margin =
         few * std::max(0.25, part) + (centralImage > 0.0 ? restMargin : aloneMargin) * part;
-    energies.error = coherentMargin * coherent + detailMargin * detail + margin * rest +
-                     centralMargin * centralError + tailMargin * folded +
+    // Coarse pixels that are larger than the blocks spread each of them over several.
+    const double ofCoarse = coarseMm > 2.0 * m_blockMm ? coarsePixelMargin : 1.0;
+    energies.error = ofCoarse * coherentMargin * coherent + detailMargin * detail + margin * rest +
+                     centralMargin * centralError + folded +
                      std::pow(unseenShare * m_bound, 2) * energies.image;
     return energies;
 }

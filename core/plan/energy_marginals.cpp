@@ -21,14 +21,17 @@ constexpr int blocksAlong = 64;
 // The number of bins that distances from the centre are sorted into, up to the radius.
 constexpr int distanceSteps = 64;
 
+double longestStep(const volume::Lattice &lattice) {
+    return std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
+}
+
 // A quarter of the surface of the box, or of the enclosing sphere if that is smaller.
 double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, double radiusMm) {
     const volume::GridSize size = box.size();
     const double i = size.i * lattice.spacingMm(0), j = size.j * lattice.spacingMm(1),
                  k = size.k * lattice.spacingMm(2);
     // A sample is as wide as a step, so it reaches half a step beyond its centre.
-    const double reach = radiusMm + 0.5 * std::max({lattice.spacingMm(0), lattice.spacingMm(1),
-                                                    lattice.spacingMm(2)});
+    const double reach = radiusMm + 0.5 * longestStep(lattice);
     return std::min(0.5 * (i * j + j * k + k * i), std::numbers::pi * reach * reach);
 }
 
@@ -161,6 +164,64 @@ std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::V
     return blocks;
 }
 
+// The sum of the squared second differences along all axes. Beyond the box the field is zero.
+double squaredSecondDifferences(const volume::Volume &field, const volume::VoxelBox &box) {
+    const volume::GridSize lattice = field.lattice().size(), size = box.size();
+    std::vector<double> ofPlane(std::size_t(size.k));
+    field.visit([&](auto samples) {
+        tbb::parallel_for(0, size.k, [&](int k) {
+            const std::vector<typename decltype(samples)::value_type> none(std::size_t(size.i));
+            const auto row = [&](int j, int depth) {
+                const bool isInside = j >= 0 && j < size.j && depth >= 0 && depth < size.k;
+                return isInside ? samples.data() +
+                                      (std::size_t(depth + box.lo.k) * lattice.j + j + box.lo.j) *
+                                          lattice.i +
+                                      box.lo.i
+                                : none.data();
+            };
+            double sum = 0.0;
+            for (int j = -1; j <= size.j; ++j) {
+                const auto *const here = row(j, k), *const above = row(j - 1, k),
+                                  *const below = row(j + 1, k), *const before = row(j, k - 1),
+                                  *const after = row(j, k + 1);
+                float inRow = 0.0F;
+                for (int i = 0; i < size.i; ++i) {
+                    const float twice = 2.0F * float(here[i]);
+                    const float down = float(above[i]) + float(below[i]) - twice,
+                                deep = float(before[i]) + float(after[i]) - twice;
+                    inRow += down * down + deep * deep;
+                }
+                for (int i = 1; i + 1 < size.i; ++i) {
+                    const float across =
+                        float(here[i - 1]) + float(here[i + 1]) - 2.0F * float(here[i]);
+                    inRow += across * across;
+                }
+                sum += double(inRow);
+                for (const int end : {0, size.i - 1}) { // and the samples beside them
+                    const double f = double(here[end]);
+                    const double next = size.i > 1 ? double(here[end == 0 ? 1 : end - 1]) : 0.0;
+                    sum += (next - 2.0 * f) * (next - 2.0 * f) + f * f;
+                }
+            }
+            ofPlane[std::size_t(k)] = sum;
+        });
+    });
+    double sum = 0.0;
+    for (const double of : ofPlane)
+        sum += of;
+    // Beyond the first and last plane.
+    field.visit([&](auto samples) {
+        for (const int k : {box.lo.k, box.hi.k - 1})
+            for (int j = box.lo.j; j < box.hi.j; ++j)
+                for (int i = box.lo.i; i < box.hi.i; ++i) {
+                    const double f = double(
+                        samples[(std::size_t(k) * lattice.j + j) * std::size_t(lattice.i) + i]);
+                    sum += f * f;
+                }
+    });
+    return sum;
+}
+
 // Between the directions that `leastProjectionEnergy` samples, the energy does not fall below this
 // share of the minimum found: aligned parts make narrow peaks of the energy, not narrow valleys.
 constexpr double leastSeen = 0.85;
@@ -246,6 +307,8 @@ EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &
                center;
     };
     EnergySpread spread;
+    spread.shortestStepMm = lattice.shortestStepMm();
+    spread.longestStepMm = longestStep(lattice);
     for (const double i : {0.0, 1.0})
         for (const double j : {0.0, 1.0})
             for (const double k : {0.0, 1.0})
@@ -274,6 +337,8 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
 
     EnergyMarginals result;
     EnergySpread spread;
+    spread.shortestStepMm = places.shortestStepMm();
+    spread.longestStepMm = longestStep(places);
     result.axis[2].resize(size.k);
     std::vector<Layer> layers(blocksOf(size.k));
     std::array<LayerMaxima, 3> maxima;
@@ -388,12 +453,18 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
     result.blocks = fieldBlocks(field, box);
     result.massMm3 = mass * places.cellVolumeMm3();
     result.energyMm3 = total * places.cellVolumeMm3();
+    if (total > 0.0)
+        spread.roughness = squaredSecondDifferences(field, box) / 16.0 / total;
     if (isPositive) {
         const glm::dvec3 cell(places.spacingMm(0), places.spacingMm(1), places.spacingMm(2));
         const double inBall = 1.0 / balls.leastArea(0.5 * side * glm::length(cell));
         const double seen = leastSeen * leastProjectionEnergy(result.blocks, places, box);
-        spread.peakedness = std::max(1.0, largestLineIntegral(maxima, side, places) /
-                                              (result.massMm3 * std::max(inBall, seen)));
+        const double least = std::max(inBall, seen);
+        spread.peakedness =
+            std::max(1.0, largestLineIntegral(maxima, side, places) / (result.massMm3 * least));
+        const double depthMm = 2.0 * spread.radiusMm + longestStep(places);
+        spread.roughestView = depthMm * spread.roughness * result.energyMm3 /
+                              (result.massMm3 * result.massMm3 * least);
     }
     result.spread = std::make_shared<const EnergySpread>(std::move(spread));
     return result;

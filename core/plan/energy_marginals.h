@@ -19,6 +19,15 @@ struct EnergySpread {
     /// distances from n to n + 1 times `distanceStepMm`.
     std::vector<std::vector<double>> byDistance;
     double distanceStepMm = 1.0;
+    double shortestStepMm = 1.0, longestStepMm = 1.0; ///< of the lattice
+    /// The share of the field's energy that lies near the highest frequencies of the lattice, at
+    /// most: a sixteenth of the energy of the second differences along the three axes. A frequency
+    /// f passes them by sum_d sin^4(pi f_d).
+    double roughness = 1.0;
+    /// The share of a projection's energy that these frequencies have, at most, in any view of a
+    /// field without negative samples: |P g|^2 <= depth |g|^2 for what passes, and |P f|^2 is at
+    /// least as below. Infinite for a field with negative samples.
+    double roughestView = std::numeric_limits<double>::infinity();
     /// The sum of the squared energy shares of blocks of samples: 1 for a point, 1 over the number
     /// of blocks for a uniform field.
     double concentration = 1.0;

@@ -20,7 +20,7 @@ namespace {
 constexpr double viewMargin = 1.5;
 // The same of rounding, which a few cells can decide; of what is bounded already, less. All cells
 // of a field of a few samples are alike and round alike, so theirs averages out as little.
-constexpr double fewMargin = 3.0, boundedMargin = 1.5;
+constexpr double fewMargin = 12.0, boundedMargin = 1.5;
 
 double roundingMargin(const EnergySpread &spread) {
     const double alike =

@@ -143,8 +143,7 @@ std::vector<PlannedGrid> planGrids(const scene::Scene &scene,
     for (const FieldSummary &field : fields)
         room.spreads.push_back(field.energy.spread);
     std::vector<PlannedGrid> grids;
-    // A fifth stays in reserve: regular patterns have their lines at the edge of some view's band.
-    for (const double share : {0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
+    for (const double share : {0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
         room.foldedTails = share * scene.tolerance;
         const SliceGrid grid = sliceGrid(camera, room, fields.front().lattice, scene.image);
         if (!grids.empty() && grid == grids.back().grid)

@@ -56,8 +56,7 @@ SliceGrid sliceGrid(const scene::Camera &camera, const SliceRoom &room,
         const auto keeps = [&](int period) {
             // Half for each axis, of what the image holds of the projection.
             return std::all_of(room.spreads.begin(), room.spreads.end(), [&](const auto &spread) {
-                return foldedTailEnergy(*spread, image.rollOff, camera.pixelMm, period, side,
-                                        pan) <=
+                return foldedTailEnergy(*spread, image, camera.pixelMm, period, side, pan) <=
                        0.5 * room.foldedTails * room.foldedTails * shareInImage(camera, *spread);
             });
         };

@@ -67,6 +67,65 @@ TEST(ErrorSearch, TwoSamplesInOppositeCorners) {
         }
 }
 
+// So did every second sample of one or two axes, whose lines lie in the roll-off: the tails of all
+// samples add up in phase. The same of the lattice's own roll-off, in finer pixels.
+TEST(ErrorSearch, PatternsWhoseLinesLieInTheRollOff) {
+    for (const double step : {1.02, 1.035})
+        for (const bool inBoth : {false, true})
+            for (const auto reconstruction :
+                 {scene::Reconstruction::cubic, scene::Reconstruction::bandLimited}) {
+                const auto lattice = volume::Lattice::centred({20, 20, 20}, {1.0, step, step});
+                std::vector<float> samples;
+                for (int k = 0; k < 20; ++k)
+                    for (int j = 0; j < 20; ++j)
+                        for (int i = 0; i < 20; ++i)
+                            samples.push_back(j % 2 == 1 && (k % 2 == 1 || !inBoth) ? 1.0F : 0.0F);
+                const bool isCubic = reconstruction == scene::Reconstruction::cubic;
+                bench::Trial trial{
+                    "",
+                    classify::densityField(
+                        volume::Volume(lattice, std::move(samples), volume::ValueUnit::none),
+                        {0.0, 1.0}),
+                    sceneFor(lattice, scene::viewOrientation(scene::StandardView::left), 1.1e-3)};
+                trial.scene.image.reconstruction = reconstruction;
+                if (!isCubic) {
+                    trial.scene.camera.pixelMm *= 0.5;
+                    trial.scene.camera.width *= 2;
+                    trial.scene.camera.height *= 2;
+                }
+                for (const double rollOff : {0.05, 0.02}) {
+                    trial.scene.image.rollOff = rollOff;
+                    const auto verdict = bench::judge(trial);
+                    EXPECT_LE(verdict.measured, verdict.predicted)
+                        << step << ' ' << inBoth << ' ' << isCubic << ' ' << rollOff;
+                    EXPECT_LE(verdict.measured, verdict.ofView)
+                        << step << ' ' << inBoth << ' ' << isCubic << ' ' << rollOff;
+                }
+            }
+}
+
+// A few faint samples in a picture of a few pixels, with a bright one beside it: what is in the
+// picture does not tell what tails come from outside.
+TEST(ErrorSearch, AFewPixelsBesideABrightSample) {
+    const auto lattice = volume::Lattice::centred({33, 33, 33}, {1, 1, 1});
+    std::vector<float> samples(lattice.size().count(), 0.0F);
+    const auto at = [&](int i) -> float & { return samples[std::size_t((16 * 33 + 16) * 33 + i)]; };
+    at(16) = 1.0F;
+    for (const float faint : {0.003F, 0.03F})
+        for (const int side : {1, 2, 8}) {
+            at(6) = at(26) = faint;
+            bench::Trial trial{
+                "",
+                classify::densityField(volume::Volume(lattice, samples, volume::ValueUnit::none),
+                                       {0.0, 1.0}),
+                sceneFor(lattice, scene::viewOrientation(scene::StandardView::front), 1.1e-3)};
+            trial.scene.camera.width = trial.scene.camera.height = side;
+            trial.scene.camera.panMm = {10.0, 0.0};
+            const auto verdict = bench::judge(trial);
+            EXPECT_LE(verdict.measured, verdict.ofView) << faint << ' ' << side;
+        }
+}
+
 // So did a thin oblique sheet off the centre, seen edge on: its whole picture is at the edge of the
 // band.
 TEST(ErrorSearch, AThinSheetSeenEdgeOn) {
