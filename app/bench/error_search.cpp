@@ -43,6 +43,7 @@ private:
 
 constexpr std::array kinds{"points", "corners", "rods",  "sheet", "shell", "comb",
                            "chirp",  "body",    "noise", "cloud", "metal", "pattern"};
+constexpr int patternKind = 11;
 
 volume::Lattice latticeOf(Genes &genes) {
     constexpr std::array<volume::GridSize, 8> sizes{{{24, 24, 24},
@@ -150,7 +151,7 @@ void addSamples(int kind, Genes &genes, const volume::GridSize &size, std::vecto
         const int i = end(size.i), j = end(size.j), k = end(size.k);
         at(i, j, k) = 1.0F;
         at(size.i - 1 - i, size.j - 1 - j, size.k - 1 - k) = float(genes.between(0.3, 1.0));
-    } else if (kind == 11) { // every second sample of one, two or three axes
+    } else if (kind == patternKind) { // every second sample of one, two or three axes
         const std::array<bool, 3> alternates{true, genes.next() < 0.5, genes.next() < 0.3};
         const int turned = genes.choice(3);
         const float between = genes.next() < 0.5 ? 0.0F : float(genes.between(0.0, 0.9));
@@ -256,7 +257,7 @@ Trial trialOf(const Candidate &candidate, Asked asked) {
     const int kind = genes.choice(int(kinds.size()));
     const double tolerance = tolerances[std::size_t(genes.choice(int(tolerances.size())))];
     double zoom = genes.next() < 0.7 ? 1.0 : genes.between(0.5, 2.5);
-    if (kind == 11) // so that the pattern's lines lie in the roll-off
+    if (kind == patternKind) // so that the pattern's lines lie in the roll-off
         zoom = genes.between(0.94, 1.0);
     const volume::Lattice lattice = latticeOf(genes);
     const Shape shape = shapeOf(kind, genes, lattice);

@@ -24,11 +24,12 @@ double tailEnergy(double rollOff, double r) {
     return 0.11 / r * (near * near * near + 0.1 / (5.0 + x * x * x * x));
 }
 
-// What regular patterns leave whose lines lie within the roll-off, where each sample's tail adds up
-// in phase. Lengths are in samples of the band. A sample's tail has the amplitude E(r), which falls
-// as 1/r, and as 1/r^3 where the roll-off is resolved; it is a sum of two waves, of the frequencies
-// where the roll-off begins and ends, and a line is in phase with one of them. Of the samples of a
-// stretch of length l, with a share e of the energy,
+// The energy that the tails of a regular pattern leave. If a line of its spectrum lies within the
+// roll-off, the tails of all its samples add up in phase. Lengths are in samples of the band. A
+// sample's tail has the amplitude E(r), which falls as 1/r, and as 1/r^3 where the roll-off is
+// resolved; it is a sum of two waves, of the frequencies where the roll-off begins and ends, and a
+// line is in phase with one of them. Of the samples of a stretch of length l, with a share e of the
+// energy,
 //   |sum E p|^2 <= e l E^2 (Cauchy and Schwarz),
 // and stretches add up in amplitude. A line has a third of the energy of a projection without
 // negative samples at most, a comb's; `roughestView` may bound it closer. The factor of E was
@@ -37,7 +38,8 @@ double tailEnergy(double rollOff, double r) {
 // stretch counts as shorter than `leastLength`.
 double regularTailEnergy(const EnergySpread &spread, double rollOff, double bandMm, double period,
                          double side, double pan, double leastLength = 0.0) {
-    // What second differences pass of the roll-off's frequencies, along an axis or between all.
+    // The least that second differences pass of a frequency in the roll-off: it lies along an axis
+    // of the lattice or midway between all three.
     const double f = std::numbers::pi *
                      std::min(0.5, 0.5 * (1.0 - rollOff) * spread.shortestStepMm / bandMm),
                  along = std::pow(std::sin(f), 4),

@@ -61,7 +61,7 @@ SliceGrid sliceGrid(const scene::Camera &camera, const SliceRoom &room,
             });
         };
         const int least = fourier::smoothEvenSize(int(std::ceil(reach)));
-        const int most = std::min(largestSliceGrid, std::max(512, 2 * least));
+        const int most = std::min(largestSliceGrid, std::max(1024, 3 * least));
         if (keeps(least))
             return least;
         if (!keeps(most))

@@ -33,7 +33,7 @@ SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box)
 
 /// The smallest smooth slice grid for a camera that no sample of any projection with its footprint
 /// along an axis, seen from any direction, wraps into, and whose folded tails are as asked for;
-/// where that takes more than twice the cells along an axis, and more than 512, those. *Throws*
+/// where that takes more than three times the cells along an axis, and 1024, those. *Throws*
 /// Error{outOfMemory} for more than 65536 frequencies a side.
 SliceGrid sliceGrid(const scene::Camera &camera, const SliceRoom &room,
                     const volume::Lattice &lattice, const scene::ImageDefinition &image);

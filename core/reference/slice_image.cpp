@@ -21,9 +21,9 @@ struct SliceSize {
 SliceSize sliceSize(const volume::Lattice &lattice, const scene::Camera &camera,
                     const scene::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
-    // Four times the length that the roll-off's response fades over, or twice that of the lattice's
-    // own band where that is tapered too and longer.
-    double ringing = 4.0 * scene::ringingPixels(image.rollOff);
+    // Six times the length that the roll-off's response fades over, or three times that of the
+    // lattice's own band where that is tapered too and longer.
+    double ringing = 6.0 * scene::ringingPixels(image.rollOff);
     if (image.reconstruction == scene::Reconstruction::bandLimited)
         ringing *= std::max(
             1.0, 0.5 *

@@ -233,7 +233,7 @@ private slots:
     void aCancelledPreparationIsTakenUpByF5() {
         open(headPath());
         scene::Scene scene = m_window->document().scene();
-        scene.tolerance = 1e-4;
+        scene.tolerance = 1e-5;
         auto *undo = m_window->document().undoStack();
         undo->push(new ui::EditScene(m_window->document(), scene, "Tolerance"));
         QVERIFY(m_window->jobs().isRunning());
@@ -246,7 +246,7 @@ private slots:
         settle();
         QCOMPARE(projection()->planState(), ui::PlanState::holds);
         QVERIFY(find<QLabel>("predictedErrorLabel")->text().section(' ', -2, -2).toDouble() <=
-                1e-2);
+                1e-3);
         QVERIFY(changed(former, projection()->picture()) < 0.02);
         // What is there already needs nothing: back to it, and the cancelled one may be asked
         // again.

@@ -132,7 +132,7 @@ TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
             if (framing.side == 0) {
                 EXPECT_GT(plan.predictedError, measured);
             }
-            // Of a part the plan knows its size alone.
+            // The plan knows how large a part is, but not what it shows.
             EXPECT_LT(plan.predictedError, (framing.side > 0 ? 30.0 : 20.0) * measured);
         }
 }

@@ -19,8 +19,7 @@ struct Setting {
 TEST(SliceGrid, LessTailsTakeMoreRoomAndNeverMoreThanThereIs) {
     Setting s;
     int before = 0;
-    // Of any field in the box: less would take more than the cells that there are.
-    for (const double tails : {1e-1, 1e-3, 1e-4, 5e-5}) {
+    for (const double tails : {1e-1, 1e-3, 1e-4, 1e-5}) {
         s.room.foldedTails = tails;
         const plan::SliceGrid grid = s.grid();
         EXPECT_GE(grid.columns, before);
@@ -30,8 +29,8 @@ TEST(SliceGrid, LessTailsTakeMoreRoomAndNeverMoreThanThereIs) {
                   tails);
         before = grid.columns;
     }
-    s.room.foldedTails = 0.0; // cannot be had: twice the cells, or 512, are the most
-    EXPECT_EQ(s.grid().columns, 512);
+    s.room.foldedTails = 0.0; // cannot be had: three times the cells, or 1024, are the most
+    EXPECT_EQ(s.grid().columns, 1024);
 }
 
 TEST(SliceGrid, APanOfEitherSignTakesTheSameRoom) {
