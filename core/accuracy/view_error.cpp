@@ -25,8 +25,8 @@ namespace {
 // of ghosts, coarse pixels and points were chosen afterwards, on counterexamples and on 150
 // pictures of seed 503, which can therefore no longer test them.
 constexpr double coherentMargin = 1.9, detailMargin = 2.4, restMargin = 1.4, aloneMargin = 7.1,
-                 coarsePixelMargin = 2.5, pointMargin = 6.0, centralMargin = 3.1, tailMargin = 98.0,
-                 unseenShare = 0.09;
+                 coarsePixelMargin = 2.5, pointMargin = 11.0, centralMargin = 3.1,
+                 tailMargin = 98.0, unseenShare = 0.09;
 // How rough a projection is, relative to its field; chosen on crops beside points and noise.
 constexpr double projectedRoughness = 0.4;
 // Cells of a few samples' spectrum are alike and round alike: less averages out.
