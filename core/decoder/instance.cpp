@@ -58,7 +58,7 @@ std::optional<std::string> whyUnusable(const InstanceHeader &h) {
 }
 
 bool isHuge(const InstanceHeader &h, std::uint64_t fileBytes) {
-    constexpr double manyBytes = 512.0 * (1 << 20), manyTimes = 1000.0;
+    constexpr double manyBytes = 512e6, manyTimes = 1000.0;
     constexpr int largestSide = 16384;
     const int side = std::max(1, h.mosaicSide);
     const double pixels = 2.0 * h.rows * h.columns * double(h.frames.size());

@@ -160,6 +160,9 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
         h.oddities |= decoder::otherPrecision;
         h.bitsStored = precision;
         h.highBit = precision - 1;
+    } else if (!isRle && precision <= h.highBit) {
+        // The codestream has no bit as high as the header says: its samples fill the low bits.
+        h.highBit = h.bitsStored - 1;
     }
 }
 

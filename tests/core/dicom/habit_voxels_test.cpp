@@ -8,6 +8,11 @@
 #include <functional>
 #include <vector>
 
+#include <dcmtk/config/osconfig.h>
+
+#include <dcmtk/dcmdata/dctk.h>
+
+#include "core/dcmtk/dictionary.h"
 #include "core/dicom/load_volume.h"
 #include "core/dicom/scan.h"
 #include "core/volume/nrrd.h"
@@ -102,6 +107,32 @@ TEST(Habits, JpegXlGivesEveryValueOfFewerBits) {
         test::writeSeries(folder.path(), knobs, {.syntax = "1.2.840.10008.1.2.4.110"});
         expectVoxels(loaded(folder.path()), knobs);
     }
+}
+
+// Writers that state a high bit of 15 code 12 bits as they are: the header's shift is for plain
+// samples.
+TEST(Habits, SamplesOfAJpegFillItsLowBitsWhateverTheHighBit) {
+    dcmtk::prepareDcmtk();
+    SeriesKnobs knobs;
+    knobs.modality = "MR";
+    knobs.value = [](int i, int j, int k) { return 4095 - 100 * k - 10 * j - i; };
+    knobs.change = [](DicomWriter &w, int) {
+        w.putShort({0x0028, 0x0101}, 12);
+        w.putShort({0x0028, 0x0102}, 11);
+        w.putShort({0x0028, 0x0103}, 0);
+    };
+    const test::TemporaryFolder folder;
+    test::writeSeries(folder.path(), knobs);
+    for (const auto &entry : fs::directory_iterator(folder.path())) {
+        DcmFileFormat file;
+        ASSERT_TRUE(file.loadFile(entry.path().c_str()).good());
+        ASSERT_TRUE(file.loadAllDataIntoMemory().good());
+        DcmDataset &dataset = *file.getDataset();
+        ASSERT_TRUE(dataset.chooseRepresentation(EXS_JPEGLSLossless, nullptr).good());
+        ASSERT_TRUE(dataset.putAndInsertUint16(DCM_HighBit, 15).good());
+        ASSERT_TRUE(file.saveFile(entry.path().c_str(), EXS_JPEGLSLossless).good());
+    }
+    expectVoxels(loaded(folder.path()), knobs);
 }
 
 TEST(Habits, AHoleIsLeftOutOrFilledAsIsAsked) {
