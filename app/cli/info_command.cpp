@@ -93,7 +93,9 @@ void printCatalogue(const dicom::Catalogue &catalogue) {
                            printable(e.description));
                 for (const auto &v : e.volumes) {
                     const volume::Lattice &l = v.geometry.lattice;
-                    fmt::print("      {}{} x {} x {}, {:.3f} x {:.3f} x {:.3f} mm{}{}\n",
+                    const std::string number =
+                        e.volumes.size() == 1 ? "" : fmt::format("{}. ", &v - e.volumes.data() + 1);
+                    fmt::print("      {}{}{} x {} x {}, {:.3f} x {:.3f} x {:.3f} mm{}{}\n", number,
                                v.label.empty() ? "" : printable(v.label) + ": ", l.size().i,
                                l.size().j, l.size().k, l.spacingMm(0), l.spacingMm(1),
                                l.sliceDistanceMm(),
@@ -123,7 +125,8 @@ void addInfoCommand(CLI::App &app, const Context &context) {
         "info", "List patients, studies, series, geometry, warnings and skipped files");
     command
         ->add_option("PATH", options->paths,
-                     "Files, folders, DICOMDIRs, ZIP archives or NRRD files")
+                     "Files, folders, DICOMDIRs, ZIP archives, or volumes in NRRD, NIfTI or "
+                     "MetaImage")
         ->required();
     command->add_flag("--json", options->json, "Print one JSON object");
     addLargeOption(*command, options->large);

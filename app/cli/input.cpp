@@ -59,7 +59,7 @@ std::size_t filesOf(const dicom::VolumeEntry &volume) {
 }
 
 void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &shown,
-                  bool isByDefault) {
+                  bool isSeriesByDefault, bool isVolumeByDefault) {
     constexpr std::size_t most = 20; // lines
     std::size_t others = 0, more = 0, lines = 0;
     for (const dicom::Skipped &skipped : catalogue.skipped)
@@ -77,17 +77,22 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
     for (const dicom::Selection &s : dicom::selections(catalogue))
         series.insert(s.series);
     const std::size_t patients = catalogue.patients.size();
-    if (isByDefault && series.size() > 1)
+    if (isSeriesByDefault && series.size() > 1)
         warn(
             fmt::format("series {} ({}) of {} series, {} patient{}; --series chooses, 'info' lists "
                         "them",
                         shown.series->number, shown.series->uid, series.size(), patients,
                         patients == 1 ? "" : "s"));
-    if (shown.series->volumes.size() > 1)
-        warn(fmt::format("volume '{}' of {} volumes of the series, of {} of its {} files; 'info' "
-                         "lists them",
-                         shown.volume->label, shown.series->volumes.size(), filesOf(*shown.volume),
-                         shown.series->files.size()));
+    const std::vector<dicom::VolumeEntry> &volumes = shown.series->volumes;
+    if (isVolumeByDefault && volumes.size() > 1) {
+        // Volumes of one file have no frames.
+        const std::size_t files = shown.volume->volumeFile.empty() ? filesOf(*shown.volume) : 1;
+        warn(fmt::format("volume {} ('{}') of the {} of the series, from {} of its {} file{}; "
+                         "--volume chooses, 'info' lists them",
+                         shown.volume - volumes.data() + 1, shown.volume->label, volumes.size(),
+                         files, shown.series->files.size(),
+                         shown.series->files.size() == 1 ? "" : "s"));
+    }
 }
 
 // What is missing for want of memory tells nothing of the files.
@@ -156,12 +161,18 @@ void addLargeOption(CLI::App &command, bool &large) {
 void addInputOptions(CLI::App &command, InputOptions &options) {
     command
         .add_option("PATH", options.path,
-                    "A file, a folder, a DICOMDIR, a ZIP archive or an NRRD file")
+                    "A file, a folder, a DICOMDIR, a ZIP archive, or a volume in NRRD, NIfTI or "
+                    "MetaImage")
         ->required();
     command
         .add_option("--series", options.series,
                     "Series number or UID; default: the volume with most voxels")
         ->check(notEmpty());
+    command
+        .add_option("--volume", options.volume,
+                    "Volume of the series as 'info' numbers them; default: the one with most "
+                    "voxels")
+        ->check(CLI::PositiveNumber);
     command.add_flag("--fill-gaps", options.fillGaps,
                      "Interpolate where several slices are missing, instead of the longest run");
     addLargeOption(command, options.large);
@@ -184,6 +195,8 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
         const auto holes = options.fillGaps ? dicom::Holes::fill : dicom::Holes::split;
         selection = options.series.empty() ? dicom::defaultSelection(catalogue, holes)
                                            : dicom::selectSeries(catalogue, options.series, holes);
+        if (options.volume > 0)
+            selection = dicom::selectVolume(selection, options.volume);
     } catch (const Error &error) {
         throw Error(error.code(), error.reason(), path);
     }
@@ -212,7 +225,7 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
     input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
                          input.loaded.skipped.end());
     // Said even where no JSON is asked for: that a slice is left out, above all.
-    warnOfOthers(catalogue, selection, options.series.empty());
+    warnOfOthers(catalogue, selection, options.series.empty(), options.volume == 0);
     for (const std::string &warning : input.loaded.volume.notes().warnings)
         warn(warning);
     input.loadMs = watch.lapMs();

@@ -29,13 +29,14 @@ CLI::Validator notEmpty();
 /// What a command opens.
 struct InputOptions {
     std::string path, series;
+    int volume = 0; ///< of the series, from 1 on; 0: the default
     bool fillGaps = false, large = false;
 };
 
 /// --large, of a command that opens something.
 void addLargeOption(CLI::App &command, bool &large);
 
-/// PATH, --series, --fill-gaps and --large.
+/// PATH, --series, --volume, --fill-gaps and --large.
 void addInputOptions(CLI::App &command, InputOptions &options);
 
 /// Scans a path and loads one volume of it: of the series named, else the one with most voxels.

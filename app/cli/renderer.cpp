@@ -211,7 +211,17 @@ std::string Renderer::description() const {
 
 json Renderer::planJson() const {
     if (!m_engine)
-        return {{"kernel", "KB12"}, {"taps", 12 * 12 * 12}, {"padding", 2.0}, {"storage", "f64"}};
+        return {{"model",
+                 {{"spectra", json::array()},
+                  {"slices", 0},
+                  {"images", m_channels},
+                  {"combination", "each image is evaluated by itself, in double precision"}}},
+                {"kernel", "KB12"},
+                {"taps", 12 * 12 * 12},
+                {"padding", 2.0},
+                {"storage", "f64"},
+                {"predicted_error", m_predictedError},
+                {"reason", "the exact reference: no engine keeps the tolerance"}};
     const plan::RenderPlan &plan = m_fitting.plan;
     const auto &s = plan.spectrum;
     const plan::SliceGrid grid =
@@ -235,8 +245,8 @@ json Renderer::planJson() const {
         {"slices", model.slices},
         {"images", model.images},
         {"combination", plan::combinationText(model.combination)},
-        {"multiply_adds", model.multiplyAdds},
-        {"transform_operations", model.transformOperations},
+        {"multiply_adds", std::llround(model.multiplyAdds)},
+        {"transform_operations", std::llround(model.transformOperations)},
         {"bytes", {{"spectra", model.spectrumBytes}, {"frame", model.frameBytes}}},
         {"left_out", leftOut}};
     return {{"model", modelled},

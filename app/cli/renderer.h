@@ -56,6 +56,8 @@ public:
     std::size_t channelCount() const { return m_channels; }
     std::size_t bytes() const { return m_bytes; }
     bool isReduced() const { return m_fitting.reduction > 1; }
+    /// Whether the exact reference makes the pictures.
+    bool isExact() const { return !m_engine; }
     const std::string &reason() const { return m_fitting.plan.reason; }
     /// An upper bound on the error of any view of the whole volume. It is the worst channel's
     /// bound; the error of the picture, all channels taken together, is no larger.
@@ -63,8 +65,7 @@ public:
     /// The predicted error of the last picture, for its own view and crop; `predictedError` if the
     /// picture has none of its own.
     double lastViewError() const { return m_viewError.value_or(m_predictedError); }
-    /// The predicted largest error of a pixel. None for the exact reference, whose error is below
-    /// the precision of a float image.
+    /// The predicted largest error of a pixel. None for the exact reference.
     std::optional<double> predictedMaximum() const;
 
 private:

@@ -35,8 +35,10 @@ Step stepFromJson(const json &in, const std::string &where) {
         refuseJson(where, "has no kind");
     Step step{jsonText(in["kind"], where + "/kind"), {}};
     for (const auto &[key, value] : in.items())
-        if (key != "kind")
+        if (key != "kind") {
+            at(where, [&] { static_cast<void>(step.at(key)); }); // a name of the step's first
             step.parameters[key] = jsonNumber(value, where + "/" + key);
+        }
     at(where, [&] { validate(step); });
     return step;
 }

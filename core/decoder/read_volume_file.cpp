@@ -81,6 +81,18 @@ void checkSize(const fs::path &path, const SampleRange &samples) {
                     path);
 }
 
+SampleRange rangeOf(const OpenVolume &file, int volume) {
+    const VolumeLayout &layout = file.layout;
+    SampleRange samples{file.header.lattice.size().count() * bytesOf(layout.scalar),
+                        std::int32_t(bytesOf(layout.scalar)),
+                        layout.isDeflated,
+                        layout.isSwapped,
+                        layout.at,
+                        layout.skip};
+    samples.skip += std::uint64_t(volume) * samples.bytes;
+    return samples;
+}
+
 // Values of samples that are stored as type Stored, appended part by part.
 template <class Stored> class Values {
 public:
@@ -140,8 +152,7 @@ private:
         if (m_most > m_least && m_lost > mostLost * (m_most - m_least))
             throw Error(
                 ErrorCode::unusable,
-                fmt::format("its values, from {:.9g} to {:.9g}, differ by less than 24 bits "
-                            "can tell",
+                fmt::format("its values, from {} to {}, differ by less than 24 bits can tell",
                             m_least, m_most));
     }
 
@@ -182,13 +193,7 @@ private:
 template <class Stored, class Taken>
 Volume taken(const OpenVolume &file, int which, Taken values, const task::Progress &progress) {
     const VolumeLayout &layout = file.layout;
-    SampleRange samples{file.header.lattice.size().count() * sizeof(Stored),
-                        sizeof(Stored),
-                        layout.isDeflated,
-                        layout.isSwapped,
-                        layout.at,
-                        layout.skip};
-    samples.skip += std::uint64_t(which) * samples.bytes;
+    const SampleRange samples = rangeOf(file, which);
     checkSize(file.header.samplesFile, samples);
     std::uint64_t done = 0;
     const bool hasMore = Decoder::ofProgram().samples(
@@ -254,7 +259,9 @@ Volume read(const OpenVolume &file, int which, const task::Progress &progress) {
 } // namespace
 
 VolumeFileHeader readVolumeFileHeader(const fs::path &path, const task::Progress &progress) {
-    return open(path, progress).header;
+    const OpenVolume file = open(path, progress);
+    checkSize(file.header.samplesFile, rangeOf(file, 0));
+    return file.header;
 }
 
 Volume readVolumeFile(const fs::path &path, const task::Progress &progress, int volume) {

@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "core/task/error.h"
 
 namespace pellucid::dicom {
@@ -105,6 +107,18 @@ Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUi
         throw task::Error(task::ErrorCode::unusable,
                           "no series '" + numberOrUid + "'; there are " + known);
     return largest(matching);
+}
+
+Selection selectVolume(const Selection &selection, int number) {
+    const std::vector<VolumeEntry> &volumes = selection.series->volumes;
+    if (number < 1 || number > int(volumes.size()))
+        throw task::Error(
+            task::ErrorCode::unusable,
+            fmt::format("no volume {} in series {}; there {}", number, selection.series->number,
+                        volumes.size() == 1 ? "is one" : fmt::format("are {}", volumes.size())));
+    Selection chosen = selection;
+    chosen.volume = &volumes[std::size_t(number - 1)];
+    return chosen;
 }
 
 } // namespace pellucid::dicom

@@ -125,4 +125,8 @@ Selection defaultSelection(const Catalogue &catalogue, Holes holes = Holes::spli
 Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid,
                        Holes holes = Holes::split);
 
+/// Another volume of a selection's series, by its place from 1 on, as lists number them.
+/// *Throws* Error{unusable} if there is none.
+Selection selectVolume(const Selection &selection, int number);
+
 } // namespace pellucid::dicom

@@ -63,13 +63,16 @@ Plane meanPlane(const std::vector<PlacedFrame> &frames) {
 
 std::vector<std::string> jitterWarnings(const std::vector<PlacedFrame> &frames,
                                         const Plane &plane) {
-    double axes = 0.0, spacing = 0.0;
+    double axes = 0.0;
+    glm::dvec2 finest = plane.spacingMm, coarsest = finest;
     for (const PlacedFrame &frame : frames) {
         axes = std::max({axes, glm::distance(*frame.header.rowAxis, plane.row),
                          glm::distance(*frame.header.columnAxis, plane.column)});
-        const glm::dvec2 off = glm::abs(*frame.header.spacingMm / plane.spacingMm - 1.0);
-        spacing = std::max({spacing, off.x, off.y});
+        finest = glm::min(finest, *frame.header.spacingMm);
+        coarsest = glm::max(coarsest, *frame.header.spacingMm);
     }
+    const glm::dvec2 off = coarsest / finest - 1.0;
+    const double spacing = std::max(off.x, off.y);
     std::vector<std::string> warnings;
     if (axes >= jitterToReport)
         warnings.push_back(fmt::format("{} by up to {:.2f} degrees; the mean is used",

@@ -54,8 +54,7 @@ void takeFrame(const std::vector<T> &samples, int precision, std::size_t frame,
 
 void decodeJpeg2000Frames(const CompressedFrames &frames, DecodedImage &image) {
     for (std::size_t n = 0; n < frames.count(); ++n) {
-        const dcmtk::Jpeg2000Image decoded =
-            decodeJpeg2000(frames.frame(n), image.header.rows, image.header.columns);
+        const dcmtk::Jpeg2000Image decoded = decodeJpeg2000(frames.frame(n), image.header);
         image.header.hasDamagedPixels = image.header.hasDamagedPixels || decoded.isDamaged;
         takeFrame(decoded.samples, decoded.precision, n, image);
     }
@@ -63,8 +62,7 @@ void decodeJpeg2000Frames(const CompressedFrames &frames, DecodedImage &image) {
 
 void decodeJpegXlFrames(const CompressedFrames &frames, DecodedImage &image) {
     for (std::size_t n = 0; n < frames.count(); ++n) {
-        const JpegXlImage decoded =
-            decodeJpegXl(frames.frame(n), image.header.rows, image.header.columns);
+        const JpegXlImage decoded = decodeJpegXl(frames.frame(n), image.header);
         takeFrame(decoded.samples, decoded.precision, n, image);
     }
 }
@@ -93,18 +91,12 @@ int checkJpegFrames(const CompressedFrames &frames, const InstanceHeader &h,
         const auto frame = jpegFrame(frames.frame(n));
         if (!frame)
             fail("a compressed frame has no header");
-        if (frame->columns != h.columns || (frame->rows != h.rows && frame->rows != 0))
-            fail(fmt::format("a compressed frame has {} x {} pixels, the header says {} x {}",
-                             frame->columns, frame->rows, h.columns, h.rows));
-        if (frame->components != 1)
-            fail(fmt::format("a compressed frame has {} colours", frame->components));
+        requireSaid(frame->rows == 0 ? h.rows : frame->rows, frame->columns, frame->components,
+                    frame->precision, h);
         if (!isOfSyntax(frame->process))
             fail(fmt::format("a compressed frame is coded otherwise (marker FF{:02X}) than its "
                              "transfer syntax says: {}",
                              frame->process, syntaxName(syntaxUid)));
-        if (frame->precision > h.bitsAllocated)
-            fail(fmt::format("a compressed frame has {} bits per sample, the header says {}",
-                             frame->precision, h.bitsAllocated));
         precision = std::max(precision, frame->precision);
     }
     return precision;

@@ -5,12 +5,13 @@
 #include <span>
 
 #include "core/dcmtk/encode_jpeg2000.h"
+#include "core/decoder/instance.h"
 
 namespace pellucid::parse {
 
-/// Decodes a codestream or JP2 file of one component of at most 16 bits.
-/// *Throws* Error{unusable}.
-dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data, int expectedRows,
-                                    int expectedColumns);
+/// Decodes a codestream or JP2 file of one component.
+/// *Throws* Error{unusable}, also if it is not what the data set's header says.
+dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
+                                    const decoder::InstanceHeader &said);
 
 } // namespace pellucid::parse

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/task/error.h"
+
 namespace pellucid::parse {
 
 namespace {
@@ -44,6 +46,20 @@ std::size_t unpackedBytes(std::span<const std::byte> segment, std::size_t wanted
 }
 
 } // namespace
+
+void requireSaid(std::int64_t rows, std::int64_t columns, int components, int precision,
+                 const decoder::InstanceHeader &said) {
+    const auto fail = [](const std::string &reason) {
+        throw task::Error(task::ErrorCode::unusable, "a compressed frame has " + reason);
+    };
+    if (columns != said.columns || rows != said.rows)
+        fail(fmt::format("{} x {} pixels, the header says {} x {}", columns, rows, said.columns,
+                         said.rows));
+    if (components != 1)
+        fail(fmt::format("{} colours", components));
+    if (precision > said.bitsAllocated)
+        fail(fmt::format("{} bits per sample, the header says {}", precision, said.bitsAllocated));
+}
 
 std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame) {
     std::size_t at = 0;

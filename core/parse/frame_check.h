@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+
+#include "core/decoder/instance.h"
 
 namespace pellucid::parse {
 
@@ -14,6 +17,10 @@ struct JpegFrame {
     int columns = 0, components = 0, precision = 0;
     int process = 0; ///< the low byte of the marker: 0xC0 baseline, 0xC3 lossless, 0xF7 JPEG-LS ...
 };
+
+/// *Throws* Error{unusable} where a compressed frame is not what the data set's header says.
+void requireSaid(std::int64_t rows, std::int64_t columns, int components, int precision,
+                 const decoder::InstanceHeader &said);
 
 /// Nothing if there is no such header.
 std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame);

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/decoder/instance.h"
+
 namespace pellucid::parse {
 
 /// One component of a JPEG XL image. *Shape*: rows x columns, unsigned.
@@ -14,8 +16,8 @@ struct JpegXlImage {
     std::vector<std::uint16_t> samples;
 };
 
-/// Decodes a codestream or a container of one component of at most 16 bits.
-/// *Throws* Error{unusable}, also if the image has another size.
-JpegXlImage decodeJpegXl(std::span<const std::byte> data, int expectedRows, int expectedColumns);
+/// Decodes a codestream or a container of one component.
+/// *Throws* Error{unusable}, also if it is not what the data set's header says.
+JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::InstanceHeader &said);
 
 } // namespace pellucid::parse

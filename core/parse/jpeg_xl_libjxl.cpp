@@ -8,6 +8,7 @@
 
 #include <jxl/decode.h>
 
+#include "core/parse/frame_check.h"
 #include "core/task/error.h"
 
 namespace pellucid::parse {
@@ -24,7 +25,7 @@ struct Destroy {
 
 } // namespace
 
-JpegXlImage decodeJpegXl(std::span<const std::byte> data, int expectedRows, int expectedColumns) {
+JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::InstanceHeader &said) {
     const std::unique_ptr<JxlDecoder, Destroy> decoder(JxlDecoderCreate(nullptr));
     if (!decoder)
         throw std::bad_alloc();
@@ -46,17 +47,17 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, int expectedRows, int 
             // The sizes are checked before the decoder asks for memory.
             JxlBasicInfo info{};
             must(JxlDecoderGetBasicInfo(decoder.get(), &info));
-            if (info.xsize != std::uint32_t(expectedColumns) ||
-                info.ysize != std::uint32_t(expectedRows) || info.num_color_channels != 1 ||
-                info.num_extra_channels != 0 || info.have_animation == JXL_TRUE ||
-                info.bits_per_sample < 1 || info.bits_per_sample > 16 ||
+            requireSaid(info.ysize, info.xsize,
+                        int(info.num_color_channels + info.num_extra_channels),
+                        int(info.bits_per_sample), said);
+            if (info.have_animation == JXL_TRUE || info.bits_per_sample < 1 ||
                 info.exponent_bits_per_sample != 0)
                 fail("the image is not what the header says");
             image.precision = int(info.bits_per_sample);
             break;
         }
         case JXL_DEC_NEED_IMAGE_OUT_BUFFER:
-            image.samples.resize(std::size_t(expectedRows) * std::size_t(expectedColumns));
+            image.samples.resize(std::size_t(said.rows) * std::size_t(said.columns));
             must(JxlDecoderSetImageOutBuffer(decoder.get(), &format, image.samples.data(),
                                              image.samples.size() * sizeof(std::uint16_t)));
             break;

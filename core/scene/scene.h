@@ -60,11 +60,12 @@ struct NamedTolerance {
     const char *name;
     double tolerance;
 };
+inline constexpr double referenceTolerance = 1e-10;
 inline constexpr std::array<NamedTolerance, 5> namedTolerances{{{"draft", 3e-2},
                                                                 {"interactive", 1e-2},
                                                                 {"standard", 1.1e-3},
                                                                 {"fine", 1e-4},
-                                                                {"reference", 1e-10}}};
+                                                                {"reference", referenceTolerance}}};
 
 /// Throws Error{usage} if a value of the scene is out of its range; the message names it.
 void validate(const Scene &scene);

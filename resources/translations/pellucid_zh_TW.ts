@@ -491,7 +491,7 @@
     </message>
     <message>
         <source>Axial</source>
-        <translation>軸狀面</translation>
+        <translation>橫斷面</translation>
     </message>
     <message>
         <source>Coronal</source>
@@ -512,6 +512,10 @@
     <message>
         <source>lossy</source>
         <translation>有損壓縮</translation>
+    </message>
+    <message>
+        <source>interpolated</source>
+        <translation>內插</translation>
     </message>
     <message>
         <source>interpolated: no image was taken here</source>
@@ -576,20 +580,20 @@
         <translation>誤差 %1 %</translation>
     </message>
     <message>
-        <source>%1 look spectrum</source>
-        <translation>%1 個外觀頻譜</translation>
+        <source>look %1</source>
+        <translation>外觀 %1</translation>
     </message>
     <message>
-        <source>%1 colour spectra</source>
-        <translation>%1 個色彩頻譜</translation>
+        <source>colours %1</source>
+        <translation>色彩 %1</translation>
     </message>
     <message>
-        <source>%1 layer spectra</source>
-        <translation>%1 個圖層頻譜</translation>
+        <source>layers %1</source>
+        <translation>圖層 %1</translation>
     </message>
     <message>
-        <source>%1 gradient spectra</source>
-        <translation>%1 個梯度頻譜</translation>
+        <source>gradients %1</source>
+        <translation>梯度 %1</translation>
     </message>
     <message>
         <source>%1, %2</source>
@@ -1259,6 +1263,18 @@
         <translation>使解碼程式嘗試影像不需要的動作</translation>
     </message>
     <message>
+        <source>%1 and %2 more</source>
+        <translation>%1，另有 %2 處</translation>
+    </message>
+    <message>
+        <source>%1 mm between %2 and %3</source>
+        <translation>%2 與 %3 之間 %1 mm</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>、</translation>
+    </message>
+    <message>
         <source>%1, axial</source>
         <translation>%1，橫斷面</translation>
     </message>
@@ -1272,15 +1288,15 @@
     </message>
     <message>
         <source>axial %1</source>
-        <translation>橫斷面 %1</translation>
+        <translation>橫斷面（第 %1 組）</translation>
     </message>
     <message>
         <source>coronal %1</source>
-        <translation>冠狀面 %1</translation>
+        <translation>冠狀面（第 %1 組）</translation>
     </message>
     <message>
         <source>sagittal %1</source>
-        <translation>矢狀面 %1</translation>
+        <translation>矢狀面（第 %1 組）</translation>
     </message>
     <message>
         <source>images %1</source>
@@ -1970,7 +1986,7 @@
     <name>pellucid::ui::ExportDialog</name>
     <message>
         <source>Axial</source>
-        <translation>軸狀面</translation>
+        <translation>橫斷面</translation>
     </message>
     <message>
         <source>Coronal</source>
@@ -3064,15 +3080,15 @@
         <translation>至多 %1</translation>
     </message>
     <message>
-        <source>Frame of</source>
-        <translation>影格內容</translation>
+        <source>Per frame</source>
+        <translation>每格</translation>
     </message>
     <message>
         <source>Spectra, slices of them, images, and the multiplications of a frame</source>
         <translation>每一影格的頻譜、切片、影像與乘法次數</translation>
     </message>
     <message>
-        <source>Without</source>
+        <source>Left out</source>
         <translation>省略</translation>
     </message>
     <message>
@@ -3104,8 +3120,8 @@
         <translation>約 %1</translation>
     </message>
     <message>
-        <source>%1; %2 slices, %3 images, %4 million multiplications</source>
-        <translation>%1；%2 個切片、%3 幅影像、%4 百萬次乘法</translation>
+        <source>Spectra: %1; slices: %2; images: %3; multiplications: %4 million</source>
+        <translation>頻譜：%1；切片：%2；影像：%3；乘法：%4 百萬次</translation>
     </message>
     <message>
         <source>, </source>
@@ -3311,16 +3327,16 @@
         <translation>開啟檢查</translation>
     </message>
     <message>
-        <source>Drop DICOM files, folders, a DICOMDIR, a ZIP archive or an NRRD volume anywhere in this window.</source>
-        <translation>請將 DICOM 檔案、資料夾、DICOMDIR、ZIP 壓縮檔或 NRRD 體積拖放到此視窗任意處。</translation>
+        <source>Drop DICOM files, folders, a DICOMDIR, a ZIP archive or a volume (NRRD, NIfTI, MetaImage) anywhere in this window.</source>
+        <translation>請將 DICOM 檔案、資料夾、DICOMDIR、ZIP 壓縮檔或體積檔（NRRD、NIfTI、MetaImage）拖放到此視窗任意處。</translation>
     </message>
     <message>
         <source>Open files...</source>
         <translation>開啟檔案…</translation>
     </message>
     <message>
-        <source>Choose DICOM or NRRD files (Ctrl+O)</source>
-        <translation>選擇 DICOM 或 NRRD 檔案 (Ctrl+O)</translation>
+        <source>Choose DICOM or volume files (Ctrl+O)</source>
+        <translation>選擇 DICOM 或體積檔案 (Ctrl+O)</translation>
     </message>
     <message>
         <source>Open folder...</source>

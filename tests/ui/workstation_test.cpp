@@ -214,6 +214,43 @@ private slots:
         QVERIFY(!list->isVisible());
     }
 
+    // A study that cannot be loaded gives way to the one that was shown.
+    void whatCannotBeLoadedLeavesWhatWasShown() {
+        open(headPath());
+        const auto shown = m_window->document().currentSource();
+        const QImage before = projection()->picture();
+        const std::string file = (m_folder / "damaged.nrrd").string();
+        std::ofstream(file) << "NRRD0004\ntype: short\ndimension: 3\nsizes: 9 9 9\n"
+                               "encoding: gzip\n\nno gzip stream at all";
+        drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
+        auto *list = find<QListWidget>("problemList");
+        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && m_window->document().volume() &&
+                                     m_window->document().currentSource() == shown,
+                                 patienceMs);
+        QVERIFY(list->item(0)->text().contains("damaged or truncated"));
+        settle();
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+    }
+
+    // The wheel scrolls a panel without changing the boxes that pass below it.
+    void theWheelChangesNoBoxThatItPassesOver() {
+        open(headPath());
+        auto *box = find<QComboBox>("reconstructionBox");
+        const int before = box->currentIndex();
+        const auto roll = [&] {
+            const QPointF at(box->rect().center());
+            QWheelEvent event(at, box->mapToGlobal(at), {}, {0, -120}, Qt::NoButton, Qt::NoModifier,
+                              Qt::NoScrollPhase, false);
+            QApplication::sendEvent(box, &event);
+        };
+        roll();
+        QCOMPARE(box->currentIndex(), before);
+        QVERIFY(!box->hasFocus());
+        box->setFocus();
+        roll();
+        QVERIFY(box->currentIndex() != before);
+    }
+
     void cancelGivesTheProgramBackAtOnce() {
         find<QPushButton>("headPhantomButton")->click();
         QTRY_VERIFY(m_window->jobs().isRunning());

@@ -40,6 +40,8 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "all slices have the same position"),
     QT_TRANSLATE_NOOP("Reasons", "%1 is %2 mm off the line through all slices"),
     QT_TRANSLATE_NOOP("Reasons", "missing slices, interpolated: %1"),
+    QT_TRANSLATE_NOOP("Reasons", "%1 and %2 more"),
+    QT_TRANSLATE_NOOP("Reasons", "%1 mm between %2 and %3"),
     QT_TRANSLATE_NOOP("Reasons", "orientations differ by up to %1 degrees; the mean is used"),
     QT_TRANSLATE_NOOP("Reasons", "pixel spacings differ by up to %1 %; the mean is used"),
     QT_TRANSLATE_NOOP("Reasons", "every image has its own frame of reference; treated as one"),
@@ -283,6 +285,9 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "%1 (%2 then %3 mm)"),
     QT_TRANSLATE_NOOP("Reasons", "set %1")};
 
+// Between the parts of a list.
+[[maybe_unused]] constexpr const char *separator = QT_TRANSLATE_NOOP("Reasons", ", ");
+
 // The names of presets, classes and windows, for whoever translates.
 [[maybe_unused]] constexpr const char *names[] = {
     QT_TRANSLATE_NOOP("Names", "X-ray"),
@@ -384,7 +389,8 @@ QString spoken(const QString &english) {
     }
     // Labels are lists.
     if (const auto comma = english.indexOf(", "); comma >= 0)
-        return spoken(english.left(comma)) + ", " + spoken(english.mid(comma + 2));
+        return spoken(english.left(comma)) + QCoreApplication::translate("Reasons", ", ") +
+               spoken(english.mid(comma + 2));
     return english;
 }
 

@@ -70,6 +70,8 @@ private:
     std::optional<int> resumedOf(const std::vector<int> &indices) const;
     void takeUp();
     void keepCurrent();
+    /// To what was shown before a study that cannot be loaded.
+    void goBack();
     Continuity leavePhase(int next);
     void goOn(const Continuity &continuity);
     void show(const KeptStudy &study, const std::optional<Continuity> &continuity);
@@ -78,6 +80,7 @@ private:
     JobRunner &m_jobs;
     LookPreparer &m_preparer;
     KeptStudies m_kept;
+    std::optional<int> m_former; ///< the source that the one being loaded takes the place of
     std::optional<Resumption> m_resumption;
 };
 

@@ -40,13 +40,13 @@ QComboBox *addBox(QFormLayout *form, const QString &text, const char *name, cons
 QString spectraName(plan::SpectrumOf what) {
     switch (what) {
     case plan::SpectrumOf::look:
-        return QObject::tr("%1 look spectrum");
+        return QObject::tr("look %1");
     case plan::SpectrumOf::channel:
-        return QObject::tr("%1 colour spectra");
+        return QObject::tr("colours %1");
     case plan::SpectrumOf::layer:
-        return QObject::tr("%1 layer spectra");
+        return QObject::tr("layers %1");
     case plan::SpectrumOf::gradient:
-        return QObject::tr("%1 gradient spectra");
+        return QObject::tr("gradients %1");
     }
     return {};
 }
@@ -127,10 +127,10 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
     m_padded = addFigure(form, tr("Padded"), "paddingLabel",
                          tr("Padded size over size, along columns, rows and slices"));
-    m_model = addFigure(form, tr("Frame of"), "modelLabel",
+    m_model = addFigure(form, tr("Per frame"), "modelLabel",
                         tr("Spectra, slices of them, images, and the multiplications of a frame"));
     m_model->setWordWrap(true);
-    m_leftOut = addFigure(form, tr("Without"), "leftOutLabel",
+    m_leftOut = addFigure(form, tr("Left out"), "leftOutLabel",
                           tr("What the scene does not need, and no frame pays for"));
     m_leftOut->setWordWrap(true);
     m_reason = new QLabel;
@@ -324,7 +324,7 @@ void QualityPanel::showModel() {
         spectra << spectraName(kind.of).arg(kind.count);
         reasons << whySpectra(kind.of);
     }
-    m_model->setText(tr("%1; %2 slices, %3 images, %4 million multiplications")
+    m_model->setText(tr("Spectra: %1; slices: %2; images: %3; multiplications: %4 million")
                          .arg(spectra.join(tr(", ")))
                          .arg(model.slices)
                          .arg(model.images)

@@ -26,13 +26,13 @@ StartPage::StartPage(QWidget *parent)
     setAttribute(Qt::WA_StyledBackground);
     auto *title = new QLabel(tr("Open a study"));
     title->setProperty("role", "title");
-    auto *hint = new QLabel(tr("Drop DICOM files, folders, a DICOMDIR, a ZIP archive or an NRRD "
-                               "volume anywhere in this window."));
+    auto *hint = new QLabel(tr("Drop DICOM files, folders, a DICOMDIR, a ZIP archive or a volume "
+                               "(NRRD, NIfTI, MetaImage) anywhere in this window."));
     hint->setProperty("role", "muted");
     hint->setWordWrap(true);
     hint->setAlignment(Qt::AlignCenter);
     auto *files =
-        button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or NRRD files (Ctrl+O)"));
+        button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or volume files (Ctrl+O)"));
     auto *folder = button(tr("Open folder..."), "openFolderButton",
                           tr("Choose a folder; everything below it is looked at (Ctrl+Shift+O)"));
     auto *phantomTitle = new QLabel(tr("TRY A PHANTOM"));

@@ -133,9 +133,13 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
         drawText(painter, inner.adjusted(0, line * lines++, 0, 0), Qt::AlignRight | Qt::AlignTop,
                  slabText(cut.options.slab), colors.text);
     if (isInFilled(painter, area, mapping, *document.volume(), document.crosshair(),
-                   colors.warning))
+                   colors.warning)) {
+        // Beside the letter in the middle.
+        const QString whole = PlaneTextsTexts::tr("interpolated: no image was taken here");
+        const bool fits = painter.fontMetrics().horizontalAdvance(whole) < inner.width() / 2 - line;
         drawText(painter, inner.adjusted(0, line * lines, 0, 0), Qt::AlignRight | Qt::AlignTop,
-                 PlaneTextsTexts::tr("interpolated: no image was taken here"), colors.warning);
+                 fits ? whole : PlaneTextsTexts::tr("interpolated"), colors.warning);
+    }
     if (notes.placed)
         drawOrientationLetters(painter, area, mapping.plane.axes.right, mapping.plane.axes.up,
                                colors);

@@ -193,7 +193,7 @@ TEST(GroupSeries, AxesAndSpacingsThatJitterAreOneStack) {
     };
     for (const auto &[axes, spacing, warnings] :
          {std::tuple(1e-4, 0.0, 0U), std::tuple(5e-4, 6e-5, 0U), std::tuple(0.0, 6e-5, 0U),
-          std::tuple(9e-4, 0.0, 1U), std::tuple(0.0, 1.1e-3, 1U)}) {
+          std::tuple(9e-4, 0.0, 1U), std::tuple(0.0, 6e-4, 1U), std::tuple(0.0, 1.1e-3, 1U)}) {
         const auto entries = jittered(axes, spacing);
         ASSERT_EQ(entries.size(), 1U) << axes << ' ' << spacing;
         EXPECT_EQ(entries[0].geometry.lattice.size().k, 40);

@@ -88,6 +88,9 @@ TEST(Preset, RefusesWithLineAndReason) {
     EXPECT_EQ(
         reasonOf(with("\"kind\": \"largest\"", "\"kind\": \"biggest\"")).rfind("line 17: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("\"radius_mm\": 1.5", "\"radius_mm\": -1")).rfind("line 16: ", 0), 0U);
+    EXPECT_EQ(reasonOf(with("\"radius_mm\": 1.5", "\"method\": \"ITK\"")),
+              "line 16: /classes/0/steps/0: 'method' is no parameter of the step 'median', which "
+              "has radius_mm");
     EXPECT_EQ(reasonOf(with("preset/1", "preset/9")), "line 2: /schema: is not pellucid-preset/1");
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"\"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "[2000, -900]")).rfind("line 5: /window: ", 0), 0U);
