@@ -24,9 +24,10 @@ namespace {
 // that every picture is charged with for what no term describes. They were fitted to 933 random
 // pictures of the bench's suite `pictures` (seeds 604, 911, 1201 to 1204, 1301 to 1304), which can
 // therefore no longer test them; those of coarse pixels and points also to counterexamples.
-constexpr double coherentMargin = 2.7, detailMargin = 2.4, restMargin = 1.0, aloneMargin = 7.1,
-                 coarsePixelMargin = 2.5, pointMargin = 4.0, centralMargin = 4.6, tailMargin = 50.0,
-                 patternBesideMargin = 40.0, pointBesideMargin = 15.0, unseenShare = 0.1025;
+constexpr double coherentMargin = 2.7, detailMargin = 2.4, restMargin = 1.1, aloneMargin = 7.1,
+                 coarsePixelMargin = 2.5, pointMargin = 1.6, partOfPointsMargin = 4.0,
+                 centralMargin = 3.8, tailMargin = 50.0, patternBesideMargin = 40.0,
+                 pointBesideMargin = 15.0, unseenShare = 0.0975;
 // Alike errors make points again; this part of their energy may lie in any part of the picture.
 constexpr double pointShare = 0.69;
 // How rough a projection is, relative to its field; chosen on crops beside points and noise.
@@ -357,16 +358,21 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
                                                                        grid.rows, *spread),
                                               2));
     energies.isWhole = outside < 1e-9 * sum;
-    // All cells of a few samples' spectrum are alike and round alike, so the known ones represent
-    // all. Under light a sample's gradient is several.
+    // All cells of a few samples' spectrum are alike and round alike, so the central ones represent
+    // all: in a whole picture by the error that they make in this view, in a part, which may hold
+    // none of them, by their rounding. Under light a sample's gradient is several.
+    const bool isKnown = centralImage > 0.0;
     const double alike = shading.isLit() ? 0.0 : fewness,
-                 known = centralImage > 0.0 ? central.ofCells / (m_rounding * m_rounding) : 1.5,
-                 few = pointMargin * alike * known;
-    const double margin =
-        few * std::max(pointShare, part) + (centralImage > 0.0 ? restMargin : aloneMargin) * part;
+                 known = isKnown ? central.ofCells / (m_rounding * m_rounding) : 1.5;
+    const double few =
+        alike *
+        (isKnown && energies.isWhole
+             ? pointMargin * centralError / centralImage * std::max(0.0, whole - centralImage)
+             : partOfPointsMargin * std::max(pointShare, part) * known * rest);
+    const double others = (isKnown ? restMargin : aloneMargin) * part * rest;
     // Coarse pixels that are larger than the blocks spread each of them over several.
     const double ofCoarse = coarseMm > 2.0 * m_blockMm ? coarsePixelMargin : 1.0;
-    energies.error = ofCoarse * coherentMargin * coherent + detailMargin * detail + margin * rest +
+    energies.error = ofCoarse * coherentMargin * coherent + detailMargin * detail + few + others +
                      centralMargin * centralError + folded +
                      std::pow(unseenShare * m_bound, 2) * energies.image;
     return energies;
