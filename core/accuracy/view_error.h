@@ -22,7 +22,8 @@ public:
 
     /// The relative L2 error of a picture that an engine of the plan made, with cue and light,
     /// with the energies and the ghosts as they are seen from there, in the window that it has.
-    /// For a whole picture of one field a channel it is never more than the plan's bound.
+    /// For a whole picture of one field a channel it is never more than the plan's bound. From 1 on
+    /// the picture may be nothing but error, as of a part in which nothing is shown.
     double relativeError(const picture::ProjectionImage &picture, const scene::Camera &camera,
                          const scene::ImageDefinition &image, const render::EngineParts &engine,
                          const shading::Shading &shading) const;

@@ -576,6 +576,10 @@
         <translation>光照作用於梯度，梯度有自己的頻譜</translation>
     </message>
     <message>
+        <source>error over 100 %</source>
+        <translation>誤差超過 100 %</translation>
+    </message>
+    <message>
         <source>error %1 %</source>
         <translation>誤差 %1 %</translation>
     </message>

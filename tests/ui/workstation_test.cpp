@@ -221,7 +221,7 @@ private slots:
         const QImage before = projection()->picture();
         const std::string file = (m_folder / "damaged.nrrd").string();
         std::ofstream(file) << "NRRD0004\ntype: short\ndimension: 3\nsizes: 9 9 9\n"
-                               "encoding: gzip\n\nno gzip stream at all";
+                               "endian: little\nencoding: gzip\n\nno gzip stream at all";
         drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
         auto *list = find<QListWidget>("problemList");
         QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && m_window->document().volume() &&

@@ -30,6 +30,8 @@ constexpr double samplesPerPixel = 4.0;
 // No more digits than are known.
 QString errorText(double error) {
     const double percent = 100.0 * error;
+    if (percent >= 100.0) // of a part that shows next to nothing
+        return QObject::tr("error over 100 %");
     return QObject::tr("error %1 %")
         .arg(percent < 1.0 ? QString::number(percent, 'f', 3) : QString::number(percent, 'g', 2));
 }
