@@ -56,8 +56,10 @@ json catalogueJson(const dicom::Catalogue &catalogue) {
             json series = json::array();
             for (const auto &e : s.series) {
                 json volumes = json::array();
-                for (const auto &v : e.volumes)
+                for (const auto &v : e.volumes) {
                     volumes.push_back(volumeJson(v));
+                    volumes.back()["number"] = volumes.size();
+                }
                 series.push_back({{"uid", e.uid},
                                   {"number", e.number},
                                   {"description", e.description},

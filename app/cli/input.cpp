@@ -87,11 +87,11 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
     if (isVolumeByDefault && volumes.size() > 1) {
         // Volumes of one file have no frames.
         const std::size_t files = shown.volume->volumeFile.empty() ? filesOf(*shown.volume) : 1;
-        warn(fmt::format("volume {} ('{}') of the {} of the series, from {} of its {} file{}; "
-                         "--volume chooses, 'info' lists them",
-                         shown.volume - volumes.data() + 1, shown.volume->label, volumes.size(),
-                         files, shown.series->files.size(),
-                         shown.series->files.size() == 1 ? "" : "s"));
+        const std::size_t all = shown.series->files.size();
+        warn(fmt::format("volume {} of {} in the series ('{}', {} of {} file{}); --volume selects "
+                         "another, 'info' lists them",
+                         shown.volume - volumes.data() + 1, volumes.size(), shown.volume->label,
+                         files, all, all == 1 ? "" : "s"));
     }
 }
 
@@ -172,9 +172,11 @@ void addInputOptions(CLI::App &command, InputOptions &options) {
         .add_option("--volume", options.volume,
                     "Volume of the series as 'info' numbers them; default: the one with most "
                     "voxels")
-        ->check(CLI::PositiveNumber);
-    command.add_flag("--fill-gaps", options.fillGaps,
-                     "Interpolate where several slices are missing, instead of the longest run");
+        ->check(CLI::Range(1, 1000000));
+    command
+        .add_flag("--fill-gaps", options.fillGaps,
+                  "Interpolate where several slices are missing, instead of the longest run")
+        ->excludes("--volume");
     addLargeOption(command, options.large);
 }
 

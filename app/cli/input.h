@@ -29,7 +29,7 @@ CLI::Validator notEmpty();
 /// What a command opens.
 struct InputOptions {
     std::string path, series;
-    int volume = 0; ///< of the series, from 1 on; 0: the default
+    int volume = 0; ///< of the series, 1-based; 0 selects the default
     bool fillGaps = false, large = false;
 };
 

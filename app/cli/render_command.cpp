@@ -119,7 +119,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         warn(text);
     if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
         warn(why);
-    // The reference is asked for as it is: its tolerance is no figure that one needs.
+    // `reference` selects the exact method; its nominal tolerance is no target.
     if (renderer->predictedError() > scene.tolerance &&
         !(renderer->isExact() && scene.tolerance == scene::referenceTolerance))
         warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,

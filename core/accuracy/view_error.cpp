@@ -16,21 +16,29 @@ namespace pellucid::accuracy {
 
 namespace {
 
-// Margins for what coarse blocks and mean energies leave out, as energy: for ghosts block by block
-// and beyond blocks; for the rounding of cells about which only a mean is known, with and without
-// that of the central ones, and of a field of a few samples, where nothing averages; for the
-// central cells, whose rounding is known; for tails of the picture, and of what lies beside it,
-// which a few samples leave less of than patterns do. `unseenShare` is the part of the plan's bound
-// that every picture is charged with for what no term describes. They were fitted to 1,700 random
-// pictures of the bench's suite `pictures` (seeds 604, 911, 1201 to 1204, 1301 to 1304, 1401 to
-// 1403, 1501), which can therefore no longer test them; those of coarse pixels and points also to
-// counterexamples.
-constexpr double coherentMargin = 2.7, detailMargin = 2.4, restMargin = 1.1, aloneMargin = 7.1,
-                 coarsePixelMargin = 2.5, pointMargin = 1.7, litPointMargin = 0.8,
-                 partOfPointsMargin = 3.0, centralMargin = 4.0, tailMargin = 50.0,
-                 patternBesideMargin = 40.0, pointBesideMargin = 15.0, unseenShare = 0.1;
-// Alike errors make points again; this part of their energy may lie in any part of the picture.
+// Margins, as energy, for what coarse blocks and mean energies leave out. They were fitted to 1,700
+// random pictures of the bench's suite `pictures` (seeds 604, 911, 1201 to 1204, 1301 to 1304, 1401
+// to 1403, 1501), which can therefore no longer test them; those of coarse pixels and points also
+// to counterexamples.
+constexpr double coherentMargin = 2.7, ///< ghosts, block by block
+    detailMargin = 2.4,                ///< ghosts of what blocks do not show
+    coarsePixelMargin = 2.5,           ///< ghosts in pixels larger than the blocks
+    restMargin = 1.1,                  ///< rounding of other cells than the central ones
+    aloneMargin = 7.1,                 ///< rounding where no cell's is known
+    centralMargin = 4.0,               ///< the known rounding of the central cells
+    pointMargin = 1.7,                 ///< rounding of a few samples, judged by the central cells
+    litPointMargin = 0.8,              ///< the same under light
+    partOfPointsMargin = 3.0,          ///< the same in a part of the picture
+    tailMargin = 50.0,                 ///< tails of the picture
+    patternBesideMargin = 40.0,        ///< tails of what lies beside it
+    pointBesideMargin = 15.0;          ///< the same of a few samples
+// The part of the plan's bound that every picture is charged with, for what no term describes.
+constexpr double unseenShare = 0.1;
+// Similar errors add up to point-like ghosts; this share of their energy may fall in any part of
+// the picture.
 constexpr double pointShare = 0.69;
+// The energy of rounding over its mean where no cell's is known.
+constexpr double unknownRounding = 1.5;
 // How rough a projection is, relative to its field; chosen on crops beside points and noise.
 constexpr double projectedRoughness = 0.4;
 // Cells of a few samples' spectrum are alike and round alike: less averages out.
@@ -365,7 +373,7 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
     // are less alike.
     const bool isKnown = centralImage > 0.0, representAll = isKnown && energies.isWhole;
     const double alike = shading.isLit() ? 0.0 : fewness,
-                 known = isKnown ? central.ofCells / (m_rounding * m_rounding) : 1.5,
+                 known = isKnown ? central.ofCells / (m_rounding * m_rounding) : unknownRounding,
                  ofPoints = representAll ? fewness * centralError / centralImage *
                                                std::max(0.0, whole - centralImage)
                                          : 0.0,

@@ -36,7 +36,7 @@ Step stepFromJson(const json &in, const std::string &where) {
     Step step{jsonText(in["kind"], where + "/kind"), {}};
     for (const auto &[key, value] : in.items())
         if (key != "kind") {
-            at(where, [&] { static_cast<void>(step.at(key)); }); // a name of the step's first
+            at(where, [&] { static_cast<void>(step.at(key)); }); // check the name before the value
             step.parameters[key] = jsonNumber(value, where + "/" + key);
         }
     at(where, [&] { validate(step); });

@@ -259,7 +259,13 @@ Volume read(const OpenVolume &file, int which, const task::Progress &progress) {
 } // namespace
 
 VolumeFileHeader readVolumeFileHeader(const fs::path &path, const task::Progress &progress) {
-    const OpenVolume file = open(path, progress);
+    OpenVolume file = open(path, progress);
+    std::error_code unknown;
+    if (!fs::exists(file.header.samplesFile, unknown))
+        throw Error(
+            ErrorCode::unusable,
+            fmt::format("its samples are missing: {}", file.header.samplesFile.filename().string()),
+            path);
     checkSize(file.header.samplesFile, rangeOf(file, 0));
     return file.header;
 }

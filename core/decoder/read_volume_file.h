@@ -24,6 +24,7 @@ struct VolumeFileHeader {
     volume::VolumeNotes notes;
     std::filesystem::path samplesFile; ///< the file itself, or another one that it names
 };
+/// *Throws* Error{unusable}, also where the samples of the first volume cannot all be there.
 VolumeFileHeader readVolumeFileHeader(const std::filesystem::path &path,
                                       const task::Progress &progress = {});
 

@@ -125,7 +125,7 @@ Selection defaultSelection(const Catalogue &catalogue, Holes holes = Holes::spli
 Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid,
                        Holes holes = Holes::split);
 
-/// Another volume of a selection's series, by its place from 1 on, as lists number them.
+/// Volume `number` of the selection's series, counted from 1 as `info` does.
 /// *Throws* Error{unusable} if there is none.
 Selection selectVolume(const Selection &selection, int number);
 

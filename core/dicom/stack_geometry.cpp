@@ -230,10 +230,10 @@ std::string unevenWarning(const std::vector<PlacedFrame> &frames, const std::vec
     for (std::size_t n = 1; n < gaps.size(); ++n)
         if (std::abs(gaps[n] - gaps[n - 1]) > evennessToleranceMm(gaps[n]) && ++listed <= 6)
             changes +=
-                fmt::format("{}{} ({:.3g} then {:.3g} mm)", changes.empty() ? "" : ", ",
+                fmt::format("{}{} ({:.3g} then {:.3g} mm)", changes.empty() ? "" : "; ",
                             frames[n].reference.path.filename().string(), gaps[n - 1], gaps[n]);
     if (listed > 6)
-        changes += fmt::format(" and {} more", listed - 6);
+        changes += fmt::format("; {} more", listed - 6);
     return fmt::format("{}, resampled onto {:.3f} mm; they change at {}", unevenStack, step,
                        changes.empty() ? "many files" : changes);
 }
@@ -255,12 +255,12 @@ void fillGaps(const std::vector<PlacedFrame> &frames, const std::vector<double> 
             continue;
         result.filled.push_back({first, last});
         if (++listed <= 3)
-            places += fmt::format("{}{:.1f} mm between {} and {}", places.empty() ? "" : ", ",
+            places += fmt::format("{}{:.1f} mm between {} and {}", places.empty() ? "" : "; ",
                                   gaps[n], frames[n].reference.path.filename().string(),
                                   frames[n + 1].reference.path.filename().string());
     }
     if (listed > 3)
-        places += fmt::format(" and {} more", listed - 3);
+        places += fmt::format("; {} more", listed - 3);
     if (listed > 0)
         result.warnings.push_back(fmt::format("{}, interpolated: {}", missingSlices, places));
 }

@@ -45,8 +45,8 @@ struct StackResult {
 double evennessToleranceMm(double spacingMm);
 
 /// Axes and pixel spacings of two images of one stack may differ by this much, in radians and
-/// relatively: against their mean, less than half a pixel at the edge of 512. From `jitterToReport`
-/// off the mean, the volume has a warning.
+/// relatively: against their mean, less than half a pixel at the edge of 512. The volume has a
+/// warning if an axis deviates from the mean by `jitterToReport`, or if two spacings differ by it.
 inline constexpr double largestJitter = 3e-3, jitterToReport = 1e-3;
 
 /// Sets the depths along the frames' mean normal and sorts by them. Every frame needs a position

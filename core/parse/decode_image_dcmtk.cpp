@@ -91,8 +91,8 @@ int checkJpegFrames(const CompressedFrames &frames, const InstanceHeader &h,
         const auto frame = jpegFrame(frames.frame(n));
         if (!frame)
             fail("a compressed frame has no header");
-        requireSaid(frame->rows == 0 ? h.rows : frame->rows, frame->columns, frame->components,
-                    frame->precision, h);
+        requireMatchesHeader(frame->rows == 0 ? h.rows : frame->rows, frame->columns,
+                             frame->components, frame->precision, h);
         if (!isOfSyntax(frame->process))
             fail(fmt::format("a compressed frame is coded otherwise (marker FF{:02X}) than its "
                              "transfer syntax says: {}",
@@ -109,17 +109,24 @@ void checkRleFrames(const CompressedFrames &frames, const InstanceHeader &h) {
             fail(*why);
 }
 
-// Whether the decoder's words hold more bits than the header's samples have.
+// Whether the decoder's words hold more bits than the header's samples have. In a stream as wide as
+// the words, what lies above them may be left at 0, signed or not, as in plain samples.
 bool exceedsStored(DcmDataset &dataset, const InstanceHeader &h, int precision) {
     if (h.bitsAllocated != 16)
         return false;
     const Uint16 *data = nullptr;
     unsigned long count = 0;
     dataset.findAndGetUint16Array(DCM_PixelData, data, &count);
-    for (unsigned long n = 0; data != nullptr && n < count; ++n)
-        if (extended(data[n], h.bitsStored, h.isSigned()) !=
-            extended(data[n], precision, h.isSigned()))
+    const bool isWide = precision == h.bitsAllocated;
+    const int shift = precision > h.highBit ? h.highBit + 1 - h.bitsStored : 0;
+    const std::uint32_t below = (1U << shift) - 1U;
+    for (unsigned long n = 0; data != nullptr && n < count; ++n) {
+        const std::uint32_t word = data[n], above = word >> (shift + h.bitsStored);
+        if ((word & below) != 0 || (!(isWide && above == 0) &&
+                                    extended(word >> shift, h.bitsStored, h.isSigned()) !=
+                                        extended(word >> shift, precision - shift, h.isSigned())))
             return true;
+    }
     return false;
 }
 
@@ -150,8 +157,11 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
         fail("the compressed image is not what the header says");
     if (precision > h.bitsStored && exceedsStored(dataset, h, precision)) {
         h.oddities |= decoder::otherPrecision;
-        h.bitsStored = precision;
-        h.highBit = precision - 1;
+        // A stream as wide as the words says nothing of their bits: plain samples are masked, too.
+        if (precision < h.bitsAllocated) {
+            h.bitsStored = precision;
+            h.highBit = precision - 1;
+        }
     } else if (!isRle && precision <= h.highBit) {
         // The codestream has no bit as high as the header says: its samples fill the low bits.
         h.highBit = h.bitsStored - 1;

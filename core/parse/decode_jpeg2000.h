@@ -12,6 +12,6 @@ namespace pellucid::parse {
 /// Decodes a codestream or JP2 file of one component.
 /// *Throws* Error{unusable}, also if it is not what the data set's header says.
 dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
-                                    const decoder::InstanceHeader &said);
+                                    const decoder::InstanceHeader &expected);
 
 } // namespace pellucid::parse

@@ -61,7 +61,7 @@ bool hasEnd(std::span<const std::byte> data) {
 } // namespace
 
 dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
-                                    const decoder::InstanceHeader &said) {
+                                    const decoder::InstanceHeader &expected) {
     const auto fail = [](const char *why) {
         throw Error(ErrorCode::unusable, std::string("JPEG 2000: ") + why);
     };
@@ -86,21 +86,21 @@ dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
     if (header == OPJ_FALSE || !image || image->numcomps < 1)
         fail("damaged header");
     // The sizes are checked before the decoder asks for memory.
-    requireSaid(std::int64_t(image->y1) - image->y0, std::int64_t(image->x1) - image->x0,
-                int(image->numcomps), int(image->comps[0].prec), said);
+    requireMatchesHeader(std::int64_t(image->y1) - image->y0, std::int64_t(image->x1) - image->x0,
+                         int(image->numcomps), int(image->comps[0].prec), expected);
     // Damaged blocks are decoded to something, and so is what has lost its end.
     bool hasWarned = false;
     opj_set_warning_handler(
         codec.get(), [](const char *, void *warned) { *static_cast<bool *>(warned) = true; },
         &hasWarned);
     if (opj_decode(codec.get(), stream.get(), image.get()) == OPJ_FALSE ||
-        image->comps[0].data == nullptr || image->comps[0].w != OPJ_UINT32(said.columns) ||
-        image->comps[0].h != OPJ_UINT32(said.rows))
+        image->comps[0].data == nullptr || image->comps[0].w != OPJ_UINT32(expected.columns) ||
+        image->comps[0].h != OPJ_UINT32(expected.rows))
         fail("damaged or truncated");
     const opj_image_comp_t &component = image->comps[0];
-    const std::size_t count = std::size_t(said.rows) * std::size_t(said.columns);
-    return {said.rows,
-            said.columns,
+    const std::size_t count = std::size_t(expected.rows) * std::size_t(expected.columns);
+    return {expected.rows,
+            expected.columns,
             int(component.prec),
             component.sgnd != 0,
             std::vector<std::int32_t>(component.data, component.data + count),

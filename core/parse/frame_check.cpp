@@ -47,18 +47,19 @@ std::size_t unpackedBytes(std::span<const std::byte> segment, std::size_t wanted
 
 } // namespace
 
-void requireSaid(std::int64_t rows, std::int64_t columns, int components, int precision,
-                 const decoder::InstanceHeader &said) {
+void requireMatchesHeader(std::int64_t rows, std::int64_t columns, int components, int precision,
+                          const decoder::InstanceHeader &expected) {
     const auto fail = [](const std::string &reason) {
         throw task::Error(task::ErrorCode::unusable, "a compressed frame has " + reason);
     };
-    if (columns != said.columns || rows != said.rows)
-        fail(fmt::format("{} x {} pixels, the header says {} x {}", columns, rows, said.columns,
-                         said.rows));
+    if (columns != expected.columns || rows != expected.rows)
+        fail(fmt::format("{} x {} pixels, the header says {} x {}", columns, rows, expected.columns,
+                         expected.rows));
     if (components != 1)
         fail(fmt::format("{} colours", components));
-    if (precision > said.bitsAllocated)
-        fail(fmt::format("{} bits per sample, the header says {}", precision, said.bitsAllocated));
+    if (precision > expected.bitsAllocated)
+        fail(fmt::format("{} bits per sample, the header says {}", precision,
+                         expected.bitsAllocated));
 }
 
 std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame) {

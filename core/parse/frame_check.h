@@ -18,12 +18,13 @@ struct JpegFrame {
     int process = 0; ///< the low byte of the marker: 0xC0 baseline, 0xC3 lossless, 0xF7 JPEG-LS ...
 };
 
-/// *Throws* Error{unusable} where a compressed frame is not what the data set's header says.
-void requireSaid(std::int64_t rows, std::int64_t columns, int components, int precision,
-                 const decoder::InstanceHeader &said);
-
 /// Nothing if there is no such header.
 std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame);
+
+/// Compares a compressed frame with what the data set's header says. *Requires*: the header's
+/// `bitsAllocated` is 8 or 16. *Throws* Error{unusable} where they differ.
+void requireMatchesHeader(std::int64_t rows, std::int64_t columns, int components, int precision,
+                          const decoder::InstanceHeader &expected);
 
 /// Why a run-length frame does not give exactly rows x columns samples of so many bytes (PS3.5,
 /// annex G), or nothing if it does.

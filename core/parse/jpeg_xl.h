@@ -18,6 +18,6 @@ struct JpegXlImage {
 
 /// Decodes a codestream or a container of one component.
 /// *Throws* Error{unusable}, also if it is not what the data set's header says.
-JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::InstanceHeader &said);
+JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::InstanceHeader &expected);
 
 } // namespace pellucid::parse

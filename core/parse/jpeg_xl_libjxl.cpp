@@ -25,7 +25,7 @@ struct Destroy {
 
 } // namespace
 
-JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::InstanceHeader &said) {
+JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::InstanceHeader &expected) {
     const std::unique_ptr<JxlDecoder, Destroy> decoder(JxlDecoderCreate(nullptr));
     if (!decoder)
         throw std::bad_alloc();
@@ -47,9 +47,9 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::Instanc
             // The sizes are checked before the decoder asks for memory.
             JxlBasicInfo info{};
             must(JxlDecoderGetBasicInfo(decoder.get(), &info));
-            requireSaid(info.ysize, info.xsize,
-                        int(info.num_color_channels + info.num_extra_channels),
-                        int(info.bits_per_sample), said);
+            requireMatchesHeader(info.ysize, info.xsize,
+                                 int(info.num_color_channels + info.num_extra_channels),
+                                 int(info.bits_per_sample), expected);
             if (info.have_animation == JXL_TRUE || info.bits_per_sample < 1 ||
                 info.exponent_bits_per_sample != 0)
                 fail("the image is not what the header says");
@@ -57,7 +57,7 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::Instanc
             break;
         }
         case JXL_DEC_NEED_IMAGE_OUT_BUFFER:
-            image.samples.resize(std::size_t(said.rows) * std::size_t(said.columns));
+            image.samples.resize(std::size_t(expected.rows) * std::size_t(expected.columns));
             must(JxlDecoderSetImageOutBuffer(decoder.get(), &format, image.samples.data(),
                                              image.samples.size() * sizeof(std::uint16_t)));
             break;

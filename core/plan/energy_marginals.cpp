@@ -459,12 +459,12 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
         const glm::dvec3 cell(places.spacingMm(0), places.spacingMm(1), places.spacingMm(2));
         const double inBall = 1.0 / balls.leastArea(0.5 * side * glm::length(cell));
         const double seen = leastSeen * leastProjectionEnergy(result.blocks, places, box);
-        const double least = std::max(inBall, seen);
-        spread.peakedness =
-            std::max(1.0, largestLineIntegral(maxima, side, places) / (result.massMm3 * least));
+        const double leastEnergy = std::max(inBall, seen);
+        spread.peakedness = std::max(1.0, largestLineIntegral(maxima, side, places) /
+                                              (result.massMm3 * leastEnergy));
         const double depthMm = 2.0 * spread.radiusMm + longestStep(places);
         spread.roughestView = depthMm * spread.roughness * result.energyMm3 /
-                              (result.massMm3 * result.massMm3 * least);
+                              (result.massMm3 * result.massMm3 * leastEnergy);
     }
     result.spread = std::make_shared<const EnergySpread>(std::move(spread));
     return result;

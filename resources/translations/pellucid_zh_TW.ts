@@ -1267,8 +1267,12 @@
         <translation>使解碼程式嘗試影像不需要的動作</translation>
     </message>
     <message>
-        <source>%1 and %2 more</source>
-        <translation>%1，另有 %2 處</translation>
+        <source>its samples are missing: %1</source>
+        <translation>缺少取樣檔：%1</translation>
+    </message>
+    <message>
+        <source>%1 more</source>
+        <translation>另有 %1 處</translation>
     </message>
     <message>
         <source>%1 mm between %2 and %3</source>
@@ -3085,7 +3089,7 @@
     </message>
     <message>
         <source>Per frame</source>
-        <translation>每格</translation>
+        <translation>每影格</translation>
     </message>
     <message>
         <source>Spectra, slices of them, images, and the multiplications of a frame</source>
@@ -3096,7 +3100,7 @@
         <translation>省略</translation>
     </message>
     <message>
-        <source>What the scene does not need, and no frame pays for</source>
+        <source>Stages that this scene does not need and that are skipped</source>
         <translation>場景不需要、因此不計算的部分</translation>
     </message>
     <message>

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "core/reference/wide_kernel.h"
 #include "core/scene/scene.h"
 #include "core/volume/nrrd.h"
+#include "tests/support/dicom_writer.h"
 #include "tests/support/fields.h"
 #include "tests/support/files.h"
 #include "tests/support/test_data.h"
@@ -211,6 +213,35 @@ TEST_F(Cli, TheSeriesThatIsNamedIsTheOneThatIsRead) {
     const auto empty = render("''");
     EXPECT_EQ(empty.exitCode, 2);
     EXPECT_NE(empty.error.find("--series: it is empty"), std::string::npos) << empty.error;
+}
+
+TEST_F(Cli, TheVolumeThatIsNumberedIsTheOneThatIsRead) {
+    const fs::path series = folder / "gaps";
+    test::writeSeries(series, {.slices = 30, .missing = {11, 12}});
+    const std::string path = quoted(series), out = " -o " + quoted(folder / "v.nrrd");
+    const auto info = cli("info " + path);
+    EXPECT_NE(info.out.find("3. "), std::string::npos) << info.out;
+    const auto listed = json::parse(cli("info " + path + " --json").out);
+    const auto &volumes = listed["patients"][0]["studies"][0]["series"][0]["volumes"];
+    ASSERT_EQ(volumes.size(), 3U);
+    std::set<int> slices;
+    for (const auto &volume : volumes) {
+        const std::string number = std::to_string(volume["number"].get<int>());
+        const auto written = cli("volume " + path + " --volume " + number + out);
+        ASSERT_EQ(written.exitCode, 0) << written.error;
+        EXPECT_EQ(written.error.find("--volume selects"), std::string::npos) << written.error;
+        const int read = decoder::readVolumeFile(folder / "v.nrrd").lattice().size().k;
+        EXPECT_EQ(read, volume["size"][2].get<int>());
+        slices.insert(read);
+    }
+    EXPECT_EQ(slices, (std::set<int>{11, 17, 30}));
+    EXPECT_NE(cli("volume " + path + out).error.find("--volume selects another"),
+              std::string::npos);
+    const auto beyond = cli("volume " + path + " --volume 4" + out);
+    EXPECT_EQ(beyond.exitCode, 3);
+    EXPECT_NE(beyond.error.find("no volume 4 in series"), std::string::npos) << beyond.error;
+    EXPECT_EQ(cli("volume " + path + " --volume 0" + out).exitCode, 2);
+    EXPECT_EQ(cli("volume " + path + " --volume 1 --fill-gaps" + out).exitCode, 2);
 }
 
 TEST_F(Cli, VolumeWritesValuesAndField) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/language/spoken.h"
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include <QCoreApplication>
@@ -40,8 +42,8 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "all slices have the same position"),
     QT_TRANSLATE_NOOP("Reasons", "%1 is %2 mm off the line through all slices"),
     QT_TRANSLATE_NOOP("Reasons", "missing slices, interpolated: %1"),
-    QT_TRANSLATE_NOOP("Reasons", "%1 and %2 more"),
     QT_TRANSLATE_NOOP("Reasons", "%1 mm between %2 and %3"),
+    QT_TRANSLATE_NOOP("Reasons", "%1 more"),
     QT_TRANSLATE_NOOP("Reasons", "orientations differ by up to %1 degrees; the mean is used"),
     QT_TRANSLATE_NOOP("Reasons", "pixel spacings differ by up to %1 %; the mean is used"),
     QT_TRANSLATE_NOOP("Reasons", "every image has its own frame of reference; treated as one"),
@@ -261,6 +263,7 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "acquisition %1"),
     QT_TRANSLATE_NOOP("Reasons", "GPU engine, %1"),
     QT_TRANSLATE_NOOP("Reasons", "is truncated"),
+    QT_TRANSLATE_NOOP("Reasons", "its samples are missing: %1"),
     QT_TRANSLATE_NOOP("Reasons", "JPEG 2000: %1"),
     QT_TRANSLATE_NOOP("Reasons", "without %1: %2"),
     QT_TRANSLATE_NOOP("Reasons", "class '%1': %2"),
@@ -286,7 +289,7 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "set %1")};
 
 // Between the parts of a list.
-[[maybe_unused]] constexpr const char *separator = QT_TRANSLATE_NOOP("Reasons", ", ");
+constexpr const char *separator = QT_TRANSLATE_NOOP("Reasons", ", ");
 
 // The names of presets, classes and windows, for whoever translates.
 [[maybe_unused]] constexpr const char *names[] = {
@@ -367,6 +370,26 @@ const std::vector<Template> &templates() {
     return all;
 }
 
+// The parts of a list, each in its own words. Where no part has any, the text is left as it is.
+QString spokenList(const QString &english, const QString &between) {
+    const QStringList parts = english.split(between);
+    QStringList said;
+    for (const QString &part : parts)
+        said << spoken(part);
+    return said == parts ? english : said.join(QCoreApplication::translate("Reasons", separator));
+}
+
+// What fills a place is a text, or a list of places in the patient.
+QString spokenArgument(const QString &english) {
+    const bool isList =
+        english.contains("; ") &&
+        std::none_of(templates().begin(), templates().end(), [&](const Template &t) {
+            return std::string_view(t.text).find("; ") != std::string_view::npos &&
+                   t.form.match(english).hasMatch();
+        });
+    return isList ? spokenList(english, "; ") : spoken(english);
+}
+
 } // namespace
 
 QString spoken(const QString &english) {
@@ -380,7 +403,7 @@ QString spoken(const QString &english) {
         // All at once: what is filled in may hold a place of its own.
         QStringList filled;
         for (int n = 1; n <= match.lastCapturedIndex(); ++n)
-            filled << spoken(match.captured(n));
+            filled << spokenArgument(match.captured(n));
         for (qsizetype n = filled.size(); n > 0; --n)
             said.replace("%" + QString::number(n), QChar(0xe000 + int(n)));
         for (qsizetype n = filled.size(); n > 0; --n)
@@ -388,10 +411,7 @@ QString spoken(const QString &english) {
         return said;
     }
     // Labels are lists.
-    if (const auto comma = english.indexOf(", "); comma >= 0)
-        return spoken(english.left(comma)) + QCoreApplication::translate("Reasons", ", ") +
-               spoken(english.mid(comma + 2));
-    return english;
+    return english.contains(", ") ? spokenList(english, ", ") : english;
 }
 
 QString spoken(const std::string &english) {

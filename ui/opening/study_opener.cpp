@@ -19,15 +19,16 @@ StudyOpener::StudyOpener(Document &document, JobRunner &jobs, LookPreparer &prep
                          QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs), m_preparer(preparer) {
     connect(&jobs, &JobRunner::finished, this, &StudyOpener::endScan);
-    connect(&jobs, &JobRunner::failed, this, [this] {
-        // Once whoever else follows the job knows of its end.
-        QMetaObject::invokeMethod(this, &StudyOpener::goBack, Qt::QueuedConnection);
-    });
+    // Queued: other slots handle the end first.
+    connect(&jobs, &JobRunner::finished, this, &StudyOpener::goBack, Qt::QueuedConnection);
 }
 
 void StudyOpener::goBack() {
+    if (m_jobs.isRunning()) // another study is on its way, and may fail as well
+        return;
     const auto former = std::exchange(m_former, std::nullopt);
-    if (former && !m_document.volume() && !m_jobs.isRunning())
+    const bool isLoaded = m_document.volume() && !m_document.isPreview();
+    if (former && !isLoaded && !m_document.sources()[std::size_t(*former)].isClosed)
         openSource(*former);
 }
 
@@ -180,7 +181,6 @@ void StudyOpener::openFromLibrary(const StudyFacts &study, const std::vector<Vol
 
 void StudyOpener::closeSource(int index) {
     m_kept.take(index);
-    m_former.reset(); // places shift
     if (index == m_document.currentSource()) {
         m_jobs.cancel();
         m_preparer.forgetVolume();
@@ -253,8 +253,7 @@ void StudyOpener::openSource(int index) {
     // First, because the end of the former job tidies up after it.
     m_jobs.cancel();
     keepCurrent();
-    m_former.reset();
-    if (m_document.volume() && m_document.currentSource() >= 0)
+    if (m_document.volume() && !m_document.isPreview() && m_document.currentSource() >= 0)
         m_former = m_document.currentSource();
     const PreparedFor wanted = m_preparer.forgetVolume();
     m_document.setCurrentSource(index);

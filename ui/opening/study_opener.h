@@ -70,7 +70,7 @@ private:
     std::optional<int> resumedOf(const std::vector<int> &indices) const;
     void takeUp();
     void keepCurrent();
-    /// To what was shown before a study that cannot be loaded.
+    /// Reopens the previous study after a load that failed or was cancelled.
     void goBack();
     Continuity leavePhase(int next);
     void goOn(const Continuity &continuity);
@@ -80,7 +80,7 @@ private:
     JobRunner &m_jobs;
     LookPreparer &m_preparer;
     KeptStudies m_kept;
-    std::optional<int> m_former; ///< the source that the one being loaded takes the place of
+    std::optional<int> m_former; ///< the source shown before the current load
     std::optional<Resumption> m_resumption;
 };
 

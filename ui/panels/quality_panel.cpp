@@ -131,7 +131,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
                         tr("Spectra, slices of them, images, and the multiplications of a frame"));
     m_model->setWordWrap(true);
     m_leftOut = addFigure(form, tr("Left out"), "leftOutLabel",
-                          tr("What the scene does not need, and no frame pays for"));
+                          tr("Stages that this scene does not need and that are skipped"));
     m_leftOut->setWordWrap(true);
     m_reason = new QLabel;
     m_reason->setObjectName("planReasonLabel");

@@ -29,7 +29,6 @@ ValueSlider::ValueSlider(const Range &range, const QString &sliderName, const QS
     m_value->setRange(0.0, range.largest);
     m_value->setDecimals(2);
     m_value->setKeyboardTracking(false); // typed to the end before it counts
-    m_value->installEventFilter(this);
     m_value->setSingleStep(0.05);
     m_value->setButtonSymbols(QAbstractSpinBox::NoButtons);
     m_value->setFixedWidth(44);
@@ -68,11 +67,6 @@ void ValueSlider::setNames(const QString &accessibleName, const QString &tip) {
 bool ValueSlider::eventFilter(QObject *watched, QEvent *event) {
     if (watched == m_slider && event->type() == QEvent::MouseButtonDblClick) {
         emit changed(m_range.usual, 0);
-        return true;
-    }
-    // Scrolling the table around it must not change values on its way.
-    if (event->type() == QEvent::Wheel && !static_cast<QWidget *>(watched)->hasFocus()) {
-        event->ignore();
         return true;
     }
     return QWidget::eventFilter(watched, event);

@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/theme/wheel_guard.h"
 
+#include <QAbstractScrollArea>
 #include <QAbstractSlider>
 #include <QAbstractSpinBox>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QEvent>
 #include <QScrollBar>
 
 namespace pellucid::ui {
+
+namespace {
+
+bool isInPanel(const QWidget *widget) {
+    for (const QWidget *above = widget->parentWidget(); above != nullptr;
+         above = above->parentWidget())
+        if (qobject_cast<const QAbstractScrollArea *>(above) != nullptr ||
+            qobject_cast<const QDockWidget *>(above) != nullptr)
+            return true;
+    return false;
+}
+
+} // namespace
 
 bool WheelGuard::eventFilter(QObject *watched, QEvent *event) {
     if (event->type() != QEvent::Wheel && event->type() != QEvent::Polish)
@@ -16,9 +31,9 @@ bool WheelGuard::eventFilter(QObject *watched, QEvent *event) {
                            qobject_cast<QAbstractSpinBox *>(watched) != nullptr ||
                            (qobject_cast<QAbstractSlider *>(watched) != nullptr &&
                             qobject_cast<QScrollBar *>(watched) == nullptr);
-    if (!isGuarded)
-        return false;
     auto *widget = static_cast<QWidget *>(watched);
+    if (!isGuarded || !isInPanel(widget))
+        return false;
     if (event->type() == QEvent::Polish) {
         if (widget->focusPolicy() == Qt::WheelFocus)
             widget->setFocusPolicy(Qt::StrongFocus);
@@ -26,7 +41,7 @@ bool WheelGuard::eventFilter(QObject *watched, QEvent *event) {
     }
     if (widget->hasFocus())
         return false;
-    event->ignore(); // so that it goes on to what scrolls
+    event->ignore(); // so that it propagates to the scroll area
     return true;
 }
 

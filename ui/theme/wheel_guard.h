@@ -5,8 +5,9 @@
 
 namespace pellucid::ui {
 
-/// Keeps the wheel from changing a box or slider that it only passes over while a panel scrolls:
-/// they follow the wheel once they have the keyboard's focus, which the wheel does not give.
+/// Keeps the wheel from changing the boxes and sliders of a panel while the panel scrolls under the
+/// pointer: they follow the wheel once they have the keyboard's focus, which the wheel does not
+/// give. To be installed on the application.
 class WheelGuard : public QObject {
     Q_OBJECT
 public:

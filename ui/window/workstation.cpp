@@ -11,6 +11,7 @@
 
 #include "ui/opening/recent_paths.h"
 #include "ui/opening/session.h"
+#include "ui/theme/wheel_guard.h"
 #include "ui/window/main_window.h"
 #include "ui/window/preferences_dialog.h"
 
@@ -44,6 +45,7 @@ bool mayStay(const Session &session, const Document &document) {
 Workstation::Workstation(std::optional<EngineChoice> engine)
     : m_preferences(Preferences::load()), m_bench(engine) {
     speak(m_preferences.language);
+    qApp->installEventFilter(new WheelGuard(this));
     makeWindow();
     m_keeping.setSingleShot(true);
     m_keeping.setInterval(keepingMs);

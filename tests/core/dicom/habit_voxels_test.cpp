@@ -109,30 +109,52 @@ TEST(Habits, JpegXlGivesEveryValueOfFewerBits) {
     }
 }
 
-// Writers that state a high bit of 15 code 12 bits as they are: the header's shift is for plain
-// samples.
-TEST(Habits, SamplesOfAJpegFillItsLowBitsWhateverTheHighBit) {
+// Compressed samples are those of the same pixels uncompressed, whatever lies above or below them.
+// A stream of 12 bits has none below, even where the header states a high bit of 15.
+TEST(Habits, CompressedSamplesAreThoseOfThePlainOnes) {
     dcmtk::prepareDcmtk();
-    SeriesKnobs knobs;
-    knobs.modality = "MR";
-    knobs.value = [](int i, int j, int k) { return 4095 - 100 * k - 10 * j - i; };
-    knobs.change = [](DicomWriter &w, int) {
-        w.putShort({0x0028, 0x0101}, 12);
-        w.putShort({0x0028, 0x0102}, 11);
-        w.putShort({0x0028, 0x0103}, 0);
+    struct Words {
+        int highBit, isSigned;
+        std::function<int(int value)> word;
+        std::vector<E_TransferSyntax> syntaxes;
     };
-    const test::TemporaryFolder folder;
-    test::writeSeries(folder.path(), knobs);
-    for (const auto &entry : fs::directory_iterator(folder.path())) {
-        DcmFileFormat file;
-        ASSERT_TRUE(file.loadFile(entry.path().c_str()).good());
-        ASSERT_TRUE(file.loadAllDataIntoMemory().good());
-        DcmDataset &dataset = *file.getDataset();
-        ASSERT_TRUE(dataset.chooseRepresentation(EXS_JPEGLSLossless, nullptr).good());
-        ASSERT_TRUE(dataset.putAndInsertUint16(DCM_HighBit, 15).good());
-        ASSERT_TRUE(file.saveFile(entry.path().c_str(), EXS_JPEGLSLossless).good());
-    }
-    expectVoxels(loaded(folder.path()), knobs);
+    const auto asIs = [](int value) { return value & 0xFFF; };
+    // The lossless JPEG of this writer is as wide as the words; its JPEG-LS as the samples.
+    const std::vector<E_TransferSyntax> wide{EXS_LittleEndianExplicit, EXS_JPEGProcess14SV1,
+                                             EXS_RLELossless};
+    for (const Words &w :
+         {Words{15, 0, asIs, {EXS_JPEGLSLossless}},
+          Words{15, 0, [](int v) { return v << 4; }, wide}, Words{11, 1, asIs, wide},
+          Words{11, 0, [](int v) { return v | 0x5000; }, wide}})
+        for (const E_TransferSyntax syntax : w.syntaxes) {
+            SeriesKnobs knobs;
+            knobs.modality = "MR";
+            knobs.value = [&](int i, int j, int k) {
+                return (w.isSigned != 0 ? -300 : 3000) + 100 * k + 10 * j + i;
+            };
+            SeriesKnobs written = knobs;
+            written.value = [&](int i, int j, int k) { return w.word(knobs.value(i, j, k)); };
+            const bool isShifted = w.word(1) == 16;
+            written.change = [&](DicomWriter &file, int) {
+                file.putShort({0x0028, 0x0101}, 12);
+                file.putShort({0x0028, 0x0102}, isShifted ? 15 : 11);
+                file.putShort({0x0028, 0x0103}, w.isSigned);
+            };
+            const test::TemporaryFolder folder;
+            test::writeSeries(folder.path(), written);
+            for (const auto &entry : fs::directory_iterator(folder.path())) {
+                DcmFileFormat file;
+                ASSERT_TRUE(file.loadFile(entry.path().c_str()).good());
+                ASSERT_TRUE(file.loadAllDataIntoMemory().good());
+                DcmDataset &dataset = *file.getDataset();
+                ASSERT_TRUE(dataset.chooseRepresentation(syntax, nullptr).good());
+                ASSERT_TRUE(dataset.putAndInsertUint16(DCM_HighBit, Uint16(w.highBit)).good());
+                ASSERT_TRUE(file.saveFile(entry.path().c_str(), syntax).good());
+            }
+            SCOPED_TRACE(testing::Message() << w.highBit << ' ' << w.isSigned << ' ' << w.word(1)
+                                            << ' ' << DcmXfer(syntax).getXferName());
+            expectVoxels(loaded(folder.path()), knobs);
+        }
 }
 
 TEST(Habits, AHoleIsLeftOutOrFilledAsIsAsked) {
