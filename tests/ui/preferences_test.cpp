@@ -404,7 +404,8 @@ private:
         static const QRegularExpression word("[A-Za-z]{3,}");
         // Names, units and what has no other word.
         static const QRegularExpression proper(
-            "Secret|Name|DICOMDIR|DICOM|NRRD|Pellucid|MIP|MinIP|CPU|GPU|AVX\\d?|SSE\\d?|EMU\\d+|"
+            "Secret|Name|DICOMDIR|DICOM|NRRD|NIfTI|MetaImage|Pellucid|MIP|MinIP|CPU|GPU|AVX\\d?|"
+            "SSE\\d?|EMU\\d+|"
             "NEON|"
             "OpenGL|Esc|Ctrl|Shift|Keypad|Slicer|png|json|csv|PNG|CSV|NumPy|ZIP|FFTW|UID|Del|Home|"
             "End|"

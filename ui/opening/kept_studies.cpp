@@ -31,6 +31,12 @@ std::size_t KeptStudies::bytes() const {
     return sum;
 }
 
+bool KeptStudies::isReady(int source) const {
+    return std::any_of(m_studies.begin(), m_studies.end(), [&](const KeptStudy &study) {
+        return study.source == source && study.engine;
+    });
+}
+
 void KeptStudies::trim(std::size_t budgetBytes) {
     for (auto study = m_studies.rbegin(); study != m_studies.rend() && bytes() > budgetBytes;
          ++study) {

@@ -40,6 +40,8 @@ public:
     void keep(KeptStudy study);
     /// Takes a study out, if it is there.
     std::optional<KeptStudy> take(int source);
+    /// Whether it comes back at once, with its spectra.
+    bool isReady(int source) const;
     /// Drops until the rest fits.
     void trim(std::size_t budgetBytes);
     std::size_t bytes() const;

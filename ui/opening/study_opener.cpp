@@ -28,7 +28,8 @@ void StudyOpener::goBack() {
         return;
     const auto former = std::exchange(m_former, std::nullopt);
     const bool isLoaded = m_document.volume() && !m_document.isPreview();
-    if (former && !isLoaded && !m_document.sources()[std::size_t(*former)].isClosed)
+    // At once or not at all: a lack of memory may have been the reason.
+    if (former && !isLoaded && m_kept.isReady(*former))
         openSource(*former);
 }
 
