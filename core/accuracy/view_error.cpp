@@ -33,7 +33,7 @@ constexpr double coherentMargin = 2.7, ///< ghosts, block by block
     patternBesideMargin = 40.0,        ///< tails of what lies beside it
     pointBesideMargin = 15.0;          ///< the same of a few samples
 // The part of the plan's bound that every picture is charged with, for what no term describes.
-constexpr double unseenShare = 0.0975;
+constexpr double unseenShare = 0.094;
 // Similar errors add up to point-like ghosts; this share of their energy may fall in any part of
 // the picture.
 constexpr double pointShare = 0.69;

@@ -33,6 +33,7 @@
 #include "ui/settings/shortcuts.h"
 #include "ui/theme/dock.h"
 #include "ui/theme/icons.h"
+#include "ui/theme/wheel_guard.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -60,6 +61,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     setObjectName("mainWindow");
     setAcceptDrops(true);
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
+    qApp->installEventFilter(new WheelGuard(this));
     createPanes();
     createStudyDock();
     createMeasurementsDock();

@@ -11,7 +11,6 @@
 
 #include "ui/opening/recent_paths.h"
 #include "ui/opening/session.h"
-#include "ui/theme/wheel_guard.h"
 #include "ui/window/main_window.h"
 #include "ui/window/preferences_dialog.h"
 
@@ -45,7 +44,6 @@ bool mayStay(const Session &session, const Document &document) {
 Workstation::Workstation(std::optional<EngineChoice> engine)
     : m_preferences(Preferences::load()), m_bench(engine) {
     speak(m_preferences.language);
-    qApp->installEventFilter(new WheelGuard(this));
     makeWindow();
     m_keeping.setSingleShot(true);
     m_keeping.setInterval(keepingMs);
