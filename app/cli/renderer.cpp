@@ -21,6 +21,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr const char *whyExact = "no engine keeps the tolerance: the exact reference does";
+
 // The error for a user who requires the card: the card is too small, or we cannot use one.
 task::Error cardRefused(const task::Error &error) {
     const bool isTooSmall = error.code() == task::ErrorCode::outOfMemory;
@@ -120,7 +122,7 @@ Renderer::Renderer(const scene::Scene &scene, const classify::ShownFields &field
 void Renderer::use(const CardChoice &card) {
     m_choice = card;
     if (!m_engine)
-        m_choice.reason = "no engine keeps the tolerance: the exact reference does";
+        m_choice.reason = whyExact;
     if (!m_engine && card.isAsked)
         throw cardRefused({task::ErrorCode::noSuchDevice, m_choice.reason + ", on the processor"});
     if (!m_engine || !card.passes)
@@ -225,7 +227,7 @@ json Renderer::planJson() const {
                 {"padding", 2.0},
                 {"storage", "f64"},
                 {"predicted_error", m_predictedError},
-                {"reason", "the exact reference: no engine keeps the tolerance"}};
+                {"reason", whyExact}};
     const plan::RenderPlan &plan = m_fitting.plan;
     const auto &s = plan.spectrum;
     const plan::SliceGrid grid =

@@ -370,7 +370,7 @@ const std::vector<Template> &templates() {
     return all;
 }
 
-// The parts of a list, each in its own words. Where no part has any, the text is left as it is.
+// Translates each part of a list. If no part has a translation, the text stays as it is.
 QString spokenList(const QString &english, const QString &between) {
     const QStringList parts = english.split(between);
     QStringList said;
@@ -379,7 +379,8 @@ QString spokenList(const QString &english, const QString &between) {
     return said == parts ? english : said.join(QCoreApplication::translate("Reasons", separator));
 }
 
-// What fills a place is a text, or a list of places in the patient.
+// Translates what a placeholder captured: one text, or a list separated by semicolons. A text that
+// is known with its semicolon is no list.
 QString spokenArgument(const QString &english) {
     const bool isList =
         english.contains("; ") &&

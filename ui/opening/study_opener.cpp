@@ -260,6 +260,7 @@ void StudyOpener::openSource(int index) {
     m_document.setCurrentSource(index);
     m_document.closeVolume();
     if (const auto kept = m_kept.take(index)) {
+        m_former.reset(); // it cannot fail
         show(*kept, std::nullopt);
         return;
     }
