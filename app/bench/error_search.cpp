@@ -323,11 +323,11 @@ Verdict judge(const Trial &trial) {
         difference += off * off;
         energy += truth[n] * truth[n];
     }
-    Verdict verdict{
-        plan.predictedError, energy > 0.0 ? std::sqrt(difference / energy) : 0.0,
-        accuracy::ViewErrorModel(plan, summaries)
-            .relativeError(image, scene.camera, scene.image, engine->parts(), scene.shading),
-        true};
+    Verdict verdict{plan.predictedError, energy > 0.0 ? std::sqrt(difference / energy) : 0.0,
+                    accuracy::ViewErrorModel(plan, summaries)
+                        .errorOf(image, scene.camera, scene.image, engine->parts(), scene.shading)
+                        .relative,
+                    true};
     verdict.keepsTolerance = plan.predictedError <= trial.scene.tolerance;
     return verdict;
 }

@@ -23,11 +23,9 @@ namespace {
 // reaches the image, and its samples lie between the cells even in a view along an axis.
 plan::SliceRoom roomOfImage(const scene::Camera &camera, const volume::Lattice &lattice) {
     plan::EnergySpread spread = plan::evenSpread(lattice, lattice.bounds());
-    const double longest =
-        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
     // A quarter of a pixel less: rounding must not make it one more.
-    spread.radiusMm =
-        (0.5 * camera.width - 0.25) * camera.pixelMm - scene::reconstructionReach({}) * longest;
+    spread.radiusMm = (0.5 * camera.width - 0.25) * camera.pixelMm -
+                      scene::reconstructionReach({}) * lattice.longestStepMm();
     plan::SliceRoom room{{std::make_shared<const plan::EnergySpread>(spread)}, 1e9};
     assert(plan::sliceGrid(camera, room, lattice, {}) ==
            (plan::SliceGrid{camera.width, camera.height}));

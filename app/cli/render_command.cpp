@@ -127,6 +127,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 
     picture::FrameTimes times;
     double writeMs = 0.0, viewError = 0.0;
+    bool isWhole = true;
+    std::optional<double> maximum;
     const int frames = std::max(1, o.frames);
     dicom::CaptureLabels labels =
         o.isDeidentified ? dicom::deidentified(input.labels) : input.labels;
@@ -152,6 +154,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
             image = renderer->image(turned.camera, times);
         }
         viewError = std::max(viewError, renderer->lastViewError());
+        isWhole = isWhole && renderer->wasWhole();
+        maximum = isWhole ? renderer->predictedMaximum() : std::nullopt;
         task::Progress(context.stop).check();
         watch.lapMs();
         labels.instanceNumber = frame + 1;
@@ -171,41 +175,40 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     for (const auto &s : input.skipped)
         skipped.push_back({{"path", s.path.string()}, {"reason", s.reason}});
     const volume::Lattice &l = volume.lattice();
-    std::puts(
-        jsonText({{"engine", renderer->description()},
-                  {"device", renderer->isOnCard() ? "gpu" : "cpu"},
-                  {"engine_reason", renderer->engineReason()},
-                  {"size", {scene.camera.width, scene.camera.height}},
-                  {"pixel_mm", scene.camera.pixelMm},
-                  {"frames", frames},
-                  {"channels", renderer->channelCount()},
-                  {"volume",
-                   {{"size", sizeJson(l.size())},
-                    {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
-                    {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
-                    {"series", input.seriesUid}}},
-                  {"window", {window.low, window.high}},
-                  {"shading", json::parse(shading::toJson(scene.shading))},
-                  {"milliseconds",
-                   {{"scan", input.scanMs},
-                    {"load", input.loadMs},
-                    {"field", fieldMs},
-                    {"prepare", prepareMs},
-                    {"slice", times.sliceMs},
-                    {"transform", times.transformMs},
-                    {"frame", times.totalMs()},
-                    {"write", writeMs}}},
-                  {"bytes", renderer->bytes()},
-                  {"card_bytes", renderer->cardBytes()},
-                  {"plan", renderer->planJson()},
-                  {"tolerance", scene.tolerance},
-                  {"predicted_error",
-                   {{"relative_l2", viewError},
-                    {"maximum", renderer->predictedMaximum() ? json(*renderer->predictedMaximum())
-                                                             : json(nullptr)}}},
-                  {"warnings", warnings},
-                  {"skipped", skipped}})
-            .c_str());
+    std::puts(jsonText({{"engine", renderer->description()},
+                        {"device", renderer->isOnCard() ? "gpu" : "cpu"},
+                        {"engine_reason", renderer->engineReason()},
+                        {"size", {scene.camera.width, scene.camera.height}},
+                        {"pixel_mm", scene.camera.pixelMm},
+                        {"frames", frames},
+                        {"channels", renderer->channelCount()},
+                        {"volume",
+                         {{"size", sizeJson(l.size())},
+                          {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
+                          {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
+                          {"series", input.seriesUid}}},
+                        {"window", {window.low, window.high}},
+                        {"shading", json::parse(shading::toJson(scene.shading))},
+                        {"milliseconds",
+                         {{"scan", input.scanMs},
+                          {"load", input.loadMs},
+                          {"field", fieldMs},
+                          {"prepare", prepareMs},
+                          {"slice", times.sliceMs},
+                          {"transform", times.transformMs},
+                          {"frame", times.totalMs()},
+                          {"write", writeMs}}},
+                        {"bytes", renderer->bytes()},
+                        {"card_bytes", renderer->cardBytes()},
+                        {"plan", renderer->planJson()},
+                        {"tolerance", scene.tolerance},
+                        {"predicted_error",
+                         {{"relative_l2", viewError},
+                          {"maximum", maximum ? json(*maximum) : json(nullptr)},
+                          {"whole", isWhole}}},
+                        {"warnings", warnings},
+                        {"skipped", skipped}})
+                  .c_str());
 }
 
 } // namespace

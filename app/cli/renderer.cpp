@@ -173,9 +173,8 @@ void Renderer::judge(const picture::ProjectionImage &image, const scene::Camera 
     // The card's own texture filter adds the same error to every view.
     const double bound = m_fitting.plan.predictedError,
                  added = std::max(0.0, m_predictedError * m_predictedError - bound * bound);
-    m_viewError =
-        std::hypot(m_viewModel->relativeError(image, camera, m_scene.image, parts, m_scene.shading),
-                   std::sqrt(added));
+    m_picture = m_viewModel->errorOf(image, camera, m_scene.image, parts, m_scene.shading);
+    m_picture->relative = std::hypot(m_picture->relative, std::sqrt(added));
 }
 
 picture::ProjectionImage Renderer::exactImage(const scene::Camera &camera) const {
@@ -268,7 +267,9 @@ json Renderer::planJson() const {
 }
 
 std::optional<double> Renderer::predictedMaximum() const {
-    return m_engine ? std::optional(m_fitting.plan.predictedMaximum) : std::nullopt;
+    if (!m_engine || (m_picture && !m_picture->isWhole))
+        return std::nullopt;
+    return m_fitting.plan.predictedMaximum;
 }
 
 } // namespace pellucid::cli

@@ -64,8 +64,11 @@ public:
     double predictedError() const { return m_predictedError; }
     /// The predicted error of the last picture, for its own view and crop; `predictedError` if the
     /// picture has none of its own.
-    double lastViewError() const { return m_viewError.value_or(m_predictedError); }
-    /// The predicted largest error of a pixel. None for the exact reference.
+    double lastViewError() const { return m_picture ? m_picture->relative : m_predictedError; }
+    /// Whether the last picture showed the whole of the field, which `predictedError` is for.
+    bool wasWhole() const { return !m_picture || m_picture->isWhole; }
+    /// The predicted largest error of a pixel of the last picture over its largest pixel. None for
+    /// the exact reference, nor for a picture of a part, whose largest pixel may be small.
     std::optional<double> predictedMaximum() const;
 
 private:
@@ -86,7 +89,7 @@ private:
     prepare::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of the rendered fields
     double m_predictedError = 0.0;
-    std::optional<double> m_viewError;
+    std::optional<accuracy::PictureError> m_picture;     ///< the last one
     std::optional<accuracy::ViewErrorModel> m_viewModel; ///< for the engine at full resolution
     std::shared_ptr<render::CpuEngine> m_engine;
     std::shared_ptr<gpu::GpuEngine> m_card; ///< the same engine on the card, if used

@@ -390,13 +390,13 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
     return energies;
 }
 
-double ViewErrorModel::relativeError(const picture::ProjectionImage &picture,
+PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
                                      const scene::Camera &camera,
                                      const scene::ImageDefinition &image,
                                      const render::EngineParts &engine,
                                      const shading::Shading &shading) const {
     if (picture.samples.empty())
-        return m_bound;
+        return {m_bound, true};
     const std::vector<render::ChannelShares> &shares = engine.shares;
     // Without light the weights are the same; R and the step do not matter to them.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
@@ -404,7 +404,7 @@ double ViewErrorModel::relativeError(const picture::ProjectionImage &picture,
     const plan::SliceGrid grid = plan::sliceGrid(camera, m_room, m_lattice, image);
     const CentralEnergies central = centralEnergies(engine, camera, grid, shading);
     double energy = 0.0, error = 0.0;
-    bool isBounded = true; // by the plan, which is for whole pictures of single fields
+    bool isWhole = true, areSingle = true; // what the plan's bound is for
     std::vector<Weight> weights(m_fields.size());
     for (int channel = 0; channel < picture.channels; ++channel) {
         const auto c = std::size_t(channel);
@@ -428,15 +428,15 @@ double ViewErrorModel::relativeError(const picture::ProjectionImage &picture,
         energy += of.image;
         error += of.error;
         const auto isShown = [&](const render::ChannelShares &share) { return share[c] != 0.0; };
-        isBounded =
-            isBounded && of.isWhole && std::count_if(shares.begin(), shares.end(), isShown) <= 1;
+        isWhole = isWhole && of.isWhole;
+        areSingle = areSingle && std::count_if(shares.begin(), shares.end(), isShown) <= 1;
     }
     // Relative to what is shown, which is the exact picture and the error; where the error may be
     // all of it, little is known of the exact one.
     constexpr double leastLeft = 1e-3;
     const double ofShown = energy > 0.0 ? std::sqrt(error / energy) : 0.0,
                  estimate = ofShown / std::max(leastLeft, 1.0 - ofShown);
-    return isBounded ? std::min(m_bound, estimate) : estimate;
+    return {isWhole && areSingle ? std::min(m_bound, estimate) : estimate, isWhole};
 }
 
 } // namespace pellucid::accuracy

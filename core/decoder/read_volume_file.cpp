@@ -14,6 +14,7 @@
 #include "core/decoder/decoder.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
+#include "core/volume/narrowing.h"
 #include "core/volume/volume_file.h"
 
 namespace pellucid::decoder {
@@ -101,7 +102,7 @@ public:
         sizeof(Stored) == 1 || std::is_same_v<Stored, std::int16_t>, std::int16_t,
         std::conditional_t<std::is_same_v<Stored, std::uint16_t>, std::uint16_t, float>>;
 
-    explicit Values(std::size_t count) : m_values(count) {}
+    explicit Values(std::size_t count) : m_values(count), m_narrowing(count) {}
 
     void add(std::span<const std::byte> part) {
         for (std::size_t at = 0; at < part.size(); at += sizeof(Stored)) {
@@ -123,41 +124,21 @@ public:
                     return made(std::vector<float>(m_values.begin(), m_values.end()));
             return made(std::vector<std::int16_t>(m_values.begin(), m_values.end()));
         } else {
-            requireToldApart();
             return made(std::move(m_values));
         }
     }
 
-    std::size_t notFinite = 0; ///< of the samples
+    // Of values that became floats; the others are kept as they are.
+    const volume::Narrowing &narrowing() const { return m_narrowing; }
 
 protected:
-    void narrow(double value) {
-        const auto kept = float(value);
-        if (std::isfinite(kept)) {
-            m_lost = std::max(m_lost, std::abs(value - double(kept)));
-            m_least = std::min(m_least, value);
-            m_most = std::max(m_most, value);
-        } else {
-            ++notFinite;
-        }
-        m_values[m_next++] = Kept(kept);
-    }
+    void narrow(double value) { m_values[m_next++] = Kept(m_narrowing.narrow(value)); }
 
     std::vector<Kept> m_values;
 
 private:
-    // Large values that differ by little would be other ones, and no window would show it.
-    void requireToldApart() const {
-        constexpr double mostLost = 1e-5; // of the range, a hundredth of the usual tolerance
-        if (m_most > m_least && m_lost > mostLost * (m_most - m_least))
-            throw Error(
-                ErrorCode::unusable,
-                fmt::format("its values, from {} to {}, differ by less than 24 bits can tell",
-                            m_least, m_most));
-    }
-
     std::size_t m_next = 0;
-    double m_lost = 0.0, m_least = std::numeric_limits<double>::infinity(), m_most = -m_least;
+    volume::Narrowing m_narrowing;
 };
 
 // The same, rescaled.
@@ -207,9 +188,13 @@ Volume taken(const OpenVolume &file, int which, Taken values, const task::Progre
     VolumeNotes notes = file.header.notes;
     if (hasMore && which == layout.volumes - 1)
         notes.warnings.emplace_back("holds more samples than its header says");
-    if (values.notFinite > 0)
+    const volume::Narrowing &narrowing = values.narrowing();
+    if (narrowing.notFinite() > 0)
         notes.warnings.push_back(
-            fmt::format("samples that are no finite numbers: {}", values.notFinite));
+            fmt::format("samples that are no finite numbers: {}", narrowing.notFinite()));
+    narrowing.requireRange();
+    if (const auto warning = narrowing.warning())
+        notes.warnings.push_back(*warning);
     return values.volume(file.header.lattice, std::move(notes));
 }
 

@@ -24,6 +24,7 @@
 #include "core/dicom/group_series.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
+#include "core/volume/narrowing.h"
 
 namespace pellucid::dicom {
 
@@ -101,7 +102,8 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
 
 // False if a value does not fit T.
 template <class T>
-bool place(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit, T *out) {
+bool place(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit, T *out,
+           volume::Narrowing &narrowing) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
     // Read once each: what decoded them may change them still.
@@ -116,7 +118,7 @@ bool place(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit,
         }
         const double value = rescaled(h, frame, stored);
         if constexpr (std::is_same_v<T, float>)
-            out[n] = float(value);
+            out[n] = narrowing.narrow(value);
         else if (std::abs(value) <= 32767.0) // the lowest code marks missing samples
             out[n] = T(value);
         else
@@ -242,6 +244,7 @@ private:
         std::vector<std::pair<std::size_t, Skipped>> failed;
         std::set<std::string> damaged; // and decoded all the same
         std::atomic<int> otherwisePrecise = 0;
+        volume::Narrowing narrowing(samples.size());
         std::mutex guard;
         std::size_t done = 0;
         bool fits = true, isPreviewing = false;
@@ -262,17 +265,21 @@ private:
                     const std::lock_guard lock(guard);
                     damaged.insert(m_paths[n].filename().string());
                 }
+                volume::Narrowing ofFile(samples.size());
                 for (const std::size_t slice : frames) {
                     const int frame = m_entry.frames[slice].frame;
                     if (!isStillThere(m_entry.frames[slice], image.header))
                         throw Error(ErrorCode::unusable, "changed while it was read");
-                    if (!place(image, frame, m_entry.unit, samples.data() + slice * plane)) {
+                    if (!place(image, frame, m_entry.unit, samples.data() + slice * plane,
+                               ofFile)) {
                         const std::lock_guard lock(guard);
                         fits = false;
                         return;
                     }
                     arrived[slice].store(true, std::memory_order_release);
                 }
+                const std::lock_guard lock(guard);
+                narrowing.join(ofFile);
             } catch (const Error &error) {
                 if (error.code() != ErrorCode::unusable)
                     throw;
@@ -302,17 +309,18 @@ private:
             samples = {};
             return loadWithout(failed);
         }
+        narrowing.requireRange();
         fillMissing(samples);
         if (!m_entry.geometry.frameOffsetsMm.empty())
             samples = resampled(samples, m_entry.geometry, m_progress);
         volume::VolumeNotes notes = m_entry.notes;
         constexpr std::size_t mostNamed = 5;
-        std::vector<std::string> ofDamage;
+        std::vector<std::string> ofValues;
         for (const std::string &name : damaged)
-            if (ofDamage.size() < mostNamed)
-                ofDamage.push_back("the compressed pixels are damaged: " + name);
+            if (ofValues.size() < mostNamed)
+                ofValues.push_back("the compressed pixels are damaged: " + name);
         if (damaged.size() > mostNamed)
-            ofDamage.push_back(
+            ofValues.push_back(
                 fmt::format("files whose compressed pixels are damaged: {}", damaged.size()));
         if (otherwisePrecise > 0) {
             InstanceHeader header;
@@ -320,12 +328,14 @@ private:
             const std::vector<const InstanceHeader *> all(std::size_t(otherwisePrecise.load()),
                                                           &header);
             for (const std::string &warning : warningsOfValues(all))
-                ofDamage.push_back(warning);
+                ofValues.push_back(warning);
         }
+        if (const auto warning = narrowing.warning())
+            ofValues.push_back(*warning);
         // Why images are no volume stays the last.
         notes.warnings.insert(notes.warnings.end() -
                                   (m_entry.placed || notes.warnings.empty() ? 0 : 1),
-                              ofDamage.begin(), ofDamage.end());
+                              ofValues.begin(), ofValues.end());
         LoadedVolume loaded{volumeOf(std::move(samples), m_entry.geometry.lattice, notes), {}};
         m_progress.report(1.0);
         return loaded;

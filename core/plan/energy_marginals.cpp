@@ -21,17 +21,13 @@ constexpr int blocksAlong = 64;
 // The number of bins that distances from the centre are sorted into, up to the radius.
 constexpr int distanceSteps = 64;
 
-double longestStep(const volume::Lattice &lattice) {
-    return std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
-}
-
 // A quarter of the surface of the box, or of the enclosing sphere if that is smaller.
 double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, double radiusMm) {
     const volume::GridSize size = box.size();
     const double i = size.i * lattice.spacingMm(0), j = size.j * lattice.spacingMm(1),
                  k = size.k * lattice.spacingMm(2);
     // A sample is as wide as a step, so it reaches half a step beyond its centre.
-    const double reach = radiusMm + 0.5 * longestStep(lattice);
+    const double reach = radiusMm + 0.5 * lattice.longestStepMm();
     return std::min(0.5 * (i * j + j * k + k * i), std::numbers::pi * reach * reach);
 }
 
@@ -308,7 +304,7 @@ EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &
     };
     EnergySpread spread;
     spread.shortestStepMm = lattice.shortestStepMm();
-    spread.longestStepMm = longestStep(lattice);
+    spread.longestStepMm = lattice.longestStepMm();
     for (const double i : {0.0, 1.0})
         for (const double j : {0.0, 1.0})
             for (const double k : {0.0, 1.0})
@@ -338,7 +334,7 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
     EnergyMarginals result;
     EnergySpread spread;
     spread.shortestStepMm = places.shortestStepMm();
-    spread.longestStepMm = longestStep(places);
+    spread.longestStepMm = places.longestStepMm();
     result.axis[2].resize(size.k);
     std::vector<Layer> layers(blocksOf(size.k));
     std::array<LayerMaxima, 3> maxima;
@@ -462,7 +458,7 @@ EnergyMarginals energyMarginals(const volume::Volume &field, const volume::Voxel
         const double leastEnergy = std::max(inBall, seen);
         spread.peakedness = std::max(1.0, largestLineIntegral(maxima, side, places) /
                                               (result.massMm3 * leastEnergy));
-        const double depthMm = 2.0 * spread.radiusMm + longestStep(places);
+        const double depthMm = 2.0 * spread.radiusMm + places.longestStepMm();
         spread.roughestView = depthMm * spread.roughness * result.energyMm3 /
                               (result.massMm3 * result.massMm3 * leastEnergy);
     }

@@ -20,12 +20,11 @@ constexpr int largestSliceGrid = 65536;
 // How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
 double reachPixels(const scene::Camera &camera, const SliceRoom &room,
                    const volume::Lattice &lattice, const scene::ImageDefinition &image) {
-    const double longest =
-        std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)});
     double radiusMm = 0.0;
     for (const auto &spread : room.spreads)
         radiusMm = std::max(radiusMm, spread->radiusMm);
-    return (radiusMm + scene::reconstructionReach(image) * longest) / camera.pixelMm;
+    return (radiusMm + scene::reconstructionReach(image) * lattice.longestStepMm()) /
+           camera.pixelMm;
 }
 
 } // namespace

@@ -170,7 +170,7 @@ std::optional<double> errorOf(const PreparedEngine &prepared,
     const render::EngineParts parts = prepared.engine->parts();
     const double ofFields =
         prepared.viewError
-            ? prepared.viewError->relativeError(picture, camera, image, parts, shading)
+            ? prepared.viewError->errorOf(picture, camera, image, parts, shading).relative
             : prepared.plan.predictedError;
     return prepared.isCoarse
                ? std::hypot(ofFields,

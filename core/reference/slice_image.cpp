@@ -25,10 +25,7 @@ SliceSize sliceSize(const volume::Lattice &lattice, const scene::Camera &camera,
     // lattice's own band where that is tapered too and longer.
     double ringing = 6.0 * scene::ringingPixels(image.rollOff);
     if (image.reconstruction == scene::Reconstruction::bandLimited)
-        ringing *= std::max(
-            1.0, 0.5 *
-                     std::max({lattice.spacingMm(0), lattice.spacingMm(1), lattice.spacingMm(2)}) /
-                     camera.pixelMm);
+        ringing *= std::max(1.0, 0.5 * lattice.longestStepMm() / camera.pixelMm);
     const auto cells = [&](int size, double panMm) {
         const double needed =
             std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);

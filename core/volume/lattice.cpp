@@ -66,6 +66,10 @@ double Lattice::shortestStepMm() const {
     return std::min({spacingMm(0), spacingMm(1), spacingMm(2)});
 }
 
+double Lattice::longestStepMm() const {
+    return std::max({spacingMm(0), spacingMm(1), spacingMm(2)});
+}
+
 double Lattice::cellVolumeMm3() const {
     return std::abs(glm::determinant(m_steps));
 }

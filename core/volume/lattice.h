@@ -68,6 +68,7 @@ public:
     /// The length of a step, mm.
     double spacingMm(int axis) const;
     double shortestStepMm() const;
+    double longestStepMm() const;
     /// |det(a_0 a_1 a_2)|, mm^3.
     double cellVolumeMm3() const;
     /// Unit normal of the slices, a_0 x a_1.

@@ -1655,6 +1655,10 @@
         <translation>其值自 %1 至 %2，差異小於 24 位元所能分辨</translation>
     </message>
     <message>
+        <source>values that differ by less than %1 are shown as equal</source>
+        <translation>差異小於 %1 的數值顯示為相等</translation>
+    </message>
+    <message>
         <source>nothing of the study is visible, so there is no spectrum to show</source>
         <translation>頻譜於頻率 0 為零：沒有可顯示的內容</translation>
     </message>
@@ -3012,8 +3016,8 @@
         <translation>最大</translation>
     </message>
     <message>
-        <source>Largest error of a pixel over the brightest pixel, predicted</source>
-        <translation>預測的最大像素誤差，相對於最亮像素</translation>
+        <source>Largest error of a pixel over the brightest pixel of the whole, predicted</source>
+        <translation>預測的最大像素誤差，相對於整體影像的最亮像素</translation>
     </message>
     <message>
         <source>Plan</source>
@@ -3076,8 +3080,8 @@
         <translation>樣條</translation>
     </message>
     <message>
-        <source>Relative error of a picture from any side, predicted; that of the picture shown is beside it</source>
-        <translation>任何方向影像的預測相對誤差；目前影像的誤差顯示於其旁</translation>
+        <source>Relative error of a picture of the whole from any side, predicted; that of the picture shown is beside it</source>
+        <translation>整體影像於任何方向的預測相對誤差；目前影像的誤差顯示於其旁</translation>
     </message>
     <message>
         <source>not known yet</source>

@@ -65,7 +65,10 @@ TEST_F(Cli, RendersToNumbersThatTheExactReferenceConfirms) {
         const auto truth = reference::WideKernel(field.values, field.support).image(camera, {});
         const double error = test::relativeL2(image, truth);
         EXPECT_LT(error, 1.1e-3) << c.name;
-        const double predicted = json::parse(r.out)["predicted_error"]["relative_l2"];
+        const json figures = json::parse(r.out)["predicted_error"];
+        const double predicted = figures["relative_l2"];
+        EXPECT_TRUE(figures["whole"]) << r.out;
+        EXPECT_GT(figures["maximum"], 0.0) << r.out;
         EXPECT_LE(error, predicted) << c.name;
     }
 }
@@ -91,6 +94,9 @@ TEST_F(Cli, PlansAPartOfAPictureMoreClosely) {
         ASSERT_EQ(r.exitCode, 0) << r.error;
         const json told = json::parse(r.out);
         planned[pan] = told["plan"]["predicted_error"];
+        // The plan's figures are for the whole.
+        EXPECT_FALSE(told["predicted_error"]["whole"]) << pan;
+        EXPECT_TRUE(told["predicted_error"]["maximum"].is_null()) << pan;
         int height = 0, width = 0;
         const auto image = readNpy(out, height, width);
         const double error = test::relativeL2(image, exact.image(scene.camera, scene.image)),

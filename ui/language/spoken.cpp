@@ -39,6 +39,7 @@ constexpr const char *reasons[] = {
     QT_TRANSLATE_NOOP("Reasons", "MetaImage samples in a list of files are not supported"),
     QT_TRANSLATE_NOOP("Reasons", "MetaImage header sizes counted from the end are not supported"),
     QT_TRANSLATE_NOOP("Reasons", "its values, from %1 to %2, differ by less than 24 bits can tell"),
+    QT_TRANSLATE_NOOP("Reasons", "values that differ by less than %1 are shown as equal"),
     QT_TRANSLATE_NOOP("Reasons", "all slices have the same position"),
     QT_TRANSLATE_NOOP("Reasons", "%1 is %2 mm off the line through all slices"),
     QT_TRANSLATE_NOOP("Reasons", "missing slices, interpolated: %1"),

@@ -120,10 +120,11 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_time = addFigure(form, tr("Frame"), "frameTimeLabel", tr("Time that the last frame took"));
     m_error = addFigure(
         form, tr("Error"), "predictedErrorLabel",
-        tr("Relative error of a picture from any side, predicted; that of the picture shown is "
-           "beside it"));
-    m_largest = addFigure(form, tr("Largest"), "predictedMaximumLabel",
-                          tr("Largest error of a pixel over the brightest pixel, predicted"));
+        tr("Relative error of a picture of the whole from any side, predicted; that of the picture "
+           "shown is beside it"));
+    m_largest =
+        addFigure(form, tr("Largest"), "predictedMaximumLabel",
+                  tr("Largest error of a pixel over the brightest pixel of the whole, predicted"));
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
     m_padded = addFigure(form, tr("Padded"), "paddingLabel",
                          tr("Padded size over size, along columns, rows and slices"));

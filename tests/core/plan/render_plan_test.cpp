@@ -121,7 +121,7 @@ TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
                 const double e =
                     test::relativeL2(image.samples, wide.image(scene.camera, scene.image));
                 const double ofView =
-                    model.relativeError(image, scene.camera, scene.image, engine.parts(), {});
+                    model.errorOf(image, scene.camera, scene.image, engine.parts(), {}).relative;
                 EXPECT_GE(ofView, e) << framing.pixel << ' ' << framing.side << ' ' << framing.pan;
                 EXPECT_LE(ofView, 4.5 * e)
                     << framing.pixel << ' ' << framing.side << ' ' << framing.pan;
