@@ -50,7 +50,8 @@ enum Oddity : std::uint32_t {
     definedLengthPixels = 2, ///< of a compressed syntax
     missingDelimiter = 4,    ///< at the end of compressed pixels
     otherPrecision = 8,      ///< compressed values need more bits than the header says
-    allOddities = 15
+    unreadMosaic = 16,       ///< tiles of one image that nobody counts
+    allOddities = 31
 };
 
 /// What a header says about a file.

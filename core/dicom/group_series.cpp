@@ -219,10 +219,8 @@ blocksOf(const Frames &frames,
     return blocks;
 }
 
-constexpr const char *ownSpaces = "every image has its own frame of reference; treated as one";
-
 // Blocks of one space each. Anonymisers that replace UIDs one by one give each image a space of its
-// own: where none repeats, they say nothing.
+// own: where hardly any repeats, they say nothing.
 std::vector<Frames> spacesOf(Frames block, std::vector<std::string> &warnings) {
     constexpr std::size_t fewestImages = 3;
     std::map<std::string, std::size_t> known;
@@ -233,9 +231,12 @@ std::vector<Frames> spacesOf(Frames block, std::vector<std::string> &warnings) {
             spaces.emplace_back();
         spaces[it->second].push_back(frame);
     }
-    if (spaces.size() < fewestImages || spaces.size() < block.size())
+    const auto alone = std::size_t(std::count_if(
+        spaces.begin(), spaces.end(), [](const Frames &space) { return space.size() == 1; }));
+    if (spaces.size() < fewestImages || 2 * alone <= block.size())
         return spaces;
-    warnings.emplace_back(ownSpaces);
+    warnings.push_back(
+        fmt::format("the images name {} frames of reference; treated as one", spaces.size()));
     return {std::move(block)};
 }
 
@@ -342,11 +343,12 @@ std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frame
 
 constexpr const char *surplus = "files with more pixels than their header says: ",
                      *zeroSlopes = "rescale slopes of 0, taken for 1: ";
-constexpr std::array<std::pair<decoder::Oddity, const char *>, 4> oddities{{
+constexpr std::array<std::pair<decoder::Oddity, const char *>, 5> oddities{{
     {decoder::mislabelledEncoding, "files coded implicitly that say they are explicit: "},
     {decoder::definedLengthPixels, "files of a compressed syntax with pixels of defined length: "},
     {decoder::missingDelimiter, "files whose compressed pixels have no end: "},
     {decoder::otherPrecision, "files whose pixels have more bits than their header says: "},
+    {decoder::unreadMosaic, "mosaics that do not say how many slices they hold, shown flat: "},
 }};
 
 std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader *> &files) {

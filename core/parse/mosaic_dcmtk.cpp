@@ -85,8 +85,13 @@ CsaHeader csaHeaderOf(DcmItem &dataset) {
 
 } // namespace
 
+bool isMosaic(const decoder::InstanceHeader &header) {
+    return header.frames.size() == 1 &&
+           header.frames[0].imageType.find("MOSAIC") != std::string::npos;
+}
+
 std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &header) {
-    if (header.frames.size() != 1 || header.frames[0].imageType.find("MOSAIC") == std::string::npos)
+    if (!isMosaic(header))
         return std::nullopt;
     const CsaHeader csa = csaHeaderOf(dataset);
     Mosaic mosaic;

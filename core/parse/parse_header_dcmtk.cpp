@@ -404,6 +404,8 @@ InstanceHeader parsed(std::span<const std::byte> bytes) {
         throw Error(ErrorCode::unusable, "is damaged: " + file.failure);
     if (const auto mosaic = mosaicOf(dataset, header))
         takeApart(header, *mosaic);
+    else if (isMosaic(header))
+        header.oddities |= decoder::unreadMosaic;
     return header;
 }
 

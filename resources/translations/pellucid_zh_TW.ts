@@ -1447,8 +1447,8 @@
         <translation>像素間距最多相差 %1 %；採用平均值</translation>
     </message>
     <message>
-        <source>every image has its own frame of reference; treated as one</source>
-        <translation>每張影像各有自己的參考座標系；視為同一個</translation>
+        <source>the images name %1 frames of reference; treated as one</source>
+        <translation>影像標示 %1 個參考座標系；視為同一個</translation>
     </message>
     <message>
         <source>different images with the same instance UID: %1</source>
@@ -1481,6 +1481,10 @@
     <message>
         <source>files whose pixels have more bits than their header says: %1</source>
         <translation>像素位元數多於標頭所述的檔案：%1</translation>
+    </message>
+    <message>
+        <source>mosaics that do not say how many slices they hold, shown flat: %1</source>
+        <translation>未標示切片數而以平面顯示的拼接影像：%1</translation>
     </message>
     <message>
         <source>is unusually large: %1 x %2 x %3 pixels in a file of %4 MB</source>

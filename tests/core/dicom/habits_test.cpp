@@ -81,6 +81,12 @@ std::map<std::string, Write> habits() {
         };
     };
     add("each slice its own frame of reference", [](auto &k) { k.ownFrames = true; });
+    add("each slice its own frame of reference, but two that share one", [](auto &k) {
+        k.slices = 20;
+        k.change = [](DicomWriter &w, int slice) {
+            w.put({0x0020, 0x0052}, "UI", "1.2.3." + std::to_string(std::max(1, slice)));
+        };
+    });
     add("each slice its own study", [](auto &k) { k.ownStudies = true; });
     add("one instance UID in all slices", [](auto &k) { k.slices = 93, k.oneInstance = true; });
     all["an Enhanced file and its slices under one instance UID"] = [](const fs::path &folder) {
@@ -108,6 +114,13 @@ std::map<std::string, Write> habits() {
             w.remove({0x0029, 0x1010});
             w.put({0x0019, 0x0010}, "LO", std::string("SIEMENS MR HEADER"));
             w.putShort({0x0019, 0x100A}, 11);
+        };
+    });
+    add("a Siemens mosaic that counts nothing", [](auto &k) {
+        k = mosaicKnobs();
+        k.change = [old = k.change](DicomWriter &w, int n) {
+            old(w, n);
+            w.remove({0x0029, 0x1010});
         };
     });
     const auto fragments = [](const std::function<std::string(const std::string &)> &code) {

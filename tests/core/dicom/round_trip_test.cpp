@@ -249,6 +249,33 @@ TEST(Load, ARescaleThatIsNoNumberCostsItsSlice) {
     EXPECT_THAT(loaded.notes().warnings, testing::Contains("rescale slopes of 0, taken for 1: 1"));
 }
 
+// Codes that a rescale makes one number in 24 bits are refused; those that it makes nearly so are
+// shown with a warning.
+TEST(Load, ARescaleThatLeavesNoDifferencesIsNamed) {
+    const auto outcome = [](const std::string &rescale) -> std::string {
+        const test::TemporaryFolder folder;
+        dicom::writeCtSeries(folder.path(), tiltedHead(), {},
+                             dicom::TransferSyntax::explicitLittle);
+        std::vector<fs::path> files;
+        for (const auto &file : fs::directory_iterator(folder.path()))
+            files.push_back(file.path());
+        EXPECT_TRUE(modify(rescale, files));
+        try {
+            for (const std::string &warning : loadDefault(folder.path()).volume.notes().warnings)
+                if (warning.find("shown as equal") != std::string::npos)
+                    return "equal";
+            return "shown";
+        } catch (const task::Error &error) {
+            return error.reason().find("24 bits") != std::string::npos ? "refused" : error.reason();
+        }
+    };
+    EXPECT_EQ(outcome("-m RescaleIntercept=1e7 -m RescaleSlope=.001"), "refused");
+    EXPECT_EQ(outcome("-m RescaleIntercept=1e8 -m RescaleSlope=1"), "refused");
+    EXPECT_EQ(outcome("-m RescaleIntercept=1e5 -m RescaleSlope=.1"), "equal");
+    EXPECT_EQ(outcome("-m RescaleIntercept=1e6 -m RescaleSlope=1"), "shown");
+    EXPECT_EQ(outcome("-m RescaleIntercept=-10.5 -m RescaleSlope=.001"), "shown");
+}
+
 // As PS3.3, C.12.1.1.2 names them, with the examples of PS3.5, H.3.1 and H.3.2; a text that is
 // damaged keeps no other from being read.
 TEST(Scan, NamesOfManyCharacterSetsAreRead) {
