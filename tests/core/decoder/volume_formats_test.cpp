@@ -277,7 +277,8 @@ TEST_F(VolumeFormats, ValuesThatFloatsCannotTellApartAreNamed) {
         }
         test::writeText(folder / "d.nrrd", bytes);
         try {
-            for (const std::string &warning : readVolumeFile(folder / "d.nrrd").notes().warnings)
+            const volume::VolumeNotes notes = readVolumeFile(folder / "d.nrrd").notes();
+            for (const std::string &warning : notes.warnings)
                 if (warning.find("shown as equal") != std::string::npos)
                     return "equal";
         } catch (const task::Error &error) {

@@ -261,7 +261,8 @@ TEST(Load, ARescaleThatLeavesNoDifferencesIsNamed) {
             files.push_back(file.path());
         EXPECT_TRUE(modify(rescale, files));
         try {
-            for (const std::string &warning : loadDefault(folder.path()).volume.notes().warnings)
+            const dicom::LoadedVolume loaded = loadDefault(folder.path());
+            for (const std::string &warning : loaded.volume.notes().warnings)
                 if (warning.find("shown as equal") != std::string::npos)
                     return "equal";
             return "shown";
