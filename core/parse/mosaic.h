@@ -23,7 +23,8 @@ struct Mosaic {
 /// Whether the image says that it is one.
 bool isMosaic(const decoder::InstanceHeader &header);
 
-/// Nothing if the image is none, or does not say of how many slices. `header`: as read, of the whole image.
+/// Nothing if the image is none, or does not say of how many slices. `header`: as read, of the
+/// whole image.
 std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &header);
 
 /// A header whose frames are the tiles, each at its place. Positions are those of the whole image's
