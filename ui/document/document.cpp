@@ -229,13 +229,13 @@ void Document::selectMeasurement(int index) {
 }
 
 std::optional<picture::ToneRange> Document::brightness() const {
-    return m_brightness && m_brightness->of == ToneSubject(m_scene)
+    return m_brightness && m_brightness->of == picture::ToneSubject(m_scene)
                ? std::optional(m_brightness->range)
                : std::nullopt;
 }
 
 void Document::setBrightness(const picture::ToneRange &range) {
-    const Brightness brightness{range, ToneSubject(m_scene)};
+    const Brightness brightness{range, picture::ToneSubject(m_scene)};
     if (brightness == m_brightness)
         return;
     m_brightness = brightness;

@@ -13,9 +13,9 @@
 #include "core/measure/measurement.h"
 #include "core/mpr/reslice.h"
 #include "core/picture/compose.h"
+#include "core/picture/tone_subject.h"
 #include "core/scene/scene.h"
 #include "core/volume/volume.h"
-#include "ui/document/tone_subject.h"
 #include "ui/studies/study_source.h"
 
 namespace pellucid::ui {
@@ -151,7 +151,7 @@ private:
     volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
     struct Brightness {
         picture::ToneRange range;
-        ToneSubject of;
+        picture::ToneSubject of;
         bool operator==(const Brightness &) const = default;
     };
     std::optional<Brightness> m_brightness;

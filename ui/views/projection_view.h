@@ -8,11 +8,11 @@
 #include <QTimer>
 #include <QWidget>
 
+#include "core/picture/automatic_tone.h"
 #include "ui/document/commands.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/engine/render_worker.h"
 #include "ui/engine/shown_engine.h"
-#include "ui/views/automatic_tone.h"
 #include "ui/views/look_comparison.h"
 #include "ui/views/measure_tool.h"
 #include "ui/views/overlay.h"
@@ -137,7 +137,7 @@ private:
     std::shared_ptr<const RenderedFrame> m_frame;
     std::optional<double> m_frameError; ///< against the study, if anyone knows
     EngineStage m_frameStage = EngineStage::coarse;
-    AutomaticTone m_tone;
+    picture::AutomaticTone m_tone;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last frame that was asked for
     double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "core/picture/compose.h"
-#include "ui/document/tone_subject.h"
+#include "core/picture/tone_subject.h"
 
-namespace pellucid::ui {
+namespace pellucid::picture {
 
 /// The brightness of a projection where the user has fixed none. It is taken once, from a frame:
 /// one that followed the view would flicker. Weights that move keep it, and so do phases that
@@ -19,10 +19,10 @@ public:
     /// The next frame tells the brightness anew; what is shown keeps its own till then.
     bool isWanted() const { return m_isWanted; }
     void retake() { m_isWanted = true; }
-    void take(const picture::ToneRange &range);
+    void take(const ToneRange &range);
     /// The scene is seen again, with the brightness that it had: the fields that come for it, a
     /// coarse picture's and then the full ones, keep it.
-    void adopt(const picture::ToneRange &range, const scene::Scene &scene);
+    void adopt(const ToneRange &range, const scene::Scene &scene);
     /// The next volume is another phase: brightness and picture stay until its own are there.
     void hold() { m_isHeld = true; }
     /// The volume changes; `hasNext`: to another one. False: the brightness goes with it.
@@ -32,12 +32,12 @@ public:
     /// The next frame is drawn with cue and lights like these.
     void follow(const shading::Shading &drawn);
 
-    const picture::ToneRange &range() const { return m_range; }
+    const ToneRange &range() const { return m_range; }
     /// With both ends: those that the user fixed, and for the rest the brightness that was taken.
     scene::Tone completed(scene::Tone tone) const;
 
 private:
-    picture::ToneRange m_range;
+    ToneRange m_range;
     bool m_isWanted = true, m_isHeld = false;
     std::optional<ToneSubject> m_adoptedFor;
     /// Of the last frame.
@@ -45,4 +45,4 @@ private:
     shading::CueKind m_cue = shading::CueKind::none;
 };
 
-} // namespace pellucid::ui
+} // namespace pellucid::picture

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/views/automatic_tone.h"
+#include "core/picture/automatic_tone.h"
 
-namespace pellucid::ui {
+namespace pellucid::picture {
 
-void AutomaticTone::take(const picture::ToneRange &range) {
+void AutomaticTone::take(const ToneRange &range) {
     m_range = range;
     m_isWanted = false;
     m_adoptedFor.reset();
 }
 
-void AutomaticTone::adopt(const picture::ToneRange &range, const scene::Scene &scene) {
+void AutomaticTone::adopt(const ToneRange &range, const scene::Scene &scene) {
     take(range);
     m_adoptedFor.emplace(scene);
     m_lights = m_adoptedFor->lights;
@@ -42,4 +42,4 @@ scene::Tone AutomaticTone::completed(scene::Tone tone) const {
     return tone;
 }
 
-} // namespace pellucid::ui
+} // namespace pellucid::picture

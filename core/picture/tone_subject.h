@@ -6,7 +6,7 @@
 
 #include "core/scene/scene.h"
 
-namespace pellucid::ui {
+namespace pellucid::picture {
 
 /// What an automatic brightness is of: whatever changes the projected values themselves. The view
 /// is not among it, nor the strength of a cue or a light, which the hand drags.
@@ -24,4 +24,4 @@ struct ToneSubject {
     bool operator==(const ToneSubject &) const = default;
 };
 
-} // namespace pellucid::ui
+} // namespace pellucid::picture

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/views/automatic_tone.h"
+#include "core/picture/automatic_tone.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-namespace pellucid::ui {
+namespace pellucid::picture {
 
 namespace {
 
-const picture::ToneRange bright{0.0, 300.0}, dark{0.0, 200.0};
+const ToneRange bright{0.0, 300.0}, dark{0.0, 200.0};
 
 scene::Scene litScene() {
     scene::Scene scene;
@@ -19,7 +19,7 @@ scene::Scene litScene() {
     return scene;
 }
 
-AutomaticTone taken(const picture::ToneRange &range) {
+AutomaticTone taken(const ToneRange &range) {
     AutomaticTone tone;
     tone.take(range);
     return tone;
@@ -107,7 +107,7 @@ TEST(AutomaticTone, GoesWithItsVolumeUnlessTheNextIsAnotherPhase) {
     EXPECT_EQ(tone.range(), bright);
     EXPECT_FALSE(tone.outlivesVolume(true)); // another study
     EXPECT_TRUE(tone.isWanted());
-    EXPECT_EQ(tone.range(), picture::ToneRange());
+    EXPECT_EQ(tone.range(), ToneRange());
 }
 
-} // namespace pellucid::ui
+} // namespace pellucid::picture
