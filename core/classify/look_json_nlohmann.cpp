@@ -36,8 +36,9 @@ Step stepFromJson(const json &in, const std::string &where) {
     Step step{jsonText(in["kind"], where + "/kind"), {}};
     for (const auto &[key, value] : in.items())
         if (key != "kind") {
-            at(where, [&] { static_cast<void>(step.at(key)); }); // check the name before the value
-            step.parameters[key] = jsonNumber(value, where + "/" + key);
+            const std::string &name = key; // clang 14 captures no structured bindings
+            at(where, [&] { static_cast<void>(step.at(name)); }); // before the value is looked at
+            step.parameters[name] = jsonNumber(value, where + "/" + name);
         }
     at(where, [&] { validate(step); });
     return step;
