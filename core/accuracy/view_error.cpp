@@ -28,7 +28,7 @@ constexpr double coherentMargin = 2.7, ///< ghosts, block by block
     centralMargin = 4.0,               ///< the known rounding of the central cells
     pointMargin = 1.7,                 ///< rounding of a few samples, judged by the central cells
     litPointMargin = 1.5,              ///< the same under light
-    partOfPointsMargin = 3.0,          ///< the same in a part of the picture, without light
+    partOfPointsMargin = 3.0,          ///< the same in a part of the picture
     tailMargin = 50.0,                 ///< tails of the picture
     patternBesideMargin = 40.0,        ///< tails of what lies beside it
     pointBesideMargin = 15.0;          ///< the same of a few samples
@@ -377,10 +377,9 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
                  ofPoints = representAll ? fewness * centralError / centralImage *
                                                std::max(0.0, whole - centralImage)
                                          : 0.0,
-                 ofPart = fewness * std::max(pointShare, part) * known * rest;
-    const double few = shading.isLit() ? litPointMargin * (representAll ? ofPoints : ofPart)
-                                       : pointMargin * ofPoints +
-                                             (representAll ? 0.0 : partOfPointsMargin * ofPart);
+                 ofPart = alike * std::max(pointShare, part) * known * rest;
+    const double few = (shading.isLit() ? litPointMargin : pointMargin) * ofPoints +
+                       (representAll ? 0.0 : partOfPointsMargin * ofPart);
     const double others =
         (isKnown ? restMargin : aloneMargin) * part * rest * (representAll ? 1.0 - alike : 1.0);
     // Coarse pixels that are larger than the blocks spread each of them over several.
