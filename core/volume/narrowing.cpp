@@ -20,21 +20,7 @@ double lostOf(double value) {
 
 } // namespace
 
-Narrowing::Narrowing(std::size_t count) : m_every(std::max<std::size_t>(1, count / enough)) {}
-
-float Narrowing::narrow(double value) {
-    const auto kept = float(value);
-    if (!std::isfinite(kept)) {
-        ++m_notFinite;
-        return kept;
-    }
-    m_lost = std::max(m_lost, std::abs(value - double(kept)));
-    m_least = std::min(m_least, value);
-    m_most = std::max(m_most, value);
-    if (m_seen++ % m_every == 0)
-        m_some.push_back(value);
-    return kept;
-}
+Narrowing::Narrowing(std::size_t count) : m_every((count / enough) | 1) {}
 
 void Narrowing::join(const Narrowing &other) {
     m_lost = std::max(m_lost, other.m_lost);
