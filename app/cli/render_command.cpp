@@ -127,8 +127,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 
     picture::FrameTimes times;
     double writeMs = 0.0, viewError = 0.0;
-    bool isWhole = true;
-    std::optional<double> maximum;
+    std::optional<bool> isWhole;
+    std::optional<double> maximum; // of the frames, if all show the whole
     const int frames = std::max(1, o.frames);
     dicom::CaptureLabels labels =
         o.isDeidentified ? dicom::deidentified(input.labels) : input.labels;
@@ -154,8 +154,11 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
             image = renderer->image(turned.camera, times);
         }
         viewError = std::max(viewError, renderer->lastViewError());
-        isWhole = isWhole && renderer->wasWhole();
-        maximum = isWhole ? renderer->predictedMaximum() : std::nullopt;
+        const std::optional<double> here = renderer->predictedMaximum();
+        isWhole = frame == 0 || isWhole == true ? renderer->wasWhole() : isWhole;
+        maximum = here && (frame == 0 || maximum)
+                      ? std::optional(std::max(*here, maximum.value_or(0.0)))
+                      : std::nullopt;
         task::Progress(context.stop).check();
         watch.lapMs();
         labels.instanceNumber = frame + 1;
@@ -205,7 +208,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                         {"predicted_error",
                          {{"relative_l2", viewError},
                           {"maximum", maximum ? json(*maximum) : json(nullptr)},
-                          {"whole", isWhole}}},
+                          {"whole", isWhole ? json(*isWhole) : json(nullptr)}}},
                         {"warnings", warnings},
                         {"skipped", skipped}})
                   .c_str());

@@ -267,7 +267,7 @@ json Renderer::planJson() const {
 }
 
 std::optional<double> Renderer::predictedMaximum() const {
-    if (!m_engine || (m_picture && !m_picture->isWhole))
+    if (!m_engine || !wasWhole().value_or(false))
         return std::nullopt;
     return m_fitting.plan.predictedMaximum;
 }

@@ -66,7 +66,10 @@ public:
     /// picture has none of its own.
     double lastViewError() const { return m_picture ? m_picture->relative : m_predictedError; }
     /// Whether the last picture showed the whole of the field, which `predictedError` is for.
-    bool wasWhole() const { return !m_picture || m_picture->isWhole; }
+    /// Nothing where no error of the picture's own is predicted.
+    std::optional<bool> wasWhole() const {
+        return m_picture ? std::optional(m_picture->isWhole) : std::nullopt;
+    }
     /// The predicted largest error of a pixel of the last picture over its largest pixel. None for
     /// the exact reference, nor for a picture of a part, whose largest pixel may be small.
     std::optional<double> predictedMaximum() const;

@@ -50,7 +50,7 @@ enum Oddity : std::uint32_t {
     definedLengthPixels = 2, ///< of a compressed syntax
     missingDelimiter = 4,    ///< at the end of compressed pixels
     otherPrecision = 8,      ///< compressed values need more bits than the header says
-    unreadMosaic = 16,       ///< tiles of one image that nobody counts
+    unreadMosaic = 16,       ///< a Siemens mosaic without a usable number of slices
     allOddities = 31
 };
 

@@ -192,7 +192,7 @@ Volume taken(const OpenVolume &file, int which, Taken values, const task::Progre
     if (narrowing.notFinite() > 0)
         notes.warnings.push_back(
             fmt::format("samples that are no finite numbers: {}", narrowing.notFinite()));
-    narrowing.requireRange();
+    narrowing.requireDistinct();
     if (const auto warning = narrowing.warning())
         notes.warnings.push_back(*warning);
     return values.volume(file.header.lattice, std::move(notes));

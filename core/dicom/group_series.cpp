@@ -220,9 +220,9 @@ blocksOf(const Frames &frames,
 }
 
 // Blocks of one space each. Anonymisers that replace UIDs one by one give each image a space of its
-// own: where hardly any repeats, they say nothing.
+// own: where hardly any repeats, they carry no information.
 std::vector<Frames> spacesOf(Frames block, std::vector<std::string> &warnings) {
-    constexpr std::size_t fewestImages = 3;
+    constexpr std::size_t fewestSpaces = 3;
     std::map<std::string, std::size_t> known;
     std::vector<Frames> spaces;
     for (PlacedFrame &frame : block) {
@@ -233,10 +233,9 @@ std::vector<Frames> spacesOf(Frames block, std::vector<std::string> &warnings) {
     }
     const auto alone = std::size_t(std::count_if(
         spaces.begin(), spaces.end(), [](const Frames &space) { return space.size() == 1; }));
-    if (spaces.size() < fewestImages || 2 * alone <= block.size())
+    if (spaces.size() < fewestSpaces || 10 * alone < 9 * block.size())
         return spaces;
-    warnings.push_back(
-        fmt::format("the images name {} frames of reference; treated as one", spaces.size()));
+    warnings.emplace_back("hardly any images share a frame of reference; treated as one");
     return {std::move(block)};
 }
 
@@ -348,7 +347,7 @@ constexpr std::array<std::pair<decoder::Oddity, const char *>, 5> oddities{{
     {decoder::definedLengthPixels, "files of a compressed syntax with pixels of defined length: "},
     {decoder::missingDelimiter, "files whose compressed pixels have no end: "},
     {decoder::otherPrecision, "files whose pixels have more bits than their header says: "},
-    {decoder::unreadMosaic, "mosaics that do not say how many slices they hold, shown flat: "},
+    {decoder::unreadMosaic, "mosaics that could not be taken apart, shown flat: "},
 }};
 
 std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader *> &files) {

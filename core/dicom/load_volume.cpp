@@ -265,7 +265,7 @@ private:
                     const std::lock_guard lock(guard);
                     damaged.insert(m_paths[n].filename().string());
                 }
-                volume::Narrowing ofFile(samples.size());
+                volume::Narrowing ofFile(samples.size(), frames.front() * plane);
                 for (const std::size_t slice : frames) {
                     const int frame = m_entry.frames[slice].frame;
                     if (!isStillThere(m_entry.frames[slice], image.header))
@@ -309,7 +309,7 @@ private:
             samples = {};
             return loadWithout(failed);
         }
-        narrowing.requireRange();
+        narrowing.requireDistinct();
         fillMissing(samples);
         if (!m_entry.geometry.frameOffsetsMm.empty())
             samples = resampled(samples, m_entry.geometry, m_progress);

@@ -20,11 +20,11 @@ struct Mosaic {
     glm::dvec3 normal{0.0};   ///< direction from slice to slice
 };
 
-/// Whether the image says that it is one.
+/// Whether ImageType says MOSAIC.
 bool isMosaic(const decoder::InstanceHeader &header);
 
-/// Nothing if the image is none, or does not say of how many slices. `header`: as read, of the
-/// whole image.
+/// Nothing if ImageType does not say MOSAIC, or if the number of slices is missing or does not fit
+/// the image. `header`: as read, of the whole image.
 std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &header);
 
 /// A header whose frames are the tiles, each at its place. Positions are those of the whole image's

@@ -11,12 +11,13 @@
 
 namespace pellucid::volume {
 
-/// Narrows values to the 24 bits of a float and keeps account of what that costs: large values that
-/// differ by little become one number, and no window would show it.
+/// Narrows values to the 24 bits of a float and finds out what that costs: large values that differ
+/// by little become one number, and no window would show it.
 class Narrowing {
 public:
-    /// `count`: of the values to come, some 4096 of which are kept as they were.
-    explicit Narrowing(std::size_t count);
+    /// *Shape*: `count` values in all, of which those from `first` on follow; some 4096 of all are
+    /// kept for comparison.
+    explicit Narrowing(std::size_t count, std::size_t first = 0);
 
     /// The nearest float; not finite if the value is not, or is beyond every float.
     float narrow(double value) {
@@ -28,27 +29,32 @@ public:
         m_lost = std::max(m_lost, std::abs(value - double(kept)));
         m_least = std::min(m_least, value);
         m_most = std::max(m_most, value);
-        if (m_seen++ % m_every == 0)
-            m_some.push_back(value);
+        if (--m_untilKept == 0)
+            keep(value);
         return kept;
     }
-    /// Joins what another has seen of the same values.
+    /// Adds the statistics of another part of the volume.
     void join(const Narrowing &other);
 
     /// Values that were not finite.
     std::size_t notFinite() const { return m_notFinite; }
-    /// What narrowing lost, as a line for the user, where it is more than 1e-5 of the values'
-    /// range, or of the range of a tenth of them between wide gaps: a background of zeros beside
-    /// large values makes no range for them.
+    /// A line for the user where more than 5 % of the differences between the kept values are lost.
     std::optional<std::string> warning() const;
-    /// *Throws* Error{unusable} if more than 1e-4 of the whole range was lost.
-    void requireRange() const;
+    /// *Throws* Error{unusable} if more than half of them are, and rounding is more than 1e-4 of
+    /// the range of all values.
+    void requireDistinct() const;
 
 private:
+    struct Merged {
+        double share = 0.0;   ///< of neighbouring values that became equal
+        double largest = 0.0; ///< difference between such neighbours
+    };
+    Merged merged() const;
+    void keep(double value);
+
     double m_lost = 0.0, m_least = std::numeric_limits<double>::infinity(), m_most = -m_least;
-    std::size_t m_every; ///< odd, or every kept value could be of the same column
-    std::size_t m_seen = 0, m_notFinite = 0;
-    std::vector<double> m_some;
+    std::size_t m_every, m_untilKept, m_notFinite = 0;
+    std::vector<double> m_kept;
 };
 
 } // namespace pellucid::volume

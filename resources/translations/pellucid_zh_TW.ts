@@ -1447,8 +1447,8 @@
         <translation>像素間距最多相差 %1 %；採用平均值</translation>
     </message>
     <message>
-        <source>the images name %1 frames of reference; treated as one</source>
-        <translation>影像標示 %1 個參考座標系；視為同一個</translation>
+        <source>hardly any images share a frame of reference; treated as one</source>
+        <translation>幾乎每張影像各有自己的參考座標系；視為同一個</translation>
     </message>
     <message>
         <source>different images with the same instance UID: %1</source>
@@ -1483,8 +1483,8 @@
         <translation>像素位元數多於標頭所述的檔案：%1</translation>
     </message>
     <message>
-        <source>mosaics that do not say how many slices they hold, shown flat: %1</source>
-        <translation>未標示切片數而以平面顯示的拼接影像：%1</translation>
+        <source>mosaics that could not be taken apart, shown flat: %1</source>
+        <translation>無法拆開而以平面顯示的拼接影像：%1</translation>
     </message>
     <message>
         <source>is unusually large: %1 x %2 x %3 pixels in a file of %4 MB</source>

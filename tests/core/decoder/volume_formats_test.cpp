@@ -296,11 +296,14 @@ TEST_F(VolumeFormats, ValuesThatFloatsCannotTellApartAreNamed) {
     for (const auto &[base, range] :
          {std::pair(1e7, 1.0), std::pair(1e8, 1.0), std::pair(-1e7, 10.0)})
         EXPECT_EQ(read(noise(base, range)), "refused") << base;
-    EXPECT_EQ(read(noise(300.0, 1.0)), "equal"); // 1.5e-5 of the range is lost
+    EXPECT_EQ(read(noise(300.0, 1.0)), "read");
+    EXPECT_EQ(read([](int n) { return 3000.0 + 0.1 * (n % 2); }), "read");
+    EXPECT_EQ(read([](int n) { return -1000.0 + 1e-10 * (n % 7); }), "read"); // nothing but air
     // One voxel of background, or half of the volume.
     for (const int background : {1, 500})
         EXPECT_EQ(read([&](int n) { return n < background ? 0.0 : noise(1e7, 1.0)(n); }), "equal")
             << background;
+    EXPECT_EQ(read([](int n) { return n % 20 == 0 ? 2e7 + n / 20 % 2 : 0.0; }), "equal");
     // Labels, and a constant background that resampling left a little noise in.
     EXPECT_EQ(read([](int n) { return 0.1 * (n % 7); }), "read");
     EXPECT_EQ(

@@ -272,7 +272,8 @@ TEST(Load, ARescaleThatLeavesNoDifferencesIsNamed) {
     };
     EXPECT_EQ(outcome("-m RescaleIntercept=1e7 -m RescaleSlope=.001"), "refused");
     EXPECT_EQ(outcome("-m RescaleIntercept=1e8 -m RescaleSlope=1"), "refused");
-    EXPECT_EQ(outcome("-m RescaleIntercept=1e5 -m RescaleSlope=.1"), "equal");
+    EXPECT_EQ(outcome("-m RescaleIntercept=1e5 -m RescaleSlope=.005"), "equal");
+    EXPECT_EQ(outcome("-m RescaleIntercept=1e5 -m RescaleSlope=.1"), "shown");
     EXPECT_EQ(outcome("-m RescaleIntercept=1e6 -m RescaleSlope=1"), "shown");
     EXPECT_EQ(outcome("-m RescaleIntercept=-10.5 -m RescaleSlope=.001"), "shown");
 }
