@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/bench/thesis_figures.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>

@@ -13,7 +13,7 @@
 
 namespace pellucid::accuracy {
 
-/// What is predicted of a picture.
+/// The predicted error of one picture.
 struct PictureError {
     /// The relative L2 error. From 1 on the picture may be nothing but error, as of a part in which
     /// nothing is shown.

@@ -16,7 +16,7 @@ namespace pellucid::picture {
 /// have one of their own.
 class AutomaticTone {
 public:
-    /// The next frame tells the brightness anew; what is shown keeps its own till then.
+    /// The next frame sets a new brightness; the current one stays until it arrives.
     bool isWanted() const { return m_isWanted; }
     void retake() { m_isWanted = true; }
     void take(const ToneRange &range);
