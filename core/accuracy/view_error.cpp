@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/plan/error_prediction.h"
 #include "core/plan/folded_tails.h"
 #include "core/shading/slice_shading.h"
 
@@ -218,6 +219,14 @@ ViewErrorModel::ViewErrorModel(const plan::RenderPlan &plan,
                                   std::copysign(std::sqrt(after), kernel.apodisation(x + 1.0)),
                                   size[d] <= fewSamples ? 1.0 : inverse});
         }
+        const fourier::MomentKernel moment(kernel, double(padded[axis]) / size[d]);
+        for (const plan::FieldSummary &field : fields) {
+            plan::AxisError left;
+            plan::addMomentError(left, kernel, moment, padded[axis],
+                                 field.slabs ? (*field.slabs)[axis]
+                                             : plan::evenSlabProducts(field.energy.axis[axis]));
+            m_moments[axis] = std::max(m_moments[axis], left.moment);
+        }
         m_blockMm = std::max(m_blockMm, double(size[d]) / double(ranges[axis].size()) *
                                             m_lattice.spacingMm(d));
     }
@@ -309,6 +318,7 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
     double total = 0.0; // without the cue
     for (const double e : energy)
         total += e;
+    energies.isWhole = sum - all <= 1e-9 * sum;
     if (!(energies.image > 0.0) || !(sum > 0.0))
         return energies;
     const double coherent = ghosts.energyIn({0.0, 0.0}, window);
@@ -366,7 +376,6 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
                                      std::pow(plan::predictFoldedTails(image, camera, grid.columns,
                                                                        grid.rows, *spread),
                                               2));
-    energies.isWhole = outside < 1e-9 * sum;
     // All cells of a few samples' spectrum are alike and round alike, so the central ones represent
     // all: in a whole picture by the error that they make in this view, in a part, which may hold
     // none of them, by their rounding. Under light a sample's gradient is several samples, which
@@ -382,10 +391,18 @@ ViewErrorModel::Energies ViewErrorModel::channelEnergies(const picture::Projecti
                        (representAll ? 0.0 : partOfPointsMargin * ofPart);
     const double others =
         (isKnown ? restMargin : aloneMargin) * part * rest * (representAll ? 1.0 - alike : 1.0);
+    // A linear cue reads depth by kernels of its own, which leave an error of their own: of a
+    // picture without the cue, by how much depth a period is.
+    double moments = 0.0;
+    if (cue.kind == shading::CueKind::linear)
+        for (std::size_t d = 0; d < 3; ++d)
+            moments +=
+                std::pow(cue.strength * glm::dot(m_periods[d], axes[2]) / m_depthRadiusMm, 2) *
+                m_moments[d] * whole * total / sum;
     // Coarse pixels that are larger than the blocks spread each of them over several.
     const double ofCoarse = coarseMm > 2.0 * m_blockMm ? coarsePixelMargin : 1.0;
     energies.error = ofCoarse * coherentMargin * coherent + detailMargin * detail + few + others +
-                     centralMargin * centralError + folded +
+                     centralMargin * centralError + folded + moments +
                      std::pow(unseenShare * m_bound, 2) * energies.image;
     return energies;
 }

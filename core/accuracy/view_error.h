@@ -63,6 +63,8 @@ private:
 
     volume::Lattice m_lattice;
     std::array<glm::dvec3, 3> m_periods{}; ///< of the ghosts, mm
+    /// What the moment kernels of a linear cue leave, see plan::AxisError::moment.
+    std::array<double, 3> m_moments{};
     std::vector<Block> m_blocks;
     std::vector<std::vector<Part>> m_fields;
     std::vector<std::shared_ptr<const plan::EnergySpread>> m_spreads;
