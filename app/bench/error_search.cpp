@@ -235,7 +235,7 @@ shading::Shading shadingOf(Genes &genes) {
     const bool isCued = genes.next() < 0.6, isLit = !isCued || genes.next() < 0.4;
     if (isCued)
         result.cue = {cues[std::size_t(genes.choice(int(cues.size())))],
-                      genes.between(0.1, 1.0),
+                      std::min(1.0, genes.between(0.1, 1.3)), // often in full
                       {0.2, 1.0, 0.4}};
     if (isLit) {
         result.ambient = genes.between(0.1, 0.8);

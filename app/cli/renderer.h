@@ -66,7 +66,7 @@ public:
     /// picture has none of its own.
     double lastViewError() const { return m_picture ? m_picture->relative : m_predictedError; }
     /// Whether the last picture showed the whole of the field, which `predictedError` is for.
-    /// Nothing where no error of the picture's own is predicted.
+    /// Empty if nothing was predicted for that picture, as for the exact reference.
     std::optional<bool> wasWhole() const {
         return m_picture ? std::optional(m_picture->isWhole) : std::nullopt;
     }

@@ -128,7 +128,7 @@ public:
         }
     }
 
-    // Of values that became floats; the others are kept as they are.
+    // Covers only the values that are kept as floats.
     const volume::Narrowing &narrowing() const { return m_narrowing; }
 
 protected:

@@ -23,8 +23,8 @@ struct Mosaic {
 /// Whether ImageType says MOSAIC.
 bool isMosaic(const decoder::InstanceHeader &header);
 
-/// Nothing if ImageType does not say MOSAIC, or if the number of slices is missing or does not fit
-/// the image. `header`: as read, of the whole image.
+/// Empty unless ImageType says MOSAIC and the number of slices is known and fits the image.
+/// `header`: as read, of the whole image.
 std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &header);
 
 /// A header whose frames are the tiles, each at its place. Positions are those of the whole image's

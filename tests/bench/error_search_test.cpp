@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/bench/error_search.h"
+#include "core/phantom/phantom.h"
 #include "core/plan/render_plan.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/cpu_engine.h"
@@ -64,6 +65,25 @@ TEST(ErrorSearch, TwoSamplesInOppositeCorners) {
             EXPECT_LE(verdict.predicted, tolerance) << azimuth;
             EXPECT_LE(verdict.measured, verdict.predicted) << azimuth << ' ' << tolerance;
             EXPECT_LE(verdict.measured, verdict.ofView) << azimuth << ' ' << tolerance;
+        }
+}
+
+// Along an axis all the depth is read by one moment kernel, whose error once was in no term of the
+// picture's own.
+TEST(ErrorSearch, AFullLinearCueAlongAnAxis) {
+    const auto volume = phantom::makePhantom(
+        phantom::Kind::head,
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{64, 64, 20}}));
+    const auto field = classify::densityField(volume, classify::defaultFieldWindow(volume));
+    for (const auto view : {scene::StandardView::front, scene::StandardView::top})
+        for (const double tolerance : {1.1e-3, 1e-4}) {
+            bench::Trial trial{"", field,
+                               sceneFor(volume.lattice(), scene::viewOrientation(view), tolerance)};
+            trial.scene.shading.cue.kind = shading::CueKind::linear;
+            trial.scene.shading.cue.strength = 1.0;
+            const bench::Verdict verdict = bench::judge(trial);
+            EXPECT_LE(verdict.measured, verdict.ofView) << tolerance;
+            EXPECT_LE(verdict.ofView, 3.0 * verdict.measured) << tolerance;
         }
 }
 
