@@ -55,6 +55,54 @@ FrameBlock::Four<float> three(const std::array<double, 3> &values) {
     return {float(values[0]), float(values[1]), float(values[2]), 0.0F};
 }
 
+// Where the slice lies in the spectrum.
+void setSlice(FrameBlock &block, const render::FrameInputs &inputs) {
+    const render::FrameGeometry &geometry = inputs.geometry;
+    const plan::SliceGrid &grid = inputs.grid;
+    // 23 bits of whole cells, beyond which a coordinate would come round again.
+    for (std::size_t d = 0; d < 3; ++d)
+        if (std::abs(geometry.cellsPerColumn[d]) * grid.columns +
+                std::abs(geometry.cellsPerRow[d]) * grid.rows >
+            0x1p22)
+            throw task::Error(task::ErrorCode::outOfMemory, task::because::imageExceedsCard);
+    const Steps column = stepsOf(geometry.cellsPerColumn, geometry.turnsPerColumn);
+    const Steps row = stepsOf(geometry.cellsPerRow, geometry.turnsPerRow);
+    Steps origin{};
+    for (std::size_t n = 0; n < origin.size(); ++n)
+        origin[n] = row[n] * (0U - std::uint64_t(grid.rows / 2));
+    split(column, block.columnLow, block.columnHigh);
+    split(row, block.rowLow, block.rowHigh);
+    split(origin, block.originLow, block.originHigh);
+    block.wraps = geometry.wraps ? 1 : 0;
+    block.unit = float(inputs.unit());
+    for (std::size_t d = 0; d < 3; ++d)
+        block.edgeSlack[d] = geometry.edgeSlack[d];
+}
+
+// What the sums become by cue and light.
+void setShading(FrameBlock &block, const render::FrameInputs &inputs) {
+    const render::FrameShading &shading = inputs.shading;
+    for (std::size_t kind = 0; kind < 2; ++kind)
+        for (std::size_t c = 0; c < 3; ++c)
+            block.zero[3 * kind + c] = {float(inputs.zero[kind][c].value),
+                                        float(inputs.zero[kind][c].moment)};
+    block.termCount = shading.termCount;
+    for (std::size_t t = 0; t < std::size_t(shading.termCount); ++t) {
+        split(stepsOf(shading.terms[t].cells, 0.0), block.termLow[t], block.termHigh[t]);
+        block.termWeight[t] = {shading.terms[t].weight.real(), shading.terms[t].weight.imag()};
+    }
+    block.cueBase = shading.base;
+    block.perMoment = three(shading.perMoment);
+    for (std::size_t c = 0; c < 3; ++c) {
+        block.shade[c] = {shading.images[c].ambient, shading.images[c].magnitude};
+        block.gradient[c] = three(shading.images[c].gradient);
+        block.excess[c] = three(shading.images[c].excess);
+    }
+    if (shading.kernels != nullptr)
+        for (int d = 0; d < 3; ++d)
+            packPairs((*shading.kernels)[std::size_t(d)], d, block.momentKernels);
+}
+
 } // namespace
 
 std::vector<int> radicesOf(int length) {
@@ -73,9 +121,9 @@ GridTables::GridTables(const plan::SliceGrid &grid) {
         }
     };
     add(grid.rows, grid.rows);
-    tables[1] = std::int32_t(rotations.size());
+    rowRotations = std::int32_t(rotations.size());
     add(grid.columns / 2, grid.columns / 2);
-    tables[2] = std::int32_t(rotations.size());
+    unpackRotations = std::int32_t(rotations.size());
     add(grid.columns, grid.columns / 2);
     // The Nyquist row and column lie on the edge of the disc, whose roll-off is 0. Row 0 of every
     // column lies within.
@@ -90,82 +138,50 @@ GridTables::GridTables(const plan::SliceGrid &grid) {
 
 void setTransforms(FrameBlock &block, const plan::SliceGrid &grid, int imageColumns, int imageRows,
                    const GridTables &tables) {
-    block.grid = {grid.columns, grid.rows, imageColumns, imageRows};
-    block.counts[2] = std::min(imageRows, grid.rows);
+    block.columns = grid.columns;
+    block.rows = grid.rows;
+    block.pictureColumns = imageColumns;
+    block.pictureRows = imageRows;
+    block.periodRows = std::min(imageRows, grid.rows);
     const std::array<std::vector<int>, 2> radices{radicesOf(grid.rows),
                                                   radicesOf(grid.columns / 2)};
-    for (std::size_t plan = 0; plan < 2; ++plan) {
-        block.stages[plan] = std::int32_t(radices[plan].size());
+    block.columnStages = std::int32_t(radices[0].size());
+    block.rowStages = std::int32_t(radices[1].size());
+    for (std::size_t plan = 0; plan < 2; ++plan)
         for (std::size_t s = 0; s < radices[plan].size(); ++s)
             block.radices[4 * plan + s / 4][s % 4] = radices[plan][s];
-    }
-    block.tables = tables.tables;
+    block.columnRotations = tables.columnRotations;
+    block.rowRotations = tables.rowRotations;
+    block.unpackRotations = tables.unpackRotations;
 }
 
-FrameBlock frameBlock(const plan::SliceGrid &grid, const scene::ImageDefinition &image,
-                      const render::FrameGeometry &geometry, const render::Mixing &mixing,
-                      const render::FrameShading *shading, const fourier::SpectrumLayout &layout,
-                      const TexelLayout &texels, int fieldPages) {
+FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefinition &image,
+                      const fourier::SpectrumLayout &layout, const TexelLayout &texels,
+                      int fieldPages) {
+    const render::Mixing &mixing = inputs.mixing;
     FrameBlock block{};
-    // 23 bits of whole cells, beyond which a coordinate would come round again.
-    for (std::size_t d = 0; d < 3; ++d)
-        if (std::abs(geometry.cellsPerColumn[d]) * grid.columns +
-                std::abs(geometry.cellsPerRow[d]) * grid.rows >
-            0x1p22)
-            throw task::Error(task::ErrorCode::outOfMemory, task::because::imageExceedsCard);
-    const Steps column = stepsOf(geometry.cellsPerColumn, geometry.turnsPerColumn);
-    const Steps row = stepsOf(geometry.cellsPerRow, geometry.turnsPerRow);
-    Steps origin{};
-    for (std::size_t n = 0; n < origin.size(); ++n)
-        origin[n] = row[n] * (0U - std::uint64_t(grid.rows / 2));
-    split(column, block.columnLow, block.columnHigh);
-    split(row, block.rowLow, block.rowHigh);
-    split(origin, block.originLow, block.originHigh);
-
-    block.image = {int(image.reconstruction), geometry.wraps ? 1 : 0, 0, 0};
-    block.padded = {layout.padded.i, layout.padded.j, layout.padded.k, texels.slabStep};
-    // A single grey image has its share at once.
-    block.scales = {float(image.rollOff),
-                    float(geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0)),
-                    1.0F, 0.0F};
+    setSlice(block, inputs);
+    block.reconstruction = int(image.reconstruction);
+    block.rollOff = float(image.rollOff);
+    block.slabStep = texels.slabStep;
+    block.padded = {layout.padded.i, layout.padded.j, layout.padded.k};
     for (int d = 0; d < 3; ++d) {
         const auto axis = std::size_t(d);
         block.firstCell[axis] = texels.firstCell[axis];
-        block.edgeSlack[axis] = geometry.edgeSlack[axis];
         block.inversePadded[axis] = 1.0F / float(layout.padded[d]);
         packPairs(layout.kernels[axis], d, block.kernels);
     }
-    block.counts[3] = std::int32_t(mixing.sources.size());
+    block.sourceCount = std::int32_t(mixing.sources.size());
     for (std::size_t s = 0; s < mixing.sources.size(); ++s) {
         const render::FrameSource &source = mixing.sources[s];
         block.shares[s] = {source.shares[0], source.shares[1], source.shares[2]};
         // Fields come first, and so do their pages.
         const bool isField = source.kind == render::FrameKind::field;
-        block.counts[1] += isField ? 1 : 0;
+        block.fieldCount += isField ? 1 : 0;
         const auto [page, plane] = texels.placeOf(source.field);
         block.places[s] = {page + (isField ? 0 : fieldPages), plane};
     }
-    render::FrameShading plain;
-    const render::FrameShading &shades = shading != nullptr ? *shading : plain;
-    const render::ZeroSums zero = render::zeroSums(mixing, shades, layout);
-    for (std::size_t kind = 0; kind < 2; ++kind)
-        for (std::size_t c = 0; c < 3; ++c)
-            block.zero[3 * kind + c] = {float(zero[kind][c].value), float(zero[kind][c].moment)};
-    block.counts[0] = shades.termCount;
-    for (std::size_t t = 0; t < std::size_t(shades.termCount); ++t) {
-        split(stepsOf(shades.terms[t].cells, 0.0), block.termLow[t], block.termHigh[t]);
-        block.termWeight[t] = {shades.terms[t].weight.real(), shades.terms[t].weight.imag()};
-    }
-    block.scales[2] = shades.base;
-    block.perMoment = three(shades.perMoment);
-    for (std::size_t c = 0; c < 3; ++c) {
-        block.shade[c] = {shades.images[c].ambient, shades.images[c].magnitude};
-        block.gradient[c] = three(shades.images[c].gradient);
-        block.excess[c] = three(shades.images[c].excess);
-    }
-    if (shades.kernels != nullptr)
-        for (int d = 0; d < 3; ++d)
-            packPairs((*shades.kernels)[std::size_t(d)], d, block.momentKernels);
+    setShading(block, inputs);
     return block;
 }
 

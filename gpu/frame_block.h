@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/render/frame_geometry.h"
-#include "core/render/frame_mixing.h"
+#include "core/render/frame_inputs.h"
 #include "gpu/bindings.h"
 
 namespace pellucid::gpu {
@@ -19,19 +18,35 @@ struct FrameBlock {
     static constexpr std::size_t kernelVectors =
         std::size_t(3) * bindings::mostPairs * bindings::mostPairVectors;
 
+    struct alignas(16) Place {
+        std::int32_t page, firstPlane;
+    };
+    struct alignas(16) ZeroSum {
+        float value, moment;
+    };
+    struct alignas(16) ImageShade {
+        float ambient, magnitude;
+    };
+
     Four<std::uint32_t> originLow, originHigh, columnLow, columnHigh, rowLow, rowHigh;
     std::array<Four<std::uint32_t>, bindings::mostTerms> termLow, termHigh;
     Vectors<bindings::mostTerms> termWeight;
-    Four<std::int32_t> grid, counts, image, padded, firstCell;
-    Four<float> inversePadded, edgeSlack, scales, perMoment;
+    std::int32_t columns, rows, pictureColumns, pictureRows, periodRows;
+    std::int32_t termCount, fieldCount, sourceCount;
+    std::int32_t reconstruction, wraps, slabStep;
+    std::int32_t columnStages, rowStages;
+    std::int32_t columnRotations, rowRotations, unpackRotations;
+    float rollOff, unit, cueBase;
+    alignas(16) Four<std::int32_t> padded; // vectors begin at multiples of their size
+    Four<std::int32_t> firstCell;
+    Four<float> inversePadded, edgeSlack, perMoment;
     Vectors<bindings::mostSpectra> shares;
-    std::array<Four<std::int32_t>, bindings::mostSpectra> places;
-    Vectors<6> zero;
-    Vectors<3> shade, gradient, excess;
+    std::array<Place, bindings::mostSpectra> places;
+    std::array<ZeroSum, 6> zero;
+    std::array<ImageShade, 3> shade;
+    Vectors<3> gradient, excess;
     Vectors<kernelVectors> kernels, momentKernels;
-    Four<std::int32_t> stages;
     std::array<Four<std::int32_t>, 8> radices;
-    Four<std::int32_t> tables;
 };
 
 /// The stages of an inverse transform: radices 8, 7, 5, 4, 3 and 2 whose product is the length.
@@ -44,9 +59,10 @@ struct GridTables {
 
     /// The last row of each column within the band's disc.
     std::vector<std::int32_t> discRows;
-    /// exp(+i 2 pi n / length) for rows, half the columns and, half of it, all columns.
+    /// exp(+i 2 pi n / length) of three lengths: of a column, which has a number for each row; of a
+    /// row packed into half as many numbers; and half of those of a whole row, to unpack it.
     std::vector<std::array<float, 2>> rotations;
-    FrameBlock::Four<std::int32_t> tables{}; ///< where each begins
+    std::int32_t columnRotations = 0, rowRotations = 0, unpackRotations = 0; ///< where each begins
 };
 
 /// Sets what the transforms need to know.
@@ -71,10 +87,9 @@ struct TexelLayout {
 };
 
 /// The slice of a frame as the shaders see it. *Throws* Error{outOfMemory} if it reaches further
-/// than 2^22 cells. `fieldPages`: those before the gradients' pages.
-FrameBlock frameBlock(const plan::SliceGrid &grid, const scene::ImageDefinition &image,
-                      const render::FrameGeometry &geometry, const render::Mixing &mixing,
-                      const render::FrameShading *shading, const fourier::SpectrumLayout &layout,
-                      const TexelLayout &texels, int fieldPages);
+/// than 2^22 cells. *Shape*: something is shown; `fieldPages`: those before the gradients' pages.
+FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefinition &image,
+                      const fourier::SpectrumLayout &layout, const TexelLayout &texels,
+                      int fieldPages);
 
 } // namespace pellucid::gpu

@@ -26,8 +26,8 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
                      std::vector<render::ChannelShares> shares, const plan::SliceRoom &room,
                      Fetch fetch)
-    : m_textures(std::move(textures)), m_shares(std::move(shares)), m_room(room), m_fetch(fetch),
-      m_kept(std::make_shared<Kept>()) {}
+    : m_textures(std::move(textures)), m_shares(std::move(shares)), m_fetch(fetch),
+      m_setup(std::make_shared<render::FrameSetup>(room)) {}
 
 std::shared_ptr<GpuEngine> GpuEngine::withShares(std::vector<render::ChannelShares> shares) const {
     auto engine = std::make_shared<GpuEngine>(*this);
@@ -42,7 +42,7 @@ std::shared_ptr<GpuEngine> GpuEngine::withoutLight() const {
 }
 
 render::EngineParts GpuEngine::parts() const {
-    return {m_textures->spectra(), m_shares, m_room};
+    return {m_textures->spectra(), m_shares, m_setup->room()};
 }
 
 task::Reason GpuEngine::description() const {
@@ -64,51 +64,33 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
                                                            const scene::ImageDefinition &image,
                                                            const shading::Shading &shading,
                                                            CardTimes *times) {
-    const render::EngineSpectra &spectra = m_textures->spectra();
-    const fourier::Spectrum &spectrum = *spectra.fields.front();
-    const fourier::SpectrumLayout &layout = spectrum.layout();
-    const glm::dmat3 axes = camera.axes();
-    shading::Shading shone = shading;
-    if (!m_textures->takesLight())
-        shone.lights.clear();
-    const auto sliceShading = shading::sliceShading(shone, axes, spectra.scale);
-    const render::Mixing mixing(spectra, m_shares, sliceShading, shone.isGrey());
-    const int channels = mixing.grey ? 1 : 3;
-    if (mixing.sources.empty()) { // nothing is shown
+    const render::FrameInputs inputs =
+        m_setup->inputsFor(m_textures->spectra(), m_shares, camera, image, shading);
+    if (inputs.isEmpty()) {
         if (times != nullptr)
             *times = {};
-        return m_textures->passes()->empty(camera, channels);
+        return m_textures->passes()->empty(camera, inputs.pictureChannels());
     }
-    FrameCommand command{.camera = camera,
-                         .grid = m_kept->framed.gridFor(camera, m_room, spectrum.lattice(), image)};
-    const render::FrameGeometry geometry(camera, command.grid, spectrum);
-    render::FrameShading shades = render::frameShading(
-        sliceShading, mixing, spectrum, geometry.toWrap, axes[2], spectra.scale.stepMm);
-    if (shades.cued) {
-        auto &moments = m_kept->moments;
-        if (!moments)
-            moments.emplace(render::momentKernels(layout));
-        shades.kernels = &*moments;
-        command.momentTerms = moments->front().terms();
-    }
-    command.shaded = !sliceShading.isPlain();
-    command.cued = shades.cued;
-    command.lit = shades.lit;
+    const fourier::SpectrumLayout &layout = m_textures->spectra().fields.front()->layout();
+    const render::ChannelShares tint = inputs.tint();
+    FrameCommand command{.camera = camera, .grid = inputs.grid};
     command.block =
-        frameBlock(command.grid, image, geometry, mixing, command.shaded ? &shades : nullptr,
-                   layout, m_textures->layout(), m_textures->fieldPages());
-    command.pages = m_textures->pages(shades.lit);
+        frameBlock(inputs, image, layout, m_textures->layout(), m_textures->fieldPages());
+    command.pages = m_textures->pages(inputs.shading.lit);
     command.fieldPages = m_textures->fieldPages();
     command.slabs = m_textures->layout().slabs;
-    command.sums = mixing.sums;
-    command.layers = mixing.channels;
-    command.channels = channels;
+    command.sums = inputs.mixing.sums;
+    command.layers = inputs.mixing.channels;
+    command.channels = inputs.pictureChannels();
     command.width = layout.width();
     command.evenTerms = layout.kernels.front().terms();
-    command.fetch = command.shaded ? Fetch::exact : m_fetch;
-    // A single colour is given to the picture; three images have theirs.
-    if (!mixing.grey && mixing.channels == 1)
-        command.color = {float(mixing.color[0]), float(mixing.color[1]), float(mixing.color[2])};
+    if (inputs.shading.kernels != nullptr)
+        command.momentTerms = inputs.shading.kernels->front().terms();
+    command.shaded = inputs.isShaded;
+    command.cued = inputs.shading.cued;
+    command.lit = inputs.shading.lit;
+    command.fetch = inputs.isShaded ? Fetch::exact : m_fetch;
+    command.color = {float(tint[0]), float(tint[1]), float(tint[2])};
     return m_textures->passes()->render(std::move(command), times);
 }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "core/render/frame_geometry.h"
+#include "core/plan/render_plan.h"
+#include "core/render/frame_inputs.h"
 #include "gpu/spectrum_textures.h"
 
 namespace pellucid::gpu {
@@ -59,14 +59,8 @@ public:
 private:
     std::shared_ptr<const SpectrumTextures> m_textures;
     std::vector<render::ChannelShares> m_shares;
-    plan::SliceRoom m_room;
     Fetch m_fetch;
-    /// What one frame leaves to the next, of these spectra with whatever shares.
-    struct Kept {
-        render::FramedGrid framed;
-        std::optional<render::MomentKernels> moments;
-    };
-    std::shared_ptr<Kept> m_kept;
+    std::shared_ptr<render::FrameSetup> m_setup; ///< of these spectra with whatever shares
 };
 
 } // namespace pellucid::gpu

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/render/cpu_engine.h"
+#include "core/render/projection_engine.h"
 #include "gpu/frame_passes.h"
 
 namespace pellucid::gpu {

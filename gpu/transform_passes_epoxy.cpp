@@ -59,8 +59,8 @@ int TransformPasses::takeDispatches() {
 }
 
 TransformPasses::Lines TransformPasses::sharedLines(const FrameBlock &block) const {
-    const int halfColumns = block.grid[0] / 2;
-    return {&m_lines, block.counts[2] * halfColumns, halfColumns, 1};
+    const int halfColumns = block.columns / 2;
+    return {&m_lines, block.periodRows * halfColumns, halfColumns, 1};
 }
 
 const Buffer *TransformPasses::runStages(const Buffer *from, int length, int lines, int images,
@@ -70,7 +70,10 @@ const Buffer *TransformPasses::runStages(const Buffer *from, int length, int lin
     for (const int radix : radicesOf(length)) {
         const Buffer *const to = &other(*from);
         glUseProgram(program.id());
-        glUniform4i(program.uniform("step_"), length, radix, done, table);
+        glUniform1i(program.uniform("lineLength"), length);
+        glUniform1i(program.uniform("radix"), radix);
+        glUniform1i(program.uniform("done"), done);
+        glUniform1i(program.uniform("table"), table);
         from->bindStorage(bindings::slice);
         to->bindStorage(bindings::lines);
         dispatch(groupsOf(length / radix), lines, images);
@@ -81,10 +84,10 @@ const Buffer *TransformPasses::runStages(const Buffer *from, int length, int lin
 }
 
 TransformPasses::Lines TransformPasses::transformColumns(const FrameBlock &block, int images) {
-    const int halfColumns = block.grid[0] / 2, rows = block.grid[1];
+    const int halfColumns = block.columns / 2, rows = block.rows;
     if (rows > m_longest) {
         const Buffer *const result =
-            runStages(&m_slice, rows, halfColumns, images, block.tables[0]);
+            runStages(&m_slice, rows, halfColumns, images, block.columnRotations);
         return {result, halfColumns * rows, 1, rows};
     }
     const Program &program =
@@ -98,7 +101,7 @@ TransformPasses::Lines TransformPasses::transformColumns(const FrameBlock &block
 
 void TransformPasses::transformRows(const FrameBlock &block, int images, const Lines &lines,
                                     const PixelTexture &picture) {
-    const int halfColumns = block.grid[0] / 2, rows = block.counts[2];
+    const int halfColumns = block.columns / 2, rows = block.periodRows;
     glBindImageTexture(bindings::picture, picture.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
     const auto setStrides = [&](const Program &program) {
         glUseProgram(program.id());
@@ -114,10 +117,10 @@ void TransformPasses::transformRows(const FrameBlock &block, int images, const L
         lines.buffer->bindStorage(bindings::slice);
         to->bindStorage(bindings::lines);
         dispatch(groupsOf(halfColumns), rows, images);
-        const Buffer *const result = runStages(to, halfColumns, rows, images, block.tables[1]);
+        const Buffer *const result = runStages(to, halfColumns, rows, images, block.rowRotations);
         glUseProgram(m_device.program("store.comp").id());
         result->bindStorage(bindings::slice);
-        dispatch(groupsOf(block.grid[2]), block.grid[3], images);
+        dispatch(groupsOf(block.pictureColumns), block.pictureRows, images);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }

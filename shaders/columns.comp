@@ -29,7 +29,7 @@ layout(std430, binding = LINES) writeonly buffer Lines {
 void main() {
     int column = int(gl_WorkGroupID.x), image = int(gl_WorkGroupID.y);
     int thread = int(gl_LocalInvocationIndex);
-    int halfColumns = frame.grid.x / 2, rows = frame.grid.y;
+    int halfColumns = frame.columns / 2, rows = frame.rows;
 #if FUSED
     int last = discRows[column];
     for (int n = last + 1 + thread; n < rows - last; n += THREADS)
@@ -44,7 +44,7 @@ void main() {
     for (int n = thread; n < rows; n += THREADS)
         line[n] = values[(image * halfColumns + column) * rows + n];
 #endif
-    int result = transformLine(rows, 0, frame.tables.x);
-    for (int n = thread; n < frame.counts.z; n += THREADS)
-        lines[(image * frame.counts.z + n) * halfColumns + column] = line[result + n];
+    int result = transformLine(rows, 0, frame.columnRotations);
+    for (int n = thread; n < frame.periodRows; n += THREADS)
+        lines[(image * frame.periodRows + n) * halfColumns + column] = line[result + n];
 }

@@ -26,18 +26,18 @@ vec2 lineAt(int image, int row, int column) {
 void main() {
     int row = int(gl_WorkGroupID.x), image = int(gl_WorkGroupID.y);
     int thread = int(gl_LocalInvocationIndex);
-    int columns = frame.grid.x, halfColumns = columns / 2;
+    int columns = frame.columns, halfColumns = columns / 2;
     for (int k = thread; k < halfColumns; k += THREADS) {
         // The Nyquist column lies beyond the disc.
         vec2 mirrored = k == 0 ? vec2(0.0) : lineAt(image, row, halfColumns - k);
-        line[k] = untangled(lineAt(image, row, k), mirrored, rotations[frame.tables.z + k]);
+        line[k] = untangled(lineAt(image, row, k), mirrored, rotations[frame.unpackRotations + k]);
     }
-    int result = transformLine(halfColumns, 1, frame.tables.y);
-    for (int x = thread; x < frame.grid.z; x += THREADS) {
+    int result = transformLine(halfColumns, 1, frame.rowRotations);
+    for (int x = thread; x < frame.pictureColumns; x += THREADS) {
         int n = x % columns;
         vec2 two = line[result + n / 2];
         float pixel = n % 2 == 0 ? two.x : two.y;
-        for (int y = row; y < frame.grid.w; y += frame.grid.y)
+        for (int y = row; y < frame.pictureRows; y += frame.rows)
             imageStore(picture, ivec3(x, y, image), vec4(pixel));
     }
 }

@@ -17,7 +17,7 @@ layout(std430, binding = SLICE) writeonly buffer Slice {
 
 void main() {
     int column = int(gl_GlobalInvocationID.x), n = int(gl_GlobalInvocationID.y);
-    int halfColumns = frame.grid.x / 2, rows = frame.grid.y;
+    int halfColumns = frame.columns / 2, rows = frame.rows;
     if (column >= halfColumns || n >= rows)
         return;
     int row = n < rows / 2 ? n : n - rows;

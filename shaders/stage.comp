@@ -14,21 +14,22 @@ layout(std430, binding = SLICE) readonly buffer From {
 layout(std430, binding = LINES) writeonly buffer To {
     vec2 to[];
 };
-uniform ivec4 step_; // length, radix, product of the radices before it, table
+uniform int lineLength, radix;
+uniform int done;  // the product of the radices before it
+uniform int table; // where the rotations of the length begin
 
 void main() {
-    int length = step_.x, radix = step_.y, done = step_.z;
-    int count = length / radix, n = int(gl_GlobalInvocationID.x);
+    int count = lineLength / radix, n = int(gl_GlobalInvocationID.x);
     if (n >= count)
         return;
-    int begin = int(gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y) * length;
+    int begin = int(gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y) * lineLength;
     int k = n % done;
-    int turn = length / (done * radix);
+    int turn = lineLength / (done * radix);
     vec2 v[8];
     v[0] = from[begin + n];
     for (int q = 1; q < 8; ++q)
         if (q < radix)
-            v[q] = multiplied(from[begin + n + q * count], rotations[step_.w + q * k * turn]);
+            v[q] = multiplied(from[begin + n + q * count], rotations[table + q * k * turn]);
     inverseFew(radix, v);
     int first = begin + (n - k) * radix + k;
     for (int q = 0; q < 8; ++q)

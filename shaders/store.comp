@@ -13,9 +13,9 @@ layout(r32f, binding = PICTURE) writeonly uniform image2DArray picture;
 
 void main() {
     int x = int(gl_GlobalInvocationID.x), y = int(gl_WorkGroupID.y), image = int(gl_WorkGroupID.z);
-    if (x >= frame.grid.z)
+    if (x >= frame.pictureColumns)
         return;
-    int n = x % frame.grid.x, row = y % frame.grid.y;
-    vec2 two = from[(image * frame.counts.z + row) * (frame.grid.x / 2) + n / 2];
+    int n = x % frame.columns, row = y % frame.rows;
+    vec2 two = from[(image * frame.periodRows + row) * (frame.columns / 2) + n / 2];
     imageStore(picture, ivec3(x, y, image), vec4(n % 2 == 0 ? two.x : two.y));
 }

@@ -23,12 +23,12 @@ vec2 lineAt(int image, int row, int column) {
 }
 
 void main() {
-    int halfColumns = frame.grid.x / 2;
+    int halfColumns = frame.columns / 2;
     int k = int(gl_GlobalInvocationID.x), row = int(gl_WorkGroupID.y);
     int image = int(gl_WorkGroupID.z);
     if (k >= halfColumns)
         return;
     vec2 mirrored = k == 0 ? vec2(0.0) : lineAt(image, row, halfColumns - k);
-    to[(image * frame.counts.z + row) * halfColumns + k] =
-        untangled(lineAt(image, row, k), mirrored, rotations[frame.tables.z + k]);
+    to[(image * frame.periodRows + row) * halfColumns + k] =
+        untangled(lineAt(image, row, k), mirrored, rotations[frame.unpackRotations + k]);
 }

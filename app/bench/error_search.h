@@ -6,40 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/classify/density_field.h"
-#include "core/scene/scene.h"
+#include "app/bench/error_trial.h"
 
 namespace pellucid::bench {
-
-/// A field, a view and a tolerance, encoded as numbers in 0..1 so that a search can vary them: the
-/// kind of field, its lattice, positions and widths, the kind of view and its angles.
-struct Candidate {
-    std::vector<double> genes;
-};
-
-/// A decoded candidate: a field, and a scene with view and tolerance.
-struct Trial {
-    std::string name; ///< kind of field, size, view and tolerance
-    classify::DensityField field;
-    scene::Scene scene;
-};
-/// The pictures to search. `wholePicture`: uncropped, without cue and light; the plan's error
-/// bounds each of them. `anyPicture`: any cue, light and crop; each picture has its own predicted
-/// error.
-enum class Asked { wholePicture, anyPicture };
-Trial trialOf(const Candidate &candidate, Asked asked);
-
-/// The error that the plan predicts and the error of the image, measured against the exact image.
-/// *Units*: relative L2.
-struct Verdict {
-    double predicted = 0.0, measured = 0.0;
-    double ofView = 0.0;        ///< the prediction for this picture alone
-    bool keepsTolerance = true; ///< according to the plan
-    double ratio() const {
-        return predicted > 0.0 ? measured / predicted : measured > 0.0 ? 1e9 : 0;
-    }
-};
-Verdict judge(const Trial &trial);
 
 /// The error predicted for a single picture, divided by the measured error.
 struct PictureFactor {

@@ -28,6 +28,109 @@ std::string noted(const std::string &note, const Row &row, double plainMs) {
     return note + (note.empty() ? "" : "; ") + ratioText(row, plainMs);
 }
 
+// The rows of one look, see `reportLook`.
+class LookRows {
+public:
+    LookRows(const std::string &suite, const std::string &name, const LookSubject &subject,
+             const classify::Look &look, const std::string &note)
+        : m_suite(suite), m_name(name), m_subject(subject), m_look(look), m_note(note),
+          m_fields(shownFields()), m_mixture(classify::mixtureOf(look)),
+          m_exact(reference::shadedImage(m_fields, {}, truthCamera(subject), subject.scene.image)),
+          m_plain(prepare::prepareEngine(
+              subject.scene, {{classify::densityField(subject.volume, subject.window)}, {}}, {})) {}
+
+    void report(const Report &report) const {
+        report(settled());
+        const double start = millisecondsNow();
+        const auto layers = prepare::LayerSet::prepare(
+            m_subject.scene, m_mixture.layers.size(),
+            [&](std::size_t n, const task::Progress &progress) {
+                return classify::layerField(m_subject.volume, m_subject.window, m_mixture.layers[n],
+                                            nullptr, progress);
+            },
+            {});
+        Row row = plannedRow(m_suite, m_name, m_subject.volume.lattice().size(), layers->plan(),
+                             m_subject.scene, 0);
+        row.prepareMs = millisecondsNow() - start;
+        row.bytes = double(layers->bytes());
+        if (const auto &loss = layers->detailLoss())
+            row.predictedError =
+                std::hypot(*row.predictedError, loss->relativeError(m_mixture.shares, {}));
+        report(bothMove(row, layers));
+        report(weightsMove(row, *layers));
+    }
+
+private:
+    classify::ShownFields shownFields() const {
+        return classify::shownFields(m_subject.volume, m_subject.window, m_look, nullptr);
+    }
+
+    Row settled() const {
+        const double start = millisecondsNow();
+        // The fields are part of what a change of a range costs.
+        const auto prepared = prepare::prepareEngine(m_subject.scene, shownFields(), {});
+        Row row = plannedRow(m_suite, m_name + ", settled", m_subject.volume.lattice().size(),
+                             prepared.plan, m_subject.scene, 0);
+        row.prepareMs = millisecondsNow() - start;
+        row.bytes = double(m_fields.channels.size()) * double(prepared.plan.spectrum.bytes());
+        measureEngine(row, *prepared.engine);
+        return row;
+    }
+
+    Row bothMove(Row row, const std::shared_ptr<prepare::LayerSet> &layers) const {
+        row.name = m_name + ", both move";
+        prepare::MixtureEngine engine(layers, m_mixture.shares);
+        measureEngine(row, engine);
+        return row;
+    }
+
+    Row weightsMove(Row row, prepare::LayerSet &layers) const {
+        row.name = m_name + ", weights move";
+        std::vector<double> first, later;
+        scene::Camera camera = m_subject.scene.camera;
+        auto shares = m_mixture.shares;
+        const auto render = [&] {
+            return layers.render(camera, m_subject.scene.image, {}, shares);
+        };
+        for (const glm::dquat &orientation : randomViews(stillViews)) {
+            camera.orientation = orientation;
+            render();
+            for (int change = 0; change < changes; ++change) {
+                for (double &share : shares[std::size_t(change) % shares.size()])
+                    share *= 0.98;
+                const double start = millisecondsNow();
+                render();
+                (change == 0 ? first : later).push_back(millisecondsNow() - start);
+            }
+        }
+        camera = truthCamera(m_subject);
+        shares = m_mixture.shares;
+        render();
+        fillError(row, compare(render().samples, m_exact));
+        row.frameMs = median(later);
+        row.note = fmt::format("{}{}the first change at a view {:.1f} ms", m_note,
+                               m_note.empty() ? "" : "; ", median(first));
+        return row;
+    }
+
+    void measureEngine(Row &row, render::ProjectionEngine &engine) const {
+        const double plainMs =
+            fillTimesInTurns(row, engine, *m_plain.engine, m_subject.scene, views);
+        fillError(row, compare(engine.render(truthCamera(m_subject), m_subject.scene.image).samples,
+                               m_exact));
+        row.note = noted(m_note, row, plainMs);
+    }
+
+    const std::string &m_suite, &m_name;
+    const LookSubject &m_subject;
+    const classify::Look &m_look;
+    const std::string &m_note;
+    classify::ShownFields m_fields;
+    classify::Mixture m_mixture;
+    std::vector<double> m_exact;
+    prepare::PreparedEngine m_plain;
+};
+
 } // namespace
 
 LookSubject::LookSubject(int side)
@@ -41,78 +144,7 @@ LookSubject::LookSubject(int side)
 
 void reportLook(const Report &report, const std::string &suite, const std::string &name,
                 const LookSubject &subject, const classify::Look &look, const std::string &note) {
-    const auto fields = classify::shownFields(subject.volume, subject.window, look, nullptr);
-    const std::vector<double> exact =
-        reference::shadedImage(fields, {}, truthCamera(subject), subject.scene.image);
-    const auto mixture = classify::mixtureOf(look);
-    const auto plain = prepare::prepareEngine(
-        subject.scene, {{classify::densityField(subject.volume, subject.window)}, {}}, {});
-    {
-        double start = millisecondsNow();
-        // The fields are part of what a change of a range costs.
-        const auto prepared = prepare::prepareEngine(
-            subject.scene, classify::shownFields(subject.volume, subject.window, look, nullptr),
-            {});
-        Row row = plannedRow(suite, name + ", settled", subject.volume.lattice().size(),
-                             prepared.plan, subject.scene, 0);
-        row.prepareMs = millisecondsNow() - start;
-        row.bytes = double(fields.channels.size()) * double(prepared.plan.spectrum.bytes());
-        const double plainMs =
-            fillTimesInTurns(row, *prepared.engine, *plain.engine, subject.scene, views);
-        fillError(
-            row, compare(prepared.engine->render(truthCamera(subject), subject.scene.image).samples,
-                         exact));
-        row.note = noted(note, row, plainMs);
-        report(row);
-    }
-    double start = millisecondsNow();
-    const auto layers = prepare::LayerSet::prepare(
-        subject.scene, mixture.layers.size(),
-        [&](std::size_t n, const task::Progress &progress) {
-            return classify::layerField(subject.volume, subject.window, mixture.layers[n], nullptr,
-                                        progress);
-        },
-        {});
-    Row summed = plannedRow(suite, name + ", both move", subject.volume.lattice().size(),
-                            layers->plan(), subject.scene, 0);
-    summed.prepareMs = millisecondsNow() - start;
-    summed.bytes = double(layers->bytes());
-    if (const auto &loss = layers->detailLoss())
-        summed.predictedError =
-            std::hypot(*summed.predictedError, loss->relativeError(mixture.shares, {}));
-    Row kept = summed;
-    kept.name = name + ", weights move";
-    prepare::MixtureEngine engine(layers, mixture.shares);
-    const double plainMs = fillTimesInTurns(summed, engine, *plain.engine, subject.scene, views);
-    fillError(summed,
-              compare(engine.render(truthCamera(subject), subject.scene.image).samples, exact));
-    summed.note = noted(note, summed, plainMs);
-    report(summed);
-
-    std::vector<double> first, later;
-    scene::Camera camera = subject.scene.camera;
-    auto shares = mixture.shares;
-    for (const glm::dquat &orientation : randomViews(stillViews)) {
-        camera.orientation = orientation;
-        layers->render(camera, subject.scene.image, {}, shares);
-        for (int change = 0; change < changes; ++change) {
-            for (double &share : shares[std::size_t(change) % shares.size()])
-                share *= 0.98;
-            start = millisecondsNow();
-            layers->render(camera, subject.scene.image, {}, shares);
-            (change == 0 ? first : later).push_back(millisecondsNow() - start);
-        }
-    }
-    layers->render(truthCamera(subject), subject.scene.image, {}, mixture.shares);
-    fillError(
-        kept,
-        compare(
-            layers->render(truthCamera(subject), subject.scene.image, {}, mixture.shares).samples,
-            exact));
-    kept.frameMs = median(later);
-    kept.note = fmt::format("{}{}the first change at a view {:.1f} ms", note,
-                            note.empty() ? "" : "; ", median(first));
-    report(kept);
+    LookRows(suite, name, subject, look, note).report(report);
 }
 
 std::vector<shading::Light> threeLights(bool colored) {

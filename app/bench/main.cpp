@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <optional>
-#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -54,39 +58,121 @@ pellucid::bench::Subject readSubject(const std::string &path) {
     return subject;
 }
 
-struct Search {
+struct Options {
+    std::vector<std::string> suites{"quick"};
     double minutes = 1.0;
     int pictures = 300;
     std::uint64_t seed = 1;
+    std::string volume, json, csv, reportFolder;
 };
 
-void run(const std::string &suite, const pellucid::bench::Report &report,
-         const pellucid::bench::Subject *subject, const Search &search) {
+// What a suite is given. The subject is null if no volume was named.
+using RunSuite = std::function<void(const pellucid::bench::Report &,
+                                    const pellucid::bench::Subject *, const Options &)>;
+
+const std::vector<std::pair<std::string, RunSuite>> &suites() {
     using namespace pellucid::bench;
-    if (suite == "quick")
-        runQuickSuite(report);
-    else if (suite == "kernels")
-        runKernelsSuite(report, subject);
-    else if (suite == "hard")
-        runHardSuite(report);
-    else if (suite == "scaling")
-        runScalingSuite(report, subject);
-    else if (suite == "thesis")
-        runThesisSuite(report);
-    else if (suite == "shading")
-        runShadingSuite(report);
-    else if (suite == "planes")
-        runPlanesSuite(report);
-    else if (suite == "gpu")
-        runGpuSuite(report);
-    else if (suite == "classes")
-        runClassesSuite(report);
-    else if (suite == "search")
-        runSearchSuite(report, search.minutes, search.seed);
-    else if (suite == "pictures")
-        runPicturesSuite(report, search.pictures, search.seed);
-    else
-        runTotsukaSuite(report);
+    const auto alone = [](void (*run)(const Report &)) {
+        return [run](const Report &report, const Subject *, const Options &) { run(report); };
+    };
+    const auto ofSubject = [](void (*run)(const Report &, const Subject *)) {
+        return [run](const Report &report, const Subject *subject, const Options &) {
+            run(report, subject);
+        };
+    };
+    static const std::vector<std::pair<std::string, RunSuite>> all{
+        {"quick", alone(runQuickSuite)},
+        {"kernels", ofSubject(runKernelsSuite)},
+        {"hard", alone(runHardSuite)},
+        {"scaling", ofSubject(runScalingSuite)},
+        {"thesis", alone(runThesisSuite)},
+        {"totsuka", alone(runTotsukaSuite)},
+        {"classes", alone(runClassesSuite)},
+        {"shading", alone(runShadingSuite)},
+        {"planes", alone(runPlanesSuite)},
+        {"gpu", alone(runGpuSuite)},
+        {"search",
+         [](const Report &report, const Subject *, const Options &options) {
+             runSearchSuite(report, options.minutes, options.seed);
+         }},
+        {"pictures",
+         [](const Report &report, const Subject *, const Options &options) {
+             runPicturesSuite(report, options.pictures, options.seed);
+         }},
+    };
+    return all;
+}
+
+void addOptions(CLI::App &app, Options &options) {
+    std::vector<std::string> names;
+    for (const auto &[name, run] : suites())
+        names.push_back(name);
+    app.set_version_flag("--version", "pellucid-bench " PELLUCID_VERSION);
+    app.add_option("--suite", options.suites, "What to measure; several with commas between")
+        ->delimiter(',')
+        ->check(CLI::IsMember(names));
+    app.add_option("--minutes", options.minutes, "How long --suite search looks")
+        ->check(CLI::Range(0.01, 10000.0));
+    app.add_option("--pictures", options.pictures, "How many pictures --suite pictures makes")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--seed", options.seed, "Where the suites search and pictures begin");
+    app.add_option("--volume", options.volume,
+                   "An NRRD volume in place of the fields of the suites kernels and scaling");
+    app.add_option("--json", options.json, "Write the rows as JSON");
+    app.add_option("--csv", options.csv, "Write the rows as CSV");
+    app.add_option("--report", options.reportFolder,
+                   "Write an HTML report into a folder, and the gnuplot script of its plots");
+}
+
+void checkOutputs(const Options &options) {
+    checkWritable(options.json);
+    checkWritable(options.csv);
+    if (options.reportFolder.empty())
+        return;
+    pellucid::bench::makeReportFolder(options.reportFolder);
+    checkWritable(std::filesystem::path(options.reportFolder) / "report.html");
+}
+
+// The volume that was named, or nothing.
+std::optional<pellucid::bench::Subject> namedSubject(const Options &options) {
+    using namespace pellucid;
+    if (options.volume.empty())
+        return std::nullopt;
+    for (const std::string &suite : options.suites)
+        if (suite != "kernels" && suite != "scaling")
+            throw task::Error(
+                task::ErrorCode::usage,
+                task::because::inWords("--volume goes with --suite kernels or scaling"));
+    return readSubject(options.volume);
+}
+
+// Measures, and writes what was asked for.
+void measureSuites(const Options &options) {
+    using namespace pellucid;
+    checkOutputs(options);
+    const std::optional<bench::Subject> subject = namedSubject(options);
+    const auto machine = bench::thisMachine();
+    std::vector<bench::Row> rows;
+    const auto report = [&](const bench::Row &row) {
+        if (rows.empty())
+            std::fputs(bench::tableHead(machine).c_str(), stdout);
+        std::fputs(bench::tableLine(row).c_str(), stdout);
+        std::fflush(stdout);
+        rows.push_back(row);
+    };
+    for (const std::string &wanted : options.suites)
+        for (const auto &[name, run] : suites())
+            if (name == wanted)
+                run(report, subject ? &*subject : nullptr, options);
+    save(options.json, bench::jsonText(machine, rows));
+    save(options.csv, bench::csvText(rows));
+    if (!options.reportFolder.empty())
+        bench::writeHtmlReport(options.reportFolder, machine, rows);
+}
+
+int fail(const std::exception &error, pellucid::task::ErrorCode code) {
+    std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
+    return pellucid::exitCode(code);
 }
 
 } // namespace
@@ -95,69 +181,19 @@ int main(int argc, char **argv) {
     using namespace pellucid;
     std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Speed and error, side by side", "pellucid-bench");
-    app.set_version_flag("--version", "pellucid-bench " PELLUCID_VERSION);
-    std::vector<std::string> suites{"quick"};
-    std::string json, csv, file, reportFolder;
-    app.add_option("--suite", suites, "What to measure; several with commas between")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"quick", "kernels", "hard", "scaling", "thesis", "totsuka",
-                               "classes", "shading", "planes", "gpu", "search", "pictures"}));
-    Search search;
-    app.add_option("--minutes", search.minutes, "How long --suite search looks")
-        ->check(CLI::Range(0.01, 10000.0));
-    app.add_option("--pictures", search.pictures, "How many pictures --suite pictures makes")
-        ->check(CLI::Range(1, 100000));
-    app.add_option("--seed", search.seed, "Where the suites search and pictures begin");
-    app.add_option("--volume", file,
-                   "An NRRD volume in place of the fields of the suites kernels and scaling");
-    app.add_option("--json", json, "Write the rows as JSON");
-    app.add_option("--csv", csv, "Write the rows as CSV");
-    app.add_option("--report", reportFolder,
-                   "Write an HTML report into a folder, and the gnuplot script of its plots");
+    Options options;
+    addOptions(app, options);
     try {
         app.parse(argc, argv);
-        checkWritable(json);
-        checkWritable(csv);
-        if (!reportFolder.empty()) {
-            bench::makeReportFolder(reportFolder);
-            checkWritable(std::filesystem::path(reportFolder) / "report.html");
-        }
-        std::optional<bench::Subject> given;
-        if (!file.empty()) {
-            for (const std::string &suite : suites)
-                if (suite != "kernels" && suite != "scaling")
-                    throw task::Error(
-                        task::ErrorCode::usage,
-                        task::because::inWords("--volume goes with --suite kernels or scaling"));
-            given = readSubject(file);
-        }
-        const auto machine = bench::thisMachine();
-        std::vector<bench::Row> rows;
-        const auto report = [&](const bench::Row &row) {
-            if (rows.empty())
-                std::fputs(bench::tableHead(machine).c_str(), stdout);
-            std::fputs(bench::tableLine(row).c_str(), stdout);
-            std::fflush(stdout);
-            rows.push_back(row);
-        };
-        const bench::Subject *const subject = given ? &*given : nullptr;
-        for (const std::string &suite : suites)
-            run(suite, report, subject, search);
-        save(json, bench::jsonText(machine, rows));
-        save(csv, bench::csvText(rows));
-        if (!reportFolder.empty())
-            bench::writeHtmlReport(reportFolder, machine, rows);
+        measureSuites(options);
     } catch (const CLI::Success &success) {
         return app.exit(success);
     } catch (const CLI::ParseError &error) {
-        std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
-        return exitCode(task::ErrorCode::usage);
+        return fail(error, task::ErrorCode::usage);
     } catch (const task::Error &error) {
-        std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
-        return exitCode(error.code());
+        return fail(error, error.code());
     } catch (const std::exception &error) {
-        std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
-        return exitCode(task::ErrorCode::internal);
+        return fail(error, task::ErrorCode::internal);
     }
     return 0;
 }

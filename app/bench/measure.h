@@ -12,6 +12,7 @@
 #include "app/bench/report.h"
 #include "app/bench/spatial_peers.h"
 #include "app/bench/subjects.h"
+#include "core/plan/render_plan.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/cpu_engine.h"
 

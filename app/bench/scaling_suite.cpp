@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,76 @@ constexpr int rounds = 8, viewsARound = 8;
 struct SizeResult {
     double side, frameMs, raySumMs, shearWarpMs;
 };
+
+// The times of an engine's frames.
+struct FrameSamples {
+    std::vector<double> frameMs, sliceMs, transformMs;
+
+    void addRound(render::CpuEngine &engine, const scene::Scene &scene,
+                  std::span<const glm::dquat> views) {
+        scene::Camera camera = scene.camera;
+        for (int view = -1; view < int(views.size()); ++view) { // the first warms the caches
+            camera.orientation = views[std::size_t(std::max(0, view))];
+            picture::FrameTimes times;
+            const double start = millisecondsNow();
+            engine.render(camera, scene.image, {}, &times);
+            if (view < 0)
+                continue;
+            frameMs.push_back(millisecondsNow() - start);
+            sliceMs.push_back(times.sliceMs);
+            transformMs.push_back(times.transformMs);
+        }
+    }
+
+    void fill(Row &row) const {
+        row.frameMs = median(frameMs);
+        row.sliceMs = median(sliceMs);
+        row.transformMs = median(transformMs);
+    }
+};
+
+// The times of the peers in space.
+struct PeerSamples {
+    std::vector<double> castMs, castRate, warpMs;
+
+    void addRound(const SpatialVolume &volume, const scene::Camera &camera, double stepMm) {
+        double start = millisecondsNow();
+        const SpatialImage rays = raySum(volume, camera, stepMm);
+        castMs.push_back(millisecondsNow() - start);
+        castRate.push_back(1e-3 * double(rays.sampleCount) / castMs.back());
+        start = millisecondsNow();
+        shearWarpSum(volume, camera);
+        warpMs.push_back(millisecondsNow() - start);
+    }
+
+    void fill(Row &row) const {
+        row.raySumMs = median(castMs);
+        row.raySumMsamplesPerSecond = median(castRate);
+        row.shearWarpMs = median(warpMs);
+    }
+};
+
+// The worst of the ray sum's images.
+double raySumError(const SpatialVolume &volume, Truth &truth, double stepMm) {
+    double worst = 0.0;
+    for (int view = 0; view < truth.views(); ++view)
+        worst = std::max(worst, compare(raySum(volume, truth.camera(view), stepMm).samples,
+                                        truth.image(view, {scene::Reconstruction::linear, 0.05}))
+                                    .relativeL2);
+    return worst;
+}
+
+// The row of one thread beside that of all.
+Row rowOfOneThread(const Row &row, const std::string &name, const FrameSamples &frames) {
+    Row single = row;
+    single.name = name + ", one thread";
+    single.threads = 1;
+    frames.fill(single);
+    single.prepareMs = single.fft3dMs = single.raySumMs = single.raySumMsamplesPerSecond =
+        single.raySumRelativeL2 = single.shearWarpMs = std::nullopt;
+    single.note.clear();
+    return single;
+}
 
 SizeResult measureSize(const Report &report, const Subject &subject, const std::string &name,
                        int checkedViews) {
@@ -35,66 +106,29 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
     render::CpuEngine engine(spectrum, plan.room), alone(spectrum, plan.room, 1);
     const SpatialVolume inSpace(subject.field.values);
     const double step = lattice.shortestStepMm();
-    std::vector<double> frame, slice, transform, aloneFrame, aloneSlice, aloneTransform;
-    std::vector<double> cast, castRate, warp;
     const auto views = randomViews(rounds * viewsARound);
-    scene::Camera camera = how.scene.camera;
+    FrameSamples all, one;
+    PeerSamples peers;
     for (int round = 0; round < rounds; ++round) {
-        const auto render = [&](render::CpuEngine &with, std::vector<double> &total,
-                                std::vector<double> &sliced, std::vector<double> &transformed) {
-            for (int view = -1; view < viewsARound; ++view) { // the first warms the caches
-                camera.orientation = views[std::size_t(round * viewsARound + std::max(0, view))];
-                picture::FrameTimes times;
-                const double start = millisecondsNow();
-                with.render(camera, how.scene.image, {}, &times);
-                if (view < 0)
-                    continue;
-                total.push_back(millisecondsNow() - start);
-                sliced.push_back(times.sliceMs);
-                transformed.push_back(times.transformMs);
-            }
-        };
-        render(engine, frame, slice, transform);
-        render(alone, aloneFrame, aloneSlice, aloneTransform);
-        camera.orientation = views[std::size_t(round * viewsARound)];
-        double start = millisecondsNow();
-        const SpatialImage rays = raySum(inSpace, camera, step);
-        cast.push_back(millisecondsNow() - start);
-        castRate.push_back(1e-3 * double(rays.sampleCount) / cast.back());
-        start = millisecondsNow();
-        shearWarpSum(inSpace, camera);
-        warp.push_back(millisecondsNow() - start);
+        const auto ofRound =
+            std::span(views).subspan(std::size_t(round * viewsARound), std::size_t(viewsARound));
+        all.addRound(engine, how.scene, ofRound);
+        one.addRound(alone, how.scene, ofRound);
+        scene::Camera camera = how.scene.camera;
+        camera.orientation = ofRound.front();
+        peers.addRound(inSpace, camera, step);
     }
-    row.frameMs = median(frame);
-    row.sliceMs = median(slice);
-    row.transformMs = median(transform);
-    row.raySumMs = median(cast);
-    row.raySumMsamplesPerSecond = median(castRate);
-    row.shearWarpMs = median(warp);
-    double worst = 0.0;
-    for (int view = 0; view < truth.views(); ++view)
-        worst = std::max(worst, compare(raySum(inSpace, truth.camera(view), step).samples,
-                                        truth.image(view, {scene::Reconstruction::linear, 0.05}))
-                                    .relativeL2);
+    all.fill(row);
+    peers.fill(row);
     if (truth.views() > 0)
-        row.raySumRelativeL2 = worst;
-    const double aloneMs = median(aloneFrame);
+        row.raySumRelativeL2 = raySumError(inSpace, truth, step);
+    const Row single = rowOfOneThread(row, name, one);
     row.note =
         fmt::format("{:.0f} times the ray sum, {:.1f} times the shear-warp sum; {:.2f} times "
                     "one thread; prepared in {:.2f} times FFTW's 3D transform",
                     *row.raySumMs / *row.frameMs, *row.shearWarpMs / *row.frameMs,
-                    aloneMs / *row.frameMs, *row.prepareMs / *row.fft3dMs);
+                    *single.frameMs / *row.frameMs, *row.prepareMs / *row.fft3dMs);
     report(row);
-
-    Row single = row;
-    single.name = name + ", one thread";
-    single.threads = 1;
-    single.frameMs = aloneMs;
-    single.sliceMs = median(aloneSlice);
-    single.transformMs = median(aloneTransform);
-    single.prepareMs = single.fft3dMs = single.raySumMs = single.raySumMsamplesPerSecond =
-        single.raySumRelativeL2 = single.shearWarpMs = std::nullopt;
-    single.note.clear();
     report(single);
     return {double(side), *row.frameMs, *row.raySumMs, *row.shearWarpMs};
 }

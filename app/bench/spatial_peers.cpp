@@ -28,6 +28,139 @@ glm::dvec3 inVoxels(const volume::Lattice &lattice, const glm::dvec3 &mm) {
     return glm::inverse(glm::dmat3(lattice.step(0), lattice.step(1), lattice.step(2))) * mm;
 }
 
+// The slices of a volume across one of its axes; x within a slice is contiguous.
+struct SliceStack {
+    int columns, rows, depth;
+    double perSliceX, perSliceY; ///< the shift from slice to slice, voxels
+    const std::int16_t *samples;
+    std::ptrdiff_t rowStride, sliceStride;
+};
+
+// Across the axis that the ray follows most. *Units*: the ray in voxels.
+SliceStack principalSlices(const SpatialVolume &volume, const glm::dvec3 &ray) {
+    const volume::GridSize n = volume.lattice().size();
+    int principal = 0;
+    for (int axis = 1; axis < 3; ++axis)
+        if (std::abs(ray[axis]) > std::abs(ray[principal]))
+            principal = axis;
+    if (principal == 0)
+        return {n.k,
+                n.j,
+                n.i,
+                -ray.z / ray.x,
+                -ray.y / ray.x,
+                volume.exchanged(),
+                volume.exchangedRowStride(),
+                volume.exchangedPlaneStride()};
+    if (principal == 1)
+        return {n.i,
+                n.k,
+                n.j,
+                -ray.x / ray.y,
+                -ray.z / ray.y,
+                volume.samples(),
+                volume.planeStride(),
+                volume.rowStride()};
+    return {n.i,
+            n.j,
+            n.k,
+            -ray.x / ray.z,
+            -ray.y / ray.z,
+            volume.samples(),
+            volume.rowStride(),
+            volume.planeStride()};
+}
+
+// Shifts every slice along a ray and adds them, in bands of rows.
+class ShearWarp {
+public:
+    ShearWarp(const SpatialVolume &volume, const glm::dvec3 &ray)
+        : m_slices(principalSlices(volume, ray)),
+          m_width(extent(m_slices.columns, m_slices.perSliceX)),
+          m_height(extent(m_slices.rows, m_slices.perSliceY)),
+          m_firstX(firstShift(m_slices.perSliceX)), m_firstY(firstShift(m_slices.perSliceY)) {}
+
+    SpatialImage sum() const {
+        SpatialImage image{std::vector<float>(std::size_t(m_width) * m_height), m_width, m_height,
+                           std::size_t(m_slices.columns) * m_slices.rows * m_slices.depth};
+        tbb::parallel_for(0, (m_height + band - 1) / band,
+                          [&](int part) { sumBand(part * band, image); });
+        return image;
+    }
+
+private:
+    static constexpr int band = 16;
+
+    // All slices together.
+    int extent(int size, double perSlice) const {
+        return size + int(std::ceil(std::abs(perSlice) * (m_slices.depth - 1))) + 1;
+    }
+    // Of the first slice, so that no shift is negative.
+    double firstShift(double perSlice) const {
+        return perSlice < 0.0 ? -perSlice * (m_slices.depth - 1) : 0.0;
+    }
+
+    void sumBand(int first, SpatialImage &image) const {
+        const std::size_t bufferWidth = std::size_t(m_width) + SpatialVolume::gap;
+        const std::int16_t *const zeros =
+            zeroRow(std::size_t(m_slices.columns) + 2 * SpatialVolume::gap).data() +
+            SpatialVolume::gap;
+        std::vector<std::int32_t> sums(bufferWidth * band, 0);
+        const int last = std::min(first + band, m_height);
+        for (int slice = 0; slice < m_slices.depth; slice += shearSlices)
+            for (int y = first; y < last; ++y) {
+                const ShearGroup group = groupAt(slice, y, zeros);
+                if (group.begin < group.end)
+                    addShearedSlices(group, m_width,
+                                     sums.data() + std::size_t(y - first) * bufferWidth);
+            }
+        for (int y = first; y < last; ++y)
+            for (int x = 0; x < m_width; ++x)
+                image.samples[std::size_t(y) * m_width + x] =
+                    float(sums[std::size_t(y - first) * bufferWidth + x]) /
+                    SpatialVolume::largestValue;
+    }
+
+    // The rows of several slices that are added to row y of the image.
+    ShearGroup groupAt(int slice, int y, const std::int16_t *zeros) const {
+        ShearGroup group;
+        group.begin = m_width;
+        for (int m = 0; m < shearSlices; ++m) {
+            ShearedSlice &s = group.slices[m];
+            const int k = slice + m;
+            if (k >= m_slices.depth) {
+                s = {zeros, zeros, 0, -SpatialVolume::gap, 0, 0};
+                continue;
+            }
+            const double x = m_firstX + m_slices.perSliceX * k,
+                         dy = m_firstY + m_slices.perSliceY * k;
+            const int shift = int(std::floor(x)), shiftY = int(std::floor(dy));
+            const int from = y - shiftY;
+            const std::int16_t *const plane = m_slices.samples + k * m_slices.sliceStride;
+            const auto at = [&](int row) {
+                return row >= 0 && row < m_slices.rows ? plane + row * m_slices.rowStride : zeros;
+            };
+            s = {at(from),
+                 at(from - 1),
+                 shift,
+                 m_slices.columns,
+                 std::int16_t(std::min(32767.0, std::round((x - shift) * 32768.0))),
+                 std::int16_t(std::min(32767.0, std::round((dy - shiftY) * 32768.0)))};
+            if (s.row == zeros && s.rowBefore == zeros) {
+                s.width = -SpatialVolume::gap;
+                continue;
+            }
+            group.begin = std::min(group.begin, shift);
+            group.end = std::max(group.end, shift + m_slices.columns + 1);
+        }
+        return group;
+    }
+
+    SliceStack m_slices;
+    int m_width, m_height; ///< of the image
+    double m_firstX, m_firstY;
+};
+
 } // namespace
 
 SpatialVolume::SpatialVolume(const volume::Volume &field) : m_lattice(field.lattice()) {
@@ -50,7 +183,7 @@ SpatialVolume::SpatialVolume(const volume::Volume &field) : m_lattice(field.latt
         tbb::parallel_for(0, n.j, [&](int j) {
             for (int k = 0; k < n.k; ++k)
                 for (int i = 0; i < n.i; ++i) {
-                    const double f = double(values[(std::size_t(k) * n.j + j) * n.i + i]);
+                    const double f = double(values[n.offsetOf(i, j, k)]);
                     const auto value = std::int16_t(std::lround(f * largestValue));
                     m_samples[std::size_t(m_first + k * m_planeStride + j * m_rowStride + i)] =
                         value;
@@ -107,92 +240,7 @@ SpatialImage raySum(const SpatialVolume &volume, const scene::Camera &camera, do
 }
 
 SpatialImage shearWarpSum(const SpatialVolume &volume, const scene::Camera &camera) {
-    const volume::Lattice &lattice = volume.lattice();
-    const glm::dvec3 ray = inVoxels(lattice, camera.axes()[2]);
-    const volume::GridSize n = lattice.size();
-    // The slices lie across the axis that the ray follows most; x within a slice is contiguous.
-    int principal = 0;
-    for (int axis = 1; axis < 3; ++axis)
-        if (std::abs(ray[axis]) > std::abs(ray[principal]))
-            principal = axis;
-    int columns = n.i, rows = n.j, depth = n.k;
-    double perSliceX = -ray.x / ray.z, perSliceY = -ray.y / ray.z;
-    std::ptrdiff_t rowStride = volume.rowStride(), sliceStride = volume.planeStride();
-    const std::int16_t *samples = volume.samples();
-    if (principal == 1) {
-        rows = n.k;
-        depth = n.j;
-        perSliceX = -ray.x / ray.y;
-        perSliceY = -ray.z / ray.y;
-        std::swap(rowStride, sliceStride);
-    } else if (principal == 0) {
-        columns = n.k;
-        depth = n.i;
-        perSliceX = -ray.z / ray.x;
-        perSliceY = -ray.y / ray.x;
-        samples = volume.exchanged();
-        rowStride = volume.exchangedRowStride();
-        sliceStride = volume.exchangedPlaneStride();
-    }
-    const auto extent = [&](int size, double perSlice) {
-        return size + int(std::ceil(std::abs(perSlice) * (depth - 1))) + 1;
-    };
-    SpatialImage image{{},
-                       extent(columns, perSliceX),
-                       extent(rows, perSliceY),
-                       std::size_t(columns) * rows * depth};
-    image.samples.resize(std::size_t(image.width) * image.height);
-    const double firstX = perSliceX < 0.0 ? -perSliceX * (depth - 1) : 0.0;
-    const double firstY = perSliceY < 0.0 ? -perSliceY * (depth - 1) : 0.0;
-    const std::size_t bufferWidth = std::size_t(image.width) + SpatialVolume::gap;
-    constexpr int band = 16;
-    tbb::parallel_for(0, (image.height + band - 1) / band, [&](int part) {
-        const std::int16_t *const zeros =
-            zeroRow(std::size_t(columns) + 2 * SpatialVolume::gap).data() + SpatialVolume::gap;
-        std::vector<std::int32_t> sums(bufferWidth * band, 0);
-        const int first = part * band, last = std::min(first + band, image.height);
-        for (int slice = 0; slice < depth; slice += shearSlices)
-            for (int y = first; y < last; ++y) {
-                ShearGroup group;
-                group.begin = image.width;
-                for (int m = 0; m < shearSlices; ++m) {
-                    ShearedSlice &s = group.slices[m];
-                    const int k = slice + m;
-                    if (k >= depth) {
-                        s = {zeros, zeros, 0, -SpatialVolume::gap, 0, 0};
-                        continue;
-                    }
-                    const double x = firstX + perSliceX * k, dy = firstY + perSliceY * k;
-                    const int shift = int(std::floor(x)), shiftY = int(std::floor(dy));
-                    const int from = y - shiftY;
-                    const std::int16_t *const plane = samples + k * sliceStride;
-                    const auto at = [&](int row) {
-                        return row >= 0 && row < rows ? plane + row * rowStride : zeros;
-                    };
-                    s = {at(from),
-                         at(from - 1),
-                         shift,
-                         columns,
-                         std::int16_t(std::min(32767.0, std::round((x - shift) * 32768.0))),
-                         std::int16_t(std::min(32767.0, std::round((dy - shiftY) * 32768.0)))};
-                    if (s.row == zeros && s.rowBefore == zeros) {
-                        s.width = -SpatialVolume::gap;
-                        continue;
-                    }
-                    group.begin = std::min(group.begin, shift);
-                    group.end = std::max(group.end, shift + columns + 1);
-                }
-                if (group.begin < group.end)
-                    addShearedSlices(group, image.width,
-                                     sums.data() + std::size_t(y - first) * bufferWidth);
-            }
-        for (int y = first; y < last; ++y)
-            for (int x = 0; x < image.width; ++x)
-                image.samples[std::size_t(y) * image.width + x] =
-                    float(sums[std::size_t(y - first) * bufferWidth + x]) /
-                    SpatialVolume::largestValue;
-    });
-    return image;
+    return ShearWarp(volume, inVoxels(volume.lattice(), camera.axes()[2])).sum();
 }
 
 } // namespace pellucid::bench

@@ -2,7 +2,6 @@
 #include "app/cli/input.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -15,6 +14,7 @@
 #include "core/decoder/read_volume_file.h"
 #include "core/dicom/scan.h"
 #include "core/files/file_ids.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
 
 namespace pellucid::cli {
@@ -247,21 +247,19 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
 std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator,
                                  std::size_t count) {
     std::vector<double> values;
-    const char *at = text.c_str(), *const end = at + text.size();
-    while (values.size() < count) {
-        double value = 0.0;
+    bool areNumbers = true;
+    for (std::size_t first = 0; areNumbers && first <= text.size();) {
+        const std::size_t end = std::min(text.find(separator, first), text.size());
         // Decimal numbers only: with 'x' between them, 0x10 is zero by ten.
-        const auto [stop, error] = std::from_chars(at, end, value);
-        const bool last = values.size() + 1 == count;
-        if (error != std::errc() || !std::isfinite(value) ||
-            (last ? stop != end : *stop != separator))
-            throw Error(ErrorCode::usage,
-                        because::inWords(option + ": '" + text + "' is not " +
-                                         std::to_string(count) + " numbers separated by '" +
-                                         separator + "'"));
-        values.push_back(value);
-        at = stop + 1;
+        const auto value = system::numberFrom(std::string_view(text).substr(first, end - first));
+        areNumbers = value && std::isfinite(*value);
+        values.push_back(value.value_or(0.0));
+        first = end + 1;
     }
+    if (!areNumbers || values.size() != count)
+        throw Error(ErrorCode::usage,
+                    because::inWords(option + ": '" + text + "' is not " + std::to_string(count) +
+                                     " numbers separated by '" + separator + "'"));
     return values;
 }
 

@@ -46,8 +46,6 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         sampling.spacingMm = glm::dvec3(s[0], s[1], s[2]);
     }
     sampling.tiltRad = o.tiltDeg * 3.14159265358979323846 / 180.0;
-    if (o.folder.empty())
-        throw Error(ErrorCode::usage, because::inWords("DIR: an empty path leads nowhere"));
     files::requireWritable(o.folder);
     const task::Progress progress(context.stop);
     const auto volume = phantom::makePhantom(kind, phantom::phantomLattice(kind, sampling),
@@ -70,7 +68,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 void addPhantomCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("phantom", "Write a phantom as a DICOM series");
-    c->add_option("DIR", o->folder, "The folder to write to")->required();
+    c->add_option("DIR", o->folder, "The folder to write to")->required()->check(notEmpty());
     c->add_option("--kind", o->kind, fmt::format("{}", fmt::join(phantom::kindNames(), ", ")))
         ->check(CLI::IsMember(phantom::kindNames()));
     c->add_option("--size", o->size, "COLUMNSxROWSxSLICES");

@@ -13,6 +13,7 @@
 #include "app/cli/image_output.h"
 #include "app/cli/input.h"
 #include "app/cli/json_text.h"
+#include "app/cli/look_options.h"
 #include "app/cli/renderer.h"
 #include "app/cli/scene_fields.h"
 #include "app/cli/scene_options.h"
@@ -37,7 +38,7 @@ struct Options {
     std::string out, engine = "auto";
     int threads = 0, frames = 0;
     std::uint64_t memory = 0;
-    bool turntable = false, json = false, isDeidentified = false;
+    bool json = false, isDeidentified = false;
 };
 
 // Whether what a picture shows misses the tolerance that the plan keeps, and a closer plan may
@@ -49,176 +50,242 @@ bool mayPlanCloser(const Renderer &renderer, const scene::Scene &scene) {
            scene.plannedFor != scene::PlannedFor::volume;
 }
 
-void run(const Options &o, const CLI::App &command, const Context &context) {
-    const fs::path out(o.out);
-    // Refused before any work is done.
-    checkOutput(out, classify::isGrey(lookFor(o.scene)) && shadingFor(o.scene, command).isGrey());
-    if (o.turntable != (o.frames > 0))
-        throw Error(ErrorCode::usage, because::inWords("--frames and --turntable go together"));
-    const CardChoice card = chooseCard(o.engine, o.frames);
-    std::optional<tbb::global_control> threads;
-    if (o.threads > 0)
-        threads.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(o.threads));
+// One picture or a turntable, step by step.
+class RenderRun {
+public:
+    RenderRun(const Options &options, const CLI::App &command, const Context &context)
+        : m_options(options), m_command(command), m_context(context) {}
 
-    std::vector<fs::path> outs{out};
-    if (o.turntable) {
-        outs.clear();
-        for (int frame = 0; frame < o.frames; ++frame)
-            outs.push_back(framePath(out, frame));
+    void run() {
+        const fs::path out(m_options.out);
+        // Refused before any work is done.
+        m_preset = presetFor(m_options.scene);
+        checkOutput(out, classify::isGrey(lookFor(m_options.scene, m_preset)) &&
+                             shadingFor(m_options.scene, m_command, m_preset).isGrey());
+        m_card = chooseCard(m_options.engine, m_options.frames);
+        std::optional<tbb::global_control> threads;
+        if (m_options.threads > 0)
+            threads.emplace(tbb::global_control::max_allowed_parallelism,
+                            std::size_t(m_options.threads));
+        open(out);
+        makeFields();
+        prepare();
+        warnOfFields();
+        renderFrames();
+        warnOfView();
+        if (m_options.json)
+            print();
     }
-    const Input input = openInput(o.input, outs, context);
-    const volume::Volume &volume = input.loaded.volume;
-    scene::Scene scene = sceneFor(o.scene, command, volume);
-    // The scene file may have brought colours.
-    checkOutput(out, classify::isGrey(scene.look) && scene.shading.isGrey());
-    Stopwatch watch;
-    const classify::FieldWindow window = windowFor(scene, volume);
-    const std::size_t samples = volume.lattice().size().count();
-    const std::size_t forLight = prepare::bytesForLight(scene.shading, volume.lattice().size(),
-                                                        classify::mixesColors(scene.look) ? 3 : 1);
-    const std::size_t held = volume.bytes() + classify::peakBytes(scene.look, samples) + forLight +
-                             (scene.crop.isWhole() ? 0 : samples * sizeof(float));
-    if (command.count("--memory") > 0 && o.memory < held)
-        throw Error(ErrorCode::outOfMemory,
-                    because::inWords(fmt::format("the volume needs {} MB, {} MB are allowed",
-                                                 (held >> 20) + 1, o.memory >> 20)),
-                    o.input.path);
-    const classify::ShownFields fields = fieldsFor(scene, volume, context);
-    // Asking for more than there is would end in the system killing the program.
-    plan::Budget budget{system::availableMemoryBytes()};
-    budget.bytes -= std::min(budget.bytes, forLight); // still to be asked for
-    if (command.count("--memory") > 0)
-        budget.bytes = std::min(budget.bytes, std::size_t(o.memory - held));
-    const double fieldMs = watch.lapMs();
-    scene::Scene planned = scene; // with a closer tolerance, if a part of the picture needs one
-    std::optional<Renderer> made;
-    const auto prepare = [&]() -> Renderer & {
-        try {
-            made.reset();
-            Renderer &renderer = made.emplace(planned, fields, budget, context);
-            renderer.use(card);
-            return renderer;
-        } catch (const Error &error) {
-            if (error.code() != ErrorCode::outOfMemory || command.count("--memory") == 0)
-                throw;
-            throw Error(
-                error.code(),
-                because::inWords(fmt::format("{}; {} of {} MB are the volume and its fields",
-                                             error.reason().english(), held >> 20, o.memory >> 20)),
-                o.input.path);
-        }
-    };
-    Renderer *renderer = &prepare();
-    double prepareMs = watch.lapMs();
-    std::vector<std::string> warnings = englishTexts(volume.notes().warnings);
-    const auto warn = [&](const std::string &text) {
-        warnings.push_back(text);
+
+private:
+    const volume::Volume &volume() const { return m_input.loaded.volume; }
+    bool isMemoryGiven() const { return m_command.count("--memory") > 0; }
+    bool isTurntable() const { return m_options.frames > 0; }
+    int frames() const { return std::max(1, m_options.frames); }
+
+    void warn(const std::string &text) {
+        m_warnings.push_back(text);
         cli::warn(text);
-    };
-    if (renderer->isReduced())
-        warn(renderer->reason());
-    for (const std::string &text : lookWarnings(o.scene, command, scene, volume))
-        warn(text);
-    if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
-        warn(why);
-    // `reference` selects the exact method; its nominal tolerance is no target.
-    if (renderer->predictedError() > scene.tolerance &&
-        !(renderer->isExact() && scene.tolerance == scene::referenceTolerance))
-        warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted", scene.tolerance,
-                         renderer->predictedError()));
-
-    picture::FrameTimes times;
-    double writeMs = 0.0, viewError = 0.0;
-    std::optional<bool> isWhole;
-    std::optional<double> maximum; // of the frames, if all show the whole
-    const int frames = std::max(1, o.frames);
-    dicom::CaptureLabels labels =
-        o.isDeidentified ? dicom::deidentified(input.labels) : input.labels;
-    if (!o.isDeidentified)
-        labels.seriesUid = dicom::newSeriesUid(); // one for all frames
-    std::optional<files::FileSet> turn;
-    if (o.turntable)
-        turn.emplace(outs.front());
-    for (int frame = 0; frame < frames; ++frame) {
-        task::Progress(context.stop).check();
-        scene::Scene turned = scene;
-        turned.camera.orientation =
-            glm::angleAxis(glm::radians(360.0 * frame / frames), glm::dvec3(0, 0, 1)) *
-            scene.camera.orientation;
-        auto image = renderer->image(turned.camera, times);
-        // The plan is for the picture of the whole. Of a part that holds less than its share, the
-        // error is known once it is seen.
-        for (int tries = 0; tries < 3 && mayPlanCloser(*renderer, scene); ++tries) {
-            planned.tolerance *= 0.8 * scene.tolerance / renderer->lastViewError();
-            watch.lapMs();
-            renderer = &prepare();
-            prepareMs += watch.lapMs();
-            image = renderer->image(turned.camera, times);
-        }
-        viewError = std::max(viewError, renderer->lastViewError());
-        const std::optional<double> here = renderer->predictedMaximum();
-        isWhole = frame == 0 || isWhole == true ? renderer->wasWhole() : isWhole;
-        maximum = here && (frame == 0 || maximum)
-                      ? std::optional(std::max(*here, maximum.value_or(0.0)))
-                      : std::nullopt;
-        task::Progress(context.stop).check();
-        watch.lapMs();
-        labels.instanceNumber = frame + 1;
-        const fs::path &file = outs[std::size_t(frame)];
-        writeImage(turn ? turn->aside(file) : file, image, turned, volume.lattice(), labels);
-        writeMs += watch.lapMs();
     }
-    if (turn)
-        turn->commit();
-    if (viewError > scene.tolerance && renderer->predictedError() <= scene.tolerance)
-        warn(isWhole == false
+
+    void open(const fs::path &out) {
+        if (isTurntable())
+            for (int frame = 0; frame < m_options.frames; ++frame)
+                m_outs.push_back(framePath(out, frame));
+        else
+            m_outs.push_back(out);
+        m_input = openInput(m_options.input, m_outs, m_context);
+        m_warnings = englishTexts(volume().notes().warnings);
+        m_scene = m_planned = sceneFor(m_options.scene, m_command, m_preset, volume());
+        // The scene file may have brought colours.
+        checkOutput(out, classify::isGrey(m_scene.look) && m_scene.shading.isGrey());
+    }
+
+    void makeFields() {
+        Stopwatch watch;
+        m_window = windowFor(m_scene, volume());
+        const std::size_t samples = volume().lattice().size().count();
+        const std::size_t forLight =
+            prepare::bytesForLight(m_scene.shading, volume().lattice().size(),
+                                   classify::mixesColors(m_scene.look) ? 3 : 1);
+        m_held = volume().bytes() + classify::peakBytes(m_scene.look, samples) + forLight +
+                 (m_scene.crop.isWhole() ? 0 : samples * sizeof(float));
+        if (isMemoryGiven() && m_options.memory < m_held)
+            throw Error(ErrorCode::outOfMemory,
+                        because::inWords(fmt::format("the volume needs {} MB, {} MB are allowed",
+                                                     (m_held >> 20) + 1, m_options.memory >> 20)),
+                        m_options.input.path);
+        m_fields = fieldsFor(m_scene, volume(), m_context);
+        // Asking for more than there is would end in the system killing the program.
+        m_budget.bytes = system::availableMemoryBytes();
+        m_budget.bytes -= std::min(m_budget.bytes, forLight); // still to be asked for
+        if (isMemoryGiven())
+            m_budget.bytes = std::min(m_budget.bytes, std::size_t(m_options.memory - m_held));
+        m_fieldMs = watch.lapMs();
+    }
+
+    void prepare() {
+        Stopwatch watch;
+        try {
+            m_renderer.reset();
+            m_renderer.emplace(m_planned, m_fields, m_budget, m_context);
+            m_renderer->use(m_card);
+        } catch (const Error &error) {
+            if (error.code() != ErrorCode::outOfMemory || !isMemoryGiven())
+                throw;
+            throw Error(error.code(),
+                        because::inWords(fmt::format(
+                            "{}; {} of {} MB are the volume and its fields",
+                            error.reason().english(), m_held >> 20, m_options.memory >> 20)),
+                        m_options.input.path);
+        }
+        m_prepareMs += watch.lapMs();
+    }
+
+    void warnOfFields() {
+        if (m_renderer->isReduced())
+            warn(m_renderer->reason());
+        for (const std::string &text : lookWarnings(m_command, m_preset, m_scene, volume()))
+            warn(text);
+        if (const std::string why = whyEmpty(m_scene, volume(), m_fields); !why.empty())
+            warn(why);
+        // `reference` selects the exact method; its nominal tolerance is no target.
+        if (m_renderer->predictedError() > m_scene.tolerance &&
+            !(m_renderer->isExact() && m_scene.tolerance == scene::referenceTolerance))
+            warn(fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted",
+                             m_scene.tolerance, m_renderer->predictedError()));
+    }
+
+    void renderFrames() {
+        dicom::CaptureLabels labels =
+            m_options.isDeidentified ? dicom::deidentified(m_input.labels) : m_input.labels;
+        if (!m_options.isDeidentified)
+            labels.seriesUid = dicom::newSeriesUid(); // one for all frames
+        std::optional<files::FileSet> turn;
+        if (isTurntable())
+            turn.emplace(m_outs.front());
+        for (int frame = 0; frame < frames(); ++frame) {
+            task::Progress(m_context.stop).check();
+            scene::Scene turned = m_scene;
+            turned.camera.orientation =
+                glm::angleAxis(glm::radians(360.0 * frame / frames()), glm::dvec3(0, 0, 1)) *
+                m_scene.camera.orientation;
+            const picture::ProjectionImage image = imageOf(turned.camera);
+            takeErrors(frame == 0);
+            task::Progress(m_context.stop).check();
+            Stopwatch watch;
+            labels.instanceNumber = frame + 1;
+            const fs::path &file = m_outs[std::size_t(frame)];
+            writeImage(turn ? turn->aside(file) : file, image, turned, volume().lattice(), labels);
+            m_writeMs += watch.lapMs();
+        }
+        if (turn)
+            turn->commit();
+    }
+
+    // The plan is for the picture of the whole. Of a part that holds less than its share, the error
+    // is known once it is seen: then it is planned more closely.
+    picture::ProjectionImage imageOf(const scene::Camera &camera) {
+        picture::ProjectionImage image = m_renderer->image(camera, m_times);
+        for (int tries = 0; tries < 3 && mayPlanCloser(*m_renderer, m_scene); ++tries) {
+            m_planned.tolerance *= 0.8 * m_scene.tolerance / m_renderer->lastViewError();
+            prepare();
+            image = m_renderer->image(camera, m_times);
+        }
+        return image;
+    }
+
+    void takeErrors(bool isFirst) {
+        m_viewError = std::max(m_viewError, m_renderer->lastViewError());
+        m_isWhole = isFirst || m_isWhole == true ? m_renderer->wasWhole() : m_isWhole;
+        const std::optional<double> here = m_renderer->predictedMaximum();
+        m_maximum = here && (isFirst || m_maximum)
+                        ? std::optional(std::max(*here, m_maximum.value_or(0.0)))
+                        : std::nullopt;
+    }
+
+    void warnOfView() {
+        const bool isMissed =
+            m_viewError > m_scene.tolerance && m_renderer->predictedError() <= m_scene.tolerance;
+        if (!isMissed)
+            return;
+        warn(m_isWhole == false
                  ? fmt::format("the tolerance of {:.2g} is met by pictures of the whole; {:.2g} is "
                                "predicted for what this one shows",
-                               scene.tolerance, viewError)
+                               m_scene.tolerance, m_viewError)
                  : fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted for this "
                                "picture",
-                               scene.tolerance, viewError));
-    if (!o.json)
-        return;
-    json skipped = json::array();
-    for (const auto &s : input.skipped)
-        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason.english()}});
-    const volume::Lattice &l = volume.lattice();
-    std::puts(jsonText({{"engine", renderer->description()},
-                        {"device", renderer->isOnCard() ? "gpu" : "cpu"},
-                        {"engine_reason", renderer->engineReason()},
-                        {"size", {scene.camera.width, scene.camera.height}},
-                        {"pixel_mm", scene.camera.pixelMm},
-                        {"frames", frames},
-                        {"channels", renderer->channelCount()},
-                        {"volume",
-                         {{"size", sizeJson(l.size())},
-                          {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
-                          {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
-                          {"series", input.seriesUid}}},
-                        {"window", {window.low, window.high}},
-                        {"shading", json::parse(shading::toJson(scene.shading))},
-                        {"milliseconds",
-                         {{"scan", input.scanMs},
-                          {"load", input.loadMs},
-                          {"field", fieldMs},
-                          {"prepare", prepareMs},
-                          {"slice", times.sliceMs},
-                          {"transform", times.transformMs},
-                          {"frame", times.totalMs()},
-                          {"write", writeMs}}},
-                        {"bytes", renderer->bytes()},
-                        {"card_bytes", renderer->cardBytes()},
-                        {"plan", renderer->planJson()},
-                        {"tolerance", scene.tolerance},
-                        {"predicted_error",
-                         {{"relative_l2", viewError},
-                          {"maximum", maximum ? json(*maximum) : json(nullptr)},
-                          {"whole", isWhole ? json(*isWhole) : json(nullptr)}}},
-                        {"warnings", warnings},
-                        {"skipped", skipped}})
-                  .c_str());
-}
+                               m_scene.tolerance, m_viewError));
+    }
+
+    void print() const {
+        json skipped = json::array();
+        for (const auto &s : m_input.skipped)
+            skipped.push_back({{"path", s.path.string()}, {"reason", s.reason.english()}});
+        std::puts(jsonText({{"engine", m_renderer->description()},
+                            {"device", m_renderer->isOnCard() ? "gpu" : "cpu"},
+                            {"engine_reason", m_renderer->engineReason()},
+                            {"size", {m_scene.camera.width, m_scene.camera.height}},
+                            {"pixel_mm", m_scene.camera.pixelMm},
+                            {"frames", frames()},
+                            {"channels", m_renderer->channelCount()},
+                            {"volume", volumeJson()},
+                            {"window", {m_window.low, m_window.high}},
+                            {"shading", json::parse(shading::toJson(m_scene.shading))},
+                            {"milliseconds", timesJson()},
+                            {"bytes", m_renderer->bytes()},
+                            {"card_bytes", m_renderer->cardBytes()},
+                            {"plan", m_renderer->planJson()},
+                            {"tolerance", m_scene.tolerance},
+                            {"predicted_error", errorJson()},
+                            {"warnings", m_warnings},
+                            {"skipped", skipped}})
+                      .c_str());
+    }
+
+    json volumeJson() const {
+        const volume::Lattice &l = volume().lattice();
+        return {{"size", sizeJson(l.size())},
+                {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
+                {"tilt_deg", l.shearRad() * 180.0 / 3.14159265358979323846},
+                {"series", m_input.seriesUid}};
+    }
+
+    json timesJson() const {
+        return {{"scan", m_input.scanMs},     {"load", m_input.loadMs},
+                {"field", m_fieldMs},         {"prepare", m_prepareMs},
+                {"slice", m_times.sliceMs},   {"transform", m_times.transformMs},
+                {"frame", m_times.totalMs()}, {"write", m_writeMs}};
+    }
+
+    json errorJson() const {
+        return {{"relative_l2", m_viewError},
+                {"maximum", m_maximum ? json(*m_maximum) : json(nullptr)},
+                {"whole", m_isWhole ? json(*m_isWhole) : json(nullptr)}};
+    }
+
+    const Options &m_options;
+    const CLI::App &m_command;
+    const Context &m_context;
+    CardChoice m_card;
+    std::optional<presets::Preset> m_preset; ///< of --preset
+    std::vector<fs::path> m_outs;
+    Input m_input;
+    std::vector<std::string> m_warnings;
+    scene::Scene m_scene;
+    scene::Scene m_planned; ///< with a closer tolerance, if a part of the picture needs one
+    classify::FieldWindow m_window;
+    std::size_t m_held = 0; ///< bytes of the volume, its fields and what makes them
+    classify::ShownFields m_fields;
+    plan::Budget m_budget;
+    std::optional<Renderer> m_renderer; ///< refers to the planned scene and the fields
+    double m_fieldMs = 0.0, m_prepareMs = 0.0, m_writeMs = 0.0;
+    picture::FrameTimes m_times; ///< of the last frame
+    // Of all frames.
+    double m_viewError = 0.0;
+    std::optional<bool> m_isWhole;
+    std::optional<double> m_maximum; ///< if all show the whole
+};
 
 } // namespace
 
@@ -240,14 +307,18 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     c->add_option("--memory", o->memory, "Most bytes to use, with units if you like (2GB)")
         ->check(notNegative)
         ->transform(CLI::AsSizeValue(false));
-    c->add_option("--frames", o->frames, "Number of frames of a turntable")
-        ->check(CLI::Range(1, 100000));
-    c->add_flag("--turntable", o->turntable,
-                "Turn once about the patient's long axis; OUT gets the frame number");
+    CLI::Option *frames = c->add_option("--frames", o->frames, "Number of frames of a turntable")
+                              ->check(CLI::Range(1, 100000));
+    CLI::Option *turntable =
+        c->add_flag("--turntable")
+            ->description("Turn once about the patient's long axis; OUT gets the frame number")
+            ->needs(frames);
+    frames->needs(turntable);
     c->add_flag("--deidentify", o->isDeidentified,
                 "A .dcm without the patient's identity (PS3.15, basic profile)");
     c->add_flag("--json", o->json, "Print one JSON object about what was done");
-    c->callback([o, c, context] { naming(o->input.path, [&] { run(*o, *c, context); }); });
+    c->callback(
+        [o, c, context] { naming(o->input.path, [&] { RenderRun(*o, *c, context).run(); }); });
 }
 
 } // namespace pellucid::cli

@@ -12,7 +12,6 @@
 #include "core/accuracy/view_error.h"
 #include "core/classify/shown_fields.h"
 #include "core/prepare/prepared_engine.h"
-#include "core/reference/wide_kernel.h"
 #include "gpu/gpu_engine.h"
 
 namespace pellucid::cli {
@@ -57,7 +56,7 @@ public:
     std::size_t bytes() const { return m_bytes; }
     bool isReduced() const { return m_fitting.reduction > 1; }
     /// Whether the exact reference makes the pictures.
-    bool isExact() const { return !m_engine; }
+    bool isExact() const { return m_planned == nullptr; }
     std::string reason() const { return m_fitting.plan.reason.english(); }
     /// An upper bound on the error of any view of the whole volume. It is the worst channel's
     /// bound; the error of the picture, all channels taken together, is no larger.
@@ -81,25 +80,26 @@ private:
     Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
              const prepare::ShadedFields &shaded, const std::vector<plan::FieldSummary> &summaries,
              const plan::Budget &budget, const Context &context);
-    picture::ProjectionImage exactImage(const scene::Camera &camera) const;
+    void prepareExact(const std::vector<plan::FieldSummary> &summaries, std::size_t bytes);
+    void preparePlanned(const prepare::ShadedFields &shaded,
+                        const std::vector<plan::FieldSummary> &summaries);
+    std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera,
+                                                        picture::FrameTimes &times);
     void judge(const picture::ProjectionImage &image, const scene::Camera &camera);
 
     const scene::Scene &m_scene;
     const classify::ShownFields &m_fields;
     task::Progress m_progress;
     std::size_t m_channels, m_bytes = 0;
-    bool m_isGrey;
     prepare::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of the rendered fields
     double m_predictedError = 0.0;
     std::optional<accuracy::PictureError> m_picture;     ///< the last one
     std::optional<accuracy::ViewErrorModel> m_viewModel; ///< for the engine at full resolution
-    std::shared_ptr<render::CpuEngine> m_engine;
-    std::shared_ptr<gpu::GpuEngine> m_card; ///< the same engine on the card, if used
+    std::shared_ptr<picture::Projector> m_engine;        ///< on the processor
+    std::shared_ptr<render::ProjectionEngine> m_planned; ///< the same, unless it is exact
+    std::shared_ptr<gpu::GpuEngine> m_card;              ///< the same on the card, if used
     CardChoice m_choice;
-    /// One for each channel, in place of an engine. Empty under shading, where each image computes
-    /// its own exact field.
-    std::vector<reference::WideKernel> m_references;
 };
 
 } // namespace pellucid::cli

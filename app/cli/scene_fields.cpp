@@ -33,7 +33,8 @@ classify::ShownFields fieldsFor(const scene::Scene &scene, const volume::Volume 
                              scene.crop);
 }
 
-std::vector<std::string> lookWarnings(const SceneOptions &options, const CLI::App &command,
+std::vector<std::string> lookWarnings(const CLI::App &command,
+                                      const std::optional<presets::Preset> &preset,
                                       const scene::Scene &scene, const volume::Volume &volume) {
     std::vector<std::string> warnings;
     const bool hasClasses = !scene.look.classes.empty();
@@ -46,7 +47,7 @@ std::vector<std::string> lookWarnings(const SceneOptions &options, const CLI::Ap
     if (isGiven("--class") && volume.unit() != volume::ValueUnit::hounsfield)
         warnings.emplace_back(
             "the ranges of --class are Hounsfield units, which the values are not known to be");
-    if (const auto preset = presetFor(options))
+    if (preset)
         if (const auto why = presets::mismatch(*preset, volume))
             warnings.push_back(why->english());
     return warnings;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/cli/commands.h"
-#include "app/cli/scene_options.h"
 #include "core/classify/shown_fields.h"
+#include "core/presets/preset.h"
+#include "core/scene/scene.h"
 
 namespace pellucid::cli {
 
@@ -19,7 +21,8 @@ classify::ShownFields fieldsFor(const scene::Scene &scene, const volume::Volume 
                                 const Context &context);
 
 /// Warnings about options that contradict each other or do not suit the volume, a line each.
-std::vector<std::string> lookWarnings(const SceneOptions &options, const CLI::App &command,
+std::vector<std::string> lookWarnings(const CLI::App &command,
+                                      const std::optional<presets::Preset> &preset,
                                       const scene::Scene &scene, const volume::Volume &volume);
 
 /// Why all of the fields are empty, a line; empty if one is not.

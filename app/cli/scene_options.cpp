@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 
@@ -12,8 +11,9 @@
 #include <glm/geometric.hpp>
 
 #include "app/cli/input.h"
+#include "app/cli/look_options.h"
 #include "core/files/read_text.h"
-#include "core/presets/preset_library.h"
+#include "core/system/text.h"
 #include "core/task/error.h"
 
 namespace pellucid::cli {
@@ -37,8 +37,6 @@ const std::map<std::string, scene::Reconstruction> reconstructions{
     {"spline", scene::Reconstruction::spline}};
 
 scene::Scene readScene(const fs::path &path) {
-    if (path.empty())
-        throw Error(ErrorCode::usage, because::inWords("--scene: an empty path leads nowhere"));
     const std::string text = files::readText(path, files::mostOfPreset);
     try {
         return scene::sceneFromJson(text);
@@ -47,130 +45,49 @@ scene::Scene readScene(const fs::path &path) {
     }
 }
 
-std::vector<double> weightsFromText(const std::string &text) {
-    const auto count = std::size_t(std::count(text.begin(), text.end(), ',')) + 1;
-    return parseNumbers("--bezier", text, ',', count);
+// Positive and finite.
+CLI::Validator positive() {
+    return {[](std::string &text) {
+                const auto value = system::typedNumberFrom(text);
+                const bool good = value && std::isfinite(*value) && *value > 0.0;
+                return good ? std::string() : "'" + text + "' is not a positive number";
+            },
+            "", "positive"};
 }
 
-classify::TissueClass classFromText(const std::string &text) {
-    const auto equals = text.find('=');
-    const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
-    if (equals == std::string::npos)
-        throw Error(ErrorCode::usage,
-                    because::inWords("--class: '" + text + "' is not NAME=WEIGHT[:#rrggbb]"));
-    classify::TissueClass tissue = classNamed(text.substr(0, equals));
-    // Grey unless a colour is named: so is the picture then.
-    tissue.color = colon == std::string::npos ? classify::Color{}
-                                              : classify::colorFromText(text.substr(colon + 1));
-    tissue.weight =
-        parseNumbers("--class",
-                     text.substr(equals + 1, colon == std::string::npos ? std::string::npos
-                                                                        : colon - equals - 1),
-                     ',', 1)
-            .front();
-    return tissue;
+template <class Map> std::vector<std::string> namesOf(const Map &map) {
+    std::vector<std::string> names;
+    for (const auto &[name, value] : map)
+        names.push_back(name);
+    return names;
 }
 
-// A curve asked for by name shows the whole volume through it, classes show themselves.
-void change(classify::Look &look, const SceneOptions &options) {
-    if (!options.bezier.empty()) {
-        look.transferFunction.weights = weightsFromText(options.bezier);
-        look.classes.clear();
-    }
-    if (!options.classes.empty())
-        look.classes.clear();
-    for (const std::string &text : options.classes)
-        look.classes.push_back(classFromText(text));
-    classify::validate(look);
-}
-
-} // namespace
-
-const classify::TissueClass &classNamed(const std::string &name) {
-    std::string names;
-    for (const classify::TissueClass &tissue : classify::standardClasses()) {
-        if (tissue.name == name)
-            return tissue;
-        names += (names.empty() ? "" : ", ") + tissue.name;
-    }
-    throw Error(ErrorCode::usage, because::inWords("--class: '" + name + "' is none of " + names));
-}
-
-std::optional<presets::Preset> presetFor(const SceneOptions &options) {
-    if (options.preset.empty())
-        return std::nullopt;
-    const fs::path path(options.preset);
-    if (path.extension() == ".json" || path.has_parent_path())
-        return presets::readPreset(path);
-    return presets::PresetLibrary::ofUser().get(options.preset).preset;
-}
-
-classify::Look lookFor(const SceneOptions &options) {
-    const auto preset = presetFor(options);
-    classify::Look look = preset ? preset->look : classify::Look();
-    change(look, options);
-    return look;
-}
-
-shading::Shading shadingFor(const SceneOptions &o, const CLI::App &command,
-                            const shading::Shading &former) {
-    shading::Shading shading = former;
-    if (const auto preset = presetFor(o))
-        shading = preset->shading;
-    const auto read = [](const char *option, const std::string &text, auto &&fromText) {
-        try {
-            return fromText(text);
-        } catch (const Error &error) {
-            throw Error(error.code(),
-                        because::inWords(std::string(option) + ": " + error.reason().english()));
-        }
-    };
-    if (command.count("--depth-cue") > 0)
-        shading.cue = read("--depth-cue", o.depthCue, shading::cueFromText);
-    if (command.count("--ambient") > 0)
-        shading.ambient = o.ambient;
-    if (!o.lights.empty())
-        shading.lights.clear();
-    for (const std::string &text : o.lights)
-        shading.lights.push_back(read("--light", text, shading::lightFromText));
-    if (shading.lights.size() > shading::mostLights)
-        throw Error(ErrorCode::usage, because::inWords(fmt::format("--light: more than {} lights",
-                                                                   shading::mostLights)));
-    return shading;
-}
-
-void addSceneOptions(CLI::App &command, SceneOptions &options) {
-    const CLI::Validator positive(
-        [](std::string &text) {
-            char *end = nullptr;
-            const double value = std::strtod(text.c_str(), &end);
-            const bool good =
-                end != text.c_str() && *end == '\0' && std::isfinite(value) && value > 0.0;
-            return good ? std::string() : "'" + text + "' is not a positive number";
-        },
-        "", "positive");
-    const auto names = [](const auto &map) {
-        std::vector<std::string> keys;
-        for (const auto &[key, value] : map)
-            keys.push_back(key);
-        return keys;
-    };
-    command.add_option("--view", options.view, "Standard view, default front")
-        ->check(CLI::IsMember(names(views)));
-    command.add_option("--azimuth", options.azimuthDeg,
-                       "Degrees about the patient's long axis, added to the view");
-    command.add_option("--elevation", options.elevationDeg,
-                       "Degrees up from the horizon, added to the view");
-    command.add_option("--roll", options.rollDeg,
-                       "Degrees about the line of sight, added to the view");
-    command.add_option("--orientation", options.orientation,
-                       "Rotation [U V W] as a quaternion w,x,y,z");
+void addCameraOptions(CLI::App &command, SceneOptions &options) {
+    CLI::Option *view = command.add_option("--view", options.view, "Standard view, default front")
+                            ->check(CLI::IsMember(namesOf(views)));
+    CLI::Option *azimuth =
+        command.add_option("--azimuth", options.azimuthDeg,
+                           "Degrees about the patient's long axis, added to the view");
+    CLI::Option *elevation = command.add_option("--elevation", options.elevationDeg,
+                                                "Degrees up from the horizon, added to the view");
+    CLI::Option *roll = command.add_option("--roll", options.rollDeg,
+                                           "Degrees about the line of sight, added to the view");
+    command
+        .add_option("--orientation", options.orientation,
+                    "Rotation [U V W] as a quaternion w,x,y,z")
+        ->excludes(view)
+        ->excludes(azimuth)
+        ->excludes(elevation)
+        ->excludes(roll);
     command.add_option("--size", options.size,
                        "Image size WxH in pixels; default: holds every view");
     command
         .add_option("--pixel-mm", options.pixelMm,
                     "Pixel size in mm; default: the shortest voxel step")
-        ->check(positive);
+        ->check(positive());
+}
+
+void addLookOptions(CLI::App &command, SceneOptions &options) {
     command.add_option("--preset", options.preset, "A look of the library, or its file")
         ->check(notEmpty());
     command.add_option("--window", options.window, "The field's window LO,HI in value units");
@@ -182,6 +99,9 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         .add_option("--class", options.classes,
                     "NAME=WEIGHT[:#rrggbb]: show the classes named, by weight 0 to 2; repeat it")
         ->allow_extra_args(false);
+}
+
+void addShadingOptions(CLI::App &command, SceneOptions &options) {
     command
         .add_option("--depth-cue", options.depthCue,
                     "none, linear:S, sine:S (S 0 to 1), or curve:c0,c1,.. from far to near, "
@@ -199,17 +119,20 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->check(CLI::IsMember({"viewer", "patient"}));
     command.add_option("--ambient", options.ambient, "The ambient light, 0 to 2, default 1")
         ->check(CLI::Range(0.0, shading::largestAmbient));
+}
+
+void addQualityOptions(CLI::App &command, SceneOptions &options) {
     command.add_option("--reconstruction", options.reconstruction, "What lies between the samples")
-        ->check(CLI::IsMember(names(reconstructions)));
+        ->check(CLI::IsMember(namesOf(reconstructions)));
     command
         .add_option("--roll-off", options.rollOff,
                     "Share of the band that is rolled off, default 0.05")
         ->check(CLI::Range(0.0, 1.0));
     CLI::Option *quality =
         command.add_option("--quality", options.quality, "Named tolerance, default standard")
-            ->check(CLI::IsMember(names(scene::namedTolerances)));
+            ->check(CLI::IsMember(namesOf(scene::namedTolerances)));
     command.add_option("--tolerance", options.tolerance, "Largest relative L2 error")
-        ->check(positive)
+        ->check(positive())
         ->excludes(quality);
     command.add_option("--kernel", options.kernel,
                        "Interpolation kernel; default: the cheapest that keeps the tolerance");
@@ -218,26 +141,27 @@ void addSceneOptions(CLI::App &command, SceneOptions &options) {
         ->check(CLI::Range(1.0, 4.0));
     command.add_option("--storage", options.storage, "Cells of the spectrum, default as needed")
         ->check(CLI::IsMember({"f16", "f32"}));
-    command.add_option("--crop", options.crop,
-                       "The part that is shown: low,high of columns, rows and slices, in shares of "
-                       "the volume from 0 to 1");
-    command.add_option("--scene", options.scene, "Start from a scene saved as JSON");
 }
 
-scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
-                      const volume::Volume &volume) {
-    const volume::Lattice &lattice = volume.lattice();
-    const auto given = [&](const char *name) { return command.count(name) > 0; };
+bool isGiven(const CLI::App &command, const char *option) {
+    return command.count(option) > 0;
+}
+
+// The scene file's, or the default one.
+scene::Scene startingScene(const SceneOptions &o, const CLI::App &command,
+                           const volume::Lattice &lattice) {
+    if (isGiven(command, "--scene"))
+        return readScene(o.scene);
     scene::Scene scene;
-    if (given("--scene")) {
-        scene = readScene(o.scene);
-    } else {
-        // A large volume may have no default image; naming a size or a pixel gives it one.
-        if (!given("--size") && !given("--pixel-mm"))
-            scene.camera = scene::defaultCamera(lattice);
-        scene.camera.orientation = scene::viewOrientation(scene::StandardView::front);
-        scene.camera.pixelMm = lattice.shortestStepMm();
-    }
+    // A large volume may have no default image; naming a size or a pixel gives it one.
+    if (!isGiven(command, "--size") && !isGiven(command, "--pixel-mm"))
+        scene.camera = scene::defaultCamera(lattice);
+    scene.camera.orientation = scene::viewOrientation(scene::StandardView::front);
+    scene.camera.pixelMm = lattice.shortestStepMm();
+    return scene;
+}
+
+void requireFinite(const SceneOptions &o) {
     for (const auto &[name, value] : {std::pair{"--azimuth", o.azimuthDeg},
                                       {"--elevation", o.elevationDeg},
                                       {"--roll", o.rollDeg},
@@ -245,11 +169,10 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
         if (!std::isfinite(value))
             throw Error(ErrorCode::usage,
                         because::inWords(std::string(name) + ": the number must be finite"));
-    if (given("--orientation")) {
-        if (given("--view") || given("--azimuth") || given("--elevation") || given("--roll"))
-            throw Error(ErrorCode::usage,
-                        because::inWords(
-                            "--orientation excludes --view, --azimuth, --elevation and --roll"));
+}
+
+void setOrientation(scene::Camera &camera, const SceneOptions &o, const CLI::App &command) {
+    if (isGiven(command, "--orientation")) {
         const auto q = parseNumbers("--orientation", o.orientation, ',', 4);
         // Scaled first, so that huge and tiny quaternions can be normalised too.
         const double largest =
@@ -258,83 +181,127 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
         if (!(glm::length(rotation) > 0.0))
             throw Error(ErrorCode::usage,
                         because::inWords("--orientation: the quaternion must not be zero"));
-        scene.camera.orientation = glm::normalize(rotation);
-    } else if (o.scene.empty() || given("--view") || given("--azimuth") || given("--elevation") ||
-               given("--roll")) {
-        scene.camera.orientation =
+        camera.orientation = glm::normalize(rotation);
+    } else if (o.scene.empty() || isGiven(command, "--view") || isGiven(command, "--azimuth") ||
+               isGiven(command, "--elevation") || isGiven(command, "--roll")) {
+        camera.orientation =
             scene::viewOrientation(o.view.empty() ? scene::StandardView::front : views.at(o.view),
                                    {o.azimuthDeg, o.elevationDeg, o.rollDeg});
     }
-    if (given("--pixel-mm")) {
-        scene.camera.pixelMm = o.pixelMm;
-        if (o.scene.empty() && !given("--size")) { // the whole volume at that pixel
-            const double side = 2.0 * lattice.radiusMm() / o.pixelMm;
-            if (!(o.pixelMm > 0.0) || side > scene::largestImageSize)
-                throw Error(
-                    ErrorCode::usage,
-                    because::inWords(fmt::format(
-                        "--pixel-mm: an image of the whole volume would have {:.0f} pixels a side",
-                        side)));
-            const int n = int(std::ceil(side - 1e-6));
-            scene.camera.width = scene.camera.height = std::max(2, n + n % 2);
-        }
-    }
-    if (given("--size")) {
-        if (o.size.find_first_not_of("0123456789x") != std::string::npos)
-            throw Error(ErrorCode::usage,
-                        because::inWords("--size: '" + o.size +
-                                         "' is not whole numbers with 'x' between them"));
-        const auto n = parseNumbers("--size", o.size, 'x', 2);
-        if (n[0] != std::round(n[0]) || n[1] != std::round(n[1]) || std::min(n[0], n[1]) < 1 ||
-            std::max(n[0], n[1]) > scene::largestImageSize)
-            throw Error(ErrorCode::usage, because::inWords(fmt::format(
-                                              "--size: '{}' is not WIDTHxHEIGHT of 1 to {} pixels",
-                                              o.size, scene::largestImageSize)));
-        scene.camera.width = int(n[0]);
-        scene.camera.height = int(n[1]);
-    }
-    const auto preset = presetFor(o);
+}
+
+void setPixel(scene::Camera &camera, const SceneOptions &o, const CLI::App &command,
+              const volume::Lattice &lattice) {
+    if (!isGiven(command, "--pixel-mm"))
+        return;
+    camera.pixelMm = o.pixelMm;
+    if (!o.scene.empty() || isGiven(command, "--size"))
+        return;
+    // The whole volume at that pixel.
+    const double side = 2.0 * lattice.radiusMm() / o.pixelMm;
+    if (!(o.pixelMm > 0.0) || side > scene::largestImageSize)
+        throw Error(
+            ErrorCode::usage,
+            because::inWords(fmt::format(
+                "--pixel-mm: an image of the whole volume would have {:.0f} pixels a side", side)));
+    const int n = int(std::ceil(side - 1e-6));
+    camera.width = camera.height = std::max(2, n + n % 2);
+}
+
+void setSize(scene::Camera &camera, const SceneOptions &o, const CLI::App &command) {
+    if (!isGiven(command, "--size"))
+        return;
+    if (o.size.find_first_not_of("0123456789x") != std::string::npos)
+        throw Error(ErrorCode::usage,
+                    because::inWords("--size: '" + o.size +
+                                     "' is not whole numbers with 'x' between them"));
+    const auto n = parseNumbers("--size", o.size, 'x', 2);
+    if (n[0] != std::round(n[0]) || n[1] != std::round(n[1]) || std::min(n[0], n[1]) < 1 ||
+        std::max(n[0], n[1]) > scene::largestImageSize)
+        throw Error(ErrorCode::usage, because::inWords(fmt::format(
+                                          "--size: '{}' is not WIDTHxHEIGHT of 1 to {} pixels",
+                                          o.size, scene::largestImageSize)));
+    camera.width = int(n[0]);
+    camera.height = int(n[1]);
+}
+
+void setLook(scene::Scene &scene, const SceneOptions &o, const CLI::App &command,
+             const std::optional<presets::Preset> &preset, const volume::Volume &volume) {
     if (preset)
         scene.fieldWindow = preset->window;
-    if (given("--window"))
+    if (isGiven(command, "--window"))
         scene.fieldWindow = parseWindow(o.window);
     if (preset)
         scene.look = presets::lookFor(
             *preset, scene.fieldWindow.value_or(classify::defaultFieldWindow(volume)));
-    change(scene.look, o);
-    scene.shading = shadingFor(o, command, scene.shading);
-    if (given("--light-frame")) {
-        if (o.lights.empty())
-            throw Error(ErrorCode::usage,
-                        because::inWords("--light-frame says how a --light is meant"));
-        // Directions are given as seen in the scene's view.
-        const glm::dmat3 axes = scene.camera.axes();
-        for (shading::Light &light : scene.shading.lights)
-            if (o.lightFrame == "patient") {
-                light.direction = axes * glm::normalize(light.direction);
-                light.frame = shading::LightFrame::patient;
-            }
-    }
-    if (given("--crop")) {
-        const auto n = parseNumbers("--crop", o.crop, ',', 6);
-        scene.crop = {{n[0], n[2], n[4]}, {n[1], n[3], n[5]}};
-    }
-    if (given("--reconstruction"))
+    changeLook(scene.look, o);
+}
+
+void setShading(scene::Scene &scene, const SceneOptions &o, const CLI::App &command,
+                const std::optional<presets::Preset> &preset) {
+    scene.shading = shadingFor(o, command, preset, scene.shading);
+    if (!isGiven(command, "--light-frame"))
+        return;
+    if (o.lights.empty())
+        throw Error(ErrorCode::usage,
+                    because::inWords("--light-frame says how a --light is meant"));
+    // Directions are given as seen in the scene's view.
+    const glm::dmat3 axes = scene.camera.axes();
+    for (shading::Light &light : scene.shading.lights)
+        if (o.lightFrame == "patient") {
+            light.direction = axes * glm::normalize(light.direction);
+            light.frame = shading::LightFrame::patient;
+        }
+}
+
+void setQuality(scene::Scene &scene, const SceneOptions &o, const CLI::App &command) {
+    if (isGiven(command, "--reconstruction"))
         scene.image.reconstruction = reconstructions.at(o.reconstruction);
-    if (given("--roll-off"))
+    if (isGiven(command, "--roll-off"))
         scene.image.rollOff = o.rollOff;
-    if (given("--quality"))
+    if (isGiven(command, "--quality"))
         for (const auto &[name, tolerance] : scene::namedTolerances)
             if (o.quality == name)
                 scene.tolerance = tolerance;
-    if (given("--tolerance"))
+    if (isGiven(command, "--tolerance"))
         scene.tolerance = o.tolerance;
-    if (given("--kernel"))
+    if (isGiven(command, "--kernel"))
         scene.interpolation.kernel = fourier::kernelFromName(o.kernel);
-    if (given("--padding"))
+    if (isGiven(command, "--padding"))
         scene.interpolation.padding = o.padding;
-    if (given("--storage"))
+    if (isGiven(command, "--storage"))
         scene.interpolation.storage = fourier::storageFromName(o.storage);
+}
+
+} // namespace
+
+void addSceneOptions(CLI::App &command, SceneOptions &options) {
+    addCameraOptions(command, options);
+    addLookOptions(command, options);
+    addShadingOptions(command, options);
+    addQualityOptions(command, options);
+    command.add_option("--crop", options.crop,
+                       "The part that is shown: low,high of columns, rows and slices, in shares of "
+                       "the volume from 0 to 1");
+    command.add_option("--scene", options.scene, "Start from a scene saved as JSON")
+        ->check(notEmpty());
+}
+
+scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
+                      const std::optional<presets::Preset> &preset, const volume::Volume &volume) {
+    const volume::Lattice &lattice = volume.lattice();
+    scene::Scene scene = startingScene(o, command, lattice);
+    requireFinite(o);
+    setOrientation(scene.camera, o, command);
+    setPixel(scene.camera, o, command, lattice);
+    setSize(scene.camera, o, command);
+    setLook(scene, o, command, preset, volume);
+    setShading(scene, o, command, preset);
+    if (isGiven(command, "--crop")) {
+        const auto n = parseNumbers("--crop", o.crop, ',', 6);
+        scene.crop = {{n[0], n[2], n[4]}, {n[1], n[3], n[5]}};
+    }
+    setQuality(scene, o, command);
     scene::validate(scene);
     return scene;
 }

@@ -26,25 +26,9 @@ struct SceneOptions {
 /// Adds them to a command; `options` must outlive it.
 void addSceneOptions(CLI::App &command, SceneOptions &options);
 
-/// NAME of the standard classes. *Throws* Error{usage} with the names there are.
-const classify::TissueClass &classNamed(const std::string &name);
-
-/// The preset that --preset names, a file's or one of the library. *Throws* Error{usage},
-/// Error{unusable}.
-std::optional<presets::Preset> presetFor(const SceneOptions &options);
-
-/// The look that --preset, --bezier and --class ask for, in the preset's own units; what is not
-/// given is plain. *Throws* as presetFor.
-classify::Look lookFor(const SceneOptions &options);
-
-/// The cue and lights that --preset, --depth-cue, --light and --ambient ask for, over `former`
-/// where they are not given. *Throws* as presetFor.
-shading::Shading shadingFor(const SceneOptions &options, const CLI::App &command,
-                            const shading::Shading &former = {});
-
 /// The scene they make of a volume: the scene file's, or the default one, changed by the preset and
 /// then by the options that were given. *Throws* Error{usage}, Error{unusable} for a file.
 scene::Scene sceneFor(const SceneOptions &options, const CLI::App &command,
-                      const volume::Volume &volume);
+                      const std::optional<presets::Preset> &preset, const volume::Volume &volume);
 
 } // namespace pellucid::cli

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/json_text.h"
+#include "app/cli/look_options.h"
 #include "app/cli/scene_fields.h"
 #include "app/cli/terminal.h"
 #include "core/files/image_files.h"
@@ -46,7 +47,8 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
                    const Context &context) {
     const Input input = openInput(inputOptions, {out}, context);
     const volume::Volume &volume = input.loaded.volume;
-    scene::Scene scene = sceneFor(options, command, volume);
+    const auto preset = presetFor(options);
+    scene::Scene scene = sceneFor(options, command, preset, volume);
     scene.shading = {}; // a preset or a scene file may have brought one
     const task::Progress progress(context.stop);
     const classify::FieldWindow window = windowFor(scene, volume);
@@ -61,7 +63,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
         warnings.push_back(text);
         warn(text);
     };
-    for (const std::string &text : lookWarnings(options, command, scene, volume))
+    for (const std::string &text : lookWarnings(command, preset, scene, volume))
         warnOf(text);
     if (!prepared.viewError) // means of the samples were prepared
         warnOf(prepared.plan.reason.english());

@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/input.h"
+#include "app/cli/look_options.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/spectrum_picture.h"
 #include "core/classify/shown_fields.h"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/render/cpu_engine.h"
+#include "core/render/projection_engine.h"
 
 namespace pellucid::accuracy {
 

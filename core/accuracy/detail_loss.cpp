@@ -117,7 +117,7 @@ AxisProjections::Plane AxisProjections::planeAlong(int axis, const classify::Den
     Plane plane = emptyPlane(axis, lattice);
     field.values.visit([&](auto samples) {
         const auto addRow = [&](int j, int k, const auto &add) {
-            const auto *const row = samples.data() + (std::size_t(k) * size.j + j) * size.i;
+            const auto *const row = samples.data() + size.offsetOf(0, j, k);
             for (int i = box.lo.i; i < box.hi.i; ++i)
                 add(i, stepMm * double(row[i]));
         };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/classify/density_field.h"
-#include "core/render/cpu_engine.h"
+#include "core/render/projection_engine.h"
 #include "core/task/progress.h"
 
 namespace pellucid::accuracy {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
 #include <span>
-#include <vector>
 
-#include "core/accuracy/central_rounding.h"
+#include "core/accuracy/coarse_fields.h"
 #include "core/plan/render_plan.h"
-#include "core/render/cpu_engine.h"
+#include "core/render/projection_engine.h"
 
 namespace pellucid::accuracy {
 
@@ -37,40 +33,9 @@ public:
                          const shading::Shading &shading) const;
 
 private:
-    struct Block {
-        glm::dvec3 fromCentreMm{0.0};
-        std::array<float, 6> ghosts{}; ///< amplitudes along each axis, of the periods -1 and 1
-        float inverse = 1.0F;          ///< 1/h^2 of all axes
-    };
-    struct Part { ///< of a field in a block
-        std::uint32_t block = 0;
-        float mass = 0.0F, energy = 0.0F;
-    };
-    /// The weights of a field's mass and energy in a channel.
-    struct Weight {
-        double mass = 0.0, energy = 0.0;
-        bool isGradient = false;
-    };
-    /// Energies of one channel, in the picture's units.
-    struct Energies {
-        double image = 0.0, error = 0.0;
-        bool isWhole = true; ///< nothing of the field lies beside the picture
-    };
-    Energies channelEnergies(const picture::ProjectionImage &picture, int channel,
-                             const scene::Camera &camera, const scene::ImageDefinition &image,
-                             const plan::SliceGrid &grid, std::span<const Weight> weights,
-                             const CentralEnergies &central, const shading::Shading &shading) const;
-
-    volume::Lattice m_lattice;
-    std::array<glm::dvec3, 3> m_periods{}; ///< of the ghosts, mm
-    /// What the moment kernels of a linear cue leave, see plan::AxisError::moment.
-    std::array<double, 3> m_moments{};
-    std::vector<Block> m_blocks;
-    std::vector<std::vector<Part>> m_fields;
-    std::vector<std::shared_ptr<const plan::EnergySpread>> m_spreads;
+    CoarseFields m_fields;
     plan::SliceRoom m_room;
-    double m_kernelEnergy = 1.0, m_rounding = 0.0, m_bound = 0.0, m_depthRadiusMm = 1.0,
-           m_blockMm = 1.0;
+    double m_bound;
 };
 
 } // namespace pellucid::accuracy

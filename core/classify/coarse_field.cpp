@@ -50,8 +50,7 @@ volume::Volume blockMeans(const volume::Volume &volume, int side, Beyond beyond)
             for (int k = std::max(0, start[2] + ck * block[2]);
                  k < std::min(fine.size().k, start[2] + (ck + 1) * block[2]); ++k)
                 for (int j = 0; j < fine.size().j; ++j) {
-                    const auto *row =
-                        samples.data() + (std::size_t(k) * fine.size().j + j) * fine.size().i;
+                    const auto *row = samples.data() + fine.size().offsetOf(0, j, k);
                     double *out = sums.data() + std::size_t(std::clamp((j - start[1]) / block[1], 0,
                                                                        count[1] - 1)) *
                                                     count[0];

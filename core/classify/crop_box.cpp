@@ -51,7 +51,7 @@ DensityField cropped(DensityField field, const CropBox &box) {
         field.values.visit([&](const auto &from) {
             tbb::parallel_for(in.lo.k, in.hi.k, [&](int k) {
                 for (int j = in.lo.j; j < in.hi.j; ++j) {
-                    const std::size_t row = (std::size_t(k) * size.j + j) * size.i;
+                    const std::size_t row = size.offsetOf(0, j, k);
                     std::copy(from.begin() + std::ptrdiff_t(row + in.lo.i),
                               from.begin() + std::ptrdiff_t(row + in.hi.i),
                               samples.begin() + std::ptrdiff_t(row + in.lo.i));

@@ -42,7 +42,7 @@ VoxelBox mapSlices(std::span<const T> in, std::vector<float> &out, volume::GridS
             for (int k = range.begin(); k != range.end(); ++k) {
                 progress.check();
                 for (int j = 0; j < size.j; ++j) {
-                    const std::size_t row = (std::size_t(k) * size.j + j) * size.i;
+                    const std::size_t row = size.offsetOf(0, j, k);
                     int first = size.i, last = -1;
                     for (int i = 0; i < size.i; ++i) {
                         const float f = map(in[row + i]);
@@ -95,8 +95,7 @@ DensityField fieldOf(const volume::Volume &like, std::vector<float> samples) {
         [&](const tbb::blocked_range<int> &range, VoxelBox sum) {
             for (int k = range.begin(); k != range.end(); ++k)
                 for (int j = 0; j < size.j; ++j) {
-                    const float *const row =
-                        samples.data() + (std::size_t(k) * size.j + j) * size.i;
+                    const float *const row = samples.data() + size.offsetOf(0, j, k);
                     const float *const end = row + size.i;
                     const auto isSet = [](float f) { return f != 0.0F; };
                     const float *const first = std::find_if(row, end, isSet);

@@ -3,79 +3,61 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/classify/json_values_nlohmann.h"
-#include "core/task/error.h"
+#include "core/files/json_value_nlohmann.h"
 
 namespace pellucid::classify {
 
 namespace {
 
 namespace because = task::because;
+using files::JsonValue;
 using nlohmann::json;
-using task::Error;
 
-// What checks a value says, said of where it stands.
-template <class F> auto at(const std::string &where, const F &check) {
-    try {
-        return check();
-    } catch (const Error &error) {
-        refuseJson(where, error.reason());
-    }
-}
-
-TransferFunction functionFromJson(const json &in, const std::string &where) {
-    const TransferFunction function{jsonNumbers(in, where)};
-    at(where, [&] { validate(function); });
+TransferFunction functionFrom(const JsonValue &in) {
+    const TransferFunction function{in.numbers()};
+    in.checked([&] { validate(function); });
     return function;
 }
 
-Step stepFromJson(const json &in, const std::string &where) {
-    if (!in.is_object())
-        refuseJson(where, because::mustHaveAKind);
-    if (!in.contains("kind"))
-        refuseJson(where, because::hasNo("kind"));
-    Step step{jsonText(in["kind"], where + "/kind"), {}};
-    for (const auto &[key, value] : in.items())
-        if (key != "kind") {
-            const std::string &name = key; // clang 14 captures no structured bindings
-            at(where, [&] { static_cast<void>(step.at(name)); }); // before the value is looked at
-            step.parameters[name] = jsonNumber(value, where + "/" + name);
-        }
-    at(where, [&] { validate(step); });
+Step stepFrom(const JsonValue &in) {
+    if (!in.isObject())
+        in.refuse(because::mustHaveAKind);
+    const std::string kind = in.at("kind").text();
+    Step step{in.checked([&] { return stepKindNamed(kind); }), {}};
+    for (const auto &member : in.members()) {
+        const std::string &name = member.first;
+        if (name == "kind")
+            continue;
+        in.checked([&] { step.at(name); }); // before the value is looked at
+        step.parameters[name] = member.second.number();
+    }
+    in.checked([&] { validate(step); });
     return step;
 }
 
-TissueClass classFromJson(const json &in, const std::string &where) {
-    if (!in.is_object())
-        refuseJson(where, because::mustHaveANameAndARange);
-    for (const char *key : {"name", "range"})
-        if (!in.contains(key))
-            refuseJson(where, because::hasNo(key));
+TissueClass classFrom(const JsonValue &in) {
+    if (!in.isObject())
+        in.refuse(because::mustHaveANameAndARange);
+    const JsonValue name = in.at("name"), range = in.at("range");
     TissueClass tissue;
-    tissue.name = jsonText(in["name"], where + "/name");
-    const auto range = jsonNumbers(in["range"], where + "/range");
-    if (range.size() != 2)
-        refuseJson(where + "/range", because::mustBeTwoNumbers);
-    tissue.low = range[0];
-    tissue.high = range[1];
-    if (in.contains("softness"))
-        tissue.softness = jsonNumber(in["softness"], where + "/softness");
-    if (in.contains("weight"))
-        tissue.weight = jsonNumber(in["weight"], where + "/weight");
-    if (in.contains("color"))
-        tissue.color = at(where + "/color",
-                          [&] { return colorFromText(jsonText(in["color"], where + "/color")); });
-    if (in.contains("transfer_function"))
-        tissue.transferFunction =
-            functionFromJson(in["transfer_function"], where + "/transfer_function");
-    if (in.contains("steps")) {
-        if (!in["steps"].is_array())
-            refuseJson(where + "/steps", because::mustBeAList);
-        for (std::size_t n = 0; n < in["steps"].size(); ++n)
-            tissue.steps.push_back(
-                stepFromJson(in["steps"][n], where + "/steps/" + std::to_string(n)));
+    tissue.name = name.text();
+    const auto [low, high] = range.twoNumbers();
+    tissue.low = low;
+    tissue.high = high;
+    if (const JsonValue softness = in["softness"])
+        tissue.softness = softness.number();
+    if (const JsonValue weight = in["weight"])
+        tissue.weight = weight.number();
+    if (const JsonValue color = in["color"]) {
+        const std::string text = color.text();
+        tissue.color = color.checked([&] { return colorFromText(text); });
     }
-    at(where, [&] { validate(tissue); });
+    if (const JsonValue function = in["transfer_function"])
+        tissue.transferFunction = functionFrom(function);
+    if (const JsonValue steps = in["steps"])
+        for (const JsonValue &step : steps.elements())
+            tissue.steps.push_back(stepFrom(step));
+    in.checked([&] { validate(tissue); });
     return tissue;
 }
 
@@ -88,7 +70,7 @@ json classJson(const TissueClass &tissue) {
     if (tissue.transferFunction)
         out["transfer_function"] = tissue.transferFunction->weights;
     for (const Step &step : tissue.steps) {
-        json one = {{"kind", step.kind}};
+        json one = {{"kind", describe(step.kind).name}};
         for (const auto &[name, value] : step.parameters)
             one[name] = value;
         out["steps"].push_back(one);
@@ -109,20 +91,18 @@ std::string toJson(const Look &look) {
 }
 
 Look lookFromJson(const std::string &source) {
-    const json in = json::parse(source, nullptr, false);
-    if (!in.is_object())
-        refuseJson("", because::mustBeAnObject);
+    const json parsed = json::parse(source, nullptr, false);
+    const JsonValue in(parsed);
+    if (!in.isObject())
+        in.refuse(because::mustBeAnObject);
     Look look;
-    if (in.contains("transfer_function"))
-        look.transferFunction = functionFromJson(in["transfer_function"], "/transfer_function");
-    if (in.contains("classes")) {
-        if (!in["classes"].is_array())
-            refuseJson("/classes", because::mustBeAList);
-        if (in["classes"].size() > mostClasses)
-            refuseJson("/classes", because::holdsTooManyClasses(mostClasses));
-        for (std::size_t n = 0; n < in["classes"].size(); ++n)
-            look.classes.push_back(
-                classFromJson(in["classes"][n], "/classes/" + std::to_string(n)));
+    if (const JsonValue function = in["transfer_function"])
+        look.transferFunction = functionFrom(function);
+    if (const JsonValue classes = in["classes"]) {
+        if (classes.size() > mostClasses)
+            classes.refuse(because::holdsTooManyClasses(mostClasses));
+        for (const JsonValue &tissue : classes.elements())
+            look.classes.push_back(classFrom(tissue));
     }
     return look;
 }

@@ -73,12 +73,13 @@ void validate(const TissueClass &tissue) {
         refuse(error.reason());
     }
     const auto isRegion = [](const Step &step) {
-        return stepKind(step.kind).effect == StepEffect::region;
+        return describe(step.kind).effect == StepEffect::region;
     };
     const auto firstRegion = std::find_if(tissue.steps.begin(), tissue.steps.end(), isRegion);
     const auto late = std::find_if_not(firstRegion, tissue.steps.end(), isRegion);
     if (late != tissue.steps.end())
-        refuse(because::stepMustComeBefore(late->kind, firstRegion->kind));
+        refuse(because::stepMustComeBefore(describe(late->kind).name,
+                                           describe(firstRegion->kind).name));
 }
 
 const std::vector<TissueClass> &standardClasses() {
@@ -92,8 +93,8 @@ const std::vector<TissueClass> &standardClasses() {
         {"contrast", 150, 500, 60, 1.0, {1.0, 0.35, 0.3}},
         {"bone", 250, 2500, 150, 1.0, {1.0, 0.95, 0.85}},
         {"metal", 2500, 32767, 300, 1.0, {0.7, 0.9, 1.0}},
-        {"body", -900, 32767, 50, 1.0, {0.85, 0.85, 0.85}, {}, {{"body", {}}}},
-        {"edges", -600, 32767, 100, 1.0, {0.9, 0.95, 1.0}, {}, {{"edges", {}}}}};
+        {"body", -900, 32767, 50, 1.0, {0.85, 0.85, 0.85}, {}, {{StepKind::body, {}}}},
+        {"edges", -600, 32767, 100, 1.0, {0.9, 0.95, 1.0}, {}, {{StepKind::edges, {}}}}};
     return classes;
 }
 

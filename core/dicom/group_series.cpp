@@ -2,7 +2,6 @@
 #include "core/dicom/group_series.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -13,12 +12,16 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/dicom/split_repeats.h"
+
 namespace pellucid::dicom {
 
 namespace {
 
 namespace because = task::because;
 using Frames = std::vector<PlacedFrame>;
+// The volumes of each stack.
+using Stacks = std::vector<std::vector<VolumeEntry>>;
 
 bool sameAxis(const glm::dvec3 &a, const glm::dvec3 &b) {
     return glm::distance(a, b) <= largestJitter;
@@ -41,17 +44,9 @@ bool sameBlock(const PlacedFrame &a, const PlacedFrame &b) {
            sameAxis(*x.columnAxis, *y.columnAxis);
 }
 
-bool samePlace(const PlacedFrame &a, const PlacedFrame &b) {
-    return std::abs(a.depthMm - b.depthMm) < 0.01;
-}
-
 std::size_t digestOf(const PlacedFrame &frame) {
     return dicom::digestOf(frame.sopInstanceUid, frame.frameOfReferenceUid, frame.modality,
                            frame.header);
-}
-
-bool placesRepeat(const Frames &sorted) {
-    return std::adjacent_find(sorted.begin(), sorted.end(), samePlace) != sorted.end();
 }
 
 // One instance twice, as when a CD is copied into a folder that has it already. Some tools write
@@ -79,107 +74,6 @@ void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
     for (PlacedFrame &frame : frames)
         if (!frame.sopInstanceUid.empty())
             frame.sharesUid = seen[{frame.sopInstanceUid, frame.reference.frame}].size() > 1;
-}
-
-struct Part {
-    std::vector<task::Reason> label;
-    Frames frames;
-};
-
-// What can tell volumes at the same places apart.
-struct Attribute {
-    task::Because<1> label;
-    std::function<std::string(const PlacedFrame &)> valueOf;
-};
-
-// Those of the header, as `FrameHeader::dimensions` names them.
-constexpr std::array<std::pair<const char *, task::Because<1>>, 8> dimensions{{
-    {"temporal position", because::temporalPosition},
-    {"echo", because::echo},
-    {"b-value", because::bValue},
-    {"trigger time", because::triggerTime},
-    {"stack", because::stack},
-    {"acquisition", because::acquisition},
-    {"acquisition time", because::acquisitionTime},
-    {"content time", because::contentTime},
-}};
-
-// By a value that every frame has, in the order in which the values first come.
-std::vector<Part> splitBy(const Frames &sorted, const Attribute &attribute,
-                          const task::Progress &progress) {
-    std::vector<Part> parts;
-    std::map<std::string, std::size_t> known;
-    for (const PlacedFrame &frame : sorted) {
-        progress.check();
-        const auto [it, isNew] = known.try_emplace(attribute.valueOf(frame), parts.size());
-        if (isNew)
-            parts.push_back({{attribute.label(it->first)}, {}});
-        parts[it->second].frames.push_back(frame);
-    }
-    return parts;
-}
-
-// A split is right if every part has each place exactly once.
-bool separates(const std::vector<Part> &parts, std::size_t places) {
-    return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
-               return part.frames.size() == places && !placesRepeat(part.frames);
-           });
-}
-
-// Good enough where slices are missing: no place twice, and no part a splinter.
-bool separatesUnevenly(const std::vector<Part> &parts, std::size_t places) {
-    return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
-               return 2 * part.frames.size() > places && !placesRepeat(part.frames);
-           });
-}
-
-// Nothing in the headers tells them apart: the first image of every place, then the second, ...
-std::vector<Part> splitByNumber(const Frames &sorted, const task::Progress &progress) {
-    std::vector<Part> parts;
-    for (auto place = sorted.begin(); place != sorted.end();) {
-        progress.check();
-        const auto last = std::adjacent_find(
-            place, sorted.end(), [](const auto &a, const auto &b) { return !samePlace(a, b); });
-        Frames here(place, last == sorted.end() ? last : last + 1);
-        place += std::ptrdiff_t(here.size());
-        std::stable_sort(here.begin(), here.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
-            return a.instanceNumber < b.instanceNumber;
-        });
-        for (std::size_t n = 0; n < here.size(); ++n) {
-            if (n == parts.size())
-                parts.push_back({{because::set(n + 1)}, {}});
-            parts[n].frames.push_back(here[n]);
-        }
-    }
-    for (Part &part : parts)
-        sortByDepth(part.frames);
-    return parts;
-}
-
-std::vector<Part> splitRepeats(const Frames &sorted, const task::Progress &progress) {
-    std::size_t places = 1;
-    for (std::size_t n = 1; n < sorted.size(); ++n)
-        places += samePlace(sorted[n - 1], sorted[n]) ? 0 : 1;
-    std::vector<Attribute> attributes;
-    for (const auto &[name, label] : dimensions)
-        attributes.push_back({label, [name = name](const PlacedFrame &frame) {
-                                  const auto it = frame.header.dimensions.find(name);
-                                  return it == frame.header.dimensions.end() ? std::string()
-                                                                             : it->second;
-                              }});
-    attributes.push_back({because::type, [](const PlacedFrame &f) { return f.header.imageType; }});
-    attributes.push_back({because::fileNamed, [](const PlacedFrame &f) {
-                              return f.reference.path.filename().string();
-                          }});
-    std::vector<Part> uneven;
-    for (const Attribute &attribute : attributes) {
-        std::vector<Part> parts = splitBy(sorted, attribute, progress);
-        if (separates(parts, places))
-            return parts;
-        if (uneven.empty() && separatesUnevenly(parts, places))
-            uneven = std::move(parts);
-    }
-    return !uneven.empty() ? uneven : splitByNumber(sorted, progress);
 }
 
 VolumeEntry entryFrom(const Part &part) {
@@ -256,43 +150,48 @@ std::vector<Frames> spacesOf(Frames block, std::vector<task::Reason> &warnings) 
     return {std::move(block)};
 }
 
+VolumeEntry volumeOf(const Part &part) {
+    VolumeEntry entry = entryFrom(part);
+    StackResult stack = stackGeometry(part.frames);
+    if (stack.refusal)
+        makeImages(entry, part.frames, *stack.refusal);
+    else
+        entry.geometry = std::move(stack.geometry);
+    entry.notes.filled = std::move(stack.filled);
+    entry.notes.warnings.insert(entry.notes.warnings.end(), stack.warnings.begin(),
+                                stack.warnings.end());
+    return entry;
+}
+
+// The frames [first, end) of a part, between two holes.
+VolumeEntry runOf(const Part &part, std::size_t first, std::size_t end) {
+    const bool isOne = end - first == 1;
+    Part run{
+        part.label,
+        {part.frames.begin() + std::ptrdiff_t(first), part.frames.begin() + std::ptrdiff_t(end)}};
+    run.label.push_back(isOne ? because::slice(end) : because::slicesTo(first + 1, end));
+    VolumeEntry entry = volumeOf(run);
+    const std::size_t next = end < part.frames.size() ? end : first;
+    const std::size_t all = part.frames.size();
+    const PlacedFrame &before = part.frames[next - 1], &behind = part.frames[next];
+    const std::string gap = fmt::format("{:.1f}", behind.depthMm - before.depthMm);
+    const std::string a = before.reference.path.filename().string(),
+                      b = behind.reference.path.filename().string();
+    entry.notes.warnings.push_back(isOne
+                                       ? because::gapAroundSlice(end, all, gap, a, b)
+                                       : because::gapAroundSlices(first + 1, end, all, gap, a, b));
+    return entry;
+}
+
 // The stack of a part, or, where slices are missing in it, the runs between the holes and the whole
 // with its holes filled.
 std::vector<VolumeEntry> volumesOf(const Part &part) {
-    const auto volumeOf = [](const Part &of) {
-        VolumeEntry entry = entryFrom(of);
-        StackResult stack = stackGeometry(of.frames);
-        if (stack.refusal)
-            makeImages(entry, of.frames, *stack.refusal);
-        else
-            entry.geometry = std::move(stack.geometry);
-        entry.notes.filled = std::move(stack.filled);
-        entry.notes.warnings.insert(entry.notes.warnings.end(), stack.warnings.begin(),
-                                    stack.warnings.end());
-        return entry;
-    };
     const auto runs = runsOf(part.frames);
     if (runs.size() == 1)
         return {volumeOf(part)};
     std::vector<VolumeEntry> volumes;
-    for (const auto &[first, end] : runs) {
-        const bool isOne = end - first == 1;
-        Part run{part.label,
-                 {part.frames.begin() + std::ptrdiff_t(first),
-                  part.frames.begin() + std::ptrdiff_t(end)}};
-        run.label.push_back(isOne ? because::slice(end) : because::slicesTo(first + 1, end));
-        VolumeEntry entry = volumeOf(run);
-        const std::size_t next = end < part.frames.size() ? end : first;
-        const std::size_t all = part.frames.size();
-        const PlacedFrame &before = part.frames[next - 1], &behind = part.frames[next];
-        const std::string gap = fmt::format("{:.1f}", behind.depthMm - before.depthMm);
-        const std::string a = before.reference.path.filename().string(),
-                          b = behind.reference.path.filename().string();
-        entry.notes.warnings.push_back(
-            isOne ? because::gapAroundSlice(end, all, gap, a, b)
-                  : because::gapAroundSlices(first + 1, end, all, gap, a, b));
-        volumes.push_back(std::move(entry));
-    }
+    for (const auto &[first, end] : runs)
+        volumes.push_back(runOf(part, first, end));
     // More that is made up than was scanned helps nobody.
     VolumeEntry whole = volumeOf(part);
     if (!whole.placed || whole.geometry.lattice.size().k > 2 * int(part.frames.size()))
@@ -323,7 +222,7 @@ Direction directionOf(const VolumeEntry &entry) {
 
 // Stacks of several directions, spaces or kinds of values, as the three of a localizer, say which
 // they are; phases of one stack say the same.
-void nameStacks(std::vector<std::vector<VolumeEntry>> &stacks) {
+void nameStacks(Stacks &stacks) {
     if (stacks.size() < 2)
         return;
     std::map<task::Reason::Id, int> count, number;
@@ -349,60 +248,8 @@ std::optional<task::Reason> missingGeometry(const FrameHeader &h) {
     return std::nullopt;
 }
 
-} // namespace
-
-std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
-                     const std::string &modality, const FrameHeader &frame) {
-    std::string all = sopInstanceUid + '\n' + frameOfReferenceUid + '\n' + modality;
-    const auto add = [&](const auto &values) {
-        all += values ? '+' : '-';
-        if (values)
-            all.append(reinterpret_cast<const char *>(&*values), sizeof(*values));
-    };
-    add(frame.positionMm);
-    add(frame.rowAxis);
-    add(frame.columnAxis);
-    add(frame.spacingMm);
-    return std::hash<std::string>()(all);
-}
-
-constexpr std::array<std::pair<decoder::Oddity, task::Because<1>>, 5> oddities{{
-    {decoder::mislabelledEncoding, because::implicitSaidExplicit},
-    {decoder::definedLengthPixels, because::pixelsOfDefinedLength},
-    {decoder::missingDelimiter, because::pixelsWithoutEnd},
-    {decoder::otherPrecision, because::moreBitsThanSaid},
-    {decoder::unreadMosaic, because::mosaicsShownFlat},
-}};
-
-std::vector<task::Reason> warningsOfValues(const std::vector<const InstanceHeader *> &files) {
-    std::vector<task::Reason> warnings;
-    const auto count = [&](task::Because<1> what, const auto &has) {
-        if (const auto n = std::count_if(files.begin(), files.end(),
-                                         [&](const InstanceHeader *h) { return has(*h); });
-            n > 0)
-            warnings.push_back(what(n));
-    };
-    count(because::surplusPixels, decoder::hasSurplusPixels);
-    count(because::zeroSlopes, [](const InstanceHeader &h) {
-        return h.modalityTable.empty() &&
-               std::any_of(h.frames.begin(), h.frames.end(),
-                           [](const FrameHeader &f) { return f.rescale.isSlopeZero; });
-    });
-    for (const auto &[oddity, what] : oddities)
-        count(what, [bit = oddity](const InstanceHeader &h) { return (h.oddities & bit) != 0; });
-    return warnings;
-}
-
-bool isOfValues(const task::Reason &warning) {
-    return warning.is(because::surplusPixels) || warning.is(because::zeroSlopes) ||
-           std::any_of(oddities.begin(), oddities.end(),
-                       [&](const auto &odd) { return warning.is(odd.second); });
-}
-
-std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
-                                     std::vector<Skipped> &skipped,
-                                     const task::Progress &progress) {
-    Frames placed, unplaced;
+Frames framesOf(const std::vector<SeriesFile> &files) {
+    Frames frames;
     for (const SeriesFile &file : files)
         for (int n = 0; n < int(file.header.frames.size()); ++n) {
             // Not as one aggregate: where a copy finds no memory, GCC 12 destroys the members of
@@ -417,13 +264,14 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
             frame.sopInstanceUid = file.header.sopInstanceUid;
             frame.frameOfReferenceUid = file.header.frameOfReferenceUid;
             frame.modality = file.header.modality;
-            (missingGeometry(frame.header) ? unplaced : placed).push_back(std::move(frame));
+            frames.push_back(std::move(frame));
         }
-    dropCopies(placed, skipped);
-    dropCopies(unplaced, skipped);
+    return frames;
+}
 
-    std::vector<std::vector<VolumeEntry>> stacks;
-    for (const Frames &images : blocksOf(placed, sameBlock, progress)) {
+// Adds the stacks of frames whose place is known.
+void addVolumes(const Frames &frames, const task::Progress &progress, Stacks &stacks) {
+    for (const Frames &images : blocksOf(frames, sameBlock, progress)) {
         std::vector<task::Reason> warnings;
         for (Frames &block : spacesOf(images, warnings)) {
             sortByDepth(block);
@@ -447,11 +295,15 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
             }
         }
     }
+}
+
+// Adds the other frames as sets of images.
+void addImages(const Frames &frames, const task::Progress &progress, Stacks &stacks) {
     const auto sameSize = [](const PlacedFrame &a, const PlacedFrame &b) {
         return a.rows == b.rows && a.columns == b.columns &&
                missingGeometry(a.header) == missingGeometry(b.header);
     };
-    for (Frames &block : blocksOf(unplaced, sameSize, progress)) {
+    for (Frames &block : blocksOf(frames, sameSize, progress)) {
         std::stable_sort(block.begin(), block.end(),
                          [](const PlacedFrame &a, const PlacedFrame &b) {
                              return std::tuple(a.instanceNumber, a.reference.frame) <
@@ -461,6 +313,36 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
         makeImages(entry, block, *missingGeometry(block.front().header));
         stacks.emplace_back().push_back(std::move(entry));
     }
+}
+
+} // namespace
+
+std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
+                     const std::string &modality, const FrameHeader &frame) {
+    std::string all = sopInstanceUid + '\n' + frameOfReferenceUid + '\n' + modality;
+    const auto add = [&](const auto &values) {
+        all += values ? '+' : '-';
+        if (values)
+            all.append(reinterpret_cast<const char *>(&*values), sizeof(*values));
+    };
+    add(frame.positionMm);
+    add(frame.rowAxis);
+    add(frame.columnAxis);
+    add(frame.spacingMm);
+    return std::hash<std::string>()(all);
+}
+
+std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
+                                     std::vector<Skipped> &skipped,
+                                     const task::Progress &progress) {
+    Frames placed, unplaced;
+    for (PlacedFrame &frame : framesOf(files))
+        (missingGeometry(frame.header) ? unplaced : placed).push_back(std::move(frame));
+    dropCopies(placed, skipped);
+    dropCopies(unplaced, skipped);
+    Stacks stacks;
+    addVolumes(placed, progress, stacks);
+    addImages(unplaced, progress, stacks);
     nameStacks(stacks);
     std::vector<VolumeEntry> entries;
     for (auto &stack : stacks)

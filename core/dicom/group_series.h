@@ -30,10 +30,4 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
 std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
                      const std::string &modality, const FrameHeader &frame);
 
-/// What is wrong with the values of files, and how many have it: pixels beyond those that the
-/// header describes, a rescale slope of 0.
-std::vector<task::Reason> warningsOfValues(const std::vector<const InstanceHeader *> &files);
-/// Whether a warning is one of those.
-bool isOfValues(const task::Reason &warning);
-
 } // namespace pellucid::dicom

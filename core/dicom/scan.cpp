@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <map>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -16,9 +18,10 @@
 #include "core/decoder/decoder.h"
 #include "core/decoder/read_volume_file.h"
 #include "core/decoder/unpack_archive.h"
+#include "core/dicom/file_list.h"
 #include "core/dicom/group_series.h"
+#include "core/dicom/value_warnings.h"
 #include "core/system/memory.h"
-#include "core/system/text.h"
 #include "core/task/error.h"
 #include "core/volume/volume_file.h"
 
@@ -30,159 +33,6 @@ namespace fs = std::filesystem;
 namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
-
-// The same for every path to a file, as far as the system tells.
-fs::path resolved(const fs::path &path) {
-    std::error_code unknown;
-    const fs::path canonical = fs::weakly_canonical(path, unknown);
-    return unknown ? path : canonical;
-}
-
-// CDs are written in capitals and mounted in lower case: an entry matches whatever its case. Each
-// folder is read once.
-class CaselessFolders {
-public:
-    fs::path childOf(const fs::path &folder, const std::string &name) {
-        std::error_code ignored;
-        if (fs::exists(folder / name, ignored))
-            return folder / name;
-        const auto [names, isNew] = m_names.try_emplace(folder);
-        if (isNew)
-            for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
-                 entry.increment(ignored))
-                names->second.try_emplace(system::lowered(entry->path().filename().string()),
-                                          entry->path());
-        const auto it = names->second.find(system::lowered(name));
-        return it == names->second.end() ? folder / name : it->second;
-    }
-
-private:
-    std::map<fs::path, std::map<std::string, fs::path>> m_names;
-};
-
-class FileList {
-public:
-    explicit FileList(const task::Progress &progress) : m_progress(progress) {}
-
-    void add(const fs::path &path) {
-        if (path.empty())
-            throw Error(ErrorCode::unusable, because::emptyPath);
-        std::error_code error;
-        const fs::file_status status = fs::status(path, error);
-        if (!fs::exists(status))
-            throw Error(ErrorCode::unusable,
-                        error && status.type() != fs::file_type::not_found
-                            ? task::systemReason(error)
-                            : because::doesNotExist,
-                        path);
-        if (fs::is_directory(status))
-            addFolder(path);
-        else if (!fs::is_regular_file(status))
-            throw Error(ErrorCode::unusable, because::isNeitherFileNorFolder, path);
-        else if (decoder::isArchive(path))
-            addArchive(path);
-        else if (const auto directory = directoryAt(path); directory.isDirectory)
-            addDirectory(path, directory);
-        else
-            addFile(path);
-    }
-
-    std::vector<fs::path> found;
-    std::vector<Skipped> skipped;
-    std::vector<Unpacked> unpacked;
-
-private:
-    void addFile(const fs::path &path) {
-        if (m_seen.insert(resolved(path)).second)
-            found.push_back(path);
-    }
-
-    void addArchive(const fs::path &path) {
-        auto folder = std::make_shared<files::SessionFolder>();
-        for (const auto &file : decoder::unpackArchive(decoder::Decoder::ofProgram(), path,
-                                                       folder->path(), m_progress))
-            skipped.push_back({path / fs::path(file.name).relative_path(), file.reason});
-        addFolder(folder->path());
-        unpacked.push_back({std::move(folder), path});
-    }
-
-    // What is no DICOM file at all is said when it is read.
-    decoder::DirectoryFile directoryAt(const fs::path &path) const {
-        return volume::isVolumeFile(path)
-                   ? decoder::DirectoryFile()
-                   : decoder::Decoder::ofProgram().directory(path, m_progress);
-    }
-
-    void addDirectory(const fs::path &path, const decoder::DirectoryFile &directory) {
-        std::error_code unknown;
-        const fs::path folder = fs::weakly_canonical(fs::absolute(path).parent_path(), unknown);
-        CaselessFolders folders;
-        for (const auto &parts : directory.files) {
-            m_progress.check();
-            fs::path listed = path.parent_path();
-            for (const std::string &part : parts) {
-                // A part must be a plain name: an index may not lead out of its own folder.
-                if (part == ".." || part.find_first_of(std::string_view("/\0", 2)) != part.npos)
-                    throw Error(ErrorCode::unusable, because::listsAFileOutside, path);
-                listed = folders.childOf(listed, part);
-            }
-            std::error_code ignored;
-            if (!fs::is_regular_file(listed, ignored)) {
-                skipped.push_back({listed, because::isListedButMissing});
-                continue;
-            }
-            // A link leads elsewhere, too.
-            const fs::path meant =
-                fs::weakly_canonical(fs::absolute(listed), ignored).lexically_relative(folder);
-            if (meant.empty() || *meant.begin() == "..")
-                skipped.push_back({listed, because::listsAFileOutside});
-            else
-                addFile(listed);
-        }
-    }
-
-    void addFolder(const fs::path &folder) {
-        std::error_code error;
-        fs::directory_iterator top(folder, error);
-        if (error)
-            throw Error(ErrorCode::unusable, task::systemReason(error), folder);
-        std::vector<fs::path> pending{folder}, below;
-        while (!pending.empty()) {
-            m_progress.check();
-            const fs::path current = pending.back();
-            pending.pop_back();
-            fs::directory_iterator entries(current, error);
-            if (error) {
-                skipped.push_back({current, task::systemReason(error)});
-                continue;
-            }
-            for (; entries != fs::directory_iterator(); entries.increment(error)) {
-                const fs::directory_entry &entry = *entries;
-                std::error_code ignored;
-                const bool link = entry.is_symlink(ignored);
-                if (entry.is_directory(ignored)) {
-                    if (link)
-                        skipped.push_back({entry.path(), because::linksToAFolder});
-                    else
-                        pending.push_back(entry.path());
-                } else if (entry.is_regular_file(ignored)) {
-                    below.push_back(entry.path());
-                } else {
-                    skipped.push_back(
-                        {entry.path(), link ? because::isABrokenLink : because::isNotARegularFile});
-                }
-            }
-            if (error) // a share or a CD that fails half way
-                skipped.push_back({current, task::systemReason(error)});
-        }
-        std::sort(below.begin(), below.end());
-        for (const fs::path &path : below)
-            addFile(path);
-    }
-
-    const task::Progress &m_progress;
-    std::set<fs::path> m_seen;
-};
 
 // What the frames of a file take while they are sorted into volumes: as they were read, as they are
 // sorted, and as they are referred to; each with its texts and its path.
@@ -301,16 +151,6 @@ void addVolumeFile(Catalogue &catalogue, const fs::path &path,
     catalogue.patients.back().studies[0].series.push_back(std::move(series));
 }
 
-// Files that hold the samples of a header are no images by themselves, and nobody's loss.
-std::set<fs::path>
-samplesOf(const std::vector<std::optional<decoder::VolumeFileHeader>> &volumeFiles) {
-    std::set<fs::path> samples;
-    for (const auto &file : volumeFiles)
-        if (file)
-            samples.insert(resolved(file->samplesFile));
-    return samples;
-}
-
 // What headers take that are held until all of them are grouped. One that is refused takes nothing
 // from the others.
 class HeldMemory {
@@ -334,11 +174,107 @@ task::Reason reasonOf(const Error &error) {
     return error.code() == ErrorCode::outOfMemory ? because::needsTooMuchMemory : error.reason();
 }
 
-} // namespace
+// What was read of a file: one of the headers, or why there is none.
+struct FileContents {
+    InstanceHeader header;
+    std::optional<decoder::VolumeFileHeader> volumeFile;
+    std::optional<task::Reason> reason;
+    bool isHuge = false;
+};
 
-Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress,
-               const ScanOptions &options) {
-    decoder::Decoder::ofProgram().beginOpening();
+// Files that hold the samples of a header are no images by themselves, and nobody's loss.
+std::set<fs::path> samplesOf(const std::vector<FileContents> &contents) {
+    std::set<fs::path> samples;
+    for (const FileContents &file : contents)
+        if (file.volumeFile)
+            samples.insert(resolved(file.volumeFile->samplesFile));
+    return samples;
+}
+
+// Reads the headers of files, many at a time.
+class HeaderReader {
+public:
+    HeaderReader(const ScanOptions &options, const task::Progress &progress)
+        : m_options(options), m_progress(progress),
+          m_held(std::max(system::availableMemoryBytes() / 2, ofUsualSeries)) {}
+
+    std::vector<FileContents> read(const std::vector<fs::path> &paths) {
+        std::vector<FileContents> contents(paths.size());
+        std::atomic<std::size_t> done = 0;
+        std::mutex reporting;
+        tbb::parallel_for(std::size_t(0), paths.size(), [&](std::size_t n) {
+            m_progress.check();
+            readOne(paths[n], contents[n]);
+            const std::lock_guard lock(reporting);
+            m_progress.report(double(++done) / double(paths.size()));
+        });
+        return contents;
+    }
+
+private:
+    // A small file may announce very many frames: all of them are held until they are grouped.
+    static constexpr std::size_t ofUsualSeries = std::size_t(32) << 20;
+
+    void readOne(const fs::path &path, FileContents &contents) {
+        try {
+            if (volume::isVolumeFile(path))
+                contents.volumeFile = decoder::readVolumeFileHeader(path, m_progress);
+            else
+                readInstance(path, contents);
+        } catch (const Error &error) {
+            if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
+                throw;
+            contents.reason = error.code() != ErrorCode::outOfMemory && decoder::isArchive(path)
+                                  ? because::isAnArchive
+                                  : reasonOf(error);
+        } catch (const std::bad_alloc &) {
+            contents.reason = because::needsTooMuchMemory;
+        }
+    }
+
+    void readInstance(const fs::path &path, FileContents &contents) {
+        InstanceHeader header = decoder::Decoder::ofProgram().header(path, m_progress);
+        std::error_code unknown;
+        const auto bytes = fs::file_size(path, unknown);
+        contents.reason = decoder::whyUnusable(header);
+        if (!contents.reason && !m_options.takesHuge && decoder::isHuge(header, bytes)) {
+            contents.reason = hugeReason(header, bytes);
+            contents.isHuge = true;
+        }
+        if (!contents.reason && !m_held.take(bytesToGroup(header)))
+            contents.reason = because::needsTooMuchMemory;
+        if (!contents.reason)
+            contents.header = std::move(header);
+    }
+
+    const ScanOptions &m_options;
+    const task::Progress &m_progress;
+    HeldMemory m_held;
+};
+
+// The files of each series, in the order of their first files. Never two series in one volume: the
+// key is the series with its patient. The study counts only for images that name no series: some
+// writers give each slice a study of its own.
+class SeriesSorter {
+public:
+    void add(SeriesFile file) {
+        const InstanceHeader &h = file.header;
+        const auto [it, isNew] =
+            m_known.try_emplace({h.patientId, h.patientName,
+                                 h.seriesUid.empty() ? h.studyUid : std::string(), h.seriesUid},
+                                m_series.size());
+        if (isNew)
+            m_series.emplace_back();
+        m_series[it->second].push_back(std::move(file));
+    }
+    const std::vector<std::vector<SeriesFile>> &series() const { return m_series; }
+
+private:
+    std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> m_known;
+    std::vector<std::vector<SeriesFile>> m_series;
+};
+
+FileList listFiles(const std::vector<fs::path> &paths, const task::Progress &progress) {
     FileList list(progress);
     for (const fs::path &path : paths) {
         try {
@@ -350,99 +286,65 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
             list.skipped.push_back({path, reasonOf(error)});
         }
     }
+    return list;
+}
 
-    // A small file may announce very many frames: all of them are held until they are grouped.
-    constexpr std::size_t ofUsualSeries = std::size_t(32) << 20;
-    HeldMemory held(std::max(system::availableMemoryBytes() / 2, ofUsualSeries));
-    std::vector<InstanceHeader> headers(list.found.size());
-    std::vector<std::optional<decoder::VolumeFileHeader>> volumeFiles(list.found.size());
-    std::vector<std::optional<task::Reason>> reasons(list.found.size());
-    std::vector<char> huge(list.found.size()); // not bool: each is written by its own thread
-    std::atomic<std::size_t> done = 0;
-    std::mutex reporting;
-    tbb::parallel_for(std::size_t(0), list.found.size(), [&](std::size_t n) {
-        progress.check();
-        try {
-            if (volume::isVolumeFile(list.found[n])) {
-                volumeFiles[n] = decoder::readVolumeFileHeader(list.found[n], progress);
-            } else {
-                InstanceHeader header =
-                    decoder::Decoder::ofProgram().header(list.found[n], progress);
-                std::error_code unknown;
-                const auto bytes = fs::file_size(list.found[n], unknown);
-                reasons[n] = decoder::whyUnusable(header);
-                if (!reasons[n] && !options.takesHuge && decoder::isHuge(header, bytes)) {
-                    reasons[n] = hugeReason(header, bytes);
-                    huge[n] = 1;
-                }
-                if (!reasons[n] && !held.take(bytesToGroup(header)))
-                    reasons[n] = because::needsTooMuchMemory;
-                if (!reasons[n])
-                    headers[n] = std::move(header);
-            }
-        } catch (const Error &error) {
-            if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
-                throw;
-            reasons[n] = error.code() != ErrorCode::outOfMemory && decoder::isArchive(list.found[n])
-                             ? because::isAnArchive
-                             : reasonOf(error);
-        } catch (const std::bad_alloc &) {
-            reasons[n] = because::needsTooMuchMemory;
+// Volume files go into the catalogue as they come, and what is not used too; the others into
+// series.
+SeriesSorter sortFiles(const std::vector<fs::path> &paths, std::vector<FileContents> contents,
+                       Catalogue &catalogue) {
+    SeriesSorter sorter;
+    const std::set<fs::path> samples = samplesOf(contents);
+    for (std::size_t n = 0; n < paths.size(); ++n) {
+        FileContents &file = contents[n];
+        if (file.reason) {
+            if (samples.empty() || !samples.contains(resolved(paths[n])))
+                catalogue.skipped.push_back({paths[n], *file.reason, file.isHuge});
+        } else if (file.volumeFile) {
+            addVolumeFile(catalogue, paths[n], *file.volumeFile);
+        } else {
+            sorter.add({paths[n], std::move(file.header)});
         }
-        const std::lock_guard lock(reporting);
-        progress.report(double(++done) / double(list.found.size()));
-    });
+    }
+    return sorter;
+}
 
+Series seriesOf(const std::vector<SeriesFile> &files, std::vector<Skipped> &skipped,
+                const task::Progress &progress) {
+    const InstanceHeader &h = files.front().header;
+    Series series{h.seriesUid, h.seriesDescription, h.modality,
+                  h.bodyPart,  h.seriesNumber,      groupSeries(files, skipped, progress),
+                  {}};
+    addFiles(series, files);
+    HeadersByPath headers;
+    std::set<std::string> studies;
+    for (const SeriesFile &file : files) {
+        headers[file.path] = &file.header;
+        studies.insert(file.header.studyUid);
+    }
+    for (VolumeEntry &volume : series.volumes) {
+        if (studies.size() > 1)
+            volume.notes.warnings.push_back(because::namesSeveralStudies(studies.size()));
+        describe(volume, headers);
+    }
+    return series;
+}
+
+} // namespace
+
+Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress,
+               const ScanOptions &options) {
+    decoder::Decoder::ofProgram().beginOpening();
+    FileList list = listFiles(paths, progress);
+    std::vector<FileContents> contents = HeaderReader(options, progress).read(list.found);
     Catalogue catalogue;
     catalogue.skipped = std::move(list.skipped);
     catalogue.unpacked = std::move(list.unpacked);
-    // Never two series in one volume: the key is the series with its patient. The study counts only
-    // for images that name no series: some writers give each slice a study of its own.
-    std::map<std::tuple<std::string, std::string, std::string, std::string>,
-             std::vector<SeriesFile>>
-        series;
-    std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
-    const std::set<fs::path> samples = samplesOf(volumeFiles);
-    for (std::size_t n = 0; n < list.found.size(); ++n) {
-        if (reasons[n]) {
-            if (!samples.empty() && samples.contains(resolved(list.found[n])))
-                continue;
-            catalogue.skipped.push_back({list.found[n], *reasons[n], huge[n] != 0});
-            continue;
-        }
-        if (volumeFiles[n]) {
-            addVolumeFile(catalogue, list.found[n], *volumeFiles[n]);
-            continue;
-        }
-        const InstanceHeader &h = headers[n];
-        const auto key = std::tuple(h.patientId, h.patientName,
-                                    h.seriesUid.empty() ? h.studyUid : std::string(), h.seriesUid);
-        auto &files = series[key];
-        if (files.empty())
-            order.push_back(key);
-        files.push_back({list.found[n], std::move(headers[n])});
-    }
+    const SeriesSorter sorter = sortFiles(list.found, std::move(contents), catalogue);
     Studies studies(catalogue);
-    for (const auto &key : order) {
-        const std::vector<SeriesFile> &files = series[key];
-        const InstanceHeader &h = files.front().header;
-        Series entry{
-            h.seriesUid, h.seriesDescription, h.modality,
-            h.bodyPart,  h.seriesNumber,      groupSeries(files, catalogue.skipped, progress),
-            {}};
-        addFiles(entry, files);
-        HeadersByPath headersByPath;
-        for (const SeriesFile &file : files)
-            headersByPath[file.path] = &file.header;
-        std::set<std::string> namedStudies;
-        for (const SeriesFile &file : files)
-            namedStudies.insert(file.header.studyUid);
-        for (VolumeEntry &volume : entry.volumes) {
-            if (namedStudies.size() > 1)
-                volume.notes.warnings.push_back(because::namesSeveralStudies(namedStudies.size()));
-            describe(volume, headersByPath);
-        }
-        studies.of(h).series.push_back(std::move(entry));
+    for (const std::vector<SeriesFile> &files : sorter.series()) {
+        Series series = seriesOf(files, catalogue.skipped, progress);
+        studies.of(files.front().header).series.push_back(std::move(series));
     }
     for (Skipped &skipped : catalogue.skipped)
         skipped.path = catalogue.named(skipped.path);

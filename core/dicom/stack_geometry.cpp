@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
-#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/dicom/slice_spacing.h"
 #include "core/task/error.h"
 
 namespace pellucid::dicom {
@@ -20,12 +19,6 @@ namespace because = task::because;
 
 // A gap wider than this many medians is a hole in the patient, not a change of spacing.
 constexpr double largestGapRatio = 2.5;
-
-// Resampling may not multiply the slices by more than this: such gaps are strays, not a spacing.
-constexpr double mostSlicesPerFrame = 4.0;
-
-// Positions that differ by less are not rounded.
-constexpr double exactMm = 1e-6;
 
 // The mean, exactly the first value where all are the same.
 template <class T, class F> T meanOf(const std::vector<PlacedFrame> &frames, F &&value) {
@@ -77,146 +70,6 @@ std::vector<task::Reason> jitterWarnings(const std::vector<PlacedFrame> &frames,
     if (spacing >= jitterToReport)
         warnings.push_back(because::pixelSpacingsDiffer(fmt::format("{:.1f}", 100.0 * spacing)));
     return warnings;
-}
-
-std::vector<double> gapsOf(const std::vector<double> &depths) {
-    std::vector<double> gaps;
-    for (std::size_t n = 1; n < depths.size(); ++n)
-        gaps.push_back(depths[n] - depths[n - 1]);
-    return gaps;
-}
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
-
-// depth = start + index * step, by least squares.
-struct Line {
-    double startMm = 0.0, stepMm = 0.0, worstMm = 0.0;
-    bool isEven() const { return worstMm <= evennessToleranceMm(stepMm); }
-};
-
-Line lineThrough(std::span<const double> depths, std::span<const long> indices) {
-    const double count = double(depths.size());
-    double meanDepth = 0.0, meanIndex = 0.0, product = 0.0, square = 0.0;
-    for (std::size_t n = 0; n < depths.size(); ++n) {
-        meanDepth += depths[n] / count;
-        meanIndex += double(indices[n]) / count;
-    }
-    for (std::size_t n = 0; n < depths.size(); ++n) {
-        product += (double(indices[n]) - meanIndex) * (depths[n] - meanDepth);
-        square += (double(indices[n]) - meanIndex) * (double(indices[n]) - meanIndex);
-    }
-    Line line;
-    line.stepMm = product / square;
-    line.startMm = meanDepth - meanIndex * line.stepMm;
-    for (std::size_t n = 0; n < depths.size(); ++n)
-        line.worstMm = std::max(
-            line.worstMm, std::abs(depths[n] - line.startMm - double(indices[n]) * line.stepMm));
-    return line;
-}
-
-struct Grid {
-    Line line;
-    std::vector<long> indices; ///< of the frames
-};
-
-// Every frame a slice and every slice a frame, or slices that are missing from an even grid.
-std::optional<Grid> evenGrid(const std::vector<double> &depths, const std::vector<double> &gaps) {
-    Grid grid;
-    grid.indices.resize(depths.size());
-    std::iota(grid.indices.begin(), grid.indices.end(), 0L);
-    grid.line = lineThrough(depths, grid.indices);
-    if (grid.line.isEven())
-        return grid;
-    // Rounding to whole steps is refined by the line that it leads to.
-    const double typical = median(gaps);
-    double sum = 0.0;
-    int count = 0;
-    for (const double gap : gaps)
-        if (std::abs(gap - typical) < 0.3 * typical) {
-            sum += gap;
-            ++count;
-        }
-    grid.line = {depths.front(), sum / count, 0.0};
-    constexpr int rounds = 4;
-    for (int round = 0; round < rounds; ++round) {
-        long last = -1;
-        for (std::size_t n = 0; n < depths.size(); ++n) {
-            // From frame to frame at first: a step that is a little wrong adds up.
-            const double steps =
-                round == 0 ? (n == 0 ? 0.0 : double(last) + gaps[n - 1] / grid.line.stepMm)
-                           : (depths[n] - grid.line.startMm) / grid.line.stepMm;
-            // Beyond that it is no grid of slices that are missing.
-            if (!(steps < mostSlicesPerFrame * double(depths.size()) + 1.0))
-                return std::nullopt;
-            const long index = std::lround(steps);
-            if (index <= last)
-                return std::nullopt;
-            last = grid.indices[n] = index;
-        }
-        grid.line = lineThrough(depths, grid.indices);
-    }
-    // The first frame is a slice of its own, too.
-    return grid.line.isEven() && grid.indices.front() == 0 ? std::optional(grid) : std::nullopt;
-}
-
-// Neighbouring frames that are evenly spaced.
-struct Run {
-    std::size_t first = 0, gaps = 0;
-    Line line;
-};
-
-std::vector<Run> evenRuns(const std::vector<double> &depths) {
-    std::vector<long> indices(depths.size());
-    std::iota(indices.begin(), indices.end(), 0L);
-    std::vector<Run> runs;
-    for (std::size_t first = 0; first + 1 < depths.size();) {
-        const auto line = [&](std::size_t gaps) {
-            return lineThrough(std::span(depths).subspan(first, gaps + 1),
-                               std::span(indices).first(gaps + 1));
-        };
-        // As long as it is even: doubled until it is not, then halved down to the end.
-        const std::size_t most = depths.size() - 1 - first;
-        std::size_t even = 1, uneven = 2;
-        while (uneven <= most && line(uneven).isEven()) {
-            even = uneven;
-            uneven *= 2;
-        }
-        uneven = std::min(uneven, most + 1);
-        while (uneven - even > 1) {
-            const std::size_t middle = (even + uneven) / 2;
-            (line(middle).isEven() ? even : uneven) = middle;
-        }
-        runs.push_back({first, even, line(even)});
-        first += even;
-    }
-    return runs;
-}
-
-// The grid of an uneven stack goes through its longest even run, or through one that is much finer
-// and no accident: nothing that was scanned finely is to be lost. Nothing if the grid would have
-// far more slices than there are frames.
-std::optional<Line> anchoredLine(const std::vector<double> &depths) {
-    constexpr double muchFiner = 0.75;
-    constexpr std::size_t noAccident = 3;
-    const std::vector<Run> runs = evenRuns(depths);
-    const auto fits = [&](const Run &run) {
-        return depths.back() / run.line.stepMm + 1.0 <= mostSlicesPerFrame * double(depths.size());
-    };
-    const Run *chosen = &*std::max_element(
-        runs.begin(), runs.end(), [](const Run &a, const Run &b) { return a.gaps < b.gaps; });
-    if (!fits(*chosen))
-        return std::nullopt;
-    for (const Run &run : runs)
-        if (fits(run) && run.gaps >= noAccident &&
-            run.line.stepMm < muchFiner * chosen->line.stepMm)
-            chosen = &run;
-    Line line = chosen->line;
-    line.startMm = std::abs(line.worstMm) < exactMm ? depths[chosen->first] : line.startMm;
-    return line;
 }
 
 task::Reason unevenWarning(const std::vector<PlacedFrame> &frames, const std::vector<double> &gaps,
@@ -292,90 +145,123 @@ Axis axisThroughEnds(const std::vector<PlacedFrame> &frames, double totalMm) {
     return {first, (*frames.back().header.positionMm - first) / totalMm};
 }
 
-void placeFrames(const std::vector<PlacedFrame> &frames, const Plane &plane, StackResult &result) {
-    const glm::dvec3 across = plane.spacingMm.x * plane.row,
-                     down = plane.spacingMm.y * plane.column;
-    const int rows = frames.front().rows, columns = frames.front().columns,
-              count = int(frames.size());
-    if (count == 1) {
-        const FrameHeader &only = frames.front().header;
-        const double thickness = only.sliceThicknessMm > 0.0 ? only.sliceThicknessMm : 1.0;
-        result.geometry.lattice = volume::Lattice::make({columns, rows, 1}, {*only.positionMm},
-                                                        {across, down, thickness * plane.normal});
-        return;
+// Places the frames of a stack, or says why they make none.
+class StackPlacement {
+public:
+    StackPlacement(const std::vector<PlacedFrame> &frames, const Plane &plane, StackResult &result)
+        : m_frames(frames), m_plane(plane), m_result(result) {
+        for (const PlacedFrame &frame : frames)
+            m_depths.push_back(frame.depthMm - frames.front().depthMm);
+        m_gaps = gapsOf(m_depths);
     }
-    std::vector<double> depths;
-    for (const PlacedFrame &frame : frames)
-        depths.push_back(frame.depthMm - frames.front().depthMm);
-    const double total = depths.back();
-    if (!std::isfinite(total) || !(total > 0.0)) {
-        result.refusal = because::slicesAtOnePosition;
-        return;
-    }
-    Axis axis = axisThrough(frames, depths);
-    const double stray = std::max(0.15, 0.1 * std::min(plane.spacingMm.x, plane.spacingMm.y));
-    double worst = 0.0;
-    const PlacedFrame *strayed = nullptr;
-    for (std::size_t n = 0; n < frames.size(); ++n) {
-        const double off =
-            glm::distance(*frames[n].header.positionMm, axis.startMm + depths[n] * axis.perMm);
-        if (!(off <= worst)) {
-            worst = off;
-            strayed = &frames[n];
-        }
-    }
-    if (!(worst <= stray)) {
-        result.refusal = because::sliceOffTheLine(strayed->reference.path.filename().string(),
-                                                  fmt::format("{:.2f}", worst));
-        return;
-    }
-    if (worst < exactMm)
-        axis = axisThroughEnds(frames, total);
-    const auto place = [&](double startMm, double stepMm, long slices) {
-        result.geometry.lattice = volume::Lattice::make({columns, rows, int(slices)},
-                                                        {axis.startMm + startMm * axis.perMm},
-                                                        {across, down, stepMm * axis.perMm});
-    };
-    const std::vector<double> gaps = gapsOf(depths);
-    if (auto grid = evenGrid(depths, gaps)) {
-        if (grid->line.worstMm < exactMm)
-            grid->line = {0.0, total / double(grid->indices.back()), 0.0};
-        place(grid->line.startMm, grid->line.stepMm, grid->indices.back() + 1);
-        if (grid->indices.back() + 1 == count)
+
+    void place() {
+        if (m_frames.size() == 1) {
+            placeSingle();
             return;
-        // Frames are taken for what their place on the grid is: they stay as they are.
-        const double step = result.geometry.lattice.sliceDistanceMm();
-        for (const long index : grid->indices)
-            result.geometry.frameOffsetsMm.push_back(double(index) * step);
-        fillGaps(frames, gaps, 1.5 * step, result);
-        return;
+        }
+        m_result.refusal = findAxis();
+        if (m_result.refusal)
+            return;
+        if (auto grid = evenGrid(m_depths, m_gaps))
+            placeOnGrid(std::move(*grid));
+        else if (const auto line = anchoredLine(m_depths))
+            resampleOnto(*line);
+        else
+            m_result.refusal = withoutCommonStep();
     }
-    const std::optional<Line> anchored = anchoredLine(depths);
-    if (!anchored) {
-        const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
-        result.refusal = because::slicesWithoutCommonStep(fmt::format("{:.3f}", *least),
-                                                          fmt::format("{:.1f}", *most));
-        return;
+
+private:
+    void placeSingle() {
+        const FrameHeader &only = m_frames.front().header;
+        const double thickness = only.sliceThicknessMm > 0.0 ? only.sliceThicknessMm : 1.0;
+        m_result.geometry.lattice = latticeOf(*only.positionMm, thickness * m_plane.normal, 1);
     }
-    const Line &line = *anchored;
+
+    // Returns why there is none.
+    std::optional<task::Reason> findAxis() {
+        const double total = m_depths.back();
+        if (!std::isfinite(total) || !(total > 0.0))
+            return because::slicesAtOnePosition;
+        m_axis = axisThrough(m_frames, m_depths);
+        const double stray =
+            std::max(0.15, 0.1 * std::min(m_plane.spacingMm.x, m_plane.spacingMm.y));
+        double worst = 0.0;
+        const PlacedFrame *strayed = nullptr;
+        for (std::size_t n = 0; n < m_frames.size(); ++n) {
+            const double off = glm::distance(*m_frames[n].header.positionMm,
+                                             m_axis.startMm + m_depths[n] * m_axis.perMm);
+            if (!(off <= worst)) {
+                worst = off;
+                strayed = &m_frames[n];
+            }
+        }
+        if (!(worst <= stray))
+            return because::sliceOffTheLine(strayed->reference.path.filename().string(),
+                                            fmt::format("{:.2f}", worst));
+        if (worst < exactMm)
+            m_axis = axisThroughEnds(m_frames, total);
+        return std::nullopt;
+    }
+
+    // Frames are taken for what their place on the grid is: they stay as they are.
+    void placeOnGrid(EvenGrid grid) {
+        const long last = grid.indices.back();
+        if (grid.line.worstMm < exactMm)
+            grid.line = {0.0, m_depths.back() / double(last), 0.0};
+        placeSlices(grid.line.startMm, grid.line.stepMm, last + 1);
+        if (last + 1 == int(m_frames.size()))
+            return;
+        const double step = m_result.geometry.lattice.sliceDistanceMm();
+        for (const long index : grid.indices)
+            m_result.geometry.frameOffsetsMm.push_back(double(index) * step);
+        fillGaps(m_frames, m_gaps, 1.5 * step, m_result);
+    }
+
     // Both ends are inside: what lies beyond the outermost frame repeats it.
-    const double slack = evennessToleranceMm(line.stepMm) / line.stepMm;
-    const double below = std::ceil(line.startMm / line.stepMm - slack),
-                 above = std::ceil((total - line.startMm) / line.stepMm - slack);
-    const double start = line.startMm - below * line.stepMm;
-    place(start, line.stepMm, long(below + above) + 1);
-    const double step = result.geometry.lattice.sliceDistanceMm();
-    for (const double depth : depths) {
-        // A frame that is a slice stays as it is.
-        std::vector<double> &at = result.geometry.frameOffsetsMm;
-        const double off = depth - start, whole = std::round(off / step) * step;
-        const bool isSlice =
-            std::abs(off - whole) <= evennessToleranceMm(step) && (at.empty() || whole > at.back());
-        at.push_back(isSlice ? whole : std::max(off, at.empty() ? off : at.back()));
+    void resampleOnto(const SliceLine &line) {
+        const double slack = evennessToleranceMm(line.stepMm) / line.stepMm;
+        const double below = std::ceil(line.startMm / line.stepMm - slack),
+                     above = std::ceil((m_depths.back() - line.startMm) / line.stepMm - slack);
+        const double start = line.startMm - below * line.stepMm;
+        placeSlices(start, line.stepMm, long(below + above) + 1);
+        const double step = m_result.geometry.lattice.sliceDistanceMm();
+        std::vector<double> &at = m_result.geometry.frameOffsetsMm;
+        for (const double depth : m_depths) {
+            // A frame that is a slice stays as it is.
+            const double off = depth - start, whole = std::round(off / step) * step;
+            const bool isSlice = std::abs(off - whole) <= evennessToleranceMm(step) &&
+                                 (at.empty() || whole > at.back());
+            at.push_back(isSlice ? whole : std::max(off, at.empty() ? off : at.back()));
+        }
+        m_result.warnings.push_back(unevenWarning(m_frames, m_gaps, line.stepMm));
+        fillGaps(m_frames, m_gaps, largestGapRatio * median(m_gaps), m_result);
     }
-    result.warnings.push_back(unevenWarning(frames, gaps, line.stepMm));
-    fillGaps(frames, gaps, largestGapRatio * median(gaps), result);
-}
+
+    task::Reason withoutCommonStep() const {
+        const auto [least, most] = std::minmax_element(m_gaps.begin(), m_gaps.end());
+        return because::slicesWithoutCommonStep(fmt::format("{:.3f}", *least),
+                                                fmt::format("{:.1f}", *most));
+    }
+
+    void placeSlices(double startMm, double stepMm, long slices) {
+        m_result.geometry.lattice =
+            latticeOf(m_axis.startMm + startMm * m_axis.perMm, stepMm * m_axis.perMm, int(slices));
+    }
+    volume::Lattice latticeOf(const glm::dvec3 &originMm, const glm::dvec3 &stepMm,
+                              int slices) const {
+        const PlacedFrame &first = m_frames.front();
+        return volume::Lattice::make(
+            {first.columns, first.rows, slices}, {originMm},
+            {m_plane.spacingMm.x * m_plane.row, m_plane.spacingMm.y * m_plane.column, stepMm});
+    }
+
+    const std::vector<PlacedFrame> &m_frames;
+    const Plane &m_plane;
+    StackResult &m_result;
+    std::vector<double> m_depths, m_gaps; ///< from the first frame, mm
+    Axis m_axis;
+};
 
 } // namespace
 
@@ -386,11 +272,6 @@ void sortByDepth(std::vector<PlacedFrame> &frames) {
     std::stable_sort(frames.begin(), frames.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
         return a.depthMm < b.depthMm;
     });
-}
-
-// 0.05 mm is what a position with one decimal is off, on each of the axes that it is composed of.
-double evennessToleranceMm(double spacingMm) {
-    return std::min(std::max(0.09, 0.02 * std::abs(spacingMm)), 0.15 * std::abs(spacingMm));
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<PlacedFrame> &frames) {
@@ -420,7 +301,7 @@ StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {
     try {
         const Plane plane = meanPlane(frames);
         result.warnings = jitterWarnings(frames, plane);
-        placeFrames(frames, plane, result);
+        StackPlacement(frames, plane, result).place();
     } catch (const task::Error &error) {
         result.refusal = error.reason();
     }

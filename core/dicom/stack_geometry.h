@@ -41,10 +41,6 @@ struct StackResult {
     std::optional<task::Reason> refusal;
 };
 
-/// The largest distance of a slice from its place on an even grid: positions are often written with
-/// one decimal. *Units*: mm.
-double evennessToleranceMm(double spacingMm);
-
 /// Axes and pixel spacings of two images of one stack may differ by this much, in radians and
 /// relatively: against their mean, less than half a pixel at the edge of 512. The volume has a
 /// warning if an axis deviates from the mean by `jitterToReport`, or if two spacings differ by it.

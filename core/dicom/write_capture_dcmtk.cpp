@@ -56,43 +56,8 @@ void putProfile(DcmDataset &d) {
     put(*code, DCM_CodeMeaning, "Basic Application Confidentiality Profile");
 }
 
-} // namespace
-
-CaptureLabels captureLabels(const Selection &s) {
-    CaptureLabels labels;
-    labels.studyUid = s.study->uid;
-    if (!s.volume->volumeFile.empty())
-        return labels; // a file is nobody's
-    labels.patientId = s.patient->id;
-    labels.patientName = s.patient->name;
-    labels.birthDate = s.patient->birthDate;
-    labels.sex = s.patient->sex;
-    labels.studyDate = s.study->date;
-    labels.studyDescription = s.study->description;
-    return labels;
-}
-
-CaptureLabels deidentified(const CaptureLabels &labels) {
-    CaptureLabels nobody = labels;
-    for (std::string *const text : {&nobody.patientId, &nobody.patientName, &nobody.birthDate,
-                                    &nobody.sex, &nobody.studyDate, &nobody.studyDescription})
-        text->clear();
-    nobody.studyUid = randomUid();
-    nobody.seriesUid = randomUid();
-    nobody.isDeidentified = true;
-    return nobody;
-}
-
-std::string newSeriesUid() {
-    return newUid(UidKind::series);
-}
-
-void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
-                  int width, const CaptureLabels &labels) {
-    dcmtk::prepareDcmtk();
-    const bool grey = isGrey(rgba);
-    DcmFileFormat file;
-    DcmDataset &d = *file.getDataset();
+// Whose picture it is, and what of.
+void putIdentity(DcmDataset &d, const CaptureLabels &labels) {
     put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
     put(d, DCM_ImageType, "DERIVED\\SECONDARY");
     put(d, DCM_SOPClassUID, UID_SecondaryCaptureImageStorage);
@@ -131,8 +96,10 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     put(d, DCM_InstanceNumber, std::to_string(labels.instanceNumber));
     put(d, DCM_PatientOrientation, labels.patientOrientation);
     put(d, DCM_BurnedInAnnotation, "NO");
-    if (labels.pixelMm > 0.0)
-        put(d, DCM_PixelSpacing, decimals({labels.pixelMm, labels.pixelMm}));
+}
+
+void putPixels(DcmDataset &d, std::span<const std::uint8_t> rgba, int height, int width) {
+    const bool grey = isGrey(rgba);
     d.putAndInsertUint16(DCM_SamplesPerPixel, grey ? 1 : 3);
     put(d, DCM_PhotometricInterpretation, grey ? "MONOCHROME2" : "RGB");
     if (!grey)
@@ -146,6 +113,48 @@ void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_
     const std::vector<std::uint8_t> pixels = samples(rgba, grey);
     d.putAndInsertUint8Array(DCM_PixelData, pixels.data(),
                              static_cast<unsigned long>(pixels.size()));
+}
+
+} // namespace
+
+CaptureLabels captureLabels(const Selection &s) {
+    CaptureLabels labels;
+    labels.studyUid = s.study->uid;
+    if (!s.volume->volumeFile.empty())
+        return labels; // a file is nobody's
+    labels.patientId = s.patient->id;
+    labels.patientName = s.patient->name;
+    labels.birthDate = s.patient->birthDate;
+    labels.sex = s.patient->sex;
+    labels.studyDate = s.study->date;
+    labels.studyDescription = s.study->description;
+    return labels;
+}
+
+CaptureLabels deidentified(const CaptureLabels &labels) {
+    CaptureLabels nobody = labels;
+    for (std::string *const text : {&nobody.patientId, &nobody.patientName, &nobody.birthDate,
+                                    &nobody.sex, &nobody.studyDate, &nobody.studyDescription})
+        text->clear();
+    nobody.studyUid = randomUid();
+    nobody.seriesUid = randomUid();
+    nobody.isDeidentified = true;
+    return nobody;
+}
+
+std::string newSeriesUid() {
+    return newUid(UidKind::series);
+}
+
+void writeCapture(const std::filesystem::path &path, std::span<const std::uint8_t> rgba, int height,
+                  int width, const CaptureLabels &labels) {
+    dcmtk::prepareDcmtk();
+    DcmFileFormat file;
+    DcmDataset &d = *file.getDataset();
+    putIdentity(d, labels);
+    if (labels.pixelMm > 0.0)
+        put(d, DCM_PixelSpacing, decimals({labels.pixelMm, labels.pixelMm}));
+    putPixels(d, rgba, height, width);
     writeDataset(file, EXS_LittleEndianExplicit, path);
 }
 

@@ -80,13 +80,27 @@ public:
     void write(int slice, const std::int16_t *samples, const fs::path &path) const {
         DcmFileFormat file;
         DcmDataset &d = *file.getDataset();
-        const volume::Lattice &lattice = m_volume.lattice();
-        const volume::GridSize size = lattice.size();
-        const std::string instance = newUid(UidKind::instance);
+        putIdentity(d, slice);
+        putPlace(d, slice);
+        putValues(d);
+        if (m_syntax == EXS_JPEG2000LosslessOnly) {
+            compressJpeg2000(d, samples, m_volume.lattice().size());
+        } else {
+            d.putAndInsertUint16Array(
+                DCM_PixelData, reinterpret_cast<const Uint16 *>(samples),
+                static_cast<unsigned long>(m_volume.lattice().size().offsetOf(0, 0, 1)));
+            compress(d);
+        }
+        writeDataset(file, m_syntax, path);
+    }
+
+private:
+    // Whose image it is, and what of.
+    void putIdentity(DcmDataset &d, int slice) const {
         put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
         put(d, DCM_ImageType, "ORIGINAL\\PRIMARY\\AXIAL");
         put(d, DCM_SOPClassUID, UID_CTImageStorage);
-        put(d, DCM_SOPInstanceUID, instance);
+        put(d, DCM_SOPInstanceUID, newUid(UidKind::instance));
         put(d, DCM_StudyDate, "20260101");
         put(d, DCM_StudyTime, "120000");
         put(d, DCM_AccessionNumber, "");
@@ -100,7 +114,6 @@ public:
         put(d, DCM_PatientBirthDate, "");
         put(d, DCM_PatientSex, "O");
         put(d, DCM_BodyPartExamined, m_labels.bodyPart);
-        put(d, DCM_SliceThickness, decimal(lattice.sliceDistanceMm()));
         put(d, DCM_KVP, "");
         put(d, DCM_StudyInstanceUID, m_study);
         put(d, DCM_SeriesInstanceUID, m_series);
@@ -108,6 +121,11 @@ public:
         put(d, DCM_SeriesNumber, std::to_string(m_labels.seriesNumber));
         put(d, DCM_AcquisitionNumber, "1");
         put(d, DCM_InstanceNumber, std::to_string(slice + 1));
+    }
+
+    // Where the slice lies.
+    void putPlace(DcmDataset &d, int slice) const {
+        const volume::Lattice &lattice = m_volume.lattice();
         const glm::dvec3 position = lattice.patient(volume::VoxelIndex{0, 0, slice}).mm;
         const glm::dvec3 row = lattice.step(0) / lattice.spacingMm(0),
                          column = lattice.step(1) / lattice.spacingMm(1);
@@ -116,11 +134,17 @@ public:
             decimals({row.x, row.y, row.z, column.x, column.y, column.z}));
         put(d, DCM_FrameOfReferenceUID, m_frame);
         put(d, DCM_PositionReferenceIndicator, "");
+        put(d, DCM_PixelSpacing, decimals({lattice.spacingMm(1), lattice.spacingMm(0)}));
+        put(d, DCM_SliceThickness, decimal(lattice.sliceDistanceMm()));
+    }
+
+    // How its values are stored and shown.
+    void putValues(DcmDataset &d) const {
+        const volume::GridSize size = m_volume.lattice().size();
         d.putAndInsertUint16(DCM_SamplesPerPixel, 1);
         put(d, DCM_PhotometricInterpretation, "MONOCHROME2");
         d.putAndInsertUint16(DCM_Rows, Uint16(size.j));
         d.putAndInsertUint16(DCM_Columns, Uint16(size.i));
-        put(d, DCM_PixelSpacing, decimals({lattice.spacingMm(1), lattice.spacingMm(0)}));
         d.putAndInsertUint16(DCM_BitsAllocated, 16);
         d.putAndInsertUint16(DCM_BitsStored, 16);
         d.putAndInsertUint16(DCM_HighBit, 15);
@@ -137,17 +161,8 @@ public:
         put(d, DCM_RescaleIntercept, "0");
         put(d, DCM_RescaleSlope, "1");
         put(d, DCM_RescaleType, "HU");
-        if (m_syntax == EXS_JPEG2000LosslessOnly) {
-            compressJpeg2000(d, samples, size);
-        } else {
-            d.putAndInsertUint16Array(DCM_PixelData, reinterpret_cast<const Uint16 *>(samples),
-                                      static_cast<unsigned long>(size.i) * size.j);
-            compress(d);
-        }
-        writeDataset(file, m_syntax, path);
     }
 
-private:
     void compress(DcmDataset &d) const {
         OFCondition done = EC_Normal;
         if (m_syntax == EXS_JPEGProcess14SV1) {
@@ -219,7 +234,7 @@ void writeCtSeries(const fs::path &folder, const volume::Volume &volume, const S
         volume.visit([&](auto samples) {
             if constexpr (std::is_same_v<std::remove_cvref_t<decltype(samples[0])>, std::int16_t>)
                 tbb::parallel_for(0, size.k, [&](int k) {
-                    writeSlice(k, samples.data() + std::size_t(k) * size.i * size.j);
+                    writeSlice(k, samples.data() + size.offsetOf(0, 0, k));
                 });
         });
     } catch (...) {

@@ -44,11 +44,8 @@ bool limitResources() {
     return holds;
 }
 
-// What is not named fails with EPERM: a library that tries to read a table goes on without it.
-bool filterCalls() {
-    const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
-    if (filter == nullptr)
-        return false;
+// Each returns 0 if the filter took all of its rules.
+int allowCalls(scmp_filter_ctx filter) {
     int failed = 0;
     for (const int call : {SCMP_SYS(read),          SCMP_SYS(write),
                            SCMP_SYS(sendmsg),       SCMP_SYS(recvmsg),
@@ -65,8 +62,16 @@ bool filterCalls() {
                            SCMP_SYS(getrlimit),     SCMP_SYS(restart_syscall),
                            SCMP_SYS(getppid)})
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
-    // Memory, but none that could be run; and none that the limit does not count: private, or
-    // shared of a file.
+    // abort()
+    failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
+                                 SCMP_A0(SCMP_CMP_EQ, scmp_datum_t(::getpid())));
+    return failed;
+}
+
+// Memory, but none that could be run; and none that the limit does not count: private, or shared of
+// a file.
+int allowMemory(scmp_filter_ctx filter) {
+    int failed = 0;
     failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(mprotect), 1,
                                  SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0));
     failed |= ::seccomp_rule_add(
@@ -75,10 +80,12 @@ bool filterCalls() {
     failed |= ::seccomp_rule_add(
         filter, SCMP_ACT_ALLOW, SCMP_SYS(mmap), 2, SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0),
         SCMP_A3(SCMP_CMP_MASKED_EQ, MAP_TYPE | MAP_ANONYMOUS | MAP_GROWSDOWN, MAP_SHARED));
-    // abort()
-    failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
-                                 SCMP_A0(SCMP_CMP_EQ, scmp_datum_t(::getpid())));
-    // No decoder ever tries these: somebody else does.
+    return failed;
+}
+
+// No decoder ever tries these: somebody else does.
+int killIntruders(scmp_filter_ctx filter) {
+    int failed = 0;
     for (const int call : {SCMP_SYS(execve),
                            SCMP_SYS(execveat),
                            SCMP_SYS(fork),
@@ -105,6 +112,17 @@ bool filterCalls() {
                            SCMP_SYS(setns),
                            SCMP_SYS(mount)})
         failed |= ::seccomp_rule_add(filter, SCMP_ACT_KILL_PROCESS, call, 0);
+    return failed;
+}
+
+// What is not named fails with EPERM: a library that tries to read a table goes on without it.
+bool filterCalls() {
+    const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
+    if (filter == nullptr)
+        return false;
+    int failed = allowCalls(filter);
+    failed |= allowMemory(filter);
+    failed |= killIntruders(filter);
     failed |= ::seccomp_load(filter); // forbids new privileges, too
     ::seccomp_release(filter);
     return failed == 0;

@@ -140,7 +140,7 @@ void Painter::paint(const Shape &shape, const Texture &hu) {
     tbb::parallel_for(k0, k1, [&](int k) {
         m_progress.check();
         for (int j = j0; j < j1; ++j) {
-            float *row = m_hu.data() + (std::size_t(k) * size.j + j) * size.i;
+            float *row = m_hu.data() + size.offsetOf(0, j, k);
             for (int i = i0; i < i1; ++i) {
                 const dvec3 p = m_lattice.patient(volume::VoxelIndex{i, j, k}).mm;
                 const double covered = std::clamp(0.5 - shape(p) / m_softnessMm, 0.0, 1.0);

@@ -65,7 +65,7 @@ volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &pr
                     1 + 6 * (k - margin(size.k)) / std::max(1, size.k - 2 * margin(size.k));
                 const int along = j < size.j / 2 ? i : j;
                 const bool on = (along / bar) % 2 == 0;
-                samples[(std::size_t(k) * size.j + j) * size.i + i] = on ? 1000 : 0;
+                samples[size.offsetOf(i, j, k)] = on ? 1000 : 0;
             }
     });
     return {lattice, std::move(samples), volume::ValueUnit::hounsfield,
@@ -82,7 +82,7 @@ volume::Volume makeEllipsoids(const volume::Lattice &lattice, const task::Progre
             for (int i = 0; i < size.i; ++i) {
                 const dvec3 p =
                     lattice.patient(volume::VoxelIndex{i, j, k}).mm - lattice.center().mm;
-                samples[(std::size_t(k) * size.j + j) * size.i + i] =
+                samples[size.offsetOf(i, j, k)] =
                     std::int16_t(std::lround(ellipsoidBackgroundHu + densityAt(bodies, p)));
             }
     });

@@ -10,6 +10,8 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/plan/field_roughness.h"
+#include "core/plan/least_projection_energy.h"
 #include "core/plan/line_integral_bound.h"
 
 namespace pellucid::plan {
@@ -30,16 +32,6 @@ double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, dou
     const double reach = radiusMm + 0.5 * lattice.longestStepMm();
     return std::min(0.5 * (i * j + j * k + k * i), std::numbers::pi * reach * reach);
 }
-
-// Sums and extremes of the samples of one layer of blocks, which is a few planes k.
-struct Layer {
-    std::vector<double> alongI, alongJ; // energies
-    std::vector<double> blocks;         // energies, [block along j][block along i]
-    std::vector<double> blockMass;
-    std::vector<float> mostOfRows; // [block along j][sample along i]
-    double least = 0.0;
-    double radiusMm = 0.0;
-};
 
 // Thirteen directions, one of them close to any view.
 std::vector<glm::dvec3> directions() {
@@ -75,221 +67,204 @@ private:
     std::vector<glm::dvec3> m_directions = directions();
 };
 
-// The mass of blocks by distance from the centre of mass.
-class BallProfile {
+// The statistics of a field, from sums over layers of cubic blocks. Layers are summed in parallel
+// and joined in their order, so no sum depends on the number of threads.
+class FieldStatistics {
 public:
-    // `share`: the block's share of the mass.
-    void add(const glm::dvec3 &placeMm, double share) {
-        m_blocks.push_back({placeMm, share});
-        m_middle += share * placeMm;
+    FieldStatistics(const volume::Volume &field, const volume::VoxelBox &box)
+        : m_field(field), m_lattice(field.lattice()), m_box(box), m_size(box.size()),
+          m_center(m_lattice.center().mm),
+          m_side((std::max({m_size.i, m_size.j, m_size.k}) + blocksAlong - 1) / blocksAlong),
+          m_across(blocksOf(m_size.i)), m_down(blocksOf(m_size.j)), m_layers(blocksOf(m_size.k)) {
+        for (int d = 0; d < 3; ++d) {
+            LayerMaxima &of = m_maxima[std::size_t(d)];
+            of.samples = m_size[d];
+            of.columns = blocksOf(m_size[(d + 1) % 3]);
+            of.rows = blocksOf(m_size[(d + 2) % 3]);
+            of.most.resize(std::size_t(of.samples) * std::size_t(of.columns) *
+                           std::size_t(of.rows));
+            m_result.axis[std::size_t(d)].resize(std::size_t(m_size[d]));
+        }
+        m_spread.shortestStepMm = m_lattice.shortestStepMm();
+        m_spread.longestStepMm = m_lattice.longestStepMm();
     }
 
-    // The minimum of pi R^2/m(R)^2 over R, where m(R) is the share of the mass in a ball of radius
-    // R. The projection's energy is at least the square of the mass divided by this area. No sample
-    // of a block is farther than `halfMm` from the block's middle.
-    double leastArea(double halfMm) const {
-        double radius = 0.0;
-        for (const Block &block : m_blocks)
-            radius = std::max(radius, glm::distance(block.placeMm, m_middle) + halfMm);
-        constexpr int bins = 64;
-        const double binMm = radius / bins;
-        std::array<double, bins> within{};
-        for (const Block &block : m_blocks) {
-            const double mm = glm::distance(block.placeMm, m_middle) + halfMm;
-            within[std::size_t(std::min(bins - 1, int(mm / binMm)))] += block.share;
-        }
-        double share = 0.0, least = std::numeric_limits<double>::infinity();
-        for (int bin = 0; bin < bins; ++bin) {
-            share += within[std::size_t(bin)];
-            const double r = (bin + 1) * binMm;
-            if (share > 0.0)
-                least = std::min(least, std::numbers::pi * r * r / (share * share));
-        }
-        return least;
+    EnergyMarginals marginals() {
+        m_field.visit([&](auto samples) {
+            tbb::parallel_for(std::size_t(0), m_layers.size(),
+                              [&](std::size_t n) { sumLayer(samples.data(), int(n)); });
+        });
+        joinLayers();
+        m_spread.shadowMm2 = shadowOf(m_lattice, m_box, m_spread.radiusMm);
+        const MassInBalls balls = profileBlocks();
+        m_result.blocks = fieldBlocks(m_field, m_box);
+        m_result.massMm3 = m_mass * m_lattice.cellVolumeMm3();
+        m_result.energyMm3 = m_energy * m_lattice.cellVolumeMm3();
+        if (m_energy > 0.0)
+            m_spread.roughness = squaredSecondDifferences(m_field, m_box) / 16.0 / m_energy;
+        if (isPositive())
+            boundAnyView(balls);
+        m_result.spread = std::make_shared<const EnergySpread>(std::move(m_spread));
+        return std::move(m_result);
     }
 
 private:
-    struct Block {
-        glm::dvec3 placeMm;
-        double share;
+    // Sums and extremes of the samples of one layer of blocks, which is a few planes k.
+    struct Layer {
+        std::vector<double> alongI, alongJ; // energies
+        std::vector<double> blocks;         // energies, [block along j][block along i]
+        std::vector<double> blockMass;
+        std::vector<float> mostOfRows; // [block along j][sample along i]
+        double least = 0.0;
+        double radiusMm = 0.0;
     };
-    std::vector<Block> m_blocks;
-    glm::dvec3 m_middle{0.0};
+
+    int blocksOf(int samples) const { return (samples + m_side - 1) / m_side; }
+    // Only a field without negative samples has bounds that hold in any view.
+    bool isPositive() const { return m_least >= 0.0 && m_mass > 0.0; }
+
+    template <class T> void sumLayer(const T *samples, int n) {
+        Layer &layer = m_layers[std::size_t(n)];
+        layer.alongI.resize(m_size.i);
+        layer.alongJ.resize(m_size.j);
+        layer.blocks.resize(std::size_t(m_across) * m_down);
+        layer.blockMass.resize(layer.blocks.size());
+        layer.mostOfRows.resize(std::size_t(m_size.i) * m_down);
+        for (int k = n * m_side; k < std::min(m_size.k, (n + 1) * m_side); ++k)
+            for (int j = 0; j < m_size.j; ++j) {
+                const T *const row =
+                    samples + m_lattice.size().offsetOf(m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k);
+                sumSamples(row, j, k, layer);
+                const double energy = sumBlocks(row, j, k, n);
+                layer.alongJ[j] += energy;
+                m_result.axis[2][k] += energy;
+            }
+        for (int row = 0; row < m_down; ++row)
+            for (int i = 0; i < m_size.i; ++i)
+                m_maxima[0].at(i, n, row) =
+                    layer.mostOfRows[std::size_t(row) * std::size_t(m_size.i) + i];
+    }
+
+    // The sums and extremes of a row that are taken sample by sample.
+    template <class T> void sumSamples(const T *row, int j, int k, Layer &layer) const {
+        int first = m_size.i, last = -1; // the samples that are not zero
+        float *const mostOfRows =
+            layer.mostOfRows.data() + std::size_t(j / m_side) * std::size_t(m_size.i);
+        for (int i = 0; i < m_size.i; ++i) {
+            const double f = double(row[i]);
+            layer.alongI[i] += f * f;
+            mostOfRows[i] = std::max(mostOfRows[i], float(row[i]));
+            layer.least = std::min(layer.least, f);
+            if (f != 0.0) {
+                first = std::min(first, i);
+                last = i;
+            }
+        }
+        if (last < 0)
+            return;
+        for (const int end : {first, last}) {
+            const volume::VoxelIndex at{end + m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k};
+            layer.radiusMm =
+                std::max(layer.radiusMm, glm::distance(m_center, m_lattice.patient(at).mm));
+        }
+    }
+
+    // The sums and maxima of the blocks that a row runs through, and the row's energy.
+    template <class T> double sumBlocks(const T *row, int j, int k, int n) {
+        Layer &layer = m_layers[std::size_t(n)];
+        double inRow = 0.0;
+        for (int block = 0; block < m_across; ++block) {
+            double energy = 0.0, mass = 0.0;
+            float most = 0.0F;
+            for (int i = block * m_side; i < std::min(m_size.i, (block + 1) * m_side); ++i) {
+                energy += double(row[i]) * double(row[i]);
+                mass += double(row[i]);
+                most = std::max(most, float(row[i]));
+            }
+            const std::size_t at = std::size_t(j / m_side) * m_across + block;
+            layer.blocks[at] += energy;
+            layer.blockMass[at] += mass;
+            for (float *const square :
+                 {&m_maxima[1].at(j, block, n), &m_maxima[2].at(k, j / m_side, block)})
+                *square = std::max(*square, most);
+            inRow += energy;
+        }
+        return inRow;
+    }
+
+    void joinLayers() {
+        for (const Layer &layer : m_layers) {
+            m_least = std::min(m_least, layer.least);
+            std::transform(layer.alongI.begin(), layer.alongI.end(), m_result.axis[0].begin(),
+                           m_result.axis[0].begin(), std::plus<>());
+            std::transform(layer.alongJ.begin(), layer.alongJ.end(), m_result.axis[1].begin(),
+                           m_result.axis[1].begin(), std::plus<>());
+            for (const double e : layer.blocks)
+                m_energy += e;
+            for (const double m : layer.blockMass)
+                m_mass += m;
+            m_spread.radiusMm = std::max(m_spread.radiusMm, layer.radiusMm);
+        }
+        if (m_energy > 0.0)
+            for (auto &axis : m_result.axis)
+                for (double &e : axis)
+                    e /= m_energy;
+    }
+
+    // Where the energy of the blocks lies, and, of a field without negative samples, their mass.
+    MassInBalls profileBlocks() {
+        DistanceProfiles profiles(m_spread);
+        MassInBalls balls;
+        const auto middle = [this](int block, int samples) {
+            return 0.5 * (block * m_side + std::min(samples, (block + 1) * m_side) - 1);
+        };
+        for (std::size_t n = 0; n < m_layers.size(); ++n)
+            for (int row = 0; row < m_down; ++row)
+                for (int column = 0; column < m_across; ++column) {
+                    const std::size_t block = std::size_t(row) * m_across + column;
+                    const double energy = m_layers[n].blocks[block];
+                    if (energy == 0.0)
+                        continue;
+                    const volume::VoxelPoint at{{m_box.lo.i + middle(column, m_size.i),
+                                                 m_box.lo.j + middle(row, m_size.j),
+                                                 m_box.lo.k + middle(int(n), m_size.k)}};
+                    const glm::dvec3 fromCenterMm = m_lattice.patient(at).mm - m_center;
+                    profiles.add(fromCenterMm, energy / m_energy);
+                    if (isPositive())
+                        balls.add(fromCenterMm, m_layers[n].blockMass[block] / m_mass);
+                }
+        return balls;
+    }
+
+    // What no view of a field without negative samples exceeds.
+    void boundAnyView(const MassInBalls &balls) {
+        const glm::dvec3 cell(m_lattice.spacingMm(0), m_lattice.spacingMm(1),
+                              m_lattice.spacingMm(2));
+        const double inBall = 1.0 / balls.leastArea(0.5 * m_side * glm::length(cell));
+        const double seen = leastProjectionEnergy(m_result.blocks, m_lattice, m_box);
+        const double leastEnergy = std::max(inBall, seen);
+        m_spread.peakedness = std::max(1.0, largestLineIntegral(m_maxima, m_side, m_lattice) /
+                                                (m_result.massMm3 * leastEnergy));
+        const double depthMm = 2.0 * m_spread.radiusMm + m_lattice.longestStepMm();
+        m_spread.roughestView = depthMm * m_spread.roughness * m_result.energyMm3 /
+                                (m_result.massMm3 * m_result.massMm3 * leastEnergy);
+    }
+
+    const volume::Volume &m_field;
+    const volume::Lattice &m_lattice;
+    volume::VoxelBox m_box;
+    volume::GridSize m_size;
+    glm::dvec3 m_center;
+    int m_side;           ///< of a block, samples
+    int m_across, m_down; ///< blocks of a layer, along i and j
+    std::vector<Layer> m_layers;
+    std::array<LayerMaxima, 3> m_maxima;
+    double m_energy = 0.0, m_mass = 0.0, m_least = 0.0; ///< of the field's samples
+    EnergyMarginals m_result;
+    EnergySpread m_spread;
 };
 
-// Coarser blocks than those above: the planner visits all of them for each layout.
-std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::VoxelBox &box) {
-    const volume::GridSize lattice = field.lattice().size(), size = box.size();
-    const std::array<std::vector<BlockRange>, 3> ranges{blockRanges(size.i), blockRanges(size.j),
-                                                        blockRanges(size.k)};
-    const std::size_t across = ranges[0].size(), down = ranges[1].size(), deep = ranges[2].size();
-    std::vector<double> energy(across * down * deep), mass(energy.size());
-    field.visit([&](auto samples) {
-        tbb::parallel_for(std::size_t(0), deep, [&](std::size_t c) {
-            for (int k = ranges[2][c].first; k <= ranges[2][c].last; ++k)
-                for (std::size_t b = 0; b < down; ++b)
-                    for (int j = ranges[1][b].first; j <= ranges[1][b].last; ++j) {
-                        const auto *const row =
-                            samples.data() +
-                            (std::size_t(k + box.lo.k) * lattice.j + j + box.lo.j) * lattice.i +
-                            box.lo.i;
-                        for (std::size_t a = 0; a < across; ++a) {
-                            double squares = 0.0, sum = 0.0;
-                            for (int i = ranges[0][a].first; i <= ranges[0][a].last; ++i) {
-                                squares += double(row[i]) * double(row[i]);
-                                sum += double(row[i]);
-                            }
-                            energy[(c * down + b) * across + a] += squares;
-                            mass[(c * down + b) * across + a] += sum;
-                        }
-                    }
-        });
-    });
-    double allEnergy = 0.0, allMass = 0.0;
-    for (std::size_t n = 0; n < energy.size(); ++n) {
-        allEnergy += energy[n];
-        allMass += mass[n];
-    }
-    std::vector<FieldBlock> blocks;
-    for (std::size_t n = 0; n < energy.size(); ++n)
-        if (energy[n] > 0.0)
-            blocks.push_back({{std::uint8_t(n % across), std::uint8_t(n / across % down),
-                               std::uint8_t(n / across / down)},
-                              float(energy[n] / allEnergy),
-                              allMass != 0.0 ? float(mass[n] / allMass) : 0.0F});
-    return blocks;
-}
-
-// The sum of the squared second differences along all axes. Beyond the box the field is zero.
-double squaredSecondDifferences(const volume::Volume &field, const volume::VoxelBox &box) {
-    const volume::GridSize lattice = field.lattice().size(), size = box.size();
-    std::vector<double> ofPlane(std::size_t(size.k));
-    field.visit([&](auto samples) {
-        tbb::parallel_for(0, size.k, [&](int k) {
-            const std::vector<typename decltype(samples)::value_type> none(std::size_t(size.i));
-            const auto row = [&](int j, int depth) {
-                const bool isInside = j >= 0 && j < size.j && depth >= 0 && depth < size.k;
-                return isInside ? samples.data() +
-                                      (std::size_t(depth + box.lo.k) * lattice.j + j + box.lo.j) *
-                                          lattice.i +
-                                      box.lo.i
-                                : none.data();
-            };
-            double sum = 0.0;
-            for (int j = -1; j <= size.j; ++j) {
-                const auto *const here = row(j, k), *const above = row(j - 1, k),
-                                  *const below = row(j + 1, k), *const before = row(j, k - 1),
-                                  *const after = row(j, k + 1);
-                float inRow = 0.0F;
-                for (int i = 0; i < size.i; ++i) {
-                    const float twice = 2.0F * float(here[i]);
-                    const float down = float(above[i]) + float(below[i]) - twice,
-                                deep = float(before[i]) + float(after[i]) - twice;
-                    inRow += down * down + deep * deep;
-                }
-                for (int i = 1; i + 1 < size.i; ++i) {
-                    const float across =
-                        float(here[i - 1]) + float(here[i + 1]) - 2.0F * float(here[i]);
-                    inRow += across * across;
-                }
-                sum += double(inRow);
-                for (const int end : {0, size.i - 1}) { // and the samples beside them
-                    const double f = double(here[end]);
-                    const double next = size.i > 1 ? double(here[end == 0 ? 1 : end - 1]) : 0.0;
-                    sum += (next - 2.0 * f) * (next - 2.0 * f) + f * f;
-                }
-            }
-            ofPlane[std::size_t(k)] = sum;
-        });
-    });
-    double sum = 0.0;
-    for (const double of : ofPlane)
-        sum += of;
-    // Beyond the first and last plane.
-    field.visit([&](auto samples) {
-        for (const int k : {box.lo.k, box.hi.k - 1})
-            for (int j = box.lo.j; j < box.hi.j; ++j)
-                for (int i = box.lo.i; i < box.hi.i; ++i) {
-                    const double f = double(
-                        samples[(std::size_t(k) * lattice.j + j) * std::size_t(lattice.i) + i]);
-                    sum += f * f;
-                }
-    });
-    return sum;
-}
-
-// Between the directions that `leastProjectionEnergy` samples, the energy does not fall below this
-// share of the minimum found: aligned parts make narrow peaks of the energy, not narrow valleys.
-constexpr double leastSeen = 0.85;
-
-// The smallest energy of the projections of a field along some directions, for a field of mass 1
-// without negative samples. It is computed from the masses of blocks; spreading each mass over its
-// block lowers the energy, so the result is below the true one.
-double leastProjectionEnergy(const std::vector<FieldBlock> &blocks, const volume::Lattice &lattice,
-                             const volume::VoxelBox &box) {
-    constexpr int views = 64, most = 128;
-    const volume::GridSize size = box.size();
-    std::array<std::vector<BlockRange>, 3> ranges;
-    double pixelMm = 0.0, radiusMm = 0.0;
-    for (int d = 0; d < 3; ++d) {
-        ranges[std::size_t(d)] = blockRanges(size[d]);
-        pixelMm = std::max(pixelMm,
-                           lattice.spacingMm(d) * size[d] / double(ranges[std::size_t(d)].size()));
-    }
-    const glm::dvec3 middle =
-        lattice
-            .patient(volume::VoxelPoint{0.5 * (glm::dvec3(box.lo.i, box.lo.j, box.lo.k) +
-                                               glm::dvec3(box.hi.i, box.hi.j, box.hi.k) - 1.0)})
-            .mm;
-    std::vector<glm::dvec3> places;
-    for (const FieldBlock &block : blocks) {
-        glm::dvec3 at(box.lo.i, box.lo.j, box.lo.k);
-        for (int d = 0; d < 3; ++d) {
-            const BlockRange &range = ranges[std::size_t(d)][block.at[std::size_t(d)]];
-            at[d] += 0.5 * (range.first + range.last);
-        }
-        places.push_back(lattice.patient(volume::VoxelPoint{at}).mm - middle);
-        radiusMm = std::max(radiusMm, glm::length(places.back()));
-    }
-    pixelMm = std::max(pixelMm, 2.0 * radiusMm / (most - 3));
-    const int side = int(2.0 * radiusMm / pixelMm) + 3;
-    std::array<double, views> energies{};
-    tbb::parallel_for(0, views, [&](int n) {
-        // Directions evenly over half a sphere, along a spiral.
-        const double z = (n + 0.5) / views, angle = n * std::numbers::pi * (3.0 - std::sqrt(5.0)),
-                     r = std::sqrt(1.0 - z * z);
-        const glm::dvec3 w(r * std::cos(angle), r * std::sin(angle), z),
-            u = glm::normalize(glm::cross(w, glm::dvec3(0.0, 1.0, 0.0))), v = glm::cross(w, u);
-        std::vector<double> picture(std::size_t(side) * std::size_t(side));
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-            const double x = glm::dot(places[b], u) / pixelMm + 0.5 * (side - 1),
-                         y = glm::dot(places[b], v) / pixelMm + 0.5 * (side - 1);
-            const double column = std::floor(x), row = std::floor(y), right = x - column,
-                         down = y - row, mass = double(blocks[b].mass);
-            double *const at =
-                picture.data() + std::size_t(row) * std::size_t(side) + std::size_t(column);
-            at[0] += mass * (1.0 - right) * (1.0 - down);
-            at[1] += mass * right * (1.0 - down);
-            at[side] += mass * (1.0 - right) * down;
-            at[side + 1] += mass * right * down;
-        }
-        for (const double sum : picture)
-            energies[std::size_t(n)] += sum * sum / (pixelMm * pixelMm);
-    });
-    return *std::min_element(energies.begin(), energies.end());
-}
-
 } // namespace
-
-std::vector<BlockRange> blockRanges(int samples) {
-    constexpr int most = 20;
-    const int count = std::min(samples, most);
-    std::vector<BlockRange> ranges;
-    for (int n = 0; n < count; ++n)
-        ranges.push_back({int(std::int64_t(n) * samples / count),
-                          int(std::int64_t(n + 1) * samples / count) - 1});
-    return ranges;
-}
 
 EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &box) {
     const glm::dvec3 center = lattice.center().mm;
@@ -321,149 +296,7 @@ EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &
 }
 
 EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box) {
-    const volume::Lattice &places = field.lattice();
-    const volume::GridSize lattice = places.size(), size = box.size();
-    const glm::dvec3 center = places.center().mm;
-    const int side = (std::max({size.i, size.j, size.k}) + blocksAlong - 1) / blocksAlong;
-    const auto blocksOf = [side](int samples) { return (samples + side - 1) / side; };
-    const int across = blocksOf(size.i), down = blocksOf(size.j);
-    const auto rowStart = [&](int j, int k) {
-        return (std::size_t(k + box.lo.k) * lattice.j + j + box.lo.j) * lattice.i + box.lo.i;
-    };
-
-    EnergyMarginals result;
-    EnergySpread spread;
-    spread.shortestStepMm = places.shortestStepMm();
-    spread.longestStepMm = places.longestStepMm();
-    result.axis[2].resize(size.k);
-    std::vector<Layer> layers(blocksOf(size.k));
-    std::array<LayerMaxima, 3> maxima;
-    for (int d = 0; d < 3; ++d) {
-        LayerMaxima &of = maxima[std::size_t(d)];
-        of.samples = size[d];
-        of.columns = blocksOf(size[(d + 1) % 3]);
-        of.rows = blocksOf(size[(d + 2) % 3]);
-        of.most.resize(std::size_t(of.samples) * std::size_t(of.columns) * std::size_t(of.rows));
-    }
-    field.visit([&](auto samples) {
-        tbb::parallel_for(std::size_t(0), layers.size(), [&](std::size_t n) {
-            Layer &layer = layers[n];
-            layer.alongI.resize(size.i);
-            layer.alongJ.resize(size.j);
-            layer.blocks.resize(std::size_t(across) * down);
-            layer.blockMass.resize(layer.blocks.size());
-            layer.mostOfRows.resize(std::size_t(size.i) * down);
-            for (int k = int(n) * side; k < std::min(size.k, int(n + 1) * side); ++k)
-                for (int j = 0; j < size.j; ++j) {
-                    const auto *const row = samples.data() + rowStart(j, k);
-                    double inRow = 0.0;
-                    int first = size.i, last = -1;
-                    float *const mostOfRows =
-                        layer.mostOfRows.data() + std::size_t(j / side) * std::size_t(size.i);
-                    for (int i = 0; i < size.i; ++i) {
-                        const double f = double(row[i]);
-                        layer.alongI[i] += f * f;
-                        mostOfRows[i] = std::max(mostOfRows[i], float(row[i]));
-                        layer.least = std::min(layer.least, f);
-                        if (f != 0.0) {
-                            first = std::min(first, i);
-                            last = i;
-                        }
-                    }
-                    for (int block = 0; block < across; ++block) {
-                        double inBlock = 0.0, mass = 0.0;
-                        float most = 0.0F;
-                        for (int i = block * side; i < std::min(size.i, (block + 1) * side); ++i) {
-                            inBlock += double(row[i]) * double(row[i]);
-                            mass += double(row[i]);
-                            most = std::max(most, float(row[i]));
-                        }
-                        const std::size_t at = std::size_t(j / side) * across + block;
-                        layer.blocks[at] += inBlock;
-                        layer.blockMass[at] += mass;
-                        for (float *const square :
-                             {&maxima[1].at(j, block, int(n)), &maxima[2].at(k, j / side, block)})
-                            *square = std::max(*square, most);
-                        inRow += inBlock;
-                    }
-                    for (const int end : {first, last})
-                        if (last >= 0) {
-                            const volume::VoxelIndex at{end + box.lo.i, j + box.lo.j, k + box.lo.k};
-                            layer.radiusMm = std::max(layer.radiusMm,
-                                                      glm::distance(center, places.patient(at).mm));
-                        }
-                    layer.alongJ[j] += inRow;
-                    result.axis[2][k] += inRow;
-                }
-            for (int row = 0; row < down; ++row)
-                for (int i = 0; i < size.i; ++i)
-                    maxima[0].at(i, int(n), row) =
-                        layer.mostOfRows[std::size_t(row) * std::size_t(size.i) + i];
-        });
-    });
-    // Layers are added in order, so the sums do not depend on the number of threads.
-    double total = 0.0;
-    result.axis[0].resize(size.i);
-    result.axis[1].resize(size.j);
-    double least = 0.0;
-    for (const Layer &layer : layers) {
-        least = std::min(least, layer.least);
-        std::transform(layer.alongI.begin(), layer.alongI.end(), result.axis[0].begin(),
-                       result.axis[0].begin(), std::plus<>());
-        std::transform(layer.alongJ.begin(), layer.alongJ.end(), result.axis[1].begin(),
-                       result.axis[1].begin(), std::plus<>());
-        for (const double e : layer.blocks)
-            total += e;
-        spread.radiusMm = std::max(spread.radiusMm, layer.radiusMm);
-    }
-    spread.shadowMm2 = shadowOf(places, box, spread.radiusMm);
-    DistanceProfiles profiles(spread);
-    if (total > 0.0)
-        for (auto &axis : result.axis)
-            for (double &e : axis)
-                e /= total;
-    double mass = 0.0;
-    for (const Layer &layer : layers)
-        for (const double m : layer.blockMass)
-            mass += m;
-    const bool isPositive = least >= 0.0 && mass > 0.0;
-    BallProfile balls;
-    for (std::size_t n = 0; n < layers.size(); ++n)
-        for (int row = 0; row < down; ++row)
-            for (int column = 0; column < across; ++column) {
-                const double energy = layers[n].blocks[std::size_t(row) * across + column];
-                if (energy == 0.0)
-                    continue;
-                const auto middle = [side](int block, int samples) {
-                    return 0.5 * (block * side + std::min(samples, (block + 1) * side) - 1);
-                };
-                const volume::VoxelPoint at{{box.lo.i + middle(column, size.i),
-                                             box.lo.j + middle(row, size.j),
-                                             box.lo.k + middle(int(n), size.k)}};
-                const glm::dvec3 from = places.patient(at).mm - center;
-                profiles.add(from, energy / total);
-                const std::size_t block = std::size_t(row) * across + column;
-                if (isPositive)
-                    balls.add(from, layers[n].blockMass[block] / mass);
-            }
-    result.blocks = fieldBlocks(field, box);
-    result.massMm3 = mass * places.cellVolumeMm3();
-    result.energyMm3 = total * places.cellVolumeMm3();
-    if (total > 0.0)
-        spread.roughness = squaredSecondDifferences(field, box) / 16.0 / total;
-    if (isPositive) {
-        const glm::dvec3 cell(places.spacingMm(0), places.spacingMm(1), places.spacingMm(2));
-        const double inBall = 1.0 / balls.leastArea(0.5 * side * glm::length(cell));
-        const double seen = leastSeen * leastProjectionEnergy(result.blocks, places, box);
-        const double leastEnergy = std::max(inBall, seen);
-        spread.peakedness = std::max(1.0, largestLineIntegral(maxima, side, places) /
-                                              (result.massMm3 * leastEnergy));
-        const double depthMm = 2.0 * spread.radiusMm + places.longestStepMm();
-        spread.roughestView = depthMm * spread.roughness * result.energyMm3 /
-                              (result.massMm3 * result.massMm3 * leastEnergy);
-    }
-    result.spread = std::make_shared<const EnergySpread>(std::move(spread));
-    return result;
+    return FieldStatistics(field, box).marginals();
 }
 
 } // namespace pellucid::plan

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <limits>
 #include <memory>
-#include <span>
 #include <vector>
 
+#include "core/plan/field_blocks.h"
 #include "core/volume/volume.h"
 
 namespace pellucid::plan {
@@ -49,20 +48,6 @@ struct EnergySpread {
 /// The spread of noise that fills a box evenly.
 EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &box);
 
-/// The first and last sample of a block along an axis, both inclusive.
-struct BlockRange {
-    int first = 0, last = 0;
-};
-
-/// The blocks that an axis of so many samples is cut into.
-std::vector<BlockRange> blockRanges(int samples);
-
-/// A block's shares of the field's energy and mass.
-struct FieldBlock {
-    std::array<std::uint8_t, 3> at{}; ///< index along each axis, see `blockRanges`
-    float energy = 0.0F, mass = 0.0F; ///< shares of the whole field's
-};
-
 /// The statistics of a field from which the error of its images is predicted.
 struct EnergyMarginals {
     /// Shares of the energy along each axis of the box; each axis sums to 1. *Shape*: one entry per
@@ -74,27 +59,7 @@ struct EnergyMarginals {
     std::shared_ptr<const EnergySpread> spread;
 };
 
+/// The statistics of a field in a box outside of which it is zero.
 EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box);
-
-/// The correlation matrix C of a field's slabs across an axis. Entry (a, b) is a sum over all lines
-/// along the axis: the line's integral in slab a times its integral in slab b. If each slab has a
-/// weight w, the projection of the weighted field along the axis has the energy w^T C w. This gives
-/// the energy of an error that depends on depth, whether its slabs add up in phase or not.
-struct SlabProducts {
-    /// Slab n starts at sample n * samples / slabs.
-    int samples = 1, slabs = 1;
-    /// C, scaled so that the plain projection has energy 1. *Shape*: slabs x slabs, symmetric.
-    std::vector<double> products;
-
-    /// w^T C w, the energy of the projection with these weights.
-    double energy(std::span<const double> weights) const;
-};
-
-/// The products of white noise with zero mean: no correlation between slabs. *Shape*: `energy` has
-/// one entry per sample along the axis.
-SlabProducts evenSlabProducts(std::span<const double> energy);
-
-/// The products of a field for each axis of a box.
-std::array<SlabProducts, 3> slabProducts(const volume::Volume &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::plan

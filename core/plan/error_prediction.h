@@ -7,6 +7,7 @@
 #include "core/fourier/kernels/moment_kernel.h"
 #include "core/fourier/spectrum.h"
 #include "core/plan/energy_marginals.h"
+#include "core/plan/slab_products.h"
 #include "core/shading/slice_shading.h"
 
 namespace pellucid::plan {

@@ -29,8 +29,7 @@ std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::V
                 for (std::size_t b = 0; b < down; ++b)
                     for (int j = ranges[1][b].first; j <= ranges[1][b].last; ++j) {
                         const auto *const row =
-                            samples.data() +
-                            lattice.offsetOf(box.lo.i, j + box.lo.j, k + box.lo.k);
+                            samples.data() + lattice.offsetOf(box.lo.i, j + box.lo.j, k + box.lo.k);
                         for (std::size_t a = 0; a < across; ++a) {
                             double squares = 0.0, sum = 0.0;
                             for (int i = ranges[0][a].first; i <= ranges[0][a].last; ++i) {

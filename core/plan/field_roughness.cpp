@@ -10,25 +10,74 @@ namespace pellucid::plan {
 
 namespace {
 
-// A row of samples, and the four beside it.
-template <class T> struct RowWithNeighbours {
-    const T *here, *above, *below, *before, *after;
-};
+// A row of samples, the rows above and below it, and those of the planes before and after it.
+template <class T> struct RowAndNeighbours { const T *here, *above, *below, *before, *after; };
 
-// The squared second differences at the samples of a row along all axes, and those along the row at
-// the two samples beside its ends.
-template <class T> double squaresAlong(const RowWithNeighbours<T> &rows, int count) {
-    const auto &[here, above, below, before, after] = rows;
+// Adds the squares at the samples of a row, and at the two samples beside its ends.
+template <class T> void addSquares(const RowAndNeighbours<T> &rows, int count, double &sum) {
+    const T *const here = rows.here;
     float inRow = 0.0F;
     for (int i = 0; i < count; ++i) {
         const float twice = 2.0F * float(here[i]);
-        const float down = float(above[i]) + float(below[i]) - twice,
-                    deep = float(before[i]) + float(after[i]) - twice;
+        const float down = float(rows.above[i]) + float(rows.below[i]) - twice,
+                    deep = float(rows.before[i]) + float(rows.after[i]) - twice;
         inRow += down * down + deep * deep;
     }
     for (int i = 1; i + 1 < count; ++i) {
         const float across = float(here[i - 1]) + float(here[i + 1]) - 2.0F * float(here[i]);
         inRow += across * across;
     }
-    return double(inRow);
+    sum += double(inRow);
+    for (const int end : {0, count - 1}) {
+        const double f = double(here[end]);
+        const double next = count > 1 ? double(here[end == 0 ? 1 : end - 1]) : 0.0;
+        sum += (next - 2.0 * f) * (next - 2.0 * f) + f * f;
+    }
 }
+
+// The squares of a plane, and of the rows beside its ends.
+template <class Samples>
+double squaresOfPlane(const Samples &samples, const volume::GridSize &lattice,
+                      const volume::VoxelBox &box, int k) {
+    using T = typename Samples::value_type;
+    const volume::GridSize size = box.size();
+    const std::vector<T> none(std::size_t(size.i));
+    const auto row = [&](int j, int depth) {
+        const bool isInside = j >= 0 && j < size.j && depth >= 0 && depth < size.k;
+        return isInside
+                   ? samples.data() + lattice.offsetOf(box.lo.i, j + box.lo.j, depth + box.lo.k)
+                   : none.data();
+    };
+    double sum = 0.0;
+    for (int j = -1; j <= size.j; ++j)
+        addSquares<T>({row(j, k), row(j - 1, k), row(j + 1, k), row(j, k - 1), row(j, k + 1)},
+                      size.i, sum);
+    return sum;
+}
+
+} // namespace
+
+double squaredSecondDifferences(const volume::Volume &field, const volume::VoxelBox &box) {
+    const volume::GridSize lattice = field.lattice().size(), size = box.size();
+    std::vector<double> ofPlane(std::size_t(size.k));
+    field.visit([&](auto samples) {
+        tbb::parallel_for(0, size.k, [&](int k) {
+            ofPlane[std::size_t(k)] = squaresOfPlane(samples, lattice, box, k);
+        });
+    });
+    double sum = 0.0;
+    for (const double of : ofPlane)
+        sum += of;
+    // Beyond the first and last plane.
+    field.visit([&](auto samples) {
+        for (const int k : {box.lo.k, box.hi.k - 1})
+            for (int j = box.lo.j; j < box.hi.j; ++j)
+                for (int i = box.lo.i; i < box.hi.i; ++i) {
+                    const double f = double(samples[lattice.offsetOf(i, j, k)]);
+                    sum += f * f;
+                }
+    });
+    return sum;
+}
+
+} // namespace pellucid::plan

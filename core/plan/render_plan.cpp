@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
-#include <map>
-#include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "core/fourier/transforms/padded_size.h"
+#include "core/plan/cost_model.h"
+#include "core/plan/kernel_candidates.h"
 #include "core/task/error.h"
 
 namespace pellucid::plan {
@@ -17,115 +20,6 @@ namespace pellucid::plan {
 namespace {
 
 namespace because = task::because;
-
-// Relative times of a frequency sample by kernel width when its cells lie in the cache, with
-// binary16 and with float cells, and of its part in the transforms.
-constexpr std::array<double, 8> sampleTime{0.0, 0.4, 0.5, 0.7, 1.0, 1.7, 2.2, 2.9};
-constexpr double floatCells = 1.4;
-constexpr double transformTime = 0.2;
-// The time to bring in what a cell of the slice's area adds for a width of 4: 6 ns beside the 24 of
-// a sample.
-constexpr double cellTime = 0.25;
-
-double timeInCache(int width, fourier::Storage storage) {
-    return transformTime + sampleTime[std::size_t(width)] *
-                               (storage == fourier::Storage::float32 ? floatCells : 1.0);
-}
-
-// The time of the frames of a slice grid, its frequencies being the unit.
-double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volume::Lattice &lattice,
-                 const fourier::SpectrumLayout &layout) {
-    // In cells, the slice of a view along an axis is as large as the other two axes are padded.
-    const double i = layout.padded.i * lattice.spacingMm(0) / camera.pixelMm,
-                 j = layout.padded.j * lattice.spacingMm(1) / camera.pixelMm,
-                 k = layout.padded.k * lattice.spacingMm(2) / camera.pixelMm;
-    const double area = (i * j + j * k + k * i) / 3.0;
-    const double frequencies = double(grid.columns) * grid.rows;
-    const double inCells =
-        cellTime * (0.25 * layout.width()) * (double(bytesPerCell(layout.storage)) / 4.0) * area;
-    // What is larger takes longer to prepare too: a twentieth for each doubling.
-    const double doublings = std::max(0.0, std::log2(double(layout.bytes()) / double(1 << 20)));
-    return (frequencies * timeInCache(layout.width(), layout.storage) + inCells) *
-           (1.0 + 0.05 * doublings);
-}
-
-} // namespace
-
-FieldSummary summarise(const classify::DensityField &field) {
-    return summarise({&field, 1}).front();
-}
-
-std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields) {
-    volume::VoxelBox box = fields.front().support;
-    for (const classify::DensityField &field : fields)
-        box = volume::united(box, field.support);
-    std::vector<FieldSummary> summaries;
-    for (const classify::DensityField &field : fields)
-        summaries.push_back(
-            {field.values.lattice(), box, energyMarginals(field.values, box), {}, {}});
-    return summaries;
-}
-
-namespace {
-
-// The kernels of one axis by choice and padding, made when first asked for: each takes
-// milliseconds.
-class AxisCandidates {
-public:
-    /// `cued`: with the error of a linear cue's moments.
-    AxisCandidates(int axis, std::span<const FieldSummary> fields, bool cued)
-        : m_cued(cued), m_samples(fields.front().support.size()[axis]), m_axis(std::size_t(axis)),
-          m_fields(fields), m_folded((std::size_t(m_samples) + 3) / 2, 0.0) {
-        // From the wrap voxel, the middle one, outward.
-        for (const FieldSummary &field : fields)
-            for (int n = 0; n < m_samples; ++n)
-                m_folded[std::size_t(std::abs(n - m_samples / 2))] +=
-                    field.energy.axis[m_axis][std::size_t(n)] / double(fields.size());
-    }
-
-    struct Candidate {
-        fourier::Kernel kernel;
-        int padded;
-        AxisError error;
-    };
-    const Candidate &at(const fourier::KernelChoice &choice, double wanted) {
-        auto &slot = m_made[{fourier::kernelName(choice), wanted}];
-        if (!slot) {
-            const int padded = fourier::paddedSize(m_samples, wanted);
-            // Small axes are padded to more than they need: the kernel may know.
-            // Least ghosts are sought for a field that leaves some room.
-            const double padding =
-                std::clamp(double(padded) / m_samples, 1.05, std::max(2.5, wanted));
-            auto kernel = fourier::makeKernel(choice, padding, m_folded);
-            std::optional<fourier::MomentKernel> moment;
-            if (m_cued)
-                moment.emplace(kernel, double(padded) / m_samples);
-            // The worst of the fields; the amplitudes of blocks are the kernel's alone.
-            AxisError error;
-            for (const FieldSummary &field : m_fields) {
-                AxisError e = axisError(kernel, padded, field.energy.axis[m_axis]);
-                if (moment)
-                    addMomentError(e, kernel, *moment, padded,
-                                   field.slabs ? (*field.slabs)[m_axis]
-                                               : evenSlabProducts(field.energy.axis[m_axis]));
-                e.brightest = std::max(error.brightest, e.brightest);
-                e.moment = std::max(error.moment, e.moment);
-                e.brightestMoment = std::max(error.brightestMoment, e.brightestMoment);
-                error = std::move(e);
-            }
-            slot = std::make_unique<Candidate>(Candidate{std::move(kernel), padded, error});
-        }
-        return *slot;
-    }
-
-private:
-    bool m_cued;
-    int m_samples;
-    std::size_t m_axis;
-    std::span<const FieldSummary> m_fields;
-    std::vector<double> m_folded;
-    std::map<std::pair<std::string, double>, std::unique_ptr<Candidate>> m_made;
-};
 
 // A slice grid and what the tails that fold back into it leave.
 struct PlannedGrid {
@@ -165,14 +59,6 @@ double imageShare(const scene::Camera &camera, std::span<const FieldSummary> fie
     return share;
 }
 
-// Of an axis's ghosts where they are strongest.
-double strength(const AxisError &error) {
-    double most = 0.0;
-    for (const BlockAmplitudes &block : error.blocks)
-        most = std::max(most, block.ghosts);
-    return most;
-}
-
 template <class T>
 std::vector<T> choices(const std::optional<T> &fixed, std::initializer_list<T> planned) {
     return fixed ? std::vector<T>{*fixed} : std::vector<T>(planned);
@@ -196,6 +82,236 @@ task::Reason reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool o
                         : because::mostAccurateWith(fixed);
 }
 
+// The search for the best plan: kernels, storages, paddings and slice grids, each tried in turn.
+class Planner {
+public:
+    Planner(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
+            const Budget &budget)
+        : m_scene(scene), m_fields(fields), m_channels(channels), m_budget(budget),
+          m_kernels(choices<fourier::KernelChoice>(scene.interpolation.kernel, {{leastGhosts, 3},
+                                                                                {leastGhosts, 4},
+                                                                                {leastGhosts, 5},
+                                                                                {leastGhosts, 6},
+                                                                                {leastGhosts, 7}})),
+          // Below 1.2 the seam of a full lattice shows.
+          m_paddings(choices(scene.interpolation.padding, {1.25, 1.375, 1.5, 1.625, 1.75, 2.0})),
+          m_storages(choices(scene.interpolation.storage,
+                             {fourier::Storage::binary16, fourier::Storage::float32})),
+          m_axes{KernelCandidates(0, fields, cueOf(scene)),
+                 KernelCandidates(1, fields, cueOf(scene)),
+                 KernelCandidates(2, fields, cueOf(scene))},
+          m_grids(planGrids(scene, fields)), m_inImage(imageShare(scene.camera, fields)) {}
+
+    RenderPlan plan() {
+        // Kernels that no padding makes good enough are left out at first: making one takes
+        // milliseconds.
+        for (const bool thorough : {false, true}) {
+            if (thorough && !std::isinf(m_bestTime))
+                break;
+            for (const auto storage : m_storages)
+                for (const auto &choice : m_kernels)
+                    if (mayBeFaster(choice, storage) && (thorough || !isHopeless(choice, storage)))
+                        considerPaddings(choice, storage);
+        }
+        requirePlan();
+        m_best->filterError = errorOfCardFilter(m_best->spectrum);
+        m_best->reason = reasonFor(*m_best, m_scene, m_isOverBudget);
+        return *m_best;
+    }
+
+private:
+    static constexpr auto leastGhosts = fourier::KernelFamily::leastGhosts;
+    using Levels = std::array<std::size_t, 3>; // of padding, by axis
+
+    struct Layout {
+        fourier::SpectrumLayout spectrum;
+        std::array<AxisError, 3> errors;
+    };
+
+    static LinearCue cueOf(const scene::Scene &scene) {
+        const shading::DepthCue &cue = scene.shading.cue;
+        return cue.isActive() && cue.kind == shading::CueKind::linear ? LinearCue::present
+                                                                      : LinearCue::none;
+    }
+
+    Layout layoutAt(const fourier::KernelChoice &choice, fourier::Storage storage,
+                    const Levels &level) {
+        const KernelCandidate &i = m_axes[0].at(choice, m_paddings[level[0]]),
+                              &j = m_axes[1].at(choice, m_paddings[level[1]]),
+                              &k = m_axes[2].at(choice, m_paddings[level[2]]);
+        return {{{i.kernel, j.kernel, k.kernel},
+                 m_fields.front().support, // that of all fields
+                 {i.padded, j.padded, k.padded},
+                 storage},
+                {i.error, j.error, k.error}};
+    }
+
+    // The worst of the fields.
+    CueWeight weightOf(const fourier::SpectrumLayout &layout) const {
+        CueWeight worst;
+        for (const FieldSummary &field : m_fields) {
+            const CueWeight weight = cueWeight(
+                m_scene.shading.cue, field.lattice,
+                field.depthRadiusMm.value_or(field.lattice.radiusMm()), layout, field.energy);
+            worst.ghosts = std::max(worst.ghosts, weight.ghosts);
+            for (std::size_t d = 0; d < worst.moments.size(); ++d)
+                worst.moments[d] = std::max(worst.moments[d], weight.moments[d]);
+        }
+        return worst;
+    }
+    double relativeError(const Layout &layout) const {
+        const CueWeight weight = weightOf(layout.spectrum);
+        double worst = 0.0;
+        for (const FieldSummary &field : m_fields)
+            worst = std::max(worst, predictRelativeError(layout.errors, layout.spectrum.storage,
+                                                         field.energy, m_inImage, weight));
+        return worst;
+    }
+    double maximumError(const Layout &layout) const {
+        const CueWeight weight = weightOf(layout.spectrum);
+        double worst = 0.0;
+        for (const FieldSummary &field : m_fields)
+            worst = std::max(worst, predictMaximum(layout.errors, layout.spectrum.storage,
+                                                   field.energy, weight));
+        return worst;
+    }
+    double errorOfCardFilter(const fourier::SpectrumLayout &layout) const {
+        double added = 0.0;
+        for (std::size_t d = 0; d < 3; ++d) {
+            double worst = 0.0;
+            for (const FieldSummary &field : m_fields)
+                worst = std::max(worst, filterError(layout.kernels[d], layout.padded[int(d)],
+                                                    field.energy.axis[d]));
+            added += worst;
+        }
+        return std::sqrt(added);
+    }
+
+    // More taps and wider cells cost time, whatever they save elsewhere.
+    bool mayBeFaster(const fourier::KernelChoice &choice, fourier::Storage storage) const {
+        return m_grids.front().cells() * timeInCache(choice.width, storage) < m_bestTime;
+    }
+    bool isHopeless(const fourier::KernelChoice &choice, fourier::Storage storage) {
+        const std::size_t most = m_paddings.size() - 1;
+        const double leastFolded =
+            std::min_element(m_grids.begin(), m_grids.end(), [](const auto &a, const auto &b) {
+                return a.folded < b.folded;
+            })->folded;
+        return std::hypot(relativeError(layoutAt(choice, storage, {most, most, most})),
+                          leastFolded) > m_scene.tolerance;
+    }
+
+    // From the least padding up, an axis at a time.
+    void considerPaddings(const fourier::KernelChoice &choice, fourier::Storage storage) {
+        for (Levels level{};;) {
+            const Layout layout = layoutAt(choice, storage, level);
+            if (!layout.spectrum.addressable()) {
+                m_isOverBudget = true;
+                return;
+            }
+            if (!considerGrids(layout) || !addPadding(layout.errors, level))
+                return;
+        }
+    }
+
+    // More padding where the ghosts are strongest. Returns false where all axes have the most.
+    bool addPadding(const std::array<AxisError, 3> &errors, Levels &level) const {
+        int worst = -1;
+        for (int d = 0; d < 3; ++d)
+            if (level[d] + 1 < m_paddings.size() &&
+                (worst < 0 || strength(errors[d]) > strength(errors[worst])))
+                worst = d;
+        if (worst < 0)
+            return false;
+        ++level[std::size_t(worst)];
+        return true;
+    }
+    // Of an axis's ghosts where they are strongest.
+    static double strength(const AxisError &error) {
+        double most = 0.0;
+        for (const BlockAmplitudes &block : error.blocks)
+            most = std::max(most, block.ghosts);
+        return most;
+    }
+
+    // Returns whether more padding may lead to a better plan: not where this layout does not fit,
+    // or meets the tolerance with the smallest grid already.
+    bool considerGrids(const Layout &layout) {
+        bool fits = false;
+        const double ofGhosts = relativeError(layout);
+        for (const PlannedGrid &planned : m_grids) {
+            const std::size_t bytes = bytesOf(layout.spectrum, planned.grid);
+            m_leastBytes = std::min(m_leastBytes, bytes);
+            if (bytes > m_budget.bytes) {
+                m_isOverBudget = true;
+                break; // wider grids take more
+            }
+            fits = true;
+            if (considerPlan(layout, ofGhosts, planned, bytes))
+                return &planned != &m_grids.front(); // wider grids take longer
+        }
+        return fits;
+    }
+
+    // All spectra but the last are there when the last is prepared.
+    std::size_t bytesOf(const fourier::SpectrumLayout &layout, const SliceGrid &grid) const {
+        const scene::Camera &camera = m_scene.camera;
+        const auto channels = std::size_t(m_channels);
+        // Planes are joined into a picture of their own.
+        const std::size_t joined =
+            channels > 1 ? channels * camera.width * camera.height * sizeof(float) : 0;
+        return layout.peakBytes() + (m_fields.size() - 1) * layout.bytes() +
+               channels * frameBytes(grid, camera) + joined;
+    }
+
+    // Keeps the plan if it is the best so far: the fastest within the tolerance, or, until there is
+    // one, the most accurate. Returns whether it is within the tolerance.
+    bool considerPlan(const Layout &layout, double ofGhosts, const PlannedGrid &planned,
+                      std::size_t bytes) {
+        const double predicted = std::hypot(ofGhosts, planned.folded);
+        const double time =
+            frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
+        const bool meets = predicted <= m_scene.tolerance, unmet = std::isinf(m_bestTime);
+        if (meets ? time < m_bestTime : unmet && (!m_best || predicted < m_best->predictedError)) {
+            m_best = RenderPlan{layout.spectrum,
+                                planned.room,
+                                predicted,
+                                maximumError(layout) + planned.folded,
+                                0.0,
+                                bytes};
+            if (meets)
+                m_bestTime = time;
+        }
+        return meets;
+    }
+
+    void requirePlan() const {
+        if (m_best)
+            return;
+        if (m_leastBytes == std::numeric_limits<std::size_t>::max())
+            throw task::Error(task::ErrorCode::outOfMemory, because::projectionNeedsTooManyCells);
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            because::projectionNeedsMemory((m_leastBytes >> 20) + 1, m_budget.bytes >> 20));
+    }
+
+    const scene::Scene &m_scene;
+    std::span<const FieldSummary> m_fields; ///< on one lattice, in one box
+    int m_channels;
+    Budget m_budget;
+    std::vector<fourier::KernelChoice> m_kernels;
+    std::vector<double> m_paddings;
+    std::vector<fourier::Storage> m_storages;
+    std::array<KernelCandidates, 3> m_axes;
+    std::vector<PlannedGrid> m_grids;
+    double m_inImage; ///< share of the projection's energy
+
+    std::optional<RenderPlan> m_best;
+    double m_bestTime = std::numeric_limits<double>::infinity(); ///< of those within the tolerance
+    bool m_isOverBudget = false;                                 ///< something did not fit
+    std::size_t m_leastBytes = std::numeric_limits<std::size_t>::max();
+};
+
 } // namespace
 
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, const Budget &budget) {
@@ -205,169 +321,7 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, cons
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
                       const Budget &budget) {
     scene::validate(scene);
-    const FieldSummary &field = fields.front(); // lattice and box are the same of all
-    using fourier::KernelFamily;
-    constexpr auto least = KernelFamily::leastGhosts;
-    const auto kernels = choices<fourier::KernelChoice>(
-        scene.interpolation.kernel, {{least, 3}, {least, 4}, {least, 5}, {least, 6}, {least, 7}});
-    // Below 1.2 the seam of a full lattice shows.
-    const auto paddings =
-        choices(scene.interpolation.padding, {1.25, 1.375, 1.5, 1.625, 1.75, 2.0});
-    const auto storages = choices(scene.interpolation.storage,
-                                  {fourier::Storage::binary16, fourier::Storage::float32});
-    const shading::DepthCue &cue = scene.shading.cue;
-    const bool cued = cue.isActive() && cue.kind == shading::CueKind::linear;
-    std::array<AxisCandidates, 3> axes{AxisCandidates(0, fields, cued),
-                                       AxisCandidates(1, fields, cued),
-                                       AxisCandidates(2, fields, cued)};
-    const std::vector<PlannedGrid> grids = planGrids(scene, fields);
-
-    const double leastFolded =
-        std::min_element(grids.begin(), grids.end(), [](const auto &a, const auto &b) {
-            return a.folded < b.folded;
-        })->folded;
-
-    // Planes are joined into a picture of their own.
-    const std::size_t joinedBytes = channels > 1 ? std::size_t(channels) * scene.camera.width *
-                                                       scene.camera.height * sizeof(float)
-                                                 : 0;
-
-    std::optional<RenderPlan> best;
-    double bestTime = std::numeric_limits<double>::infinity(); // of those within the tolerance
-    bool overBudget = false;
-    std::size_t leastBytes = std::numeric_limits<std::size_t>::max();
-    using Levels = std::array<std::size_t, 3>; // of padding, by axis
-    const auto layoutAt = [&](const fourier::KernelChoice &choice, fourier::Storage storage,
-                              const Levels &level, std::array<AxisError, 3> &errors) {
-        const auto &i = axes[0].at(choice, paddings[level[0]]);
-        const auto &j = axes[1].at(choice, paddings[level[1]]);
-        const auto &k = axes[2].at(choice, paddings[level[2]]);
-        errors = {i.error, j.error, k.error};
-        return fourier::SpectrumLayout{
-            {i.kernel, j.kernel, k.kernel}, field.support, {i.padded, j.padded, k.padded}, storage};
-    };
-    // The worst of the fields.
-    const auto weightOf = [&](const fourier::SpectrumLayout &layout) {
-        CueWeight worst;
-        for (const FieldSummary &one : fields) {
-            const CueWeight weight =
-                cueWeight(cue, one.lattice, one.depthRadiusMm.value_or(one.lattice.radiusMm()),
-                          layout, one.energy);
-            worst.ghosts = std::max(worst.ghosts, weight.ghosts);
-            for (std::size_t d = 0; d < worst.moments.size(); ++d)
-                worst.moments[d] = std::max(worst.moments[d], weight.moments[d]);
-        }
-        return worst;
-    };
-    const double inImage = imageShare(scene.camera, fields);
-    const auto predict = [&](const fourier::SpectrumLayout &layout,
-                             const std::array<AxisError, 3> &errors) {
-        const CueWeight weight = weightOf(layout);
-        double worst = 0.0;
-        for (const FieldSummary &one : fields)
-            worst = std::max(
-                worst, predictRelativeError(errors, layout.storage, one.energy, inImage, weight));
-        return worst;
-    };
-    const auto maximum = [&](const fourier::SpectrumLayout &layout,
-                             const std::array<AxisError, 3> &errors) {
-        double worst = 0.0;
-        for (const FieldSummary &one : fields)
-            worst = std::max(worst,
-                             predictMaximum(errors, layout.storage, one.energy, weightOf(layout)));
-        return worst;
-    };
-    // Kernels that no padding makes good enough are left out at first: making one takes
-    // milliseconds.
-    const auto hopeless = [&](const fourier::KernelChoice &choice, fourier::Storage storage) {
-        std::array<AxisError, 3> errors;
-        const std::size_t most = paddings.size() - 1;
-        const auto layout = layoutAt(choice, storage, {most, most, most}, errors);
-        return std::hypot(predict(layout, errors), leastFolded) > scene.tolerance;
-    };
-    const auto consider = [&](const fourier::KernelChoice &choice, fourier::Storage storage) {
-        Levels level{};
-        for (;;) {
-            std::array<AxisError, 3> errors;
-            const auto layout = layoutAt(choice, storage, level, errors);
-            if (!layout.addressable()) {
-                overBudget = true;
-                return;
-            }
-            // All but the last are there when the last is prepared.
-            const std::size_t spectrumBytes =
-                layout.peakBytes() + (fields.size() - 1) * layout.bytes();
-            bool fits = false;
-            const double ofGhosts = predict(layout, errors);
-            for (const PlannedGrid &planned : grids) {
-                const std::size_t bytes =
-                    spectrumBytes + std::size_t(channels) * frameBytes(planned.grid, scene.camera) +
-                    joinedBytes;
-                leastBytes = std::min(leastBytes, bytes);
-                if (bytes > budget.bytes) {
-                    overBudget = true;
-                    break; // wider grids take more
-                }
-                fits = true;
-                const double predicted = std::hypot(ofGhosts, planned.folded);
-                const double time = frameTime(planned.grid, scene.camera, field.lattice, layout);
-                const bool meets = predicted <= scene.tolerance;
-                const bool unmet = std::isinf(bestTime);
-                if (meets ? time < bestTime
-                          : unmet && (!best || predicted < best->predictedError)) {
-                    best = RenderPlan{layout,    planned.room,
-                                      predicted, maximum(layout, errors) + planned.folded,
-                                      0.0,       bytes};
-                    if (meets)
-                        bestTime = time;
-                }
-                if (meets && &planned == &grids.front())
-                    return; // more padding takes more
-                if (meets)
-                    break; // wider grids take longer
-            }
-            if (!fits)
-                return;
-            // More padding where the ghosts are strongest.
-            int worst = -1;
-            for (int d = 0; d < 3; ++d)
-                if (level[d] + 1 < paddings.size() &&
-                    (worst < 0 || strength(errors[d]) > strength(errors[worst])))
-                    worst = d;
-            if (worst < 0)
-                return;
-            ++level[std::size_t(worst)];
-        }
-    };
-    // More taps and wider cells cost time, whatever they save elsewhere.
-    const auto faster = [&](const fourier::KernelChoice &choice, fourier::Storage storage) {
-        return grids.front().cells() * timeInCache(choice.width, storage) < bestTime;
-    };
-    for (const bool thorough : {false, true}) {
-        if (thorough && !std::isinf(bestTime))
-            break;
-        for (const auto storage : storages)
-            for (const auto &choice : kernels)
-                if (faster(choice, storage) && (thorough || !hopeless(choice, storage)))
-                    consider(choice, storage);
-    }
-    if (!best && leastBytes == std::numeric_limits<std::size_t>::max())
-        throw task::Error(task::ErrorCode::outOfMemory, because::projectionNeedsTooManyCells);
-    if (!best)
-        throw task::Error(
-            task::ErrorCode::outOfMemory,
-            because::projectionNeedsMemory((leastBytes >> 20) + 1, budget.bytes >> 20));
-    double added = 0.0;
-    for (std::size_t d = 0; d < 3; ++d) {
-        double worst = 0.0;
-        for (const FieldSummary &one : fields)
-            worst = std::max(worst, filterError(best->spectrum.kernels[d],
-                                                best->spectrum.padded[int(d)], one.energy.axis[d]));
-        added += worst;
-    }
-    best->filterError = std::sqrt(added);
-    best->reason = reasonFor(*best, scene, overBudget);
-    return *best;
+    return Planner(scene, fields, channels, budget).plan();
 }
 
 } // namespace pellucid::plan

@@ -1,35 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <span>
-#include <vector>
 
 #include "core/fourier/spectrum.h"
 #include "core/plan/error_prediction.h"
+#include "core/plan/field_summary.h"
 #include "core/plan/slice_grid.h"
 #include "core/scene/scene.h"
 #include "core/task/reason.h"
 
 namespace pellucid::plan {
-
-/// What the planner needs to know of a field.
-struct FieldSummary {
-    volume::Lattice lattice;
-    volume::VoxelBox support;
-    EnergyMarginals energy;
-    /// For linear cues; without it the field is taken for noise.
-    std::optional<std::array<SlabProducts, 3>> slabs;
-    /// What the depth of a cue is measured by; the lattice's own radius if absent.
-    std::optional<double> depthRadiusMm;
-};
-
-FieldSummary summarise(const classify::DensityField &field);
-/// Of fields on one lattice that share a plan: each in the box that holds all.
-std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields);
 
 /// The memory that a plan may ask for, bytes.
 struct Budget {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/plan/slab_products.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 
 #include <tbb/parallel_for.h>
-
-#include "core/plan/energy_marginals.h"
 
 namespace pellucid::plan {
 
@@ -25,8 +25,7 @@ std::vector<std::vector<float>> slabsAcross(const volume::Volume &field,
     const auto firstOf = [&](int slab) { return int(std::int64_t(slab) * samples / slabs); };
     field.visit([&](auto all) {
         const auto rowAt = [&](int j, int k) {
-            return all.data() + (std::size_t(k + box.lo.k) * lattice.j + j + box.lo.j) * lattice.i +
-                   box.lo.i;
+            return all.data() + lattice.offsetOf(box.lo.i, j + box.lo.j, k + box.lo.k);
         };
         // Each task writes what no other does: a row of the sums.
         tbb::parallel_for(0, second, [&](int row) {

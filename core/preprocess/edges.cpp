@@ -36,9 +36,7 @@ public:
                 m_metric[d][e] = float(metric[d][e]);
     }
 
-    float at(int i, int j, int k) const {
-        return m_samples[(std::size_t(k) * m_size.j + j) * m_size.i + i];
-    }
+    float at(int i, int j, int k) const { return m_samples[m_size.offsetOf(i, j, k)]; }
     // Neighbours of a sample; the outermost goes on beyond the border.
     struct Around {
         int im, i, ip, jm, j, jp, km, k, kp;
@@ -113,7 +111,7 @@ void forPlanes(const volume::GridSize &size, const task::Progress &progress, con
         progress.check();
         for (int j = 0; j < size.j; ++j)
             for (int i = 0; i < size.i; ++i)
-                f(i, j, k, (std::size_t(k) * size.j + j) * size.i + i);
+                f(i, j, k, size.offsetOf(i, j, k));
     });
 }
 
@@ -135,7 +133,7 @@ Mask linked(const volume::GridSize &size, const std::vector<float> &strength, fl
             for (int z = std::max(k - 1, 0); z <= std::min(k + 1, size.k - 1); ++z)
                 for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size.j - 1); ++y)
                     for (int x = std::max(i - 1, 0); x <= std::min(i + 1, size.i - 1); ++x) {
-                        const std::size_t next = (std::size_t(z) * size.j + y) * size.i + x;
+                        const std::size_t next = size.offsetOf(x, y, z);
                         if (strength[next] > low && edges[next] == 0) {
                             edges[next] = 1;
                             open.push_back(next);

@@ -57,7 +57,7 @@ Mask within(const volume::Lattice &lattice, const Mask &mask, std::uint8_t value
     // A distance that equals the radius counts, whatever its rounding.
     const auto limit = float(radiusMm * radiusMm * (1.0 + 1e-5));
     constexpr float far = 1e30F;
-    const auto row = [&](int j, int k) { return (std::size_t(k) * size.j + j) * size.i; };
+    const auto row = [&](int j, int k) { return size.offsetOf(0, j, k); };
     std::vector<float> alongRows(mask.size()), inSlices(mask.size());
     tbb::parallel_for(0, size.k, [&](int k) {
         progress.check();

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -27,8 +29,11 @@ using classify::ClassSamples;
 using classify::DensityKind;
 using classify::Region;
 using classify::Step;
+using classify::StepKind;
 using classify::TissueClass;
 using Regions = std::shared_ptr<const std::vector<Region>>;
+// What a step gives, by its effect.
+using Outcome = std::variant<volume::Volume, Regions>;
 
 // A 64-bit digest of the samples, whatever the number of threads: blocks are mixed with where they
 // stand, and added.
@@ -94,15 +99,14 @@ std::vector<Region> partOf(const volume::Lattice &lattice, const Mask &before, c
     tbb::parallel_for(0, size.k, [&](int k) {
         for (int j = 0; j < size.j; ++j)
             for (int i = 0; i < size.i; ++i) {
-                const std::size_t n = (std::size_t(k) * size.j + j) * size.i + i;
+                const std::size_t n = size.offsetOf(i, j, k);
                 const Region was = former ? (*former)[n] : Region::inside;
                 bool touches = kept[n] != 0;
                 if (!touches && before[n] == 0 && was != Region::outside)
                     for (int z = std::max(k - 1, 0); z <= std::min(k + 1, size.k - 1); ++z)
                         for (int y = std::max(j - 1, 0); y <= std::min(j + 1, size.j - 1); ++y)
                             for (int x = std::max(i - 1, 0); x <= std::min(i + 1, size.i - 1); ++x)
-                                touches = touches ||
-                                          kept[(std::size_t(z) * size.j + y) * size.i + x] != 0;
+                                touches = touches || kept[size.offsetOf(x, y, z)] != 0;
                 if (touches)
                     regions[n] = was;
             }
@@ -110,80 +114,137 @@ std::vector<Region> partOf(const volume::Lattice &lattice, const Mask &before, c
     return regions;
 }
 
-std::vector<Region> insideOf(const Mask &mask) {
+Regions shared(std::vector<Region> regions) {
+    return std::make_shared<const std::vector<Region>>(std::move(regions));
+}
+
+Regions insideOf(const Mask &mask) {
     std::vector<Region> regions(mask.size());
     std::transform(mask.begin(), mask.end(), regions.begin(),
                    [](std::uint8_t m) { return m != 0 ? Region::inside : Region::outside; });
-    return regions;
+    return shared(std::move(regions));
 }
 
-volume::Volume changedValues(const volume::Volume &values, const Step &step,
-                             const task::Progress &progress) {
-    if (step.kind == "gaussian")
-        return gaussian(values, step.at("sigma_mm"), progress);
-    if (step.kind == "median")
-        return median(values, step.at("radius_mm"), progress);
-    if (step.kind == "diffusion")
-        return diffusion(values, int(step.at("iterations")), step.at("conductance"), progress);
-    const double sigma = step.at("sigma_mm");
-    return gradientMagnitude(sigma > 0.0 ? gaussian(values, sigma, progress.part(0.0, 0.8))
-                                         : values,
+// Where the values are of a kind, whatever the class.
+template <class F> Regions insideWhere(const volume::Volume &values, const F &holds) {
+    Mask mask(values.lattice().size().count());
+    values.visit([&](auto samples) {
+        for (std::size_t n = 0; n < mask.size(); ++n)
+            mask[n] = holds(double(samples[n]));
+    });
+    return insideOf(mask);
+}
+
+volume::Volume smoothGradient(const volume::Volume &values, double sigmaMm,
+                              const task::Progress &progress) {
+    return gradientMagnitude(sigmaMm > 0.0 ? gaussian(values, sigmaMm, progress.part(0.0, 0.8))
+                                           : values,
                              progress.part(0.8, 1.0));
 }
 
-// Whether what a step finds depends on the class, not on the values alone.
-bool looksAtClass(const Step &step) {
-    return step.kind == "opening" || step.kind == "closing" || step.kind == "largest";
-}
-
-std::vector<Region> foundRegions(const volume::Volume &values, const Step &step,
-                                 const TissueClass &tissue, const Regions &before,
-                                 const task::Progress &progress) {
-    const volume::Lattice &lattice = values.lattice();
-    if (step.kind == "edges") {
-        const CannyOptions options{step.at("sigma_mm"), step.at("low"), step.at("high")};
-        return insideOf(step.at("itk") == 1.0 ? cannyEdgesByItk(values, options, progress)
-                                              : cannyEdges(values, options, progress));
-    }
-    if (step.kind == "binarise") {
-        Mask mask(lattice.size().count());
-        const double from = step.at("from");
-        values.visit([&](auto samples) {
-            for (std::size_t n = 0; n < mask.size(); ++n)
-                mask[n] = double(samples[n]) >= from;
-        });
-        return insideOf(mask);
-    }
-    if (step.kind == "body")
-        return insideOf(body(values, step.at("margin_mm"), progress));
-    if (step.kind == "skin")
-        return insideOf(skin(values, step.at("depth_mm"), step.at("margin_mm"), progress));
-    if (step.kind == "threshold") {
-        Mask mask(lattice.size().count());
-        const double low = step.at("low"), high = step.at("high");
-        values.visit([&](auto samples) {
-            for (std::size_t n = 0; n < mask.size(); ++n)
-                mask[n] = double(samples[n]) >= low && double(samples[n]) <= high;
-        });
-        return insideOf(mask);
-    }
-    const Mask now = belonging(values, tissue, before);
-    if (step.kind == "largest")
-        return partOf(lattice, now, largestPart(lattice, now, step.at("share"), progress), before);
-    const double radius = step.at("radius_mm");
-    if (step.kind == "opening")
-        return partOf(lattice, now,
-                      step.at("itk") == 1.0 ? openingByItk(lattice, now, radius, progress)
-                                            : opening(lattice, now, radius, progress),
-                      before);
-    const Mask closed = step.at("itk") == 1.0 ? closingByItk(lattice, now, radius, progress)
-                                              : closing(lattice, now, radius, progress);
+// The regions so far, with the gaps that the mask closed.
+Regions withFilled(const Regions &before, const Mask &now, const Mask &closed) {
     std::vector<Region> regions =
         before ? *before : std::vector<Region>(closed.size(), Region::inside);
     for (std::size_t n = 0; n < closed.size(); ++n)
         if (closed[n] != 0 && now[n] == 0)
             regions[n] = Region::filled;
-    return regions;
+    return shared(std::move(regions));
+}
+
+// What a step does to what the steps before it left of a class.
+Outcome outcomeOf(const Step &step, const TissueClass &tissue, const ClassSamples &before,
+                  const task::Progress &progress) {
+    const volume::Volume &values = before.values;
+    const volume::Lattice &lattice = values.lattice();
+    const auto given = [&](const char *parameter) { return step.at(parameter); };
+    const auto now = [&] { return belonging(values, tissue, before.regions); };
+    const auto part = [&](const Mask &all, const Mask &kept) {
+        return shared(partOf(lattice, all, kept, before.regions));
+    };
+    switch (step.kind) {
+    case StepKind::gaussian:
+        return gaussian(values, given("sigma_mm"), progress);
+    case StepKind::median:
+        return median(values, given("radius_mm"), progress);
+    case StepKind::diffusion:
+        return diffusion(values, int(given("iterations")), given("conductance"), progress);
+    case StepKind::gradient:
+        return smoothGradient(values, given("sigma_mm"), progress);
+    case StepKind::threshold:
+        return insideWhere(values, [low = given("low"), high = given("high")](double value) {
+            return value >= low && value <= high;
+        });
+    case StepKind::edges: {
+        const CannyOptions options{given("sigma_mm"), given("low"), given("high")};
+        return insideOf(given("itk") == 1.0 ? cannyEdgesByItk(values, options, progress)
+                                            : cannyEdges(values, options, progress));
+    }
+    case StepKind::binarise:
+        return insideWhere(values, [from = given("from")](double value) { return value >= from; });
+    case StepKind::opening: {
+        const Mask all = now();
+        const auto open = given("itk") == 1.0 ? openingByItk : opening;
+        return part(all, open(lattice, all, given("radius_mm"), progress));
+    }
+    case StepKind::closing: {
+        const Mask all = now();
+        const auto close = given("itk") == 1.0 ? closingByItk : closing;
+        return withFilled(before.regions, all, close(lattice, all, given("radius_mm"), progress));
+    }
+    case StepKind::largestComponent: {
+        const Mask all = now();
+        return part(all, largestPart(lattice, all, given("share"), progress));
+    }
+    case StepKind::body:
+        return insideOf(body(values, given("margin_mm"), progress));
+    case StepKind::skin:
+        return insideOf(skin(values, given("depth_mm"), given("margin_mm"), progress));
+    }
+    std::abort(); // every kind is above
+}
+
+// Whether what a step finds depends on the class, not on the values alone.
+bool looksAtClass(StepKind kind) {
+    switch (kind) {
+    case StepKind::opening:
+    case StepKind::closing:
+    case StepKind::largestComponent:
+        return true;
+    case StepKind::gaussian:
+    case StepKind::median:
+    case StepKind::diffusion:
+    case StepKind::gradient:
+    case StepKind::threshold:
+    case StepKind::edges:
+    case StepKind::binarise:
+    case StepKind::body:
+    case StepKind::skin:
+        break;
+    }
+    return false;
+}
+
+// What a class is shown with after a step, if the step changes that.
+std::optional<DensityKind> densityAfter(StepKind kind) {
+    switch (kind) {
+    case StepKind::gradient:
+        return DensityKind::range;
+    case StepKind::edges:
+    case StepKind::binarise:
+        return DensityKind::one;
+    case StepKind::gaussian:
+    case StepKind::median:
+    case StepKind::diffusion:
+    case StepKind::threshold:
+    case StepKind::opening:
+    case StepKind::closing:
+    case StepKind::largestComponent:
+    case StepKind::body:
+    case StepKind::skin:
+        break;
+    }
+    return std::nullopt;
 }
 
 // What both leave.
@@ -195,20 +256,19 @@ Regions both(const Regions &a, const Regions &b) {
         joined[n] = (*a)[n] == Region::outside || (*b)[n] == Region::outside
                         ? Region::outside
                         : std::max((*a)[n], (*b)[n]);
-    return std::make_shared<const std::vector<Region>>(std::move(joined));
+    return shared(std::move(joined));
 }
 
 } // namespace
 
 struct StepCache::Store {
-    using Value = std::variant<volume::Volume, Regions>;
     struct Entry {
         std::string key;
-        Value value;
+        Outcome value;
         std::size_t bytes;
     };
 
-    template <class T, class Make> T find(const std::string &key, const Make &make) {
+    template <class T> T find(const std::string &key, const std::function<Outcome()> &make) {
         {
             const std::lock_guard lock(mutex);
             const auto found = std::find_if(entries.begin(), entries.end(),
@@ -218,7 +278,7 @@ struct StepCache::Store {
                 return std::get<T>(entries.front().value);
             }
         }
-        T made = make();
+        T made = std::get<T>(make());
         const std::lock_guard lock(mutex);
         ++computed;
         std::size_t size = 0;
@@ -273,27 +333,21 @@ ClassSamples StepCache::run(const volume::Volume &volume, const TissueClass &tis
             const task::Progress part =
                 progress.part(double(n) / tissue.steps.size(), double(n + 1) / tissue.steps.size());
             const std::string text = " | " + classify::stepText(step);
-            if (classify::stepKind(step.kind).effect == classify::StepEffect::values) {
+            const auto make = [&] { return outcomeOf(step, tissue, result, part); };
+            result.density = densityAfter(step.kind).value_or(result.density);
+            if (classify::describe(step.kind).effect == classify::StepEffect::values) {
                 valuesKey += text;
-                result.values = m_store->find<volume::Volume>(
-                    valuesKey, [&] { return changedValues(result.values, step, part); });
-                if (step.kind == "gradient")
-                    result.density = DensityKind::range;
+                result.values = m_store->find<volume::Volume>(valuesKey, make);
                 continue;
             }
             std::string key = valuesKey + text;
-            if (looksAtClass(step))
+            if (looksAtClass(step.kind))
                 key += fmt::format(" of {} {} {} {}", tissue.low, tissue.high, tissue.softness,
                                    regionsKey);
-            const Regions found = m_store->find<Regions>(key, [&] {
-                return std::make_shared<const std::vector<Region>>(
-                    foundRegions(result.values, step, tissue, result.regions, part));
-            });
+            const auto found = m_store->find<Regions>(key, make);
             // What looks at the class has seen the regions before it.
-            result.regions = looksAtClass(step) ? found : both(result.regions, found);
+            result.regions = looksAtClass(step.kind) ? found : both(result.regions, found);
             regionsKey += text;
-            if (step.kind == "edges" || step.kind == "binarise")
-                result.density = DensityKind::one;
         }
     });
     return result;

@@ -14,10 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 using classify::FieldWindow;
 using classify::Look;
+using classify::StepKind;
 using task::Error;
 using task::ErrorCode;
 
-// Which thresholds are carried over: those given, or the usual ones of edges too, which mean value
+// Which thresholds are carried over: those given, or the defaults of edges too, which mean value
 // units.
 enum class Thresholds { given, all };
 
@@ -29,12 +30,12 @@ Look mapped(Look look, double offset, double scale, Thresholds thresholds) {
         for (classify::Step &step : tissue.steps) {
             for (const char *name : {"low", "high"}) {
                 const bool isGiven = step.parameters.contains(name);
-                if (step.kind == "edges" && (isGiven || thresholds == Thresholds::all))
+                if (step.kind == StepKind::edges && (isGiven || thresholds == Thresholds::all))
                     step.parameters[name] = scale * step.at(name);
-                if (step.kind == "threshold" && isGiven)
+                if (step.kind == StepKind::threshold && isGiven)
                     step.parameters[name] = value(step.at(name));
             }
-            isSlope = isSlope || step.kind == "gradient";
+            isSlope = isSlope || step.kind == StepKind::gradient;
         }
         tissue.low = value(tissue.low);
         tissue.high = value(tissue.high);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "core/classify/json_values_nlohmann.h"
 #include "core/classify/look_json.h"
+#include "core/files/json_value_nlohmann.h"
 #include "core/presets/preset.h"
 #include "core/task/error.h"
 
@@ -16,7 +15,7 @@ namespace pellucid::presets {
 namespace {
 
 namespace because = task::because;
-using classify::refuseJson;
+using files::JsonValue;
 using nlohmann::json;
 using task::Error;
 using task::ErrorCode;
@@ -90,10 +89,8 @@ public:
         return true;
     }
     bool parse_error(std::size_t, const std::string &, const json::exception &error) override {
-        // "[tag] parse error at line 3, column 5: what", or "[tag] what".
-        const std::string text = error.what();
-        const auto tag = text.find("] ");
-        m_failure = tag == std::string::npos ? text : text.substr(tag + 2);
+        // "parse error at line 3, column 5: what", or "what".
+        m_failure = files::jsonFault(error);
         if (m_failure.rfind("parse error at", 0) == 0)
             m_failure = m_failure.substr(m_failure.find(": ") + 2);
         return false;
@@ -143,12 +140,8 @@ private:
     std::string m_failure;
 };
 
-std::string textAt(const json &in, const char *key) {
-    if (!in.contains(key))
-        return {};
-    if (!in[key].is_string())
-        refuseJson("/" + std::string(key), because::mustBeAText);
-    return in[key].get<std::string>();
+std::string textOrEmpty(const JsonValue &in) {
+    return in ? in.text() : std::string();
 }
 
 // Bytes that begin a character of UTF-8.
@@ -157,33 +150,29 @@ std::ptrdiff_t characters(const std::string &text) {
                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
 }
 
-Preset parsed(const json &in, const std::string &source) {
-    if (!in.is_object())
-        refuseJson("", because::mustBeAnObject);
-    if (textAt(in, "schema") != schema)
-        refuseJson("/schema", because::isNot(schema));
+Preset parsed(const JsonValue &in, const std::string &source) {
+    if (!in.isObject())
+        in.refuse(because::mustBeAnObject);
+    if (textOrEmpty(in["schema"]) != schema)
+        in["schema"].refuse(because::isNot(schema));
     Preset preset;
-    preset.name = textAt(in, "name");
+    preset.name = textOrEmpty(in["name"]);
     if (preset.name.find_first_not_of(' ') == std::string::npos ||
         characters(preset.name) > longestName ||
         std::any_of(preset.name.begin(), preset.name.end(),
                     [](char c) { return static_cast<unsigned char>(c) < 32; }))
-        refuseJson("/name", because::mustBeALine(longestName));
-    preset.modality = textAt(in, "modality");
-    preset.notes = textAt(in, "notes");
-    const std::string unit = textAt(in, "units");
+        in["name"].refuse(because::mustBeALine(longestName));
+    preset.modality = textOrEmpty(in["modality"]);
+    preset.notes = textOrEmpty(in["notes"]);
+    const std::string unit = textOrEmpty(in["units"]);
     if (!unit.empty() && unit != "value" && unit != "window")
-        refuseJson("/units", because::mustBeValueOrWindow);
+        in["units"].refuse(because::mustBeValueOrWindow);
     preset.unit = unit == "window" ? RangeUnit::window : RangeUnit::value;
-    if (in.contains("window")) {
-        const json &w = in["window"];
-        if (!w.is_array() || w.size() != 2 || !w[0].is_number() || !w[1].is_number())
-            refuseJson("/window", because::mustBeTwoNumbers);
-        preset.window = classify::FieldWindow{w[0].get<double>(), w[1].get<double>()};
-        if (!(std::abs(preset.window->low) <= 1e30 && std::abs(preset.window->high) <= 1e30))
-            refuseJson("/window", because::isOutOfRange);
-        if (!(preset.window->low < preset.window->high))
-            refuseJson("/window", because::mustBeTwoRisingNumbers);
+    if (const JsonValue window = in["window"]) {
+        const auto [low, high] = window.twoNumbers();
+        if (!(low < high))
+            window.refuse(because::mustBeTwoRisingNumbers);
+        preset.window = classify::FieldWindow{low, high};
     }
     preset.look = classify::lookFromJson(source);
     preset.shading = shading::shadingFromJson(source);
@@ -209,11 +198,12 @@ Preset presetFromJson(const std::string &text) {
     if (!lines.failure().empty())
         throw Error(ErrorCode::unusable, because::atLine(lines.line(), lines.failure()));
     try {
-        return parsed(json::parse(text), text);
+        const json in = json::parse(text);
+        return parsed(JsonValue(in), text);
     } catch (const Error &error) {
-        const auto [where, what] = classify::jsonRefusal(error.reason());
+        const task::Reason &reason = error.reason();
         throw Error(ErrorCode::unusable,
-                    because::atLine(lines.of(where), where.empty() ? what : error.reason()));
+                    because::atLine(lines.of(files::jsonPointer(reason)), reason));
     }
 }
 

@@ -37,7 +37,9 @@ std::string fileNameOf(const std::string &presetName) {
 }
 
 PresetLibrary::PresetLibrary(fs::path userFolder) : m_folder(std::move(userFolder)) {
-    read();
+    for (const BuiltInFile &file : builtInFiles())
+        m_entries.push_back({presetFromJson(file.text), {}});
+    readUserFolder();
 }
 
 PresetLibrary PresetLibrary::ofUser() {
@@ -45,11 +47,10 @@ PresetLibrary PresetLibrary::ofUser() {
     return PresetLibrary(data ? *data / "presets" : fs::path());
 }
 
-void PresetLibrary::read() {
-    m_entries.clear();
+void PresetLibrary::readUserFolder() {
+    const auto builtInCount = std::ptrdiff_t(builtInFiles().size());
+    m_entries.erase(m_entries.begin() + builtInCount, m_entries.end());
     m_skipped.clear();
-    for (const BuiltInFile &file : builtInFiles())
-        m_entries.push_back({presetFromJson(file.text), {}});
     if (m_folder.empty())
         return;
     std::vector<fs::path> files;
@@ -60,7 +61,6 @@ void PresetLibrary::read() {
         if (it->path().extension() == ".json" && it->path().filename().string()[0] != '.')
             files.push_back(it->path());
     std::sort(files.begin(), files.end());
-    const auto builtInCount = std::ptrdiff_t(m_entries.size());
     for (const fs::path &path : files) {
         try {
             Preset preset = readPreset(path);
@@ -120,7 +120,7 @@ void PresetLibrary::save(const Preset &preset) {
     for (int n = 2; former == nullptr && fs::exists(path, failed); ++n)
         path = m_folder / fileNameOf(fmt::format("{} {}", preset.name, n));
     writePreset(path, preset);
-    read();
+    readUserFolder();
 }
 
 void PresetLibrary::remove(const std::string &name) {
@@ -132,7 +132,7 @@ void PresetLibrary::remove(const std::string &name) {
     if (failed)
         throw Error(ErrorCode::output, because::cannotBeRemoved(task::systemReason(failed)),
                     entry.path);
-    read();
+    readUserFolder();
 }
 
 } // namespace pellucid::presets

@@ -46,7 +46,8 @@ public:
     void remove(const std::string &name);
 
 private:
-    void read();
+    /// Anew; the built-in presets stay.
+    void readUserFolder();
     std::filesystem::path m_folder;
     std::vector<PresetEntry> m_entries;
     std::vector<SkippedPreset> m_skipped;

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <locale>
 #include <sstream>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/files/json_value_nlohmann.h"
 #include "core/files/read_text.h"
 #include "core/task/error.h"
 
@@ -20,6 +21,7 @@ namespace {
 
 namespace because = task::because;
 namespace fs = std::filesystem;
+using files::JsonValue;
 using nlohmann::json;
 using task::Error;
 using task::ErrorCode;
@@ -42,6 +44,8 @@ Points pointsOfText(const std::string &text) {
         if (!std::getline(in, line))
             refuse(because::atLine(n + 1, because::endsBeforeItsOpacity));
     std::istringstream numbers(line);
+    // The machine's language does not change a file's decimal sign.
+    numbers.imbue(std::locale::classic());
     int count = 0;
     if (!(numbers >> count) || count < 2 || count % 2 != 0 || count > 20000)
         refuse(because::atLine(opacityLine, because::opacityHasNoCount));
@@ -56,17 +60,22 @@ Points pointsOfText(const std::string &text) {
 }
 
 Points pointsOfJson(const std::string &text) {
+    json parsed;
     try {
-        const json in = json::parse(text);
-        const json &component = in.at("volumeProperties").at(0).at("components").at(0);
-        Points points;
-        for (const json &point : component.at("scalarOpacity").at("points"))
-            points.push_back({point.at("x").get<double>(), point.at("y").get<double>()});
-        return points;
+        parsed = json::parse(text);
     } catch (const json::exception &error) {
-        const std::string what = error.what();
-        const auto tag = what.find("] ");
-        refuse(because::isNoSlicerPreset(tag == std::string::npos ? what : what.substr(tag + 2)));
+        refuse(because::isNoSlicerPreset(files::jsonFault(error)));
+    }
+    try {
+        constexpr double any = std::numeric_limits<double>::max();
+        const JsonValue in(parsed);
+        const JsonValue component = in.at("volumeProperties").at(0).at("components").at(0);
+        Points points;
+        for (const JsonValue &point : component.at("scalarOpacity").at("points").elements())
+            points.push_back({point.at("x").number(any), point.at("y").number(any)});
+        return points;
+    } catch (const Error &error) {
+        refuse(because::isNoSlicerPreset(error.reason()));
     }
 }
 

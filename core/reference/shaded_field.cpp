@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -61,11 +62,25 @@ classify::DensityField shadedField(const classify::DensityField &field,
     });
 }
 
+std::vector<double> joinedPlanes(std::vector<std::vector<double>> planes,
+                                 const classify::ShownFields &fields) {
+    if (planes.size() == 1 && fields.isGrey())
+        return std::move(planes.front());
+    // The channels of a look have their colors already.
+    const classify::Color color = fields.channels.size() == 1 ? fields.color : classify::Color{};
+    const std::array<double, 3> factors{color.red, color.green, color.blue};
+    std::vector<double> result;
+    result.reserve(factors.size() * planes.front().size());
+    for (std::size_t n = 0; n < planes.front().size(); ++n)
+        for (std::size_t c = 0; c < factors.size(); ++c)
+            result.push_back(factors[c] * planes[std::min(c, planes.size() - 1)][n]);
+    return result;
+}
+
 std::vector<double> shadedImage(const classify::ShownFields &fields,
                                 const shading::Shading &shading, const scene::Camera &camera,
                                 const scene::ImageDefinition &image,
                                 const task::Progress &progress) {
-    const bool isGrey = fields.isGrey() && shading.isGrey();
     const auto scale = shading::shadingScale(fields.channels.front().values.lattice());
     std::vector<std::vector<double>> planes;
     // Of one field in grey light the channels differ by its colour only.
@@ -75,16 +90,7 @@ std::vector<double> shadedImage(const classify::ShownFields &fields,
                                         shading, camera.axes(), int(c), scale, progress);
         planes.push_back(WideKernel(shaded.values, shaded.support, progress).image(camera, image));
     }
-    if (isGrey)
-        return planes.front();
-    // The channels of a look have their colours already.
-    const classify::Color color = fields.channels.size() == 1 ? fields.color : classify::Color{};
-    const std::array<double, 3> factors{color.red, color.green, color.blue};
-    std::vector<double> result;
-    for (std::size_t n = 0; n < planes.front().size(); ++n)
-        for (std::size_t c = 0; c < 3; ++c)
-            result.push_back(factors[c] * planes[std::min(c, count - 1)][n]);
-    return result;
+    return joinedPlanes(std::move(planes), fields);
 }
 
 } // namespace pellucid::reference

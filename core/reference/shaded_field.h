@@ -22,6 +22,11 @@ classify::DensityField shadedField(const classify::DensityField &field,
                                    int channel, const shading::ShadingScale &scale,
                                    const task::Progress &progress = {});
 
+/// The exact images of a look's channels as a picture: one image of a grey look, or red, green and
+/// blue of each pixel. *Shape*: one image, or three.
+std::vector<double> joinedPlanes(std::vector<std::vector<double>> planes,
+                                 const classify::ShownFields &fields);
+
 /// The exact picture of a look with cue and light. *Shape*: camera.height x camera.width, times 3
 /// if the look or the light has colours. *Throws* Error{outOfMemory}, Cancelled.
 std::vector<double> shadedImage(const classify::ShownFields &fields,

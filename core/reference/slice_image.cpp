@@ -14,45 +14,42 @@ namespace pellucid::reference {
 
 namespace {
 
-struct SliceSize {
-    int columns, rows;
-};
-
-SliceSize sliceSize(const volume::Lattice &lattice, const scene::Camera &camera,
-                    const scene::ImageDefinition &image) {
-    const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
-    // Six times the length that the roll-off's response fades over, or three times that of the
-    // lattice's own band where that is tapered too and longer.
-    double ringing = 6.0 * scene::ringingPixels(image.rollOff);
-    if (image.reconstruction == scene::Reconstruction::bandLimited)
-        ringing *= std::max(1.0, 0.5 * lattice.longestStepMm() / camera.pixelMm);
-    const auto cells = [&](int size, double panMm) {
-        const double needed =
-            std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);
-        return fourier::smoothEvenSize(int(std::ceil(needed + ringing)));
-    };
-    return {cells(camera.width, camera.panMm.x), cells(camera.height, camera.panMm.y)};
+// The response of a raised cosine over the share F of the band falls as 1/(r (1 - (F r)^2)) r
+// samples of that band away (`scene::rollOffFactor`, transformed): at 4/F it is below a fifteenth
+// of what a sharp edge would leave, and falls as 1/r^3 from there on. A roll-off over less than a
+// sixty-fourth counts as that: of a sharp edge the response never fades.
+double fadingLength(double rollOff) {
+    return 4.0 / std::max(1.0 / 64.0, rollOff);
 }
 
 } // namespace
 
-std::size_t sliceBytes(const volume::Lattice &lattice, const scene::Camera &camera,
-                       const scene::ImageDefinition &image) {
-    const SliceSize size = sliceSize(lattice, camera, image);
-    // The slice, the plane it becomes, and the image.
-    return 3 * sizeof(double) * std::size_t(size.columns) * std::size_t(size.rows);
+Period periodOf(const volume::Lattice &lattice, const scene::Camera &camera,
+                const scene::ImageDefinition &image) {
+    const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
+    double margin = 6.0 * fadingLength(image.rollOff);
+    // The lattice's own band is tapered too: three times its length where that is longer.
+    if (image.reconstruction == scene::Reconstruction::bandLimited)
+        margin *= std::max(1.0, 0.5 * lattice.longestStepMm() / camera.pixelMm);
+    const auto pixels = [&](int size, double panMm) {
+        const double needed =
+            std::max(extent, 0.5 * (extent + size) + std::abs(panMm) / camera.pixelMm);
+        return fourier::smoothEvenSize(int(std::ceil(needed + margin)));
+    };
+    return {pixels(camera.width, camera.panMm.x), pixels(camera.height, camera.panMm.y)};
 }
 
-double foldedTails(const volume::Lattice &lattice, const scene::Camera &camera,
-                   const scene::ImageDefinition &image, const plan::EnergySpread &spread) {
-    const SliceSize size = sliceSize(lattice, camera, image);
-    return plan::predictFoldedTails(image, camera, size.columns, size.rows, spread);
+std::size_t sliceBytes(const volume::Lattice &lattice, const scene::Camera &camera,
+                       const scene::ImageDefinition &image) {
+    const Period period = periodOf(lattice, camera, image);
+    // The slice, the plane it becomes, and the image.
+    return 3 * sizeof(double) * std::size_t(period.columns) * std::size_t(period.rows);
 }
 
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
                                const scene::Camera &camera, const scene::ImageDefinition &image) {
-    const SliceSize size = sliceSize(lattice, camera, image);
-    const int columns = size.columns, rows = size.rows;
+    const Period period = periodOf(lattice, camera, image);
+    const int columns = period.columns, rows = period.rows;
     const double du = 1.0 / (columns * camera.pixelMm), dv = 1.0 / (rows * camera.pixelMm);
     const double limit = 0.5 / camera.pixelMm;
     const glm::dmat3 axes = camera.axes();

@@ -5,7 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include "core/plan/folded_tails.h"
 #include "core/scene/camera.h"
 #include "core/scene/image_definition.h"
 #include "core/volume/lattice.h"
@@ -17,9 +16,17 @@ namespace pellucid::reference {
 using SpectrumSampler = std::function<void(const std::vector<glm::dvec3> &frequencies,
                                            std::vector<std::complex<double>> &values)>;
 
+/// The period of exact images, pixels: wider than the projection and the picture by six times the
+/// length over which the response of the roll-off fades, so that next to nothing of its tails folds
+/// back into the picture. What folds back, whoever states errors predicts from the period.
+struct Period {
+    int columns = 0, rows = 0;
+};
+Period periodOf(const volume::Lattice &lattice, const scene::Camera &camera,
+                const scene::ImageDefinition &image);
+
 /// The image p(u,v) of a spectrum, in double, straight from its definition: every frequency of the
-/// disc, multiplied by K and t, and an inverse transform on a period so much wider than the
-/// projection that the tails of the roll-off do not fold back into the picture. *Shape*:
+/// disc, multiplied by K and t, and an inverse transform on the period of `periodOf`. *Shape*:
 /// camera.height x camera.width.
 std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::Lattice &lattice,
                                const scene::Camera &camera, const scene::ImageDefinition &image);
@@ -27,9 +34,5 @@ std::vector<double> sliceImage(const SpectrumSampler &spectrum, const volume::La
 /// Bytes that making such an image takes, beside the spectrum.
 std::size_t sliceBytes(const volume::Lattice &lattice, const scene::Camera &camera,
                        const scene::ImageDefinition &image);
-
-/// What is left of the roll-off's tails, relative L2; see plan::predictFoldedTails.
-double foldedTails(const volume::Lattice &lattice, const scene::Camera &camera,
-                   const scene::ImageDefinition &image, const plan::EnergySpread &spread);
 
 } // namespace pellucid::reference

@@ -3,108 +3,62 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
-#include <vector>
+#include <utility>
 
-#include "core/render/frame_geometry.h"
-#include "core/render/frame_mixing.h"
+#include "core/render/frame_inputs.h"
+#include "core/render/grid_tables.h"
 #include "core/system/page_memory.h"
 #include "core/task/error.h"
 #include "core/task/worker_team.h"
 
 namespace pellucid::render {
 
-namespace {
-
 using Complex = std::complex<float>;
 using fourier::stripFloats;
 using fourier::stripLanes;
 
-int groupsOf(int rows) {
-    return (rows + stripLanes - 1) / stripLanes;
-}
+// What one frame leaves to the next: threads, buffers, and tables of the frames of one size.
+struct FrameBuffers {
+    FrameBuffers(const plan::SliceRoom &room, int threads)
+        : team(threads), setup(room), scratch(team.slots()) {}
 
-// exp(+i 2 pi n turns), n = 0..count-1. Turning step by step in double keeps 1e-13.
-std::vector<std::complex<double>> rotations(int count, double turns) {
-    std::vector<std::complex<double>> result(count);
-    const double angle = 2.0 * std::numbers::pi * (turns - std::floor(turns));
-    const double re = std::cos(angle), im = std::sin(angle);
-    double x = 1.0, y = 0.0;
-    for (auto &r : result) {
-        r = {x, y};
-        const double next = x * re - y * im;
-        y = x * im + y * re;
-        x = next;
+    // Makes ready for a frame.
+    void fit(const FrameInputs &inputs, const scene::Camera &camera, double rollOffShare) {
+        takeTables(inputs.grid, rollOffShare);
+        const plan::SliceGrid need{std::max(allocated.columns, inputs.grid.columns),
+                                   std::max(allocated.rows, inputs.grid.rows)};
+        const int channels = inputs.mixing.channels;
+        if (need != allocated || channels > allocatedChannels)
+            allocate(need, std::max(channels, allocatedChannels));
+        if (!inputs.mixing.grey)
+            for (int c = 0; c < channels; ++c)
+                planes[std::size_t(c)].resize(std::size_t(camera.width) * camera.height);
     }
-    return result;
-}
 
-// What depends on the slice grid and the roll-off alone, and is kept from frame to frame.
-struct GridTables {
-    GridTables(const plan::SliceGrid &size, double rollOffShare)
-        : grid(size), share(rollOffShare), alongRows(size.rows), halfColumns(size.columns / 2) {
-        for (const auto &factor : rotations(size.columns / 2, 1.0 / size.columns))
-            untangle.emplace_back(factor);
-        const auto radius = [&](int column, int row) {
-            return std::hypot(2.0 * column / size.columns, 2.0 * row / size.rows);
+    void takeTables(const plan::SliceGrid &grid, double rollOffShare) {
+        const auto areOf = [&](const std::unique_ptr<GridTables> &kept) {
+            return kept && kept->grid == grid && kept->rollOffShare == rollOffShare;
         };
-        // The Nyquist row and column lie on the edge of the disc, whose roll-off is 0.
-        for (int strip = 0; strip < groupsOf(size.columns / 2); ++strip) {
-            const int first = strip * stripLanes, last = first + stripLanes - 1;
-            StripBounds bounds;
-            while (bounds.outerRow + 1 < size.rows / 2 && radius(first, bounds.outerRow + 1) < 1.0)
-                ++bounds.outerRow;
-            while (bounds.innerRow < bounds.outerRow &&
-                   radius(last, bounds.innerRow + 1) <= 1.0 - share)
-                ++bounds.innerRow;
-            bounds.rollOff = rollOff.size();
-            for (int row = bounds.innerRow + 1; row <= bounds.outerRow; ++row)
-                for (int column = first; column <= last; ++column)
-                    rollOff.push_back(float(scene::rollOffFactor(share, radius(column, row))));
-            strips.push_back(bounds);
-        }
-    }
-    plan::SliceGrid grid;
-    double share;
-    fourier::StripTransform alongRows, halfColumns;
-    std::vector<Complex> untangle;
-    std::vector<StripBounds> strips;
-    std::vector<float> rollOff;
-};
-
-} // namespace
-
-// Buffers and tables of the frames of one size.
-struct CpuEngine::Workplace {
-    explicit Workplace(int threads) : team(threads), scratch(team.slots()) {}
-
-    // Makes ready for frames of a grid.
-    void fit(const plan::SliceGrid &grid, int channels, const scene::ImageDefinition &image) {
         for (auto &kept : others)
-            if (kept && kept->grid == grid && kept->share == image.rollOff)
+            if (areOf(kept))
                 std::swap(tables, kept);
-        if (!tables || tables->grid != grid || tables->share != image.rollOff) {
-            auto made = std::make_unique<GridTables>(grid, image.rollOff);
-            // One that was used before goes.
-            others.back() = std::move(others.front());
-            others.front() = std::move(tables);
-            tables = std::move(made);
-        }
-        const plan::SliceGrid need{std::max(room.columns, grid.columns),
-                                   std::max(room.rows, grid.rows)};
-        if (need != room || channels > channelRoom)
-            allocate(need, std::max(channels, channelRoom));
+        if (areOf(tables))
+            return;
+        auto made = std::make_unique<GridTables>(grid, rollOffShare);
+        // One that was used before goes.
+        others.back() = std::move(others.front());
+        others.front() = std::move(tables);
+        tables = std::move(made);
     }
 
     // Buffers for every grid up to a size.
     void allocate(const plan::SliceGrid &grid, int channels) {
         // Set last: if memory runs out half way, nothing here may look ready.
-        room = {0, 0};
-        channelRoom = 0;
-        const std::size_t stripCount = groupsOf(grid.columns / 2);
+        allocated = {0, 0};
+        allocatedChannels = 0;
+        const std::size_t stripCount = stripsOf(grid.columns / 2);
         const std::size_t columns = stripCount * stripLanes;
-        const std::size_t length = std::size_t(groupsOf(std::max(grid.rows, grid.columns))) *
+        const std::size_t length = std::size_t(stripsOf(std::max(grid.rows, grid.columns))) *
                                    stripLanes; // rows fill their last group
         const auto floats = [](std::size_t count) {
             auto memory =
@@ -114,7 +68,7 @@ struct CpuEngine::Workplace {
         };
         lines.clear();
         for (int c = 0; c < channels; ++c)
-            lines.push_back(floats(groupsOf(grid.rows) * columns * stripFloats));
+            lines.push_back(floats(stripsOf(grid.rows) * columns * stripFloats));
         columnPhase = floats(2 * columns);
         rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
         batches =
@@ -132,61 +86,152 @@ struct CpuEngine::Workplace {
             scratch[n].batches = first + n * (batchesAhead + 1);
             std::uninitialized_default_construct_n(scratch[n].batches, batchesAhead + 1);
         }
-        room = grid;
-        channelRoom = channels;
+        allocated = grid;
+        allocatedChannels = channels;
     }
 
-    // Made for the first frame with a linear cue, in milliseconds.
-    const MomentKernels &kernelsFor(const fourier::SpectrumLayout &layout) {
-        if (!moments)
-            moments.emplace(momentKernels(layout));
-        return *moments;
+    // Fills the phases of columns and rows.
+    void setPhases(const FrameInputs &inputs) {
+        const int columns = int(tables->strips.size()) * stripLanes;
+        float *const ofColumns = columnPhases();
+        const auto turnU = rotations(columns, inputs.geometry.turnsPerColumn);
+        for (int n = 0; n < columns; ++n) {
+            ofColumns[n] = float(turnU[n].real());
+            ofColumns[columns + n] = float(turnU[n].imag());
+        }
+        const auto turnV = rotations(inputs.grid.rows / 2 + 1, inputs.geometry.turnsPerRow);
+        const double unit = inputs.unit();
+        for (std::size_t n = 0; n < turnV.size(); ++n)
+            rowPhase[n] = Complex(unit * turnV[n]);
     }
+
+    float *columnPhases() const { return reinterpret_cast<float *>(columnPhase.get()); }
 
     task::WorkerTeam team;
+    FrameSetup setup;
     std::vector<FrameScratch> scratch;
-    FramedGrid framed;
-    std::optional<MomentKernels> moments;
     // A draft and a full frame take turns while the hand moves: their tables are kept, and a third.
     std::unique_ptr<GridTables> tables;
     std::array<std::unique_ptr<GridTables>, 2> others;
-    plan::SliceGrid room{0, 0}; ///< what the buffers hold
-    int channelRoom = 0;
+    plan::SliceGrid allocated{0, 0};
+    int allocatedChannels = 0;
     std::shared_ptr<std::byte[]> columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> lines, strips;
-    std::array<std::vector<float>, FrameJob::mostChannels> planes; ///< of pictures with colours
+    std::array<std::vector<float>, FrameJob::mostChannels> planes; ///< of pictures with colors
     std::vector<Complex> rowPhase;
 };
 
 namespace {
 
-struct Frame {
+// What the threads are to do, on buffers that are ready for it.
+FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
+                const scene::ImageDefinition &image, FrameBuffers &buffers,
+                picture::ProjectionImage &result) {
+    const Mixing &mixing = inputs.mixing;
+    const FrameGeometry &geometry = inputs.geometry;
+    const GridTables &tables = *buffers.tables;
     FrameJob job;
-    FrameScratch *scratch;
-    ChannelShares color; ///< of a single image
-    float *image;        ///< height x width x 3, if there are colours
+    job.layout = &spectrum.layout();
+    job.cellLayout = &spectrum.cellLayout();
+    job.sources = mixing.sources.data();
+    job.sourceCount = int(mixing.sources.size());
+    job.channels = mixing.channels;
+    job.sums = mixing.sums;
+    job.shading = inputs.isShaded ? &inputs.shading : nullptr;
+    job.image = image;
+    job.wraps = geometry.wraps;
+    job.columns = inputs.grid.columns;
+    job.rows = inputs.grid.rows;
+    job.imageColumns = result.width;
+    job.imageRows = result.height;
+    job.cellsPerColumn = geometry.cellsPerColumn;
+    job.cellsPerRow = geometry.cellsPerRow;
+    job.edgeSlack = geometry.edgeSlack;
+    job.strips = tables.strips.data();
+    job.stripCount = int(tables.strips.size());
+    job.rollOff = tables.rollOff.data();
+    job.columnPhase = buffers.columnPhases();
+    job.rowPhase = buffers.rowPhase.data();
+    job.alongRows = &tables.alongRows;
+    job.halfColumns = &tables.halfColumns;
+    job.untangle = tables.untangle.data();
+    for (std::size_t c = 0; c < std::size_t(job.channels); ++c) {
+        job.lines[c] = reinterpret_cast<float *>(buffers.lines[c].get());
+        job.samples[c] = mixing.grey ? result.samples.data() : buffers.planes[c].data();
+    }
+    job.zero = inputs.zero;
+    return job;
+}
+
+// The phases of a frame, one after the other, and when each part of them ran.
+class FrameRun {
+public:
+    // `pixels`: height x width x 3 of a picture with colors, else null. `tint`: of a single image.
+    FrameRun(const FrameJob &job, std::vector<FrameScratch> &scratch, const ChannelShares &tint,
+             float *pixels)
+        : m_job(job), m_scratch(scratch), m_tint{float(tint[0]), float(tint[1]), float(tint[2])},
+          m_pixels(pixels) {
+        for (FrameScratch &slot : m_scratch)
+            slot.sliceSeconds = slot.stripSeconds = 0.0;
+    }
+
+    void runOn(task::WorkerTeam &team) {
+        using Phase = task::WorkerTeam::Phase;
+        const std::array<Phase, 4> phases{
+            Phase{m_job.stripCount, runPart<&FrameRun::sliceStripOf>, this},
+            Phase{1, runPart<&FrameRun::noteRowsStart>, this},
+            Phase{m_job.channels * stripsOf(std::min(m_job.imageRows, m_job.rows)),
+                  runPart<&FrameRun::finishRowsOf>, this},
+            Phase{stripsOf(m_job.imageRows), runPart<&FrameRun::joinChannels>, this}};
+        team.run(std::span(phases).first(m_pixels == nullptr ? 3 : 4));
+    }
+
+    // Of a frame that began at a moment and has just ended. Strips are transformed as soon as they
+    // are interpolated: the wall time of the strips is shared out as the threads' own times are.
+    picture::FrameTimes timesSince(double start) const {
+        const double end = frameClockSeconds();
+        double slice = 0.0, strips = 0.0;
+        for (const FrameScratch &slot : m_scratch) {
+            slice += slot.sliceSeconds;
+            strips += slot.stripSeconds;
+        }
+        const double wall = m_rowsStart - start;
+        const double sliced = strips > 0.0 ? wall * slice / strips : wall;
+        return {1e3 * sliced, 1e3 * (end - start - sliced)};
+    }
+
+private:
+    template <void (FrameRun::*work)(int part, int slot)>
+    static void runPart(void *run, int part, int slot) {
+        (static_cast<FrameRun *>(run)->*work)(part, slot);
+    }
+
+    void sliceStripOf(int part, int slot) { sliceStrip(m_job, part, m_scratch[std::size_t(slot)]); }
+    void noteRowsStart(int, int) { m_rowsStart = frameClockSeconds(); }
+    void finishRowsOf(int part, int slot) {
+        finishRows(m_job, part % m_job.channels, part / m_job.channels,
+                   m_scratch[std::size_t(slot)]);
+    }
+    // 16 rows of the planes as pixels of red, green and blue.
+    void joinChannels(int part, int) {
+        const std::size_t first = std::size_t(part) * stripLanes * m_job.imageColumns;
+        const std::size_t last =
+            std::min(std::size_t(part + 1) * stripLanes, std::size_t(m_job.imageRows)) *
+            m_job.imageColumns;
+        const auto plane = [&](std::size_t c) {
+            return m_job.samples[m_job.channels > 1 ? c : 0] + first;
+        };
+        joinPlanes({plane(0), plane(1), plane(2)}, m_tint, last - first, m_pixels + 3 * first);
+    }
+
+    const FrameJob &m_job;
+    std::vector<FrameScratch> &m_scratch;
+    std::array<float, 3> m_tint;
+    float *m_pixels;
+    double m_rowsStart = 0.0;
 };
 
-// 16 rows of the planes as pixels of red, green and blue.
-void joinChannels(const Frame &frame, int group) {
-    const FrameJob &job = frame.job;
-    const std::size_t first = std::size_t(group) * stripLanes * job.imageColumns;
-    const std::size_t last =
-        std::min(std::size_t(group + 1) * stripLanes, std::size_t(job.imageRows)) *
-        job.imageColumns;
-    const std::array<float, 3> color{float(frame.color[0]), float(frame.color[1]),
-                                     float(frame.color[2])};
-    const auto plane = [&](std::size_t c) { return job.samples[job.channels > 1 ? c : 0] + first; };
-    joinPlanes({plane(0), plane(1), plane(2)}, color, last - first, frame.image + 3 * first);
-}
-
 } // namespace
-
-bool areGrey(std::span<const ChannelShares> shares) {
-    return std::all_of(shares.begin(), shares.end(), [](const ChannelShares &share) {
-        return share[0] == share[1] && share[1] == share[2];
-    });
-}
 
 CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
                      const std::optional<plan::SliceRoom> &room, int threads)
@@ -195,22 +240,24 @@ CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
                 threads) {}
 
 CpuEngine::CpuEngine(EngineSpectra spectra, const plan::SliceRoom &room, int threads)
-    : m_spectra(std::move(spectra)), m_shares(m_spectra.fields.size(), {1.0, 1.0, 1.0}),
-      m_workplace(std::make_unique<Workplace>(threads)), m_room(room) {}
+    : m_parts{std::move(spectra), {}, room},
+      m_buffers(std::make_unique<FrameBuffers>(room, threads)) {
+    m_parts.shares.assign(fieldCount(), {1.0, 1.0, 1.0});
+}
 
 CpuEngine::~CpuEngine() = default;
 
 void CpuEngine::setShares(std::vector<ChannelShares> shares) {
-    m_shares = std::move(shares);
+    m_parts.shares = std::move(shares);
 }
 
 std::size_t CpuEngine::bytes() const {
-    return (m_spectra.fields.size() + m_spectra.gradients.size()) *
-           m_spectra.fields.front()->bytes();
+    const EngineSpectra &spectra = m_parts.spectra;
+    return (spectra.fields.size() + spectra.gradients.size()) * spectra.fields.front()->bytes();
 }
 
 task::Reason CpuEngine::description() const {
-    const int threads = m_workplace->team.threads();
+    const int threads = m_buffers->team.threads();
     const std::string set = instructionSet();
     return threads == 1 ? task::because::cpuEngineOfOneThread(set, threads)
                         : task::because::cpuEngine(set, threads);
@@ -221,130 +268,29 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
                                            const shading::Shading &shading,
                                            picture::FrameTimes *times) {
     const double start = frameClockSeconds();
-    const fourier::Spectrum &spectrum = *m_spectra.fields.front();
-    const fourier::SpectrumLayout &layout = spectrum.layout();
-    const volume::Lattice &lattice = spectrum.lattice();
-    const glm::dmat3 axes = camera.axes();
-    shading::Shading shone = shading;
-    if (!takesLight())
-        shone.lights.clear();
-    const shading::SliceShading sliceShading = shading::sliceShading(shone, axes, m_spectra.scale);
-    const Mixing mixing(m_spectra, m_shares, sliceShading, shone.isGrey());
-    const plan::SliceGrid grid = m_workplace->framed.gridFor(camera, m_room, lattice, image);
-    const std::size_t pixels = std::size_t(camera.width) * camera.height;
+    FrameBuffers &buffers = *m_buffers;
+    const FrameInputs inputs =
+        buffers.setup.inputsFor(m_parts.spectra, m_parts.shares, camera, image, shading);
     picture::ProjectionImage result{
-        camera.width, camera.height, camera.pixelMm, {}, mixing.grey ? 1 : 3};
+        camera.width, camera.height, camera.pixelMm, {}, inputs.pictureChannels()};
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
-        m_workplace->fit(grid, mixing.channels, image);
-        result.samples.resize(pixels * std::size_t(result.channels));
-        for (int c = 0; c < mixing.channels && !mixing.grey; ++c)
-            m_workplace->planes[std::size_t(c)].resize(pixels);
+        if (!inputs.isEmpty())
+            buffers.fit(inputs, camera, image.rollOff);
+        result.samples.resize(std::size_t(camera.width) * camera.height *
+                              std::size_t(result.channels));
     });
-    if (mixing.sources.empty()) { // nothing is shown
+    if (inputs.isEmpty()) {
         if (times != nullptr)
             *times = {};
         return result;
     }
-    Workplace &place = *m_workplace;
-    const GridTables &tables = *place.tables;
-
-    const FrameGeometry geometry(camera, grid, spectrum);
-    Frame frame{{},
-                place.scratch.data(),
-                mixing.channels == 1 ? mixing.color : ChannelShares{1.0, 1.0, 1.0},
-                result.samples.data()};
-    FrameJob &job = frame.job;
-    job.layout = &layout;
-    job.cellLayout = &spectrum.cellLayout();
-    job.sources = mixing.sources.data();
-    job.sourceCount = int(mixing.sources.size());
-    job.channels = mixing.channels;
-    job.sums = mixing.sums;
-    job.image = image;
-    job.columns = grid.columns;
-    job.rows = grid.rows;
-    job.imageColumns = camera.width;
-    job.imageRows = camera.height;
-    job.cellsPerColumn = geometry.cellsPerColumn;
-    job.cellsPerRow = geometry.cellsPerRow;
-    job.edgeSlack = geometry.edgeSlack;
-    job.wraps = geometry.wraps;
-    job.strips = tables.strips.data();
-    job.stripCount = int(tables.strips.size());
-    job.rollOff = tables.rollOff.data();
-    FrameShading frameShades = frameShading(sliceShading, mixing, spectrum, geometry.toWrap,
-                                            axes[2], m_spectra.scale.stepMm);
-    if (frameShades.cued)
-        frameShades.kernels = &place.kernelsFor(layout);
-    if (!sliceShading.isPlain())
-        job.shading = &frameShades;
-    const int columns = job.stripCount * stripLanes;
-    auto *const columnPhase = reinterpret_cast<float *>(place.columnPhase.get());
-    const auto turnU = rotations(columns, geometry.turnsPerColumn);
-    for (int n = 0; n < columns; ++n) {
-        columnPhase[n] = float(turnU[n].real());
-        columnPhase[columns + n] = float(turnU[n].imag());
-    }
-    const auto turnV = rotations(grid.rows / 2 + 1, geometry.turnsPerRow);
-    // A single grey image has its share at once.
-    const double unit = geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
-    for (std::size_t n = 0; n < turnV.size(); ++n)
-        place.rowPhase[n] = Complex(unit * turnV[n]);
-    job.columnPhase = columnPhase;
-    job.rowPhase = place.rowPhase.data();
-    job.alongRows = &tables.alongRows;
-    job.halfColumns = &tables.halfColumns;
-    job.untangle = tables.untangle.data();
-    for (std::size_t c = 0; c < std::size_t(job.channels); ++c) {
-        job.lines[c] = reinterpret_cast<float *>(place.lines[c].get());
-        job.samples[c] = mixing.grey ? result.samples.data() : place.planes[c].data();
-    }
-    job.zero = zeroSums(mixing, frameShades, layout);
-    for (FrameScratch &scratch : place.scratch)
-        scratch.sliceSeconds = scratch.stripSeconds = 0.0;
-
-    double rowsStart = 0.0;
-    struct Context {
-        Frame &frame;
-        double &rowsStart;
-    } context{frame, rowsStart};
-    using task::WorkerTeam;
-    const WorkerTeam::Phase slicing{job.stripCount,
-                                    [](void *c, int part, int slot) {
-                                        Frame &f = static_cast<Context *>(c)->frame;
-                                        sliceStrip(f.job, part, f.scratch[slot]);
-                                    },
-                                    &context};
-    const WorkerTeam::Phase between{
-        1, [](void *c, int, int) { static_cast<Context *>(c)->rowsStart = frameClockSeconds(); },
-        &context};
-    const WorkerTeam::Phase finishing{job.channels * groupsOf(std::min(camera.height, grid.rows)),
-                                      [](void *c, int part, int slot) {
-                                          Frame &f = static_cast<Context *>(c)->frame;
-                                          finishRows(f.job, part % f.job.channels,
-                                                     part / f.job.channels, f.scratch[slot]);
-                                      },
-                                      &context};
-    const WorkerTeam::Phase joining{
-        groupsOf(camera.height),
-        [](void *c, int part, int) { joinChannels(static_cast<Context *>(c)->frame, part); },
-        &context};
-    const std::array<WorkerTeam::Phase, 4> phases{slicing, between, finishing, joining};
-    place.team.run(std::span(phases).first(mixing.grey ? 3 : 4));
-
-    if (times != nullptr) {
-        // Strips are transformed as soon as they are interpolated: the wall time of the strips is
-        // shared out as the threads' own times are.
-        const double end = frameClockSeconds();
-        double slice = 0.0, strips = 0.0;
-        for (const FrameScratch &scratch : place.scratch) {
-            slice += scratch.sliceSeconds;
-            strips += scratch.stripSeconds;
-        }
-        const double wall = rowsStart - start;
-        const double sliced = strips > 0.0 ? wall * slice / strips : wall;
-        *times = {1e3 * sliced, 1e3 * (end - start - sliced)};
-    }
+    buffers.setPhases(inputs);
+    const FrameJob job = jobFor(inputs, *m_parts.spectra.fields.front(), image, buffers, result);
+    FrameRun run(job, buffers.scratch, inputs.tint(),
+                 inputs.mixing.grey ? nullptr : result.samples.data());
+    run.runOn(buffers.team);
+    if (times != nullptr)
+        *times = run.timesSince(start);
     return result;
 }
 

@@ -13,6 +13,7 @@ namespace pellucid::render {
 
 /// How the slice of a view lies in a spectrum: what every engine starts from.
 struct FrameGeometry {
+    FrameGeometry() = default;
     FrameGeometry(const scene::Camera &camera, const plan::SliceGrid &grid,
                   const fourier::Spectrum &spectrum);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/render/cpu_engine.h"
 #include "core/render/frame_job.h"
+#include "core/render/projection_engine.h"
 
 namespace pellucid::render {
 

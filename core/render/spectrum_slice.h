@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/render/cpu_engine.h"
+#include "core/render/projection_engine.h"
 #include "core/scene/camera.h"
 #include "core/task/progress.h"
 

@@ -47,15 +47,11 @@ double reconstructionReach(const ImageDefinition &definition) {
     case Reconstruction::cubic:
         return 2.0;
     case Reconstruction::bandLimited:
-        return 0.5 * ringingPixels(definition.rollOff);
+        return 2.0 / std::max(1.0 / 64.0, definition.rollOff);
     case Reconstruction::spline:
         break;
     }
     return 6.0;
-}
-
-double ringingPixels(double rollOff) {
-    return 4.0 / std::max(1.0 / 64.0, rollOff);
 }
 
 } // namespace pellucid::scene

@@ -29,12 +29,8 @@ double rollOffFactor(double rollOff, double q);
 double reconstructionFactor(const ImageDefinition &definition, double q);
 
 /// The radius of a sample's footprint, in samples: two for `cubic` and one for `linear`, where the
-/// footprint ends, and six for `spline`, where it has fallen to 4e-4. The tapered sinc of
-/// `bandLimited` rings farther.
+/// footprint ends, six for `spline`, where it has fallen to 4e-4, and 2/F, at most 128, for
+/// `bandLimited`, whose tapered sinc rings farther.
 double reconstructionReach(const ImageDefinition &definition);
-
-/// The length after which the ringing of a raised-cosine roll-off over a share F of the band has
-/// faded, in samples of that band: 4/F, and at most 256.
-double ringingPixels(double rollOff);
 
 } // namespace pellucid::scene

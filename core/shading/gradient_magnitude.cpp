@@ -57,9 +57,8 @@ classify::DensityField grown(const classify::DensityField &field) {
         field.values.visit([&](auto from) {
             tbb::parallel_for(0, size.k, [&](int k) {
                 for (int j = 0; j < size.j; ++j)
-                    std::copy_n(from.data() + (std::size_t(k) * size.j + j) * size.i, size.i,
-                                samples.data() +
-                                    (std::size_t(k + 1) * larger.j + j + 1) * larger.i + 1);
+                    std::copy_n(from.data() + size.offsetOf(0, j, k), size.i,
+                                samples.data() + larger.offsetOf(1, j + 1, k + 1));
             });
         });
         const auto around =
@@ -88,7 +87,7 @@ classify::DensityField gradientMagnitude(const classify::DensityField &field, do
             tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
                 progress.check();
                 for (int j = box.lo.j; j < box.hi.j; ++j) {
-                    const std::size_t row = (std::size_t(k) * size.j + j) * size.i;
+                    const std::size_t row = size.offsetOf(0, j, k);
                     const auto *const f = samples.data() + row;
                     // Beyond the lattice's faces the field is zero, and so it is on them.
                     const auto *const above = j > 0 ? f - down : f;

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/system/text.h"
 #include "core/task/error.h"
 
 namespace pellucid::shading {
@@ -30,11 +30,9 @@ std::vector<double> numbersOf(const std::string &text, const task::Reason &what)
     for (std::size_t first = 0;;) {
         const std::size_t comma = std::min(text.find(',', first), text.size());
         const std::string part = text.substr(first, comma - first);
-        char *end = nullptr;
-        const double value = std::strtod(part.c_str(), &end);
-        require(end != part.c_str() && *end == '\0' && std::isfinite(value),
-                because::isNoNumber(what, part));
-        values.push_back(value);
+        const auto value = system::typedNumberFrom(part);
+        require(value && std::isfinite(*value), because::isNoNumber(what, part));
+        values.push_back(*value);
         if (comma == text.size())
             return values;
         first = comma + 1;

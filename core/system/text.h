@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <charconv>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace pellucid::system {
 
@@ -11,6 +15,24 @@ inline std::string lowered(std::string text) {
         if (c >= 'A' && c <= 'Z')
             c = char(c - 'A' + 'a');
     return text;
+}
+
+/// The decimal number that a text is, whatever the locale: with a decimal point, perhaps an
+/// exponent, "inf" or "nan". No value if anything comes before or after it, a plus sign or a blank
+/// too, or if double precision does not hold it.
+inline std::optional<double> numberFrom(std::string_view text) {
+    double number = 0.0;
+    const char *const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+}
+
+/// As `numberFrom`, with blanks before the number and a plus sign as people type them.
+inline std::optional<double> typedNumberFrom(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\n\v\f\r"), text.size()));
+    if (text.starts_with('+') && !text.starts_with("+-"))
+        text.remove_prefix(1);
+    return numberFrom(text);
 }
 
 } // namespace pellucid::system

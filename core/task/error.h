@@ -39,8 +39,9 @@ private:
 /// Whether it says that there is no memory, for an object or a thread; TBB says it in words.
 bool isLackOfMemory(const std::exception &error);
 
-/// What `work` gives. *Throws* Error{outOfMemory, reason} where it finds no memory.
-template <class F> auto orOutOfMemory(const Reason &reason, F &&work) {
+/// What `work` gives, a reference as a reference. *Throws* Error{outOfMemory, reason} where it
+/// finds no memory, and what `work` throws.
+template <class F> decltype(auto) orOutOfMemory(const Reason &reason, F &&work) {
     try {
         return std::forward<F>(work)();
     } catch (const std::bad_alloc &) {

@@ -451,6 +451,33 @@
     </message>
 </context>
 <context>
+    <name>ProjectionTexts</name>
+    <message>
+        <source>error not known yet</source>
+        <translation>誤差未定</translation>
+    </message>
+    <message>
+        <source>cancelled: F5 prepares it</source>
+        <translation>已取消：按 F5 準備</translation>
+    </message>
+    <message>
+        <source>not prepared: F5 tries again</source>
+        <translation>未能準備：按 F5 重試</translation>
+    </message>
+    <message>
+        <source>coarse</source>
+        <translation>粗略</translation>
+    </message>
+    <message>
+        <source>live</source>
+        <translation>即時</translation>
+    </message>
+    <message>
+        <source>draft</source>
+        <translation>草圖</translation>
+    </message>
+</context>
+<context>
     <name>ProjectionView</name>
     <message>
         <source>Before</source>
@@ -917,6 +944,10 @@
     <message>
         <source>CPU engine, %1, %2 thread</source>
         <translation>CPU 引擎，%1，%2 執行緒</translation>
+    </message>
+    <message>
+        <source>exact reference, double precision</source>
+        <translation>精確參考，雙精度</translation>
     </message>
     <message>
         <source>ffmpeg does not start</source>
@@ -2275,22 +2306,6 @@
         <translation>不是測量清單（%1）</translation>
     </message>
     <message>
-        <source>a point or direction must be three numbers</source>
-        <translation>點或方向必須是三個數字</translation>
-    </message>
-    <message>
-        <source>a number is out of range</source>
-        <translation>有數字超出範圍</translation>
-    </message>
-    <message>
-        <source>its kind is unknown</source>
-        <translation>其種類未知</translation>
-    </message>
-    <message>
-        <source>its name must be a text</source>
-        <translation>其名稱必須是文字</translation>
-    </message>
-    <message>
         <source>it must have %1 points</source>
         <translation>必須有 %1 個點</translation>
     </message>
@@ -2452,6 +2467,32 @@
     <message>
         <source>Chest phantom</source>
         <translation>胸部假體</translation>
+    </message>
+</context>
+<context>
+    <name>ToneTool</name>
+    <message>
+        <source>Projection window</source>
+        <translation>投影的窗</translation>
+    </message>
+</context>
+<context>
+    <name>ToolBarTexts</name>
+    <message>
+        <source>Tools</source>
+        <translation>工具</translation>
+    </message>
+    <message>
+        <source>Window of the planes</source>
+        <translation>切面的窗</translation>
+    </message>
+    <message>
+        <source>Window of the planes: width / center (keys 0 to 5)</source>
+        <translation>切面的窗：窗寬 / 窗位（按鍵 0 至 5）</translation>
+    </message>
+    <message>
+        <source>More</source>
+        <translation>更多</translation>
     </message>
 </context>
 <context>
@@ -3079,30 +3120,6 @@
         <translation>已匯入：%1 個序列、%2 個檔案；%3 個未使用</translation>
     </message>
     <message>
-        <source>STUDIES</source>
-        <translation>檢查</translation>
-    </message>
-    <message>
-        <source>MEASUREMENTS</source>
-        <translation>測量</translation>
-    </message>
-    <message>
-        <source>History of edits</source>
-        <translation>編輯歷程</translation>
-    </message>
-    <message>
-        <source>A click goes back to how it was after that edit</source>
-        <translation>點按即回到該次編輯後的狀態</translation>
-    </message>
-    <message>
-        <source>As it was opened</source>
-        <translation>剛開啟時</translation>
-    </message>
-    <message>
-        <source>HISTORY</source>
-        <translation>歷程</translation>
-    </message>
-    <message>
         <source>&amp;File</source>
         <translation>檔案(&amp;F)</translation>
     </message>
@@ -3139,28 +3156,8 @@
         <translation>說明(&amp;H)</translation>
     </message>
     <message>
-        <source>Tools</source>
-        <translation>工具</translation>
-    </message>
-    <message>
-        <source>Window of the planes</source>
-        <translation>切面的窗</translation>
-    </message>
-    <message>
-        <source>Window of the planes: width / center (keys 0 to 5)</source>
-        <translation>切面的窗：窗寬 / 窗位（按鍵 0 至 5）</translation>
-    </message>
-    <message>
         <source>There is no look before this one</source>
         <translation>在此之前沒有其他外觀</translation>
-    </message>
-    <message>
-        <source>More</source>
-        <translation>更多</translation>
-    </message>
-    <message>
-        <source>SPECTRUM</source>
-        <translation>頻譜</translation>
     </message>
     <message>
         <source>Spectr&amp;um</source>
@@ -3466,34 +3463,6 @@
     <message>
         <source>%1: %2</source>
         <translation>%1：%2</translation>
-    </message>
-    <message>
-        <source>Projection window</source>
-        <translation>投影的窗</translation>
-    </message>
-    <message>
-        <source>cancelled: F5 prepares it</source>
-        <translation>已取消：按 F5 準備</translation>
-    </message>
-    <message>
-        <source>error not known yet</source>
-        <translation>誤差未定</translation>
-    </message>
-    <message>
-        <source>draft</source>
-        <translation>草圖</translation>
-    </message>
-    <message>
-        <source>not prepared: F5 tries again</source>
-        <translation>未能準備：按 F5 重試</translation>
-    </message>
-    <message>
-        <source>coarse</source>
-        <translation>粗略</translation>
-    </message>
-    <message>
-        <source>live</source>
-        <translation>即時</translation>
     </message>
 </context>
 <context>
@@ -4000,6 +3969,37 @@
     <message>
         <source>Close the study beside</source>
         <translation>關閉並排的檢查</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::StudyDocks</name>
+    <message>
+        <source>STUDIES</source>
+        <translation>檢查</translation>
+    </message>
+    <message>
+        <source>MEASUREMENTS</source>
+        <translation>測量</translation>
+    </message>
+    <message>
+        <source>History of edits</source>
+        <translation>編輯歷程</translation>
+    </message>
+    <message>
+        <source>A click goes back to how it was after that edit</source>
+        <translation>點按即回到該次編輯後的狀態</translation>
+    </message>
+    <message>
+        <source>As it was opened</source>
+        <translation>剛開啟時</translation>
+    </message>
+    <message>
+        <source>HISTORY</source>
+        <translation>歷程</translation>
+    </message>
+    <message>
+        <source>SPECTRUM</source>
+        <translation>頻譜</translation>
     </message>
 </context>
 <context>

@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a frame's passes share: gpu/frame_block.h fills it, and a test compares the places of its
 // members.
+struct Place {
+    int page, firstPlane;
+};
+struct ZeroSum {
+    float value, moment;
+};
+struct ImageShade {
+    float ambient, magnitude;
+};
+
 layout(std140, binding = FRAME_BLOCK) uniform Frame {
     // Cells of the spectrum by axis, 24.40 bits in two's complement; .w: turns of the phase, 0.64
     // bits. Exact whatever the size, where floats lose the fraction.
@@ -9,25 +19,31 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     uvec4 rowLow, rowHigh;       // per row
     uvec4 termLow[MOST_TERMS], termHigh[MOST_TERMS];
     vec4 termWeight[MOST_TERMS]; // xy: complex
-    ivec4 grid;                  // columns, rows; columns and rows of the picture
-    ivec4 counts;                // terms; fields; rows of the picture within the period; sources
-    ivec4 image;                 // reconstruction; wraps; -; -
-    ivec4 padded;                // by axis; planes between the beginnings of slabs
-    ivec4 firstCell;             // index of the first texel by axis
+    int columns, rows;           // of the slice's grid
+    int pictureColumns, pictureRows;
+    int periodRows;              // rows of the picture within the period
+    int termCount;
+    int fieldCount, sourceCount; // fields come first
+    int reconstruction, wraps;   // wraps: 0 or 1, see core/render/frame_geometry.h
+    int slabStep;                // planes between the beginnings of slabs
+    int columnStages, rowStages; // of the transform of a column, of a row
+    int columnRotations, rowRotations, unpackRotations; // where the rotations of each begin
+    float rollOff;
+    float unit;                  // of the slice
+    float cueBase;               // of a linear cue
+    ivec4 padded;                // by axis, as are the next ones
+    ivec4 firstCell;             // index of the first texel
     vec4 inversePadded;
     vec4 edgeSlack;              // see core/render/frame_geometry.h
-    vec4 scales;                 // roll-off; unit of the slice; base of a linear cue
     vec4 perMoment;
     vec4 shares[MOST_SPECTRA];   // of a source
-    ivec4 places[MOST_SPECTRA];  // of a source: page and first plane in it
-    vec4 zero[6];                // by kind and sum: value, moment
-    vec4 shade[3];               // of an image: ambient, magnitude
+    Place places[MOST_SPECTRA];  // of a source
+    ZeroSum zero[6];             // by kind and sum
+    ImageShade shade[3];
     vec4 gradient[3];
     vec4 excess[3];
     vec4 kernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS]; // [axis][pair][...]: even and odd coefficients, two a vector
     vec4 momentKernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS];
-    ivec4 stages;                // of the transform along rows' direction, of the other
-    ivec4 radices[8];            // four vectors for each
-    ivec4 tables;                // where rotations begin: rows, half columns, untangling
+    ivec4 radices[8];            // four vectors for a column, four for a row
 }
 frame;

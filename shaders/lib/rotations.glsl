@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// exp(+i 2 pi n / length), n = 0 .. length - 1: a table for each length, see Frame.tables.
+// exp(+i 2 pi n / length), n = 0 .. length - 1: a table for each length; where each begins is a
+// member of Frame.
 layout(std430, binding = ROTATIONS) readonly buffer Rotations {
     vec2 rotations[];
 };

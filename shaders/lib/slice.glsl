@@ -17,7 +17,7 @@ Fixed placeOf(int column, int row) {
     Fixed perColumn = Fixed(frame.columnLow, frame.columnHigh);
     Fixed perRow = Fixed(frame.rowLow, frame.rowHigh);
     return plus(plus(origin, times(perColumn, uint(column))),
-                times(perRow, uint(row + frame.grid.y / 2)));
+                times(perRow, uint(row + frame.rows / 2)));
 }
 
 // Where and with which weights is read; whether the conjugate of the mirrored frequency is meant.
@@ -50,20 +50,20 @@ Taps tapsAt(Fixed place, out vec3 q, out bool mirrored) {
 
 // Of a spectrum in several slabs each holds what a kernel needs. Pages of its kind alone are asked.
 Sum readSource(int source, Taps taps, int firstPage, int endPage) {
-    ivec2 place = frame.places[source].xy;
+    int pageOfSource = frame.places[source].page;
     if (SLABS > 1) {
-        int slab = min(taps.first.z / frame.padded.w, SLABS - 1);
-        place.x += slab;
-        taps.first.z -= slab * frame.padded.w;
+        int slab = min(taps.first.z / frame.slabStep, SLABS - 1);
+        pageOfSource += slab;
+        taps.first.z -= slab * frame.slabStep;
     }
-    taps.first.z += place.y;
+    taps.first.z += frame.places[source].firstPlane;
     Sum sum;
     sum.value = vec2(0.0);
 #if CUED
     sum.moment = vec2(0.0);
 #endif
     for (int page = firstPage; page < endPage; ++page)
-        if (page == place.x)
+        if (page == pageOfSource)
             sum = sumOfCells(pages[page], taps);
     return sum;
 }
@@ -80,7 +80,7 @@ Shades shadesOf(Sum sum, float sign) {
     s.cued = s.plain;
 #if CUED
     // -i z; where the mirrored frequency was read, +i conj z.
-    s.cued = frame.scales.z * s.plain + vec2(sum.moment.y, -sign * sum.moment.x);
+    s.cued = frame.cueBase * s.plain + vec2(sum.moment.y, -sign * sum.moment.x);
 #endif
     return s;
 }
@@ -88,11 +88,11 @@ Shades shadesOf(Sum sum, float sign) {
 // A term of the shaded slice of an image, see core/render/frame_job.h. *Source*: Totsuka 1993,
 // eq. 3 to 5 and 12 to 14.
 vec2 shaded(int channel, Shades field, Shades gradient, vec3 q) {
-    vec2 slice = frame.shade[channel].x * field.cued;
+    vec2 slice = frame.shade[channel].ambient * field.cued;
 #if LIT
     vec3 r = q - round(q);
     vec3 sine = vec3(sineOfTurn(r.x), sineOfTurn(r.y), sineOfTurn(r.z));
-    slice += frame.shade[channel].y * gradient.cued;
+    slice += frame.shade[channel].magnitude * gradient.cued;
     slice += dot(frame.gradient[channel].xyz, sine) * quarterTurned(field.cued);
 #if CUED
     vec3 cosine = vec3(cosineOfTurn(r.x), cosineOfTurn(r.y), cosineOfTurn(r.z));
@@ -124,19 +124,19 @@ void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
     }
     // The kinds one after the other, so that no index into the sums is known at run time only: such
     // arrays leave the registers.
-    for (int source = 0; source < frame.counts.y; ++source)
+    for (int source = 0; source < frame.fieldCount; ++source)
         addSource(source, readSource(source, taps, 0, FIELD_PAGES), 0, sums);
 #if LIT
-    for (int source = frame.counts.y; source < frame.counts.w; ++source)
+    for (int source = frame.fieldCount; source < frame.sourceCount; ++source)
         addSource(source, readSource(source, taps, FIELD_PAGES, PAGES), SUMS, sums);
 #endif
     // Known before any rounding: it decides the brightness of the picture.
     if (isCentre)
         for (int s = 0; s < kinds * SUMS; ++s) {
-            vec4 zero = frame.zero[s / SUMS * 3 + s % SUMS];
-            sums[s].value = vec2(zero.x, 0.0);
+            int kindAndSum = s / SUMS * 3 + s % SUMS;
+            sums[s].value = vec2(frame.zero[kindAndSum].value, 0.0);
 #if CUED
-            sums[s].moment = vec2(0.0, zero.y);
+            sums[s].moment = vec2(0.0, frame.zero[kindAndSum].moment);
 #endif
         }
     float sign = mirrored ? -1.0 : 1.0;
@@ -159,7 +159,7 @@ void sliceAt(int column, int row, out vec2 slice[CHANNELS]) {
     Fixed centre = placeOf(column, row);
     vec3 q, ofCentre;
     bool mirrored;
-    for (int term = 0; term < frame.counts.x; ++term) {
+    for (int term = 0; term < frame.termCount; ++term) {
         // Of the picture's own factors the central slice's are taken.
         Fixed place = plus(centre, Fixed(frame.termLow[term], frame.termHigh[term]));
         Taps taps = tapsAt(place, q, mirrored);
@@ -167,9 +167,10 @@ void sliceAt(int column, int row, out vec2 slice[CHANNELS]) {
             ofCentre = q;
         addTerm(term, taps, mirrored, term == 0 && column == 0 && row == 0, q, slice);
     }
-    float radius = length(2.0 * vec2(column, row) / vec2(frame.grid.xy));
-    float factor = frame.scales.y * rollOffFactor(frame.scales.x, radius) *
-                   reconstructionFactor(frame.image.x, frame.image.y != 0, frame.scales.x, ofCentre);
+    float radius = length(2.0 * vec2(column, row) / vec2(frame.columns, frame.rows));
+    float factor = frame.unit * rollOffFactor(frame.rollOff, radius) *
+                   reconstructionFactor(frame.reconstruction, frame.wraps != 0, frame.rollOff,
+                                        ofCentre);
     float turns = turnsOf(centre);
     vec2 phase = factor * vec2(cosineOfTurn(turns), sineOfTurn(turns));
     for (int c = 0; c < CHANNELS; ++c)

@@ -23,10 +23,11 @@ void stage(int radix, int done, int length, int from, int to, int table) {
 }
 
 // Transforms line[0 .. length-1], which all threads have written; where the result begins.
-// `plan`: 0 along rows' direction, 1 the other.
+// `plan`: 0 of a column, 1 of a row.
 int transformLine(int length, int plan, int table) {
     int from = 0, done = 1;
-    for (int s = 0; s < frame.stages[plan]; ++s) {
+    int stages = plan == 0 ? frame.columnStages : frame.rowStages;
+    for (int s = 0; s < stages; ++s) {
         int radix = frame.radices[4 * plan + s / 4][s % 4];
         barrier();
         stage(radix, done, length, from, ROOM - from, table);

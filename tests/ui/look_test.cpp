@@ -137,21 +137,7 @@ private slots:
             find<QAction>("undoAction")->trigger();
         settle();
         QVERIFY(changed(before, projection()->picture()) < 0.001);
-
-        // Another day: it is there, and shows the same.
-        restart();
-        open(headPath());
-        gallery = find<QListWidget>("presetGallery");
-        const auto found = gallery->findItems("Own look 1", Qt::MatchExactly);
-        QCOMPARE(int(found.size()), 1);
-        gallery->scrollToItem(found.front());
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                          gallery->visualItemRect(found.front()).center());
-        QCOMPARE(m_window->document().scene().look.transferFunction.weights[2], 0.0);
-        settle();
-        QVERIFY(changed(before, projection()->picture()) > 0.02);
-        find<QAction>("undoAction")->trigger();
-        QVERIFY(m_window->document().scene().look == classify::Look());
+        takeTheLookAgain(before);
     }
 
     void presetsShowClassesInColourAndTheirWeightsMoveThePicture() {
@@ -283,45 +269,11 @@ private slots:
         const QImage lit = projection()->picture();
         QVERIFY(changed(plain, lit) > 0.05);
         save("light");
-        // A light is dragged over the sphere: the bright side follows it, one drag is one step.
-        auto *sphere = find<ui::LightSphere>("lightSphere");
-        const int count = m_window->document().undoStack()->count();
-        const QPoint from = sphere->handleAt(0).toPoint();
-        dragMouse(sphere, Qt::LeftButton, from,
-                  QPoint(sphere->width() / 2 + 30, sphere->height() / 2) - from);
-        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
-        QVERIFY(shading().lights[0].direction.x > 0.7);
-        QVERIFY(std::abs(shading().lights[0].direction.y) < 0.1);
-        settle();
-        const auto balance = [&] {
-            const QImage picture = projection()->picture();
-            const QSize half(picture.width() / 2, picture.height());
-            return meanGrey(picture, {{half.width(), 0}, half}) - meanGrey(picture, {{}, half});
-        };
-        const double fromRight = balance();
-        dragMouse(sphere, Qt::LeftButton, sphere->handleAt(0).toPoint(), {-60, 0});
-        QVERIFY(shading().lights[0].direction.x < -0.7);
-        settle();
-        QVERIFY2(balance() < fromRight - 1.0, "the left is brighter in light from the left");
-        // Fixed to the patient it stays there while the view turns.
-        QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
-        QCOMPARE(shading().lights[0].frame, shading::LightFrame::patient);
-        const QPointF before = sphere->handleAt(0);
-        projection()->showStandardView(scene::StandardView::back);
-        QTRY_VERIFY((sphere->handleAt(0) - before).manhattanLength() > 30.0);
-        QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
-        QCOMPARE(shading().lights[0].frame, shading::LightFrame::viewer);
-        settle();
-        // Weights move under light, too: the picture follows in small and comes in full.
-        const QImage beforeWeight = projection()->picture();
-        for (int n = 0; n < 12; ++n)
-            QTest::keyClick(find<ui::CurveEditor>("curveEditor"), Qt::Key_Up);
-        settle();
-        QVERIFY(changed(beforeWeight, projection()->picture()) > 0.0);
-        for (int n = 1; n < 12; ++n)
-            find<QAction>("undoAction")->trigger();
-        find<QAction>("undoAction")->trigger();
-        settle();
+        dragALight();
+        fixTheLightToThePatient();
+        moveWeightsUnderLight();
+        if (QTest::currentTestFailed())
+            return;
         // Three colours make colour; what is saved as a look has its lights.
         find<QPushButton>("addLightButton")->click();
         find<QPushButton>("addLightButton")->click();
@@ -354,6 +306,72 @@ private slots:
     }
 
 private:
+    // Over the sphere: the bright side follows it, one drag is one step.
+    void dragALight() {
+        auto *sphere = find<ui::LightSphere>("lightSphere");
+        const int count = m_window->document().undoStack()->count();
+        const QPoint from = sphere->handleAt(0).toPoint();
+        dragMouse(sphere, Qt::LeftButton, from,
+                  QPoint(sphere->width() / 2 + 30, sphere->height() / 2) - from);
+        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
+        QVERIFY(shading().lights[0].direction.x > 0.7);
+        QVERIFY(std::abs(shading().lights[0].direction.y) < 0.1);
+        settle();
+        const auto balance = [&] {
+            const QImage picture = projection()->picture();
+            const QSize half(picture.width() / 2, picture.height());
+            return meanGrey(picture, {{half.width(), 0}, half}) - meanGrey(picture, {{}, half});
+        };
+        const double fromRight = balance();
+        dragMouse(sphere, Qt::LeftButton, sphere->handleAt(0).toPoint(), {-60, 0});
+        QVERIFY(shading().lights[0].direction.x < -0.7);
+        settle();
+        QVERIFY2(balance() < fromRight - 1.0, "the left is brighter in light from the left");
+    }
+
+    // It stays there while the view turns.
+    void fixTheLightToThePatient() {
+        auto *sphere = find<ui::LightSphere>("lightSphere");
+        QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
+        QCOMPARE(shading().lights[0].frame, shading::LightFrame::patient);
+        const QPointF before = sphere->handleAt(0);
+        projection()->showStandardView(scene::StandardView::back);
+        QTRY_VERIFY((sphere->handleAt(0) - before).manhattanLength() > 30.0);
+        QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
+        QCOMPARE(shading().lights[0].frame, shading::LightFrame::viewer);
+        settle();
+    }
+
+    // The picture follows in small and comes in full.
+    void moveWeightsUnderLight() {
+        const QImage beforeWeight = projection()->picture();
+        for (int n = 0; n < 12; ++n)
+            QTest::keyClick(find<ui::CurveEditor>("curveEditor"), Qt::Key_Up);
+        settle();
+        QVERIFY(changed(beforeWeight, projection()->picture()) > 0.0);
+        for (int n = 1; n < 12; ++n)
+            find<QAction>("undoAction")->trigger();
+        find<QAction>("undoAction")->trigger();
+        settle();
+    }
+
+    // Another day: the saved look is there, and shows the same.
+    void takeTheLookAgain(const QImage &before) {
+        restart();
+        open(headPath());
+        auto *gallery = find<QListWidget>("presetGallery");
+        const auto found = gallery->findItems("Own look 1", Qt::MatchExactly);
+        QCOMPARE(int(found.size()), 1);
+        gallery->scrollToItem(found.front());
+        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
+                          gallery->visualItemRect(found.front()).center());
+        QCOMPARE(m_window->document().scene().look.transferFunction.weights[2], 0.0);
+        settle();
+        QVERIFY(changed(before, projection()->picture()) > 0.02);
+        find<QAction>("undoAction")->trigger();
+        QVERIFY(m_window->document().scene().look == classify::Look());
+    }
+
     const shading::Shading &shading() { return m_window->document().scene().shading; }
 };
 

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a person chooses for the whole program: language, theme, keys; and what is there again after
 // the program has ended.
-#include "tests/ui/workstation.h"
-
-#include <array>
+#include "tests/ui/started_program.h"
 
 #include <QAccessible>
-#include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QKeySequenceEdit>
 #include <QLabel>
 #include <QLineEdit>
@@ -18,20 +14,16 @@
 #include <QMenuBar>
 #include <QPointer>
 #include <QPushButton>
-#include <QScopeGuard>
-#include <QToolButton>
 #include <QTreeWidget>
 #include <QUndoView>
 
-#include "ui/opening/recent_paths.h"
 #include "ui/settings/shortcuts.h"
-#include "ui/window/workstation.h"
 
 namespace pellucid {
 
 using namespace test;
 
-class PreferencesTest : public Workstation {
+class PreferencesTest : public StartedProgram {
     Q_OBJECT
 private slots:
     void init() {
@@ -174,115 +166,6 @@ private slots:
         QVERIFY(!file.readAll().contains("Secret"));
     }
 
-    void whoDoesNotWantToBeRememberedIsNot() {
-        openIn(headPath());
-        QVERIFY(!QSettings().value("recentPaths").toStringList().isEmpty());
-        openDialog();
-        find<QCheckBox>("remembersBox")->click();
-        find<QDialog>("preferencesDialog")->close();
-        QVERIFY(QSettings().value("recentPaths").toStringList().isEmpty());
-        openIn(headPath());
-        begin();
-        QVERIFY(!find<QWidget>("resumeButton")->isVisible());
-        QVERIFY(QSettings().value("recentPaths").toStringList().isEmpty());
-        QVERIFY(!std::filesystem::exists(m_folder / "data" / "pellucid" / "session.json"));
-    }
-
-    void aPathThatNamesThePatientIsNotAmongTheRecentOnes() {
-        ui::StudyFacts study;
-        study.patientName = QString::fromUtf8("M\u00FCller^J\u00F6rg=\u738B^\u5C0F");
-        study.patientId = "A-4711";
-        study.birthDate = "19500607";
-        study.uid = "1.2";
-        for (const char *of :
-             {"/cd/MULLER_J", "/cd/MullerJorg", "/cd/x jorg", "/cd/a-4711/1", "/cd/A_4711_2",
-              "/cd/1950-06-07", "/cd/07.06.1950", "/cd/CT19500607", "/cd/\u738B\u5C0F\u5148\u751F"})
-            QVERIFY2(ui::namesPatient(QString::fromUtf8(of), study), of);
-        for (const char *of : {"/cd/head", "/home/jo/4711", "/cd/1950", "/cd/fjorgen/j", "",
-                               "/cd/\u738B\u5148\u751F"})
-            QVERIFY2(!ui::namesPatient(QString::fromUtf8(of), study), of);
-        QVERIFY(!ui::namesPatient("/cd", {}));
-        study.patientName = QString::fromUtf8(
-            "Xu^Ann=\uC774^\uC601"); // of Hangul, each letter three in Unicode's D
-        QVERIFY(ui::namesPatient("/cd/xu-li", study));
-        QVERIFY(ui::namesPatient(QString::fromUtf8("/cd/\uC774\uC601"), study));
-        QVERIFY(!ui::namesPatient("/cd/anna", study));
-        study.patientId = "001";
-        QVERIFY(ui::namesPatient("/cd/001/a", study));
-        QVERIFY(!ui::namesPatient("/cd/IM0001", study));
-        study.patientName = "Home";
-        QVERIFY(!ui::namesPatient(QDir::homePath() + "/scans", study));
-        const ui::StudySource phantom = ui::phantomSource("head");
-        QVERIFY(!ui::namesPatient("/phantoms", phantom.study));
-
-        const auto named = m_folder / "of_SECRET";
-        std::filesystem::copy(headPath().toStdString(), named);
-        const auto isKept = [] {
-            return !QSettings().value("recentPaths").toStringList().filter("SECRET").isEmpty();
-        };
-        openIn(QString::fromStdString(named.string()));
-        QVERIFY(!isKept());
-        openDialog();
-        find<QCheckBox>("patientTitleBox")->click();
-        find<QDialog>("preferencesDialog")->close();
-        openIn(QString::fromStdString(named.string()));
-        QVERIFY(isKept());
-        openDialog();
-        find<QCheckBox>("patientTitleBox")->click(); // chosen no more
-        QVERIFY(!isKept());
-    }
-
-    // Qt's dialogs write down where they have been.
-    void fileDialogsLeaveNoTrace() {
-        const auto named = m_folder / "dialog_of_SECRET";
-        std::filesystem::copy(headPath().toStdString(), named);
-        const QString path = QString::fromStdString(named.string());
-        const auto choose = [&] {
-            // Once it is there, however long that takes.
-            auto *waiting = new QTimer(this);
-            waiting->start(20);
-            connect(waiting, &QTimer::timeout, this, [path, waiting] {
-                auto *dialog = qobject_cast<QFileDialog *>(QApplication::activeModalWidget());
-                if (dialog == nullptr)
-                    return;
-                waiting->deleteLater();
-                waiting->stop();
-                dialog->setDirectory(path);
-                dialog->findChild<QLineEdit *>("fileNameEdit")->setText(path);
-                QMetaObject::invokeMethod(dialog, "accept");
-            });
-        };
-        static constexpr std::array keys{"FileDialog/lastVisited", "FileDialog/history"};
-        const auto values = [] {
-            const QSettings ofQt(QSettings::UserScope, "QtProject");
-            return std::array{ofQt.value(keys[0]), ofQt.value(keys[1])};
-        };
-        const auto trace = [&] {
-            return values()[0].toString() + values()[1].toStringList().join(" ");
-        };
-        // The file is the user's, who runs this.
-        const auto restore = qScopeGuard([before = values()] {
-            QSettings ofQt(QSettings::UserScope, "QtProject");
-            for (std::size_t n = 0; n < keys.size(); ++n)
-                before[n].isValid() ? ofQt.setValue(keys[n], before[n]) : ofQt.remove(keys[n]);
-        });
-        choose();
-        find<QAction>("openFolderAction")->trigger();
-        settleIn();
-        QVERIFY2(!trace().contains(path), qPrintable(trace()));
-        choose();
-        QFileDialog::getExistingDirectory(); // as without care
-        QVERIFY(trace().contains(path));
-    }
-
-    void theTitleNamesThePatientOnlyWhereThatIsChosen() {
-        openIn(headPath());
-        QCOMPARE(window_().windowTitle(), QString("Pellucid"));
-        openDialog();
-        find<QCheckBox>("patientTitleBox")->click();
-        QCOMPARE(window_().windowTitle(), QString("Secret Name - Pellucid"));
-    }
-
     void theHistoryGoesBackToAnyEdit() {
         openIn(headPath());
         const scene::Scene before = document().scene();
@@ -335,39 +218,6 @@ private slots:
     }
 
 private:
-    // As if the program had ended and been started again.
-    void begin() {
-        m_program.reset();
-        m_program = std::make_unique<ui::Workstation>();
-        window_().resize(1600, 1000);
-        QVERIFY(QTest::qWaitForWindowExposed(&window_()));
-        window_().activateWindow();
-    }
-    ui::MainWindow &window_() { return m_program->window(); }
-    ui::Document &document() { return m_program->bench().document; }
-    ui::ProjectionView *projectionOf() { return find<ui::ProjectionView>("projectionView"); }
-    template <class T> T *find(const char *name) {
-        T *found = window_().findChild<T *>(name);
-        if (found == nullptr)
-            qFatal("no %s", name);
-        return found;
-    }
-    void settleIn() {
-        QTRY_VERIFY_WITH_TIMEOUT(
-            projectionOf()->showsFinalImage() && !m_program->bench().jobs.isRunning(), patienceMs);
-    }
-    void openIn(const QString &path) {
-        drop(window_(), {QUrl::fromLocalFile(path)});
-        settleIn();
-    }
-    void choosePreset(const QString &name) {
-        clickPreset(window_(), name);
-        settleIn();
-    }
-    void openDialog() {
-        find<QAction>("preferencesAction")->trigger();
-        QVERIFY(find<QDialog>("preferencesDialog")->isVisible());
-    }
     void choose(const char *box, const QString &value) {
         openDialog();
         auto *choice = find<QComboBox>(box);
@@ -438,8 +288,6 @@ private:
         }
         return found;
     }
-
-    std::unique_ptr<ui::Workstation> m_program;
 };
 
 } // namespace pellucid

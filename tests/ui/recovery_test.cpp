@@ -5,7 +5,6 @@
 #include <csignal>
 #include <fstream>
 #include <optional>
-#include <stdexcept>
 
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -15,13 +14,11 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "app/exit_code.h"
 #include "core/files/session_folder.h"
-#include "core/task/error.h"
 #include "tests/support/files.h"
-#include "tests/support/little_memory.h"
 #include "tests/support/read_only_folder.h"
-#include "ui/opening/recent_paths.h"
+#include "tests/ui/workstation_process.h"
+#include "ui/document/commands.h"
 #include "ui/opening/session.h"
 #include "ui/window/file_menu.h"
 #include "ui/window/reopening.h"
@@ -31,15 +28,6 @@ namespace pellucid {
 
 using namespace test;
 namespace fs = std::filesystem;
-
-namespace {
-
-// Of the first signal.
-const task::Reason &reasonOf(const QSignalSpy &failures) {
-    return *static_cast<const task::Reason *>(failures[0][0].constData());
-}
-
-} // namespace
 
 class RecoveryTest : public Workstation {
     Q_OBJECT
@@ -55,7 +43,7 @@ private slots:
 
     void whatWasOpenIsOfferedAfterAKill() {
         QProcess program;
-        start(program, {headPath()});
+        startWorkstation(program, m_folder, {headPath()});
         QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
         QVERIFY(!readText(m_sessionFile).empty());
         program.kill();
@@ -73,7 +61,7 @@ private slots:
     // Neither takes the other's place, and what still runs is nothing to recover.
     void programsAtTheSameTimeAreRecoveredEach() {
         QProcess first;
-        start(first, {headPath()});
+        startWorkstation(first, m_folder, {headPath()});
         QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
         const fs::path second = m_sessionFile.parent_path() / "session-2.json";
         {
@@ -95,20 +83,6 @@ private slots:
         QCOMPARE(next.bench().document.volume()->lattice().size().k, 80);
         emit next.window().fileMenu().recentForgotten();
         QVERIFY(!fs::exists(m_sessionFile) && !fs::exists(second));
-    }
-
-    // After a kill nothing is lost; what has ended leaves no path with a name in it.
-    void aPathThatNamesThePatientGoesWithTheProgram() {
-        const fs::path named = m_folder / "Secret Name";
-        fs::copy(headPath().toStdString(), named);
-        {
-            ui::Workstation program;
-            program.window().openPaths({QString::fromStdString(named.string())});
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            const auto &source = program.bench().document.sources().at(0);
-            QVERIFY(ui::namesPatient(source.lasting.at(0), source.study));
-        }
-        QVERIFY(!hasSession());
     }
 
     // Other files lie there by now.
@@ -141,9 +115,10 @@ private slots:
             program.window().openPaths({headPath()});
             ui::Document &document = program.bench().document;
             QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
+            ui::editScene(document, "Weights", ui::noDrag, [](scene::Scene &scene) {
+                scene.look.transferFunction.weights = {0.0, 0.7, 1.9, 0.3};
+            });
             edited = document.scene();
-            edited.look.transferFunction.weights = {0.0, 0.7, 1.9, 0.3};
-            document.undoStack()->push(new ui::EditScene(document, edited, "Weights"));
             QTRY_VERIFY_WITH_TIMEOUT(hasSession() && kept().shown.scene.look == edited.look,
                                      patienceMs);
             QVERIFY(!kept().hasEnded);
@@ -314,7 +289,7 @@ private slots:
 
     void aProgramThatIsToldToEndEndsAsOneThatIsClosed() {
         QProcess program;
-        start(program, {headPath()});
+        startWorkstation(program, m_folder, {headPath()});
         QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
         program.terminate();
         QVERIFY(program.waitForFinished(patienceMs));
@@ -332,7 +307,7 @@ private slots:
         QVERIFY(packer.waitForFinished() && packer.exitCode() == 0);
         const fs::path sessions = m_folder / "cache" / "pellucid" / "sessions";
         QProcess program;
-        start(program, {zip});
+        startWorkstation(program, m_folder, {zip});
         const auto unpacked = [&] {
             std::error_code ignored;
             int count = 0;
@@ -350,161 +325,10 @@ private slots:
         QVERIFY(fs::is_empty(sessions));
     }
 
-    // Whatever is thrown, on whatever thread: it is said, and the next thing works.
-    void whatThrowsIsSaidAndTheProgramGoesOn() {
-        ui::Workstation program;
-        QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
-        QTimer::singleShot(0, &program, [] { throw std::bad_alloc(); });
-        QTRY_COMPARE(said.size(), 1);
-        QVERIFY(reasonOf(said).is(task::because::notEnoughMemory));
-        ui::JobRunner &jobs = program.bench().jobs;
-        QSignalSpy failed(&jobs, &ui::JobRunner::failed);
-        const std::vector<std::pair<std::function<void()>, task::Reason>> faults{
-            {[] { throw std::bad_alloc(); }, task::because::notEnoughMemory},
-            {[] { throw std::out_of_range("vector"); }, task::because::faultOfTheProgram},
-            {[] { throw 7; }, task::because::faultOfTheProgram},
-            {[] { throw task::Error(task::ErrorCode::unusable, task::because::isEmpty, "/a"); },
-             task::because::isEmpty}};
-        for (const auto &[fault, reason] : faults) {
-            failed.clear();
-            jobs.start("fault", [fault = fault](const ui::Job &) { fault(); });
-            QTRY_COMPARE(failed.size(), 1);
-            QVERIFY(reasonOf(failed) == reason);
-            QVERIFY(!jobs.isRunning());
-        }
-        program.window().openPaths({headPath()});
-        QTRY_VERIFY_WITH_TIMEOUT(
-            program.bench().document.volume() && !program.bench().document.isPreview(), patienceMs);
-    }
-
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
-    // A limit that is too low to start is said, before libraries that need more crash.
-    void aLowLimitIsSaidInOneLine() {
-        for (const char *kilobytes : {"300000", "400000", "600000", "1000000"}) {
-            QProcess program;
-            program.start("/bin/sh",
-                          {"-c", "ulimit -v $0; exec \"$1\"", kilobytes, PELLUCID_WORKSTATION});
-            QVERIFY(program.waitForFinished(patienceMs));
-            QCOMPARE(program.exitStatus(), QProcess::NormalExit);
-            QCOMPARE(program.exitCode(), exitCode(task::ErrorCode::outOfMemory));
-            const QByteArray said = program.readAllStandardError();
-            QVERIFY2(said.startsWith("pellucid: not enough memory to start") &&
-                         said.count('\n') == 1,
-                     said.constData());
-        }
-    }
-
-    // From too little to enough, in steps: a study is open or a reason is given, and with memory
-    // the next one opens.
-    void littleMemoryIsSaidAndTheNextStudyOpens() {
-        const fs::path large = m_folder / "large";
-        dicom::writeCtSeries(large,
-                             phantom::makePhantom(phantom::Kind::head,
-                                                  phantom::phantomLattice(
-                                                      phantom::Kind::head,
-                                                      {.size = volume::GridSize{256, 256, 128}})),
-                             {}, dicom::TransferSyntax::explicitLittle);
-        ui::Workstation program;
-        ui::Document &document = program.bench().document;
-        ui::JobRunner &jobs = program.bench().jobs;
-        QSignalSpy failed(&jobs, &ui::JobRunner::failed);
-        QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
-        const auto rests = [&] { return !jobs.isRunning() && !document.isPreview(); };
-        program.window().openPaths({headPath()}); // all that is made once is there
-        QTRY_VERIFY_WITH_TIMEOUT(document.volume() && rests(), patienceMs);
-        auto *const view = program.window().findChild<ui::ProjectionView *>("projectionView");
-        int opened = 0, refused = 0;
-        for (const std::size_t mb : {5, 10, 40, 80, 120, 160, 240, 320, 480, 640, 960, 1600}) {
-            failed.clear();
-            said.clear();
-            std::optional<LittleMemory> little(mb);
-            program.window().openPaths({QString::fromStdString(large.string())});
-            const bool isOver = QTest::qWaitFor(rests, patienceMs);
-            // Frames, too.
-            (void)QTest::qWaitFor([&] { return view->showsFinalImage() || !said.isEmpty(); }, 2000);
-            little.reset();
-            QVERIFY(isOver);
-            const bool isOpen = document.volume()->lattice().size().k == 128;
-            opened += isOpen ? 1 : 0;
-            refused += failed.size() + said.size() > 0 ? 1 : 0;
-            for (const auto &failure : failed)
-                QCOMPARE(fs::path(failure[1].toString().toStdString()), large);
-            QVERIFY2(isOpen || failed.size() + said.size() > 0, qPrintable(QString::number(mb)));
-            program.window().openPaths({headPath()});
-            QTRY_VERIFY_WITH_TIMEOUT(document.volume()->lattice().size().k == 80 && rests(),
-                                     patienceMs);
-        }
-        qInfo("%d opened, %d with a reason", opened, refused);
-        QVERIFY(opened > 0 && refused > 0);
-    }
-#endif
-
-    // No name, no number of a patient in what the program keeps for itself.
-    void nothingThatIsKeptNamesThePatient() {
-        const fs::path patient = m_folder / "patient";
-        fs::copy(headPath().toStdString(), patient);
-        QStringList change{"-nb",
-                           "-i",
-                           "PatientID=SecretNumber",
-                           "-i",
-                           "PatientBirthDate=19010203",
-                           "-i",
-                           "StudyDescription=SecretStudy"};
-        for (const auto &file : fs::directory_iterator(patient))
-            change << QString::fromStdString(file.path().string());
-        QCOMPARE(QProcess::execute("dcmodify", change), 0);
-        fs::resize_file(patient / "IM0080.dcm", 3000); // which the log may mention
-        const QString path = QString::fromStdString(patient.string());
-        {
-            ui::Workstation program;
-            program.window().openPaths({path});
-            ui::Document &document = program.bench().document;
-            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            QVERIFY(!program.window().windowTitle().contains("Secret"));
-        }
-        QProcess program;
-        start(program, {path});
-        QTRY_VERIFY_WITH_TIMEOUT(
-            fs::exists(m_folder / "cache" / "pellucid" / "log" / "pellucid.log"), patienceMs);
-        QTest::qWait(1500);
-        program.terminate();
-        QVERIFY(program.waitForFinished(patienceMs));
-        int looked = 0;
-        for (const char *const place : {"data", "cache", "config"})
-            for (const auto &entry : fs::recursive_directory_iterator(m_folder / place)) {
-                QVERIFY2(entry.path().string().find("Secret") == std::string::npos,
-                         entry.path().c_str());
-                if (!entry.is_regular_file() ||
-                    entry.path().string().find("library.sqlite") != std::string::npos)
-                    continue; // the library is what the user keeps
-                ++looked;
-                const std::string kept = readText(entry.path());
-                for (const char *of : {"Secret", "19010203"})
-                    QVERIFY2(kept.find(of) == std::string::npos, entry.path().c_str());
-            }
-        QVERIFY(looked > 2);
-    }
-
 private:
-    void start(QProcess &program, const QStringList &arguments) {
-        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-#ifdef PELLUCID_SANITIZED // what libraries leave at their end is looked for in this program
-        environment.insert("ASAN_OPTIONS", "detect_leaks=0");
-#endif
-        environment.insert("XDG_CONFIG_HOME",
-                           QString::fromStdString((m_folder / "config").string()));
-        program.setProcessEnvironment(environment);
-        program.start(PELLUCID_WORKSTATION, arguments);
-        QVERIFY(program.waitForStarted(patienceMs));
-    }
     // Of the first program: a second one has a file of its own.
-    bool hasSession() const {
-        return fs::exists(m_sessionFile);
-    }
-    ui::Session kept() const {
-        return ui::sessionFromJson(readText(m_sessionFile));
-    }
+    bool hasSession() const { return fs::exists(m_sessionFile); }
+    ui::Session kept() const { return ui::sessionFromJson(readText(m_sessionFile)); }
 
     fs::path m_sessionFile;
 };

@@ -1,50 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The study library as a person uses it: import, search, order, open, details, remove.
-#include "tests/ui/workstation.h"
+#include "tests/ui/studies_window.h"
 
 #include <filesystem>
 #include <fstream>
 
 #include <QLabel>
 #include <QLineEdit>
-#include <QListWidget>
-#include <QMenu>
 #include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
-#include <QRadioButton>
-#include <QToolButton>
-#include <QTreeView>
-
-#include "ui/beside/study_beside.h"
-#include "ui/panels/study_list.h"
-#include "ui/window/file_menu.h"
 
 namespace pellucid {
 
 using namespace test;
 namespace fs = std::filesystem;
 
-class StudiesTest : public Workstation {
+class StudiesTest : public StudiesWindow {
     Q_OBJECT
 private slots:
     void initTestCase() {
-        Workstation::initTestCase();
-        for (const char *name : {"Miller^Ann", "Miller^Bob", "Zhang^Wei"}) {
-            const auto lattice = phantom::phantomLattice(phantom::Kind::chest,
-                                                         {.size = volume::GridSize{48, 48, 24}});
-            dicom::writeCtSeries(m_folder / "three" / name,
-                                 phantom::makePhantom(phantom::Kind::chest, lattice),
-                                 {.patientName = name}, dicom::TransferSyntax::explicitLittle);
-        }
+        StudiesWindow::initTestCase();
+        writeChests();
     }
-
     // Each test has a library of its own.
-    void init() {
-        m_window.reset();
-        fs::remove_all(m_folder / "data");
-        restart();
-    }
+    void init() { restartWithoutLibrary(); }
 
     void importedStudiesAreThereAfterARestart() {
         import(m_folder / "three", false);
@@ -225,163 +205,6 @@ private slots:
         QTRY_VERIFY(dialog("importDialog") != nullptr);
         acceptImport(false);
         QCOMPARE(rows(), QStringList({"Secret Name"}));
-    }
-
-    void aPriorStandsBesideAndMovesAlong() {
-        open(headPath());
-        import(m_folder / "three", false);
-        const scene::Camera camera = m_window->document().scene().camera;
-        choose(volumeRow("Zhang Wei"), "openBesideAction");
-        auto *beside = find<ui::StudyBeside>("studyBeside");
-        auto *other = find<ui::ProjectionView>("beside_projectionView");
-        QTRY_VERIFY_WITH_TIMEOUT(other->showsFinalImage() && !beside->jobs().isRunning(),
-                                 patienceMs);
-        QVERIFY(find<QLabel>("studyHeading")->isVisible());
-        QVERIFY(find<QLabel>("besideName")->text().contains("Zhang Wei"));
-        ui::Document &open = m_window->document(), &prior = beside->document();
-        QCOMPARE(open.scene().camera.orientation, camera.orientation); // the open one led
-        QCOMPARE(open.scene().camera.panMm, camera.panMm);
-        // The projection turns alike, from either side.
-        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
-        QVERIFY(prior.scene().camera.orientation == open.scene().camera.orientation);
-        dragMouse(other, Qt::LeftButton, other->rect().center(), {-90, 0});
-        QVERIFY(prior.scene().camera.orientation == open.scene().camera.orientation);
-        QVERIFY(std::abs(prior.scene().camera.pixelMm - open.scene().camera.pixelMm) < 1e-9);
-        // About the crosshairs, each about its own, which are at the same place of the pictures.
-        find<QAction>("orbitCrosshairAction")->trigger();
-        auto *axial = find<QWidget>("axialView");
-        const QPoint to = axial->rect().center() + QPoint(40, 50);
-        QMouseEvent move(QEvent::MouseMove, to, axial->mapToGlobal(to), Qt::NoButton, {},
-                         Qt::ShiftModifier);
-        QCoreApplication::sendEvent(axial, &move);
-        for (QWidget *turned :
-             {static_cast<QWidget *>(projection()), static_cast<QWidget *>(other)}) {
-            dragMouse(turned, Qt::LeftButton, turned->rect().center(), {50, -30});
-            const auto onPicture = [](ui::Document &document) {
-                const scene::Camera &view = document.scene().camera;
-                const glm::dvec3 at =
-                    document.crosshair().mm - document.volume()->lattice().center().mm;
-                return glm::dvec2(glm::dot(view.axes()[0], at), glm::dot(view.axes()[1], at)) -
-                       view.panMm;
-            };
-            QVERIFY(glm::length(onPicture(open)) > 10.0);
-            QVERIFY(glm::distance(onPicture(open), onPicture(prior)) < 1e-6);
-        }
-        find<QAction>("orbitCrosshairAction")->trigger();
-        // So do planes and windows, and the window of either is one step to undo.
-        const glm::dvec3 apart = prior.crosshair().mm - open.crosshair().mm;
-        turnWheel(find<QWidget>("axialView"), 2);
-        QVERIFY(glm::distance(prior.crosshair().mm - open.crosshair().mm, apart) < 1e-6);
-        turnWheel(find<QWidget>("beside_axialView"), -1);
-        QVERIFY(glm::distance(prior.crosshair().mm - open.crosshair().mm, apart) < 1e-6);
-        QTest::keyClick(m_window.get(), Qt::Key_S);
-        QVERIFY(prior.cut() == open.cut());
-        const auto before = open.displayWindow();
-        dragMouse(find<QWidget>("beside_coronalView"), Qt::LeftButton, {60, 60}, {40, -20});
-        QVERIFY(!(open.displayWindow() == before));
-        QVERIFY(prior.displayWindow() == open.displayWindow());
-        find<QAction>("undoAction")->trigger();
-        QVERIFY(open.displayWindow() == before);
-        QVERIFY(prior.displayWindow() == before);
-        // And looks, and layouts.
-        clickPreset(*m_window, "Bone");
-        settle();
-        QVERIFY(prior.scene().look == open.scene().look);
-        QTRY_VERIFY_WITH_TIMEOUT(other->showsFinalImage() && !beside->jobs().isRunning(),
-                                 patienceMs);
-        save("beside");
-        QTest::mouseDClick(find<QWidget>("beside_axialView"), Qt::LeftButton, {}, {50, 80});
-        QVERIFY(find<QWidget>("axialView")->isVisible());
-        QVERIFY(!projection()->isVisible());
-        QTest::mouseDClick(find<QWidget>("axialView"), Qt::LeftButton, {}, {50, 80});
-        QVERIFY(other->isVisible());
-        // Matched by hand: unlinked, moved, linked again.
-        QTest::mouseClick(find<QToolButton>("linkButton"), Qt::LeftButton);
-        QVERIFY(!find<QAction>("linkStudiesAction")->isChecked());
-        // The keypad turns the projection that has the keyboard.
-        const auto orientation = open.scene().camera.orientation;
-        QTest::keyClick(other, Qt::Key_7, Qt::KeypadModifier);
-        QVERIFY(prior.scene().camera.orientation ==
-                scene::viewOrientation(scene::StandardView::top));
-        QVERIFY(open.scene().camera.orientation == orientation);
-        turnWheel(find<QWidget>("beside_axialView"), 1);
-        const glm::dvec3 matched = prior.crosshair().mm - open.crosshair().mm;
-        QVERIFY(glm::distance(matched, apart) > 0.5);
-        find<QAction>("linkStudiesAction")->trigger();
-        turnWheel(find<QWidget>("axialView"), 1);
-        QVERIFY(glm::distance(prior.crosshair().mm - open.crosshair().mm, matched) < 1e-6);
-        QTest::mouseClick(find<QToolButton>("closeBesideButton"), Qt::LeftButton);
-        QTRY_VERIFY(m_window->findChild<ui::StudyBeside *>("studyBeside") == nullptr);
-        QVERIFY(!find<QLabel>("studyHeading")->isVisible());
-        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
-        settle();
-    }
-
-private:
-    QTreeView *tree() { return find<QTreeView>("seriesTree"); }
-    ui::StudyList &list() { return *qobject_cast<ui::StudyList *>(tree()->model()); }
-
-    QStringList rows() {
-        QStringList names;
-        for (int row = 0; row < list().rowCount(); ++row)
-            names << list().index(row, 0).data().toString();
-        return names;
-    }
-
-    QModelIndex volumeRow(const QString &patient) {
-        for (int row = 0; row < list().rowCount(); ++row)
-            if (list().index(row, 0).data() == patient) {
-                tree()->expand(list().index(row, 0));
-                // What is in a study is asked for when it is looked into.
-                (void)QTest::qWaitFor([&] { return list().rowCount(list().index(row, 0)) > 0; },
-                                      patienceMs);
-                return list().index(0, 0, list().index(row, 0));
-            }
-        qFatal("no study of %s", qPrintable(patient));
-    }
-
-    QString problems() {
-        QStringList texts;
-        auto *shown = find<QListWidget>("problemList");
-        for (int n = 0; n < shown->count(); ++n)
-            texts << shown->item(n)->text();
-        return texts.join("\n");
-    }
-
-    QPoint middle(const QModelIndex &row) {
-        tree()->scrollTo(row);
-        return tree()->visualRect(row).center();
-    }
-    void click(const QModelIndex &row) {
-        QTest::mouseClick(tree()->viewport(), Qt::LeftButton, Qt::NoModifier, middle(row));
-    }
-
-    // By the menu of a row, as the right button opens it.
-    void choose(const QModelIndex &row, const char *action) {
-        emit tree()->customContextMenuRequested(middle(row));
-        auto *menu = m_window->findChild<QMenu *>("studyMenu");
-        QVERIFY(menu != nullptr);
-        QAction *wanted = menu->findChild<QAction *>(action);
-        QVERIFY2(wanted != nullptr, action);
-        wanted->trigger();
-        menu->close();
-        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-    }
-
-    QWidget *dialog(const char *name) { return m_window->findChild<QWidget *>(name); }
-
-    void acceptImport(bool copies) {
-        find<QRadioButton>(copies ? "copyButton" : "referButton")->click();
-        QSignalSpy over(&m_window->library().jobs(), &ui::JobRunner::finished);
-        QTest::mouseClick(find<QPushButton>("importNowButton"), Qt::LeftButton);
-        QTRY_VERIFY_WITH_TIMEOUT(over.count() > 0, patienceMs);
-        QTRY_VERIFY(dialog("importDialog") == nullptr);
-    }
-
-    void import(const fs::path &path, bool copies) {
-        m_window->fileMenu().importPaths({QString::fromStdString(path.string())});
-        QTRY_VERIFY(dialog("importDialog") != nullptr);
-        acceptImport(copies);
     }
 };
 

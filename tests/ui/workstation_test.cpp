@@ -12,7 +12,6 @@
 #include <QToolButton>
 #include <QTreeView>
 
-#include "tests/support/little_memory.h"
 #include "ui/document/commands.h"
 #include "ui/opening/kept_studies.h"
 #include "ui/panels/study_panel.h"
@@ -121,6 +120,31 @@ private slots:
         QVERIFY(!find<QAction>("filmAction")->isChecked());
     }
 
+    void anEditWithoutEffectIsNoStepOfTheHistory() {
+        open(headPath());
+        ui::Document &document = m_window->document();
+        QUndoStack &edits = *document.undoStack();
+        find<QAction>("filmAction")->trigger();
+        find<QAction>("undoAction")->trigger();
+        QSignalSpy told(&document, &ui::Document::sceneChanged);
+        const auto nothing = [](scene::Scene &) {};
+        QVERIFY(!ui::editScene(document, "Nothing", ui::noDrag, nothing));
+        // Looking is no edit either.
+        QVERIFY(!ui::editScene(document, "View", ui::noDrag, [](scene::Scene &scene) {
+            scene.camera.panMm = {50.0, 0.0};
+        }));
+        find<QAction>("cubicAction")->trigger(); // as it is
+        find<QAction>("automaticToneAction")->trigger();
+        QCOMPARE(edits.count(), 1);
+        QVERIFY(edits.canRedo()); // a command would have taken this away
+        QCOMPARE(told.size(), 0);
+        QVERIFY(ui::editScene(document, "Film", ui::noDrag,
+                              [](scene::Scene &scene) { scene.tone.inverted = true; }));
+        QCOMPARE(edits.count(), 1);
+        QCOMPARE(edits.undoText(), QString("Film"));
+        settle();
+    }
+
     void aStudyThatWasOpenComesBackAtOnceAsItWas() {
         open(headPath());
         auto *gallery = find<QListWidget>("presetGallery");
@@ -194,44 +218,6 @@ private slots:
         QVERIFY2(text.contains("HU") && text.contains("mm"), qPrintable(text));
     }
 
-    void problemsAreListedAndNothingPopsUp() {
-        const std::string file = (m_folder / "notes.txt").string();
-        std::ofstream(file) << "this is a letter to the patient and no image at all";
-        drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
-        auto *list = find<QListWidget>("problemList");
-        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && !m_window->jobs().isRunning(), patienceMs);
-        QVERIFY(list->item(0)->text().contains("not a DICOM file"));
-        QVERIFY(QApplication::activeModalWidget() == nullptr);
-        drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
-        QTRY_VERIFY_WITH_TIMEOUT(
-            list->count() == 2 && list->item(1)->text().contains("does not exist"), patienceMs);
-        QVERIFY(find<QWidget>("startPage")->isVisible());
-        // What was there is still there, once; until it has been read.
-        drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
-        QTRY_VERIFY(!m_window->jobs().isRunning());
-        QCOMPARE(list->count(), 2);
-        QTest::mouseClick(find<QPushButton>("clearProblemsButton"), Qt::LeftButton);
-        QVERIFY(!list->isVisible());
-    }
-
-    // A study that cannot be loaded gives way to the one that was shown.
-    void whatCannotBeLoadedLeavesWhatWasShown() {
-        open(headPath());
-        const auto shown = m_window->document().currentSource();
-        const QImage before = projection()->picture();
-        const std::string file = (m_folder / "damaged.nrrd").string();
-        std::ofstream(file) << "NRRD0004\ntype: short\ndimension: 3\nsizes: 9 9 9\n"
-                               "endian: little\nencoding: gzip\n\nno gzip stream at all";
-        drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
-        auto *list = find<QListWidget>("problemList");
-        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && m_window->document().volume() &&
-                                     m_window->document().currentSource() == shown,
-                                 patienceMs);
-        QVERIFY(list->item(0)->text().contains("damaged or truncated"));
-        settle();
-        QVERIFY(changed(before, projection()->picture()) < 0.001);
-    }
-
     // The wheel scrolls a panel without changing the boxes that pass below it.
     void theWheelChangesNoBoxThatItPassesOver() {
         open(headPath());
@@ -269,10 +255,8 @@ private slots:
 
     void aCancelledPreparationIsTakenUpByF5() {
         open(headPath());
-        scene::Scene scene = m_window->document().scene();
-        scene.tolerance = 1e-5;
-        auto *undo = m_window->document().undoStack();
-        undo->push(new ui::EditScene(m_window->document(), scene, "Tolerance"));
+        ui::editScene(m_window->document(), "Tolerance", ui::noDrag,
+                      [](scene::Scene &scene) { scene.tolerance = 1e-5; });
         QVERIFY(m_window->jobs().isRunning());
         QTest::keyClick(m_window.get(), Qt::Key_Escape);
         QVERIFY(!m_window->jobs().isRunning());
@@ -287,40 +271,19 @@ private slots:
         QVERIFY(changed(former, projection()->picture()) < 0.02);
         // What is there already needs nothing: back to it, and the cancelled one may be asked
         // again.
-        undo->undo();
+        m_window->document().undoStack()->undo();
         settle();
         QCOMPARE(projection()->planState(), ui::PlanState::holds);
     }
-
-#ifndef PELLUCID_SANITIZED // which reserve terabytes
-    void aPreparationThatFailsSaysSoAndIsTriedAgainByF5() {
-        open(headPath());
-        scene::Scene scene = m_window->document().scene();
-        scene.tolerance = 1e-5;
-        {
-            const test::LittleMemory little(2); // too little for a thread
-            m_window->document().undoStack()->push(
-                new ui::EditScene(m_window->document(), scene, "Tolerance"));
-            QTRY_VERIFY(!m_window->jobs().isRunning());
-            QCOMPARE(projection()->planState(), ui::PlanState::failed);
-            QCOMPARE(m_window->document().problems().size(), 1U);
-        }
-        QTest::keyClick(m_window.get(), Qt::Key_F5);
-        QCOMPARE(projection()->planState(), ui::PlanState::underway);
-        settle();
-        QCOMPARE(projection()->planState(), ui::PlanState::holds);
-    }
-#endif
 
     // Nothing follows a coarse picture whose preparation was cancelled: the former one comes back.
     void aCancelledLookLeavesTheFormerPicture() {
         m_window->openPhantom("head");
         settle();
         const QImage former = projection()->picture();
-        scene::Scene scene = m_window->document().scene();
-        scene.look.classes.push_back({.name = "Bone", .low = 200.0, .high = 3000.0});
-        m_window->document().undoStack()->push(
-            new ui::EditScene(m_window->document(), scene, "Bone"));
+        ui::editScene(m_window->document(), "Bone", ui::noDrag, [](scene::Scene &scene) {
+            scene.look.classes.push_back({.name = "Bone", .low = 200.0, .high = 3000.0});
+        });
         QTRY_VERIFY_WITH_TIMEOUT(!projection()->isFinal(), patienceMs);
         QTest::keyClick(m_window.get(), Qt::Key_Escape);
         QCOMPARE(projection()->planState(), ui::PlanState::cancelled);

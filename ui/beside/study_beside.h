@@ -11,7 +11,7 @@
 #include "ui/engine/look_preparer.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/opening/study_opener.h"
-#include "ui/views/tools.h"
+#include "ui/views/tools/tool.h"
 
 class QLabel;
 class QToolButton;

@@ -4,7 +4,7 @@
 #include <QSplitter>
 
 #include "core/task/reason.h"
-#include "ui/views/tools.h"
+#include "ui/views/tools/tool.h"
 #include "ui/views/viewer.h"
 
 class QLabel;

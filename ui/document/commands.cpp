@@ -35,6 +35,17 @@ void EditMeasurements::apply(const std::vector<measure::Measurement> &measuremen
     m_document.setMeasurements(measurements);
 }
 
+bool editScene(Document &document, const QString &text, DragId drag,
+               const std::function<void(scene::Scene &)> &edit) {
+    scene::Scene scene = document.scene();
+    edit(scene);
+    scene.camera = document.scene().camera;
+    if (scene == document.scene())
+        return false;
+    document.undoStack()->push(new EditScene(document, scene, text, drag));
+    return true;
+}
+
 DragId nextDragId() {
     static DragId last = 0;
     return ++last;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -14,8 +15,11 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Commands of one drag carry the same number and merge; 0 never merges.
+/// Commands of one drag carry the same number and merge.
 using DragId = int;
+
+/// The number of an edit that is not part of a drag; it never merges.
+inline constexpr DragId noDrag = 0;
 
 /// Replaces a value of the document. A kind of command tells its number, by which commands of one
 /// kind find each other, and how the value is set.
@@ -26,7 +30,7 @@ public:
     DragId drag() const { return m_drag; }
     bool mergeWith(const QUndoCommand *other) override {
         const auto *next = static_cast<const EditValue *>(other); // of the same id
-        if (m_drag == 0 || next->m_drag != m_drag)
+        if (m_drag == noDrag || next->m_drag != m_drag)
             return false;
         m_after = next->m_after;
         return true;
@@ -45,10 +49,10 @@ private:
     DragId m_drag;
 };
 
-/// Replaces what the scene shows; the camera stays where it is looking.
+/// Replaces what the scene shows; the camera stays where it is looking. Pushed by `editScene`.
 class EditScene : public EditValue<scene::Scene> {
 public:
-    EditScene(Document &document, const scene::Scene &after, const QString &text, DragId drag = 0);
+    EditScene(Document &document, const scene::Scene &after, const QString &text, DragId drag);
     int id() const override { return 1; }
 
 private:
@@ -58,7 +62,7 @@ private:
 /// Replaces the display window of the panes.
 class EditDisplayWindow : public EditValue<volume::ValueWindow> {
 public:
-    EditDisplayWindow(Document &document, const volume::ValueWindow &after, DragId drag = 0);
+    EditDisplayWindow(Document &document, const volume::ValueWindow &after, DragId drag = noDrag);
     int id() const override { return 2; }
 
 private:
@@ -69,7 +73,7 @@ private:
 class EditMeasurements : public EditValue<std::vector<measure::Measurement>> {
 public:
     EditMeasurements(Document &document, const std::vector<measure::Measurement> &after,
-                     const QString &text, DragId drag = 0);
+                     const QString &text, DragId drag = noDrag);
     int id() const override { return 3; }
 
 private:
@@ -78,5 +82,11 @@ private:
 
 /// A number no other drag has.
 DragId nextDragId();
+
+/// Applies `edit` to a copy of the scene and pushes the result as a command named `text`. Returns
+/// false and pushes nothing if the edit has no effect. A change of the camera has none: looking is
+/// not an edit.
+bool editScene(Document &document, const QString &text, DragId drag,
+               const std::function<void(scene::Scene &)> &edit);
 
 } // namespace pellucid::ui

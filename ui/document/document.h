@@ -80,7 +80,7 @@ public:
     const scene::Scene &scene() const { return m_scene; }
     /// Looking: not undoable.
     void setCamera(const scene::Camera &camera);
-    /// The state behind the undo commands; call through `EditScene`.
+    /// The state behind the undo commands; call through `editScene`.
     void setScene(const scene::Scene &scene);
 
     const volume::ValueWindow &displayWindow() const { return m_window; }

@@ -53,17 +53,21 @@ CardCopier::CardCopier(Document &document, JobRunner &jobs, GraphicsCard &card, 
     connect(
         &jobs, &JobRunner::finished, this,
         [this] {
-            // The copy was not delivered: the next job stopped it, or somebody who wants none.
-            if (std::exchange(m_isCopying, false) && !m_jobs.isRunning()) {
-                m_isGivenUp = true;
-                m_reason = because::copyWasCancelled;
-                if (m_current)
-                    announceAgain();
+            if (m_copying == Copying::wasCancelled) {
+                m_copying = Copying::no;
+                // The user wants no copy, unless another job took its place.
+                if (!m_jobs.isRunning())
+                    giveUp(because::copyWasCancelled);
             }
             copyWhenIdle();
         },
         // Whoever ended the job may be about to start the next.
         Qt::QueuedConnection);
+}
+
+CardCopier::~CardCopier() {
+    if (m_copying == Copying::underway)
+        m_jobs.cancel();
 }
 
 void CardCopier::forget() {
@@ -76,7 +80,7 @@ void CardCopier::cardChanged() {
     m_copies.clear();
     m_isGivenUp = false;
     // Nobody wants what is under way.
-    if (std::exchange(m_isCopying, false))
+    if (std::exchange(m_copying, Copying::no) == Copying::underway)
         m_jobs.cancel();
     if (!m_current)
         return;
@@ -131,17 +135,35 @@ void CardCopier::copyWhenIdle() {
     const auto engine = m_current->engine.engine;
     const gpu::Fetch fetch =
         gpu::planFetch(m_current->engine.plan, m_document.scene().tolerance).fetch;
-    m_jobs.start(tr("Copying to the graphics card"),
-                 [this, engine, fetch, passes = m_card.passes()](const Job &job) {
-                     const Copied copied = copyTo(passes, *engine, fetch, job.progress());
-                     job.deliver([this, engine, passes, copied] { take(copied, engine, passes); });
-                 });
-    m_isCopying = true;
+    m_copying = Copying::underway;
+    m_jobs.start(
+        tr("Copying to the graphics card"),
+        [this, engine, fetch, passes = m_card.passes()](const Job &job) {
+            const Copied copied = copyTo(passes, *engine, fetch, job.progress());
+            job.deliver([this, engine, passes, copied] { take(copied, engine, passes); });
+        },
+        [this](const Outcome &outcome) { copyEnded(outcome); });
+}
+
+void CardCopier::copyEnded(const Outcome &outcome) {
+    if (m_copying != Copying::underway) // the copy was delivered, or the card changed
+        return;
+    const bool hasFailed = outcome.kind == Outcome::Kind::failed;
+    m_copying = hasFailed ? Copying::no : Copying::wasCancelled;
+    if (hasFailed)
+        giveUp(*outcome.reason);
+}
+
+void CardCopier::giveUp(const task::Reason &reason) {
+    m_isGivenUp = true;
+    m_reason = reason;
+    if (m_current)
+        announceAgain();
 }
 
 void CardCopier::take(const Copied &copied, const std::shared_ptr<render::ProjectionEngine> &engine,
                       const std::shared_ptr<gpu::FramePasses> &passes) {
-    m_isCopying = false;
+    m_copying = Copying::no;
     if (copied.isLost)
         m_card.giveUp(*copied.refusal, passes);
     if (passes != m_card.passes())

@@ -15,6 +15,7 @@ namespace pellucid::ui {
 class Document;
 class GraphicsCard;
 class JobRunner;
+struct Outcome;
 
 /// Stands between those who make engines and those who show them: an engine is shown at once, on
 /// the processor, and again when its spectra have been copied to the graphics card, which is a job
@@ -24,6 +25,7 @@ class CardCopier : public QObject {
     Q_OBJECT
 public:
     CardCopier(Document &document, JobRunner &jobs, GraphicsCard &card, QObject *parent = nullptr);
+    ~CardCopier() override;
 
     void show(const prepare::PreparedEngine &engine, EngineStage stage);
 
@@ -34,6 +36,9 @@ private:
     void forget();
     void cardChanged();
     void copyWhenIdle();
+    void copyEnded(const Outcome &outcome);
+    /// Leaves the engine on the processor until another is shown or the card changes.
+    void giveUp(const task::Reason &reason);
     void announce(EngineStage stage);
     /// Of the same picture, which keeps its brightness.
     void announceAgain();
@@ -55,8 +60,8 @@ private:
     std::optional<Current> m_current;
     /// The last ones first: of a look, and of its layers.
     std::vector<std::shared_ptr<gpu::GpuEngine>> m_copies;
-    /// A copy is being made; the current engine's was cancelled or did not fit, for this reason.
-    bool m_isCopying = false, m_isGivenUp = false;
+    enum class Copying { no, underway, wasCancelled } m_copying = Copying::no;
+    bool m_isGivenUp = false; ///< the current engine is not copied, for this reason
     task::Reason m_reason = task::because::copyWasCancelled;
 };
 

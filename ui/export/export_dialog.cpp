@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/export/export_dialog.h"
 
-#include <utility>
-
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -100,13 +98,6 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     connect(other, &QPushButton::clicked, this, &ExportDialog::browse);
     connect(buttons, &QDialogButtonBox::accepted, this, &ExportDialog::write);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
-    connect(&jobs, &JobRunner::failed, this,
-            [this](const task::Reason &what) { m_failure = what; });
-    connect(&jobs, &JobRunner::finished, this, [this] {
-        showChosen();
-        if (const auto failure = std::exchange(m_failure, std::nullopt))
-            say(translated(*failure), "warning");
-    });
     showChosen();
 }
 
@@ -203,8 +194,14 @@ void ExportDialog::write() {
                         emit captured(capture);
                     close();
                 });
+            },
+            [this](const Outcome &outcome) {
+                showChosen();
+                if (outcome.kind == Outcome::Kind::failed)
+                    say(translated(*outcome.reason), "warning");
             });
-        m_write->setEnabled(false);
+        if (m_jobs.isRunning()) // there may have been no thread for it
+            m_write->setEnabled(false);
     } catch (const task::Error &error) {
         say(translated(error.reason()), "warning");
     }

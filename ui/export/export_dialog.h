@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include <QDialog>
 
@@ -53,8 +52,7 @@ private:
     QLineEdit *m_path;
     QSpinBox *m_frames;
     QLabel *m_said;
-    QString m_confirmed;                   ///< a path that was asked about when it was chosen
-    std::optional<task::Reason> m_failure; ///< of the job that ends
+    QString m_confirmed; ///< a path that was asked about when it was chosen
     QPushButton *m_write = nullptr;
 };
 

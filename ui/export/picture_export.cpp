@@ -147,76 +147,103 @@ QString framePath(const QString &path, int frame) {
     return QString("%1_%2.png").arg(stem).arg(frame, 4, 10, QChar('0'));
 }
 
+// A picture of the projection, or a turn of it: what is needed to write it on any thread.
+struct ProjectionJob {
+    PictureExport what;
+    QString path;
+    scene::Scene scene;
+    std::function<picture::ProjectionImage(const scene::Camera &)> render;
+    double ratio; ///< pixels for a logical one of the pane
+    Turn turn;
+    dicom::CaptureLabels labels;
+    volume::Lattice lattice;
+    bool isGrey;
+
+    QImage picture(std::size_t n) const;
+    template <class F> void everyFrame(const task::Progress &progress, const F &add) const;
+    void run(const task::Progress &progress) const;
+};
+
+QImage ProjectionJob::picture(std::size_t n) const {
+    QImage made = asItLooks(render(turn.cameras[n]), scene.tone);
+    putOver(made, turn.over[n], ratio);
+    return made;
+}
+
+template <class F>
+void ProjectionJob::everyFrame(const task::Progress &progress, const F &add) const {
+    for (std::size_t n = 0; n < turn.cameras.size(); ++n) {
+        progress.report(double(n) / double(turn.cameras.size()));
+        add(picture(n), int(n));
+    }
+}
+
+void ProjectionJob::run(const task::Progress &progress) const {
+    const std::string file = path.toStdString();
+    switch (what.format) {
+    case PictureFormat::png:
+    case PictureFormat::capture:
+        write(picture(0), what.format, path, labels, isGrey);
+        break;
+    case PictureFormat::png16:
+        writePictureFile(path, sixteenBits(render(scene.camera), scene.tone));
+        break;
+    case PictureFormat::npy: {
+        const picture::ProjectionImage image = render(scene.camera);
+        files::writeNpy(file, image.samples, image.height, image.width, image.channels);
+        break;
+    }
+    case PictureFormat::nrrd:
+        volume::writeNrrd(file,
+                          picture::projectionVolume(render(scene.camera), scene.camera, lattice));
+        break;
+    case PictureFormat::frames: {
+        files::FileSet frames(file);
+        everyFrame(progress, [&](const QImage &frame, int n) {
+            const fs::path aside = frames.aside(framePath(path, n).toStdString());
+            write(frame, PictureFormat::png, QString::fromStdString(aside.string()), {});
+        });
+        frames.commit();
+        break;
+    }
+    case PictureFormat::video: {
+        VideoWriter video(path, {scene.camera.width, scene.camera.height}, framesPerSecond);
+        everyFrame(progress, [&](const QImage &frame, int) { video.add(frame, progress); });
+        video.finish(progress);
+        break;
+    }
+    }
+}
+
 PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
                                const Document &document, const QString &path) {
     ProjectionView &view = *panes.projection;
-    const scene::Scene scene = view.sceneOfPicture(what.scale);
-    const auto render = view.pictureRenderer();
-    const double ratio = view.devicePixelRatioF() * what.scale;
-    Turn turn;
+    ProjectionJob job{what,
+                      path,
+                      view.sceneOfPicture(what.scale),
+                      view.pictureRenderer(),
+                      view.devicePixelRatioF() * what.scale,
+                      {},
+                      {},
+                      document.volume()->lattice(),
+                      false};
+    const scene::Camera &camera = job.scene.camera;
+    job.isGrey = classify::isGrey(job.scene.look) && job.scene.shading.isGrey();
     const int count = what.isTurn() ? what.frameCount : 1;
     const Names names = what.isDeidentified ? Names::hidden : Names::shown;
     for (int n = 0; n < count; ++n) {
         const double degrees = 360.0 * n / count;
-        turn.cameras.push_back(view.turnedAroundPatient(scene.camera, degrees));
-        turn.over.push_back(recorded(what.isAnnotated && what.isPicture(), [&](QPainter &painter) {
-            view.paintAnnotations(
-                painter, view.turnedAroundPatient(document.scene().camera, degrees), names);
-        }));
+        job.turn.cameras.push_back(view.turnedAroundPatient(camera, degrees));
+        job.turn.over.push_back(
+            recorded(what.isAnnotated && what.isPicture(), [&](QPainter &painter) {
+                view.paintAnnotations(
+                    painter, view.turnedAroundPatient(document.scene().camera, degrees), names);
+            }));
     }
-    dicom::CaptureLabels labels =
-        labelsOf(document, {scene.camera.axes()[0], scene.camera.axes()[1]}, scene.camera.pixelMm);
+    job.labels = labelsOf(document, {camera.axes()[0], camera.axes()[1]}, camera.pixelMm);
     if (what.isDeidentified)
-        labels = dicom::deidentified(labels);
-    return [what, path, scene, render, ratio, turn, labels, lattice = document.volume()->lattice(),
-            isGrey = classify::isGrey(scene.look) &&
-                     scene.shading.isGrey()](const task::Progress &progress) {
-        const auto picture = [&](std::size_t n) {
-            QImage made = asItLooks(render(turn.cameras[n]), scene.tone);
-            putOver(made, turn.over[n], ratio);
-            return made;
-        };
-        const std::string file = path.toStdString();
-        const auto everyFrame = [&](const auto &add) {
-            for (std::size_t n = 0; n < turn.cameras.size(); ++n) {
-                progress.report(double(n) / double(turn.cameras.size()));
-                add(picture(n), int(n));
-            }
-        };
-        switch (what.format) {
-        case PictureFormat::png:
-        case PictureFormat::capture:
-            write(picture(0), what.format, path, labels, isGrey);
-            break;
-        case PictureFormat::png16:
-            writePictureFile(path, sixteenBits(render(scene.camera), scene.tone));
-            break;
-        case PictureFormat::npy: {
-            const picture::ProjectionImage image = render(scene.camera);
-            files::writeNpy(file, image.samples, image.height, image.width, image.channels);
-            break;
-        }
-        case PictureFormat::nrrd:
-            volume::writeNrrd(
-                file, picture::projectionVolume(render(scene.camera), scene.camera, lattice));
-            break;
-        case PictureFormat::frames: {
-            files::FileSet frames(file);
-            everyFrame([&](const QImage &frame, int n) {
-                const fs::path aside = frames.aside(framePath(path, n).toStdString());
-                write(frame, PictureFormat::png, QString::fromStdString(aside.string()), {});
-            });
-            frames.commit();
-            break;
-        }
-        case PictureFormat::video: {
-            VideoWriter video(path, {scene.camera.width, scene.camera.height}, framesPerSecond);
-            everyFrame([&](const QImage &frame, int) { video.add(frame, progress); });
-            video.finish(progress);
-            break;
-        }
-        }
-    };
+        job.labels = dicom::deidentified(job.labels);
+    return [job](const task::Progress &progress) { job.run(progress); };
 }
 
 // All files that an export gives.

@@ -3,10 +3,34 @@
 
 #include <chrono>
 #include <new>
+#include <utility>
+
+#include <QScopedValueRollback>
 
 #include "ui/language/failure.h"
 
 namespace pellucid::ui {
+
+namespace {
+
+Outcome outcomeOf(const std::exception_ptr &failure, const QString &about) {
+    if (!failure)
+        return {};
+    try {
+        std::rethrow_exception(failure);
+    } catch (const task::Cancelled &) {
+        return {Outcome::Kind::cancelled};
+    } catch (...) {
+        try {
+            const Failure known = currentFailure();
+            return {Outcome::Kind::failed, known.what, known.path.isEmpty() ? about : known.path};
+        } catch (const std::exception &) { // there is no memory for the words
+            return {Outcome::Kind::failed, task::because::notEnoughMemory, about};
+        }
+    }
+}
+
+} // namespace
 
 void Job::deliver(std::function<void()> onUiThread) const {
     m_runner->post(m_generation, std::move(onUiThread));
@@ -19,10 +43,8 @@ void Job::stage(const QString &title) const {
 JobRunner::JobRunner(QObject *parent) : QObject(parent) {}
 
 JobRunner::~JobRunner() {
-    ++m_generation;
-    for (Thread &t : m_threads)
-        t.thread.request_stop();
-    m_threads.clear(); // joins
+    blockSignals(true); // observers may be half destroyed
+    join();
 }
 
 void JobRunner::post(quint64 generation, std::function<void()> onUiThread) {
@@ -40,23 +62,30 @@ void JobRunner::joinFinished() {
     std::erase_if(m_threads, [](const Thread &t) { return t.over->load(); });
 }
 
-void JobRunner::start(const QString &title, Work work, const QString &about) {
-    m_title = title;
-    cancel();
+void JobRunner::start(const QString &title, Work work, OnEnd onEnd, const QString &about) {
+    if (m_isMakingWay) {
+        if (onEnd)
+            onEnd({Outcome::Kind::cancelled});
+        return;
+    }
+    makeWay();
     joinFinished();
     const quint64 generation = ++m_generation;
-    m_running = true;
-    emit started(title);
+    m_title = title;
+    m_onEnd = std::move(onEnd);
+    m_isRunning = true;
     try {
-        launch(generation, std::move(work), about);
-    } catch (const std::exception &) { // there is no thread for it
-        m_running = false;
-        emit failed(task::because::notEnoughMemory, about);
-        emit finished();
+        emit started(title);
+        if (generation == m_generation) // no slot cancelled it
+            launch(generation, std::move(work), about);
+    } catch (const std::exception &) { // no thread can be had
+        if (generation == m_generation)
+            end({Outcome::Kind::failed, task::because::notEnoughMemory, about});
     }
 }
 
 void JobRunner::launch(quint64 generation, Work work, const QString &about) {
+    m_threads.reserve(m_threads.size() + 1); // before the thread runs: this may throw
     auto over = std::make_shared<std::atomic<bool>>(false);
     m_threads.push_back(
         {over, std::jthread([this, generation, over, about,
@@ -78,43 +107,21 @@ void JobRunner::launch(quint64 generation, Work work, const QString &about) {
                      post(generation, [this, fraction] { emit progressed(fraction); });
                  });
                  work(job);
-             } catch (const task::Cancelled &) {
              } catch (...) {
                  failure = std::current_exception();
              }
-             finish(generation, failure, about, stop);
+             postEnd(generation, failure, about, stop);
              over->store(true);
          })});
 }
 
-// Whatever comes of saying it: who waits for the end is told.
-void JobRunner::say(const std::exception_ptr &failure, const QString &about) {
-    if (!failure)
-        return;
-    try {
-        const Failure said = [&] {
-            try {
-                std::rethrow_exception(failure);
-            } catch (...) {
-                return currentFailure();
-            }
-        }();
-        emit failed(said.what, said.path.isEmpty() ? about : said.path);
-    } catch (const std::exception &) { // there is no memory for the words either
-    }
-}
-
 // The last word of the thread that worked. Work that failed for want of memory may have left none
 // for it; others give some back.
-void JobRunner::finish(quint64 generation, const std::exception_ptr &failure, const QString &about,
-                       const std::stop_token &stop) noexcept {
+void JobRunner::postEnd(quint64 generation, const std::exception_ptr &failure, const QString &about,
+                        const std::stop_token &stop) noexcept {
     while (!stop.stop_requested()) {
         try {
-            post(generation, [this, failure, about] {
-                m_running = false;
-                say(failure, about);
-                emit finished();
-            });
+            post(generation, [this, failure, about] { end(outcomeOf(failure, about)); });
             return;
         } catch (const std::bad_alloc &) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -122,19 +129,44 @@ void JobRunner::finish(quint64 generation, const std::exception_ptr &failure, co
     }
 }
 
-void JobRunner::join() {
+// A slot that throws does not keep the starter from learning of the end.
+void JobRunner::end(const Outcome &outcome) {
+    ++m_generation; // what it still delivers is dropped
+    m_isRunning = false;
+    const OnEnd onEnd = std::exchange(m_onEnd, nullptr);
+    const auto tellStarter = [&] {
+        if (onEnd)
+            onEnd(outcome);
+    };
+    try {
+        if (outcome.kind == Outcome::Kind::failed)
+            emit failed(*outcome.reason, outcome.path);
+    } catch (const std::exception &) { // there is no memory for the words either
+    }
+    try {
+        emit finished();
+    } catch (...) {
+        tellStarter();
+        throw;
+    }
+    tellStarter();
+}
+
+void JobRunner::makeWay() {
+    const QScopedValueRollback making(m_isMakingWay, true);
     cancel();
+}
+
+void JobRunner::join() {
+    makeWay();
     m_threads.clear();
 }
 
 void JobRunner::cancel() {
     for (Thread &t : m_threads)
         t.thread.request_stop();
-    if (!m_running)
-        return;
-    ++m_generation;
-    m_running = false;
-    emit finished();
+    if (m_isRunning)
+        end({Outcome::Kind::cancelled});
 }
 
 } // namespace pellucid::ui

@@ -187,11 +187,8 @@ std::string seriesDigest(const LibrarySeries &s) {
                   s.volumes.front().file);
 }
 
-} // namespace
-
-ImportResult importStudies(const LibraryPlace &place, const Import &import,
-                           const task::Progress &progress) {
-    Library library(place);
+dicom::Catalogue scanned(const Library &library, const Import &import,
+                         const task::Progress &progress) {
     dicom::Catalogue catalogue = dicom::scan(import.paths, progress.part(0.0, 0.4));
     if (catalogue.empty()) {
         if (catalogue.skipped.size() == 1)
@@ -204,61 +201,94 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
         paths.insert(paths.end(), parts.begin(), parts.end());
         catalogue = dicom::scan(paths, progress.part(0.4, 0.5));
     }
+    return catalogue;
+}
+
+// Brings the files of series to where the library will refer to them.
+class FilePlacer {
+public:
+    FilePlacer(const Library &library, ImportMode mode, ImportResult &result)
+        : m_library(library), m_mode(mode), m_result(result), m_copies(library.place()) {}
+
+    void place(std::vector<LibrarySeries> &all, const task::Progress &progress) {
+        std::size_t done = 0, count = 0;
+        bool copiesAny = false;
+        for (const LibrarySeries &series : all) {
+            count += series.files.size();
+            copiesAny = copiesAny || std::any_of(series.files.begin(), series.files.end(),
+                                                 [&](const auto &file) { return isCopied(file); });
+        }
+        if (copiesAny && m_library.place().inMemory)
+            throw Error(ErrorCode::output, because::copiesNeedALibrary, m_library.place().folder);
+        if (copiesAny)
+            checkRoom(m_library.place(), all);
+        for (LibrarySeries &series : all) {
+            ++m_result.series;
+            m_result.files += int(series.files.size());
+            const std::string folder = seriesDigest(series);
+            const auto own = ownCopies(m_library, series);
+            std::erase_if(series.files, [&](dicom::InstanceFile &file) {
+                progress.report(double(++done) / double(count));
+                return !isPlaced(file, series, folder, own, progress);
+            });
+        }
+        std::erase_if(all, [](const LibrarySeries &s) { return s.files.empty(); });
+    }
+    Copies &copies() { return m_copies; }
+
+private:
+    // Files unpacked from archives go with the program.
+    bool isCopied(const dicom::InstanceFile &file) const {
+        return m_mode == ImportMode::copy || files::isInSessionFolder(file.path);
+    }
+    // Whether the library can refer to the file.
+    bool isPlaced(dicom::InstanceFile &file, LibrarySeries &series, const std::string &folder,
+                  const std::map<std::string, fs::path> &own, const task::Progress &progress) {
+        if (isOwn(m_library.place(), file.path))
+            return true;
+        if (const auto held = own.find(file.sopInstanceUid); held != own.end()) {
+            file.path = held->second; // safer than where it is now
+            return true;
+        }
+        if (!isCopied(file))
+            return true;
+        if (volume::isVolumeFile(file.path) &&
+            decoder::readVolumeFileHeader(file.path, progress).samplesFile != file.path) {
+            const bool isGoing = files::isInSessionFolder(file.path);
+            m_result.skipped.push_back(
+                {file.path, isGoing ? because::notImported : because::referredNotCopied});
+            return !isGoing;
+        }
+        const std::string instance =
+            file.sopInstanceUid.empty() ? file.path.string() : file.sopInstanceUid;
+        file.path = m_copies.add(file.path, folder, digest(QString::fromStdString(instance)));
+        if (!series.volumes.front().file.isEmpty())
+            series.volumes.front().file = QString::fromStdString(file.path.string());
+        return true;
+    }
+
+    const Library &m_library;
+    ImportMode m_mode;
+    ImportResult &m_result;
+    Copies m_copies;
+};
+
+} // namespace
+
+ImportResult importStudies(const LibraryPlace &place, const Import &import,
+                           const task::Progress &progress) {
+    Library library(place);
+    const dicom::Catalogue catalogue = scanned(library, import, progress);
     ImportResult result;
     result.skipped = catalogue.skipped;
     std::vector<LibrarySeries> all = seriesOf(catalogue, progress.part(0.5, 0.7));
-    // What archives were unpacked to goes with the program.
-    const auto isCopied = [&](const dicom::InstanceFile &file) {
-        return import.mode == ImportMode::copy || files::isInSessionFolder(file.path);
-    };
-    bool copiesAny = false;
-    std::size_t done = 0, count = 0;
-    for (const LibrarySeries &series : all) {
-        count += series.files.size();
-        copiesAny = copiesAny || std::any_of(series.files.begin(), series.files.end(), isCopied);
-    }
-    if (copiesAny && place.inMemory)
-        throw Error(ErrorCode::output, because::copiesNeedALibrary, place.folder);
-    Copies copies(place);
-    if (copiesAny)
-        checkRoom(place, all);
-    const task::Progress copying = progress.part(0.7, 0.99);
-    for (LibrarySeries &series : all) {
-        ++result.series;
-        result.files += int(series.files.size());
-        const std::string folder = seriesDigest(series);
-        const auto own = ownCopies(library, series);
-        std::erase_if(series.files, [&](dicom::InstanceFile &file) {
-            copying.report(double(++done) / double(count));
-            if (isOwn(place, file.path))
-                return false;
-            if (const auto held = own.find(file.sopInstanceUid); held != own.end()) {
-                file.path = held->second; // safer than where it is now
-                return false;
-            }
-            if (!isCopied(file))
-                return false;
-            if (volume::isVolumeFile(file.path) &&
-                decoder::readVolumeFileHeader(file.path, copying).samplesFile != file.path) {
-                const bool isGoing = files::isInSessionFolder(file.path);
-                result.skipped.push_back(
-                    {file.path, isGoing ? because::notImported : because::referredNotCopied});
-                return isGoing;
-            }
-            const std::string instance =
-                file.sopInstanceUid.empty() ? file.path.string() : file.sopInstanceUid;
-            file.path = copies.add(file.path, folder, digest(QString::fromStdString(instance)));
-            if (!series.volumes.front().file.isEmpty())
-                series.volumes.front().file = QString::fromStdString(file.path.string());
-            return false;
-        });
-    }
-    std::erase_if(all, [](const LibrarySeries &s) { return s.files.empty(); });
+    FilePlacer placer(library, import.mode, result);
+    placer.place(all, progress.part(0.7, 0.99));
     progress.check(); // from here on it is done to the end
-    copies.rename();
-    copies.flush();
+    placer.copies().rename();
+    placer.copies().flush();
     library.put(all);
-    copies.keep();
+    placer.copies().keep();
     progress.report(1.0);
     return result;
 }

@@ -9,18 +9,6 @@
 namespace pellucid::ui {
 
 StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
-    connect(&m_jobs, &JobRunner::failed, this, &StudyLibrary::failed);
-    connect(
-        &m_jobs, &JobRunner::finished, this,
-        [this] {
-            emit changed(); // one that was cancelled too late is there all the same
-            if (m_waiting.empty() || m_jobs.isRunning())
-                return;
-            const Work next = m_waiting.front();
-            m_waiting.pop_front();
-            start(next);
-        },
-        Qt::QueuedConnection);
     OpenedLibrary opened;
     if (const auto data = files::userDataFolder()) {
         opened = openLibrary(*data / "library");
@@ -67,7 +55,24 @@ void StudyLibrary::start(Work work) {
     if (m_jobs.isRunning())
         m_waiting.push_back(std::move(work));
     else
-        m_jobs.start(work.title, std::move(work.run));
+        m_jobs.start(work.title, std::move(work.run),
+                     [this](const Outcome &outcome) { workEnded(outcome); });
+}
+
+void StudyLibrary::workEnded(const Outcome &outcome) {
+    if (outcome.kind == Outcome::Kind::failed)
+        emit failed(*outcome.reason, outcome.path);
+    // Queued, so that the destructor, which ends the job, starts nothing.
+    QMetaObject::invokeMethod(this, &StudyLibrary::startNext, Qt::QueuedConnection);
+}
+
+void StudyLibrary::startNext() {
+    emit changed(); // an import that was cancelled too late is there all the same
+    if (m_waiting.empty() || m_jobs.isRunning())
+        return;
+    const Work next = m_waiting.front();
+    m_waiting.pop_front();
+    start(next);
 }
 
 void StudyLibrary::open(const LibraryPlace &place) {

@@ -55,6 +55,8 @@ private:
         bool isOptional; ///< what is left when the program ends is not done
     };
     void start(Work work);
+    void workEnded(const Outcome &outcome);
+    void startNext();
     void importBy(std::function<ImportResult(const task::Progress &)> work);
 
     std::unique_ptr<Library> m_library;

@@ -2,7 +2,6 @@
 #include "ui/opening/phases.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "ui/document/document.h"
 #include "ui/jobs/job_runner.h"
@@ -27,12 +26,6 @@ Phases::Phases(Document &document, StudyOpener &opener, JobRunner &jobs, QObject
     m_timer.setInterval(playMs);
     connect(&document, &Document::sourcesChanged, this, &Phases::findPhases);
     connect(&document, &Document::currentSourceChanged, this, &Phases::findPhases);
-    connect(&jobs, &JobRunner::finished, this, [this] {
-        // Cancelled, or it cannot be loaded: playing would ask for it again and again.
-        if (const int asked = std::exchange(m_asked, -1); asked >= 0 && asked != current())
-            m_timer.stop();
-        emit changed();
-    });
     connect(&m_timer, &QTimer::timeout, this, [this] {
         if (!m_jobs.isRunning()) // one that is not there yet is waited for
             step(1);
@@ -65,8 +58,13 @@ QString Phases::label(int phase) const {
 void Phases::show(int phase) {
     if (phase < 0 || phase >= count() || phase == current())
         return;
-    m_opener.openPhase(m_sources[std::size_t(phase)]);
-    m_asked = m_jobs.isRunning() ? phase : -1;
+    const int source = m_sources[std::size_t(phase)];
+    m_opener.openPhase(source, [this, source](const Outcome &) {
+        // Cancelled, or it cannot be loaded: playing would ask for it again and again.
+        if (source != m_document.currentSource())
+            m_timer.stop();
+        emit changed();
+    });
 }
 
 void Phases::step(int phases) {

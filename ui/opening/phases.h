@@ -41,7 +41,6 @@ private:
     StudyOpener &m_opener;
     JobRunner &m_jobs;
     std::vector<int> m_sources;
-    int m_asked = -1; ///< the phase that is being loaded
     QTimer m_timer;
 };
 

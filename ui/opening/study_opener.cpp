@@ -18,8 +18,7 @@ namespace pellucid::ui {
 StudyOpener::StudyOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
                          QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs), m_preparer(preparer) {
-    connect(&jobs, &JobRunner::finished, this, &StudyOpener::endScan);
-    // Queued: other slots handle the end first.
+    // Queued: the caller that ended the job may start the next one.
     connect(&jobs, &JobRunner::finished, this, &StudyOpener::goBack, Qt::QueuedConnection);
 }
 
@@ -135,6 +134,10 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
                 openSource(resumed.value_or(indices[defaultSource(*catalogue)]));
             });
         },
+        [this](const Outcome &) {
+            if (!m_jobs.isRunning()) // another scan does not take its place
+                endScan();
+        },
         paths.front());
     if (m_jobs.isRunning()) // there may have been no thread for it
         m_preparer.setHeld(true);
@@ -203,7 +206,7 @@ Continuity StudyOpener::leavePhase(int next) {
     return stays;
 }
 
-void StudyOpener::openPhase(int index) {
+void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
     if (!m_document.volume() || m_document.isPreview()) {
         openSource(index);
         return;
@@ -224,7 +227,7 @@ void StudyOpener::openPhase(int index) {
     m_jobs.start(
         tr("Loading %1").arg(seriesText(source.volume)),
         [this, source, index, wanted,
-         prepare = m_preparer.preparation(wanted, 0.6, false)](const Job &job) {
+         prepare = m_preparer.preparation(wanted, 0.6, prepare::Detail::full)](const Job &job) {
             const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), {});
             const volume::ValueWindow window = initialWindow(loaded.volume);
             const auto field = classify::defaultFieldWindow(loaded.volume);
@@ -238,6 +241,11 @@ void StudyOpener::openPhase(int index) {
             });
             job.stage(tr("Preparing the projection"));
             prepare(job, loaded.volume);
+        },
+        [this, onEnd = std::move(onEnd)](const Outcome &outcome) {
+            m_preparer.jobEnded(outcome);
+            if (onEnd)
+                onEnd(outcome);
         },
         source.place());
 }
@@ -263,39 +271,48 @@ void StudyOpener::openSource(int index) {
         show(*kept, std::nullopt);
         return;
     }
+    m_preparer.expect(wanted);
     m_jobs.start(
-        tr("Loading %1").arg(seriesText(source.volume)),
-        [this, source, prepare = m_preparer.preparation(wanted, 0.6, true)](const Job &job) {
-            dicom::LoadObserver observer;
-            observer.preview = [&](const volume::Volume &soFar) {
-                const volume::ValueWindow window = initialWindow(soFar);
-                job.deliver(
-                    [this, soFar, window] { m_document.setVolume(soFar, window, {}, true); });
-            };
-            const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
-            const volume::Volume volume = loaded.volume;
-            const volume::ValueWindow window = initialWindow(volume);
-            const classify::FieldWindow field = classify::defaultFieldWindow(volume);
-            job.deliver([this, loaded, window, field] {
-                m_document.addProblems(loaded.skipped);
-                m_document.setVolume(loaded.volume, window, field, false);
-                takeUp();
-                // The quality may have been changed while the volume came.
-                m_preparer.prepareAgain();
-            });
-            if (!volume.notes().placed) {
-                job.deliver([this, volume] {
-                    const auto &warnings = volume.notes().warnings;
-                    emit notProjectable(warnings.empty() ? tr("images only")
-                                                         : translated(warnings.back()));
-                });
-                return;
-            }
-            job.stage(tr("Preparing the projection"));
-            prepare(job, volume);
+        tr("Loading %1").arg(seriesText(source.volume)), loading(source, wanted),
+        [this](const Outcome &outcome) {
+            m_preparer.jobEnded(outcome);
+            // A load that ended before its volume came leaves nothing selected.
+            if (!m_document.volume())
+                m_document.setCurrentSource(-1);
         },
         source.place());
-    m_preparer.expect(wanted);
+}
+
+JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFor &wanted) {
+    return [this, source, prepare = m_preparer.preparation(wanted, 0.6, prepare::Detail::coarse)](
+               const Job &job) {
+        dicom::LoadObserver observer;
+        observer.preview = [&](const volume::Volume &soFar) {
+            const volume::ValueWindow window = initialWindow(soFar);
+            job.deliver([this, soFar, window] { m_document.setVolume(soFar, window, {}, true); });
+        };
+        const dicom::LoadedVolume loaded = source.load(job.progress().part(0.0, 0.6), observer);
+        const volume::Volume volume = loaded.volume;
+        const volume::ValueWindow window = initialWindow(volume);
+        const classify::FieldWindow field = classify::defaultFieldWindow(volume);
+        job.deliver([this, loaded, window, field] {
+            m_document.addProblems(loaded.skipped);
+            m_document.setVolume(loaded.volume, window, field, false);
+            takeUp();
+            // The quality may have been changed while the volume came.
+            m_preparer.prepareAgain();
+        });
+        if (!volume.notes().placed) {
+            job.deliver([this, volume] {
+                const auto &warnings = volume.notes().warnings;
+                emit notProjectable(warnings.empty() ? tr("images only")
+                                                     : translated(warnings.back()));
+            });
+            return;
+        }
+        job.stage(tr("Preparing the projection"));
+        prepare(job, volume);
+    };
 }
 
 } // namespace pellucid::ui

@@ -8,12 +8,11 @@
 
 #include "core/dicom/scan.h"
 #include "ui/document/document.h"
+#include "ui/jobs/job_runner.h"
 #include "ui/opening/kept_studies.h"
 #include "ui/studies/study_source.h"
 
 namespace pellucid::ui {
-
-class JobRunner;
 
 /// How a volume is looked at, as far as it holds for another one too.
 struct Continuity {
@@ -43,8 +42,9 @@ public:
                    const dicom::ScanOptions &options = {});
     void openPhantom(const QString &kind, const std::optional<Resumption> &resumption = {});
     void openSource(int index);
-    /// Another volume of the same series: look, view, window, crosshair and planes stay.
-    void openPhase(int index);
+    /// Another volume of the same series: look, view, window, crosshair and planes stay. `onEnd` is
+    /// called if the volume has to be loaded; the former one stays until it is there.
+    void openPhase(int index, JobRunner::OnEnd onEnd = {});
     /// *Shape*: `series`: all volumes of it; `volume`: the one that is opened.
     void openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
                          const QString &volume, const std::vector<dicom::InstanceFile> &files);
@@ -65,6 +65,9 @@ signals:
     void notProjectable(const QString &reason);
 
 private:
+    /// The work that loads a volume and prepares its projection.
+    JobRunner::Work loading(const StudySource &source, const PreparedFor &wanted);
+    /// Lets the preparer go on.
     void endScan();
     /// The one of them that is to be resumed.
     std::optional<int> resumedOf(const std::vector<int> &indices) const;

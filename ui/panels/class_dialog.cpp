@@ -36,13 +36,13 @@ QDoubleSpinBox *valueBox(const char *name, double value, double windowWidth) {
 
 QString stepHelp() {
     QString text;
-    for (const auto &kind : classify::stepKinds()) {
-        text += "<b>" + QString::fromStdString(kind.name) +
-                "</b>: " + QString::fromStdString(kind.what);
-        for (const auto &p : kind.parameters)
+    for (const auto &step : classify::stepDescriptions()) {
+        text += "<b>" + QString::fromStdString(step.name) +
+                "</b>: " + QString::fromStdString(step.text);
+        for (const auto &p : step.parameters)
             text += QString(" (%1 = %2%3)")
                         .arg(QString::fromStdString(p.name))
-                        .arg(p.usual)
+                        .arg(p.defaultValue)
                         .arg(p.unit.empty() ? QString() : " " + QString::fromStdString(p.unit));
         text += "<br>";
     }

@@ -105,10 +105,7 @@ void ClassesPanel::showScene() {
 
 void ClassesPanel::change(const QString &what, const std::function<void(classify::Look &)> &edit,
                           DragId drag) {
-    scene::Scene scene = m_document.scene();
-    edit(scene.look);
-    if (!(scene == m_document.scene()))
-        m_document.undoStack()->push(new EditScene(m_document, scene, what, drag));
+    editScene(m_document, what, drag, [&](scene::Scene &scene) { edit(scene.look); });
 }
 
 void ClassesPanel::changeClass(int index, const QString &what,

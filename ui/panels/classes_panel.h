@@ -33,9 +33,10 @@ public:
 private:
     void showScene();
     void change(const QString &what, const std::function<void(classify::Look &)> &edit,
-                DragId drag = 0);
+                DragId drag = noDrag);
     void changeClass(int index, const QString &what,
-                     const std::function<void(classify::TissueClass &)> &edit, DragId drag = 0);
+                     const std::function<void(classify::TissueClass &)> &edit,
+                     DragId drag = noDrag);
     void add(const classify::TissueClass &tissue);
     void showAddMenu();
     void setWeight(int index, double weight, DragId drag);

@@ -61,7 +61,7 @@ private:
     int m_hovered = -1, m_selected = 0;
     double m_mouseX = -1.0;
     bool m_dragging = false;
-    DragId m_drag = 0;
+    DragId m_drag = noDrag;
     double m_dragFromY = 0.0, m_dragFromWeight = 0.0;
 };
 

@@ -88,7 +88,7 @@ void DepthCurve::mouseMoveEvent(QMouseEvent *event) {
 }
 
 void DepthCurve::mouseDoubleClickEvent(QMouseEvent *event) {
-    emit valueChanged(nearest(event->position()), 1.0, 0);
+    emit valueChanged(nearest(event->position()), 1.0, noDrag);
 }
 
 void DepthCurve::keyPressEvent(QKeyEvent *event) {

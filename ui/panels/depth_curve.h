@@ -40,7 +40,7 @@ private:
     Theme m_theme;
     shading::DepthCue m_cue;
     int m_selected = 0;
-    DragId m_drag = 0;
+    DragId m_drag = noDrag;
 };
 
 } // namespace pellucid::ui

@@ -49,7 +49,7 @@ private:
     double m_ambient = 1.0;
     int m_selected = -1;
     QImage m_sphere; ///< of these lights; null: to be drawn
-    DragId m_drag = 0;
+    DragId m_drag = noDrag;
 };
 
 } // namespace pellucid::ui

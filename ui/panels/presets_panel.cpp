@@ -44,7 +44,7 @@ QIcon emptyIcon() {
 PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(presets::PresetLibrary::ofUser()),
       m_save(new QPushButton), m_gallery(new QListWidget), m_name(new QLineEdit),
-      m_nameRow(new QWidget), m_said(new QLabel) {
+      m_keep(new QPushButton(tr("Save"))), m_nameRow(new QWidget), m_said(new QLabel) {
     setObjectName("presetsPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_gallery->setObjectName("presetGallery");
@@ -68,8 +68,7 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     m_name->setAccessibleName(tr("Name of the look"));
     m_name->setMaxLength(60);
     m_name->installEventFilter(this);
-    auto *keep = new QPushButton(tr("Save"));
-    keep->setObjectName("keepLookButton");
+    m_keep->setObjectName("keepLookButton");
     m_said->setObjectName("presetSaid");
     m_said->setProperty("role", "warning");
     m_said->setWordWrap(true);
@@ -78,7 +77,7 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     auto *nameLayout = new QHBoxLayout(m_nameRow);
     nameLayout->setContentsMargins(0, 0, 0, 0);
     nameLayout->addWidget(m_name, 1);
-    nameLayout->addWidget(keep);
+    nameLayout->addWidget(m_keep);
     m_nameRow->hide();
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(12, 0, 4, 6);
@@ -86,15 +85,21 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     column->addWidget(m_nameRow);
     column->addWidget(m_said);
     column->addWidget(m_gallery, 1);
+    connectControls();
+    setEnabled(false);
+    m_save->setEnabled(false);
+    list();
+}
 
+void PresetsPanel::connectControls() {
     connect(m_save, &QPushButton::clicked, this, &PresetsPanel::askForName);
-    connect(keep, &QPushButton::clicked, this, &PresetsPanel::saveLook);
+    connect(m_keep, &QPushButton::clicked, this, &PresetsPanel::saveLook);
     connect(m_name, &QLineEdit::returnPressed, this, &PresetsPanel::saveLook);
     connect(m_gallery, &QListWidget::itemClicked, this, &PresetsPanel::apply);
     connect(m_gallery, &QListWidget::itemActivated, this, &PresetsPanel::apply);
     connect(m_gallery, &QListWidget::customContextMenuRequested, this, &PresetsPanel::showMenu);
-    connect(&document, &Document::sceneChanged, this, &PresetsPanel::showCurrent);
-    connect(&document, &Document::volumeChanged, this, [this] {
+    connect(&m_document, &Document::sceneChanged, this, &PresetsPanel::showCurrent);
+    connect(&m_document, &Document::volumeChanged, this, [this] {
         if (m_document.isPreview())
             return;
         m_nameRow->hide();
@@ -102,9 +107,6 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
         m_save->setEnabled(isEnabled());
         list();
     });
-    setEnabled(false);
-    m_save->setEnabled(false);
-    list();
 }
 
 QWidget *PresetsPanel::corner() {
@@ -200,14 +202,12 @@ void PresetsPanel::apply(QListWidgetItem *item) {
     const auto *entry = m_library.find(item->data(nameRole).toString().toStdString());
     if (entry == nullptr || !m_document.volume())
         return;
-    scene::Scene scene = m_document.scene();
-    scene.fieldWindow = entry->preset.window;
-    scene.look = presets::lookFor(entry->preset,
-                                  scene.fieldWindow.value_or(m_document.defaultFieldWindow()));
-    scene.shading = entry->preset.shading;
-    if (!(scene == m_document.scene()))
-        m_document.undoStack()->push(
-            new EditScene(m_document, scene, tr("Preset %1").arg(item->text())));
+    editScene(m_document, tr("Preset %1").arg(item->text()), noDrag, [&](scene::Scene &scene) {
+        scene.fieldWindow = entry->preset.window;
+        scene.look = presets::lookFor(entry->preset,
+                                      scene.fieldWindow.value_or(m_document.defaultFieldWindow()));
+        scene.shading = entry->preset.shading;
+    });
 }
 
 void PresetsPanel::askForName() {

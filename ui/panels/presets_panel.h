@@ -43,6 +43,7 @@ protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
+    void connectControls();
     void list();
     QListWidgetItem *itemOf(const QString &preset) const;
     void showCurrent();
@@ -59,6 +60,7 @@ private:
     QPushButton *m_save;
     QListWidget *m_gallery;
     QLineEdit *m_name;
+    QPushButton *m_keep;
     QWidget *m_nameRow;
     QLabel *m_said;
 };

@@ -84,6 +84,32 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     form->setContentsMargins(14, 2, 14, 8);
     form->setHorizontalSpacing(12);
     form->setVerticalSpacing(4);
+    addChoices(form);
+    addFigures(form);
+    m_more->setObjectName("moreQualityButton");
+    m_more->setProperty("role", "link");
+    m_more->setCheckable(true);
+    m_more->setToolTip(tr("What the plan chooses, to be chosen by hand"));
+    const std::array<QWidget *, 8> expert{m_kernel, m_padding,   m_storage, m_largest,
+                                          m_padded, m_tolerance, m_model,   m_leftOut};
+    const auto showExpert = [form, expert](bool isShown) {
+        for (QWidget *widget : expert)
+            form->setRowVisible(widget, isShown);
+    };
+    connect(m_more, &QPushButton::toggled, this, showExpert);
+    showExpert(false);
+    connectChoices();
+    connect(&document, &Document::sceneChanged, this, &QualityPanel::showScene);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        showScene();
+        if (!m_document.isPreview())
+            clearPlan();
+    });
+    showScene();
+    clearPlan();
+}
+
+void QualityPanel::addChoices(QFormLayout *form) {
     m_quality = addBox(form, tr("Quality"), "qualityBox", tr("The largest error that is allowed"));
     const std::array<QString, qualityCount> names{tr("Draft"), tr("Interactive"), tr("Standard"),
                                                   tr("Fine")};
@@ -117,6 +143,9 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_storage->addItem(tr("As needed"), QString());
     m_storage->addItem(tr("16 bit"), QString("f16"));
     m_storage->addItem(tr("32 bit"), QString("f32"));
+}
+
+void QualityPanel::addFigures(QFormLayout *form) {
     m_time = addFigure(form, tr("Frame"), "frameTimeLabel", tr("Time that the last frame took"));
     m_error = addFigure(
         form, tr("Error"), "predictedErrorLabel",
@@ -142,19 +171,9 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     // Room for the usual reason: a dock does not grow with the text of its panel.
     m_reason->setMinimumHeight(2 * m_reason->fontMetrics().lineSpacing());
     form->addRow(m_reason);
-    m_more->setObjectName("moreQualityButton");
-    m_more->setProperty("role", "link");
-    m_more->setCheckable(true);
-    m_more->setToolTip(tr("What the plan chooses, to be chosen by hand"));
-    const std::array<QWidget *, 8> expert{m_kernel, m_padding,   m_storage, m_largest,
-                                          m_padded, m_tolerance, m_model,   m_leftOut};
-    const auto showExpert = [form, expert](bool isShown) {
-        for (QWidget *widget : expert)
-            form->setRowVisible(widget, isShown);
-    };
-    connect(m_more, &QPushButton::toggled, this, showExpert);
-    showExpert(false);
+}
 
+void QualityPanel::connectChoices() {
     connect(m_quality, &QComboBox::activated, this, &QualityPanel::chooseTolerance);
     connect(m_tolerance, &QLineEdit::editingFinished, this, &QualityPanel::typeTolerance);
     connect(m_reconstruction, &QComboBox::activated, this, [this] {
@@ -187,14 +206,6 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
                 scene.interpolation.storage = fourier::storageFromName(name);
         });
     });
-    connect(&document, &Document::sceneChanged, this, &QualityPanel::showScene);
-    connect(&document, &Document::volumeChanged, this, [this] {
-        showScene();
-        if (!m_document.isPreview())
-            clearPlan();
-    });
-    showScene();
-    clearPlan();
 }
 
 QWidget *QualityPanel::corner() {
@@ -202,12 +213,8 @@ QWidget *QualityPanel::corner() {
 }
 
 void QualityPanel::change(const QString &what, const std::function<void(scene::Scene &)> &edit) {
-    scene::Scene scene = m_document.scene();
-    edit(scene);
-    if (scene == m_document.scene())
+    if (!editScene(m_document, what, noDrag, edit))
         emit chosenAgain();
-    else
-        m_document.undoStack()->push(new EditScene(m_document, scene, what));
 }
 
 void QualityPanel::chooseTolerance(int index) {

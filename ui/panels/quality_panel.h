@@ -11,6 +11,7 @@
 #include "ui/engine/shown_engine.h"
 
 class QComboBox;
+class QFormLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -35,6 +36,9 @@ signals:
     void chosenAgain();
 
 private:
+    void addChoices(QFormLayout *form);
+    void addFigures(QFormLayout *form);
+    void connectChoices();
     void showScene();
     void clearPlan();
     void showModel();

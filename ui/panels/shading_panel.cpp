@@ -70,6 +70,23 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
       m_follows(new QCheckBox(tr("Follows viewer"))) {
     setObjectName("shadingPanel");
     setAttribute(Qt::WA_StyledBackground);
+    nameControls();
+    layOut();
+    connectCue();
+    connectLights();
+    connect(&document, &Document::sceneChanged, this, &ShadingPanel::showScene);
+    connect(&document, &Document::cameraChanged, this, &ShadingPanel::showLights);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        setEnabled(m_document.volume().has_value() && !m_document.isPreview());
+        m_reset->setEnabled(isEnabled());
+        showScene();
+    });
+    setEnabled(false);
+    m_reset->setEnabled(false);
+    showScene();
+}
+
+void ShadingPanel::nameControls() {
     m_cue->setObjectName("cueBox");
     m_cue->setAccessibleName(tr("Depth cue"));
     m_cue->setToolTip(tr("How what is near stands out from what is far"));
@@ -93,7 +110,9 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
     m_follows->setToolTip(
         tr("The chosen light stays where it is for the viewer, or on the patient"));
     m_color->setAccessibleName(tr("Color of the light"));
+}
 
+void ShadingPanel::layOut() {
     auto *rows = new QVBoxLayout;
     rows->setSpacing(3);
     const auto add = [&](const QString &text, ValueSlider *slider) {
@@ -129,13 +148,15 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
     column->addWidget(m_curve);
     column->addLayout(bottom);
     column->addStretch();
+}
 
+void ShadingPanel::connectCue() {
     connect(m_cue, &QComboBox::activated, this, &ShadingPanel::chooseCue);
     connect(m_strength, &ValueSlider::changed, this, [this](double value, DragId drag) {
         change(tr("Depth cue"), drag, [&](Shading &s) { s.cue.strength = value; });
     });
     connect(m_curveValues, &QSpinBox::valueChanged, this, [this](int count) {
-        change(tr("Depth cue"), 0, [&](Shading &s) {
+        change(tr("Depth cue"), noDrag, [&](Shading &s) {
             // The same curve by other values.
             std::vector<double> values;
             for (int n = 0; n < count; ++n)
@@ -148,6 +169,9 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
     connect(m_curve, &DepthCurve::valueChanged, this, [this](int n, double value, DragId drag) {
         change(tr("Depth cue"), drag, [&](Shading &s) { s.cue.curve[std::size_t(n)] = value; });
     });
+}
+
+void ShadingPanel::connectLights() {
     connect(m_light, &ValueSlider::changed, this, [this](double value, DragId drag) {
         if (selectedLight() >= 0)
             change(tr("Light"), drag,
@@ -166,16 +190,6 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
     connect(m_remove, &QPushButton::clicked, this, &ShadingPanel::removeLight);
     connect(m_color, &QPushButton::clicked, this, &ShadingPanel::chooseColor);
     connect(m_follows, &QCheckBox::clicked, this, &ShadingPanel::setFollowsViewer);
-    connect(&document, &Document::sceneChanged, this, &ShadingPanel::showScene);
-    connect(&document, &Document::cameraChanged, this, &ShadingPanel::showLights);
-    connect(&document, &Document::volumeChanged, this, [this] {
-        setEnabled(m_document.volume().has_value() && !m_document.isPreview());
-        m_reset->setEnabled(isEnabled());
-        showScene();
-    });
-    setEnabled(false);
-    m_reset->setEnabled(false);
-    showScene();
 }
 
 QWidget *ShadingPanel::corner() {
@@ -224,16 +238,12 @@ void ShadingPanel::showScene() {
 
 void ShadingPanel::change(const QString &what, DragId drag,
                           const std::function<void(Shading &)> &edit) {
-    if (!m_document.volume())
-        return;
-    scene::Scene scene = m_document.scene();
-    edit(scene.shading);
-    if (!(scene == m_document.scene()))
-        m_document.undoStack()->push(new EditScene(m_document, scene, what, drag));
+    if (m_document.volume())
+        editScene(m_document, what, drag, [&](scene::Scene &scene) { edit(scene.shading); });
 }
 
 void ShadingPanel::chooseCue(int index) {
-    change(tr("Depth cue"), 0, [&](Shading &s) {
+    change(tr("Depth cue"), noDrag, [&](Shading &s) {
         s.cue.kind = CueKind(m_cue->itemData(index).toInt());
         if (s.cue.kind == CueKind::curve && s.cue.curve == shading::DepthCue().curve)
             s.cue.curve = {0.0, 2.0, 0.0}; // the middle stands out
@@ -241,7 +251,7 @@ void ShadingPanel::chooseCue(int index) {
 }
 
 void ShadingPanel::toggleCue() {
-    change(tr("Depth cue"), 0, [this](Shading &s) {
+    change(tr("Depth cue"), noDrag, [this](Shading &s) {
         if (s.cue.isActive()) {
             m_lastCue = s.cue.kind;
             s.cue.kind = CueKind::none;
@@ -259,7 +269,7 @@ void ShadingPanel::addLight() {
     if (count >= shading::mostLights)
         return;
     m_selected = int(count);
-    change(tr("Add a light"), 0, [&](Shading &s) {
+    change(tr("Add a light"), noDrag, [&](Shading &s) {
         if (s.lights.empty() && s.ambient == 1.0)
             s.ambient = ambientUnderLight;
         s.lights.push_back(newLight(count));
@@ -269,7 +279,7 @@ void ShadingPanel::addLight() {
 void ShadingPanel::removeLight() {
     const int index = selectedLight();
     if (index >= 0)
-        change(tr("Remove a light"), 0, [&](Shading &s) {
+        change(tr("Remove a light"), noDrag, [&](Shading &s) {
             s.lights.erase(s.lights.begin() + index);
             if (s.lights.empty() && s.ambient == ambientUnderLight)
                 s.ambient = 1.0;
@@ -277,7 +287,7 @@ void ShadingPanel::removeLight() {
 }
 
 void ShadingPanel::reset() {
-    change(tr("Reset the shading"), 0, [](Shading &s) { s = {}; });
+    change(tr("Reset the shading"), noDrag, [](Shading &s) { s = {}; });
 }
 
 void ShadingPanel::chooseColor() {
@@ -289,7 +299,7 @@ void ShadingPanel::chooseColor() {
         QColorDialog::getColor(QColor::fromRgbF(float(now.red), float(now.green), float(now.blue)),
                                this, tr("Color of the light"));
     if (chosen.isValid())
-        change(tr("Color of a light"), 0, [&](Shading &s) {
+        change(tr("Color of a light"), noDrag, [&](Shading &s) {
             s.lights[std::size_t(index)].color = {chosen.red() / 255.0, chosen.green() / 255.0,
                                                   chosen.blue() / 255.0};
         });
@@ -301,7 +311,7 @@ void ShadingPanel::setFollowsViewer(bool followsViewer) {
         return;
     // The light stays where it is now.
     const glm::dmat3 axes = m_document.scene().camera.axes();
-    change(tr("What a light follows"), 0, [&](Shading &s) {
+    change(tr("What a light follows"), noDrag, [&](Shading &s) {
         Light &light = s.lights[std::size_t(index)];
         const bool followed = light.frame == LightFrame::viewer;
         if (followed && !followsViewer)

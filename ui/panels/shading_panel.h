@@ -35,6 +35,10 @@ public:
     void reset();
 
 private:
+    void nameControls();
+    void layOut();
+    void connectCue();
+    void connectLights();
     void showScene();
     void showLights();
     int selectedLight() const;

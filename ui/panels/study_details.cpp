@@ -33,17 +33,8 @@ QString folderOf(const QStringList &files) {
     return files.isEmpty() ? QString() : QFileInfo(files.front()).absolutePath();
 }
 
-} // namespace
-
-void showStudyDetails(const StudyFacts &study, const VolumeFacts &volume, const QStringList &files,
-                      const QImage &thumbnail, QWidget *parent) {
-    auto *dialog = new QDialog(parent);
-    dialog->setObjectName("studyDetails");
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(StudyDetailsTexts::tr("Details of the series"));
-    auto *form = new QFormLayout;
-    form->setLabelAlignment(Qt::AlignLeft);
-    form->setHorizontalSpacing(18);
+void addFacts(QFormLayout *form, const StudyFacts &study, const VolumeFacts &volume,
+              const QStringList &files) {
     const auto row = [form](const QString &name, const QString &text) {
         auto *label = new QLabel(name);
         label->setProperty("role", "muted");
@@ -83,6 +74,20 @@ void showStudyDetails(const StudyFacts &study, const VolumeFacts &volume, const 
         text->setProperty("role", "warning");
         form->addRow(new QLabel, text);
     }
+}
+
+} // namespace
+
+void showStudyDetails(const StudyFacts &study, const VolumeFacts &volume, const QStringList &files,
+                      const QImage &thumbnail, QWidget *parent) {
+    auto *dialog = new QDialog(parent);
+    dialog->setObjectName("studyDetails");
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(StudyDetailsTexts::tr("Details of the series"));
+    auto *form = new QFormLayout;
+    form->setLabelAlignment(Qt::AlignLeft);
+    form->setHorizontalSpacing(18);
+    addFacts(form, study, volume, files);
     auto *picture = new QLabel;
     picture->setFixedSize(thumbnailPixels + 16, thumbnailPixels + 16);
     picture->setAlignment(Qt::AlignCenter);

@@ -88,7 +88,11 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &t
     layout->addWidget(m_tree, 1);
     layout->addWidget(new JobStrip(library.jobs(), "import"));
     layout->addWidget(new ProblemList(document, theme));
+    connectControls();
+    expandFew();
+}
 
+void StudyPanel::connectControls() {
     m_typing.setSingleShot(true);
     m_typing.setInterval(typingMs);
     connect(m_search, &QLineEdit::textChanged, &m_typing, qOverload<>(&QTimer::start));
@@ -102,12 +106,11 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &t
         expandFew();
         showCurrent();
     });
-    connect(&document, &Document::currentSourceChanged, this, &StudyPanel::showCurrent);
+    connect(&m_document, &Document::currentSourceChanged, this, &StudyPanel::showCurrent);
     m_tree->setExpandsOnDoubleClick(false);
     connect(m_tree, &QTreeView::clicked, this, &StudyPanel::activate);
     connect(m_tree, &QTreeView::activated, this, &StudyPanel::activate);
     connect(m_tree, &QWidget::customContextMenuRequested, this, &StudyPanel::showMenu);
-    expandFew();
 }
 
 QMenu *StudyPanel::orderMenu() {

@@ -53,6 +53,7 @@ private:
     void importOpen(const StudyFacts &study);
     void remove(const StudyFacts &study);
     void close(const StudyFacts &study);
+    void connectControls();
     QMenu *orderMenu();
 
     Document &m_document;

@@ -57,7 +57,32 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     m_weight->setSingleStep(0.05);
     m_weight->setDecimals(2);
     m_weight->setKeyboardTracking(false); // typed to the end before it counts
+    layOut();
+    connect(m_editor, &CurveEditor::weightChanged, this, &TransferFunctionPanel::setWeight);
+    connect(m_editor, &CurveEditor::pointSelected, this, &TransferFunctionPanel::showScene);
+    connect(m_points, &QSpinBox::valueChanged, this, [this](int points) {
+        if (points != int(function().weights.size()))
+            change(classify::withPoints(function(), points), tr("Control points"));
+    });
+    connect(m_weight, &QDoubleSpinBox::valueChanged, this, [this](double weight) {
+        const int at = m_editor->selectedPoint();
+        if (std::abs(weight - function().weights[std::size_t(at)]) > 0.005)
+            setWeight(at, weight, noDrag);
+    });
+    connect(&document, &Document::sceneChanged, this, &TransferFunctionPanel::showScene);
+    connect(&document, &Document::selectedClassChanged, this, &TransferFunctionPanel::showScene);
+    connect(&document, &Document::volumeChanged, this, [this] {
+        setEnabled(m_document.volume().has_value() && !m_document.isPreview());
+        m_points->setEnabled(isEnabled());
+        m_histogram = {};
+        showScene();
+    });
+    setEnabled(false);
+    m_points->setEnabled(false);
+    showScene();
+}
 
+void TransferFunctionPanel::layOut() {
     auto *bottom = new QHBoxLayout;
     bottom->setSpacing(2);
     bottom->addWidget(m_weight);
@@ -73,34 +98,11 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     column->addWidget(m_subject);
     column->addWidget(m_editor, 1);
     column->addLayout(bottom);
-
-    connect(m_editor, &CurveEditor::weightChanged, this, &TransferFunctionPanel::setWeight);
-    connect(m_editor, &CurveEditor::pointSelected, this, &TransferFunctionPanel::showScene);
-    connect(m_points, &QSpinBox::valueChanged, this, [this](int points) {
-        if (points != int(function().weights.size()))
-            change(classify::withPoints(function(), points), tr("Control points"));
-    });
-    connect(m_weight, &QDoubleSpinBox::valueChanged, this, [this](double weight) {
-        const int at = m_editor->selectedPoint();
-        if (std::abs(weight - function().weights[std::size_t(at)]) > 0.005)
-            setWeight(at, weight, 0);
-    });
     connect(reset, &QPushButton::clicked, this, [this] {
         change({std::vector<double>(function().weights.size(), 1.0)}, tr("Reset the curve"));
     });
     connect(copyLink, &QPushButton::clicked, this, &TransferFunctionPanel::copy);
     connect(pasteLink, &QPushButton::clicked, this, &TransferFunctionPanel::paste);
-    connect(&document, &Document::sceneChanged, this, &TransferFunctionPanel::showScene);
-    connect(&document, &Document::selectedClassChanged, this, &TransferFunctionPanel::showScene);
-    connect(&document, &Document::volumeChanged, this, [this] {
-        setEnabled(m_document.volume().has_value() && !m_document.isPreview());
-        m_points->setEnabled(isEnabled());
-        m_histogram = {};
-        showScene();
-    });
-    setEnabled(false);
-    m_points->setEnabled(false);
-    showScene();
 }
 
 QWidget *TransferFunctionPanel::corner() {
@@ -119,14 +121,13 @@ const classify::TransferFunction &TransferFunctionPanel::function() const {
 
 void TransferFunctionPanel::change(const classify::TransferFunction &function, const QString &what,
                                    DragId drag) {
-    scene::Scene scene = m_document.scene();
-    const int selected = m_document.selectedClass();
-    if (selected < 0)
-        scene.look.transferFunction = function;
-    else
-        scene.look.classes[std::size_t(selected)].transferFunction = function;
-    if (!(scene == m_document.scene()))
-        m_document.undoStack()->push(new EditScene(m_document, scene, what, drag));
+    editScene(m_document, what, drag, [&](scene::Scene &scene) {
+        const int selected = m_document.selectedClass();
+        if (selected < 0)
+            scene.look.transferFunction = function;
+        else
+            scene.look.classes[std::size_t(selected)].transferFunction = function;
+    });
 }
 
 void TransferFunctionPanel::setWeight(int index, double weight, DragId drag) {

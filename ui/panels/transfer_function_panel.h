@@ -29,8 +29,10 @@ public:
     void setHistogram(const volume::Histogram &histogram);
 
 private:
+    void layOut();
     const classify::TransferFunction &function() const;
-    void change(const classify::TransferFunction &function, const QString &what, DragId drag = 0);
+    void change(const classify::TransferFunction &function, const QString &what,
+                DragId drag = noDrag);
     void setWeight(int index, double weight, DragId drag);
     void copy();
     void paste();

@@ -42,11 +42,11 @@ ValueSlider::ValueSlider(const Range &range, const QString &sliderName, const QS
         m_drag = nextDragId();
         emit pressed();
     });
-    connect(m_slider, &QSlider::sliderReleased, this, [this] { m_drag = 0; });
+    connect(m_slider, &QSlider::sliderReleased, this, [this] { m_drag = noDrag; });
     connect(m_slider, &QSlider::valueChanged, this,
             [this](int value) { emit changed(value * perStep, m_drag); });
     connect(m_value, &QDoubleSpinBox::valueChanged, this,
-            [this](double value) { emit changed(value, 0); });
+            [this](double value) { emit changed(value, noDrag); });
 }
 
 void ValueSlider::setValue(double value) {
@@ -66,7 +66,7 @@ void ValueSlider::setNames(const QString &accessibleName, const QString &tip) {
 
 bool ValueSlider::eventFilter(QObject *watched, QEvent *event) {
     if (watched == m_slider && event->type() == QEvent::MouseButtonDblClick) {
-        emit changed(m_range.usual, 0);
+        emit changed(m_range.usual, noDrag);
         return true;
     }
     return QWidget::eventFilter(watched, event);

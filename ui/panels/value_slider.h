@@ -37,7 +37,7 @@ private:
     Range m_range;
     QSlider *m_slider;
     QDoubleSpinBox *m_value;
-    DragId m_drag = 0;
+    DragId m_drag = noDrag;
 };
 
 } // namespace pellucid::ui

@@ -8,7 +8,7 @@
 #include <QObject>
 
 #include "core/picture/compose.h"
-#include "core/render/cpu_engine.h"
+#include "core/render/projection_engine.h"
 #include "core/scene/scene.h"
 
 namespace pellucid::ui {

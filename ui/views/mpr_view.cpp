@@ -14,6 +14,7 @@
 #include "core/mpr/reslice.h"
 #include "ui/document/document.h"
 #include "ui/theme/theme.h"
+#include "ui/views/crosshair.h"
 #include "ui/views/overlay.h"
 #include "ui/views/plane_texts.h"
 #include "ui/views/slice_picture.h"
@@ -25,31 +26,17 @@ namespace {
 constexpr double smoothCutMs = 16.0;
 constexpr int restMs = 150;
 
-Qt::CursorShape cursorOf(Tool tool) {
-    switch (tool) {
-    case Tool::window:
-    case Tool::crop:
-        return Qt::ArrowCursor;
-    case Tool::pan:
-        return Qt::OpenHandCursor;
-    case Tool::zoom:
-        return Qt::SizeVerCursor;
-    default:
-        return Qt::CrossCursor;
-    }
-}
-
 } // namespace
 
 MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *parent)
-    : QWidget(parent), m_document(document), m_orientation(orientation), m_measure(document, false),
-      m_crop(document) {
+    : QWidget(parent), m_document(document), m_orientation(orientation),
+      m_tools(document, orientation, *this) {
     setObjectName(QString("%1View").arg(colorRole(orientation)));
     setAccessibleName(planeTitle(orientation));
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setMinimumSize(120, 100);
-    setCursor(Qt::ArrowCursor);
+    setCursor(m_tools.cursor());
     m_rest.setSingleShot(true);
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] {
@@ -60,11 +47,8 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
         const auto &volume = m_document.volume();
         const bool isSamePlace = volume && m_lattice == volume->lattice();
         // The rest of a volume that arrives leaves what the hand is doing alone.
-        if (!isSamePlace || !m_wasPreview) {
-            m_measure.cancel();
-            m_crop.cancel();
-            m_dragging = Drag::none;
-        }
+        if (!isSamePlace || !m_wasPreview)
+            m_tools.cancel();
         m_wasPreview = m_document.isPreview();
         m_cutMs = 0.0;
         if (volume) {
@@ -88,10 +72,8 @@ void MprView::refresh() {
 }
 
 void MprView::setTool(Tool tool) {
-    m_tool = tool;
-    m_measure.cancel();
-    m_crop.cancel();
-    setCursor(cursorOf(tool));
+    m_tools.choose(tool);
+    setCursor(m_tools.cursor());
     update();
 }
 
@@ -135,14 +117,13 @@ mpr::Plane MprView::plane() const {
     return plane;
 }
 
-CrosshairLines MprView::crosshairLines() const {
-    return {mapping(), m_document.crosshair(), m_document.cut().axes, m_orientation};
+// What lies in the slab, or nearer to this slice than to the next.
+double MprView::reachMm() const {
+    return std::max(0.5 * m_document.cut().options.slab.thicknessMm, 0.5 * scrollRange().stepMm);
 }
 
-MeasureTool::Pane MprView::measurePane() const {
-    // What lies in the slab, or nearer to this slice than to the next.
-    return {mapping(),
-            std::max(0.5 * m_document.cut().options.slab.thicknessMm, 0.5 * scrollRange().stepMm)};
+ToolSurface MprView::surface() const {
+    return {mapping(), rect(), overlayColors(colorRole(m_orientation))};
 }
 
 void MprView::updateImage() {
@@ -179,8 +160,8 @@ void MprView::paintEvent(QPaintEvent *) {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
         painter.drawImage(QPoint(0, 0), m_image);
         painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
-        paintHandles(painter);
-        paintAnnotations(painter, MeasureTool::Marks::withSelection, Names::shown);
+        m_tools.paint(painter, surface());
+        paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, Names::shown);
     } else if (m_document.volume()) {
         painter.setPen(colors.muted);
         painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
@@ -197,21 +178,6 @@ void MprView::paintEvent(QPaintEvent *) {
     }
 }
 
-// What the hand takes hold of belongs to the pane, and not to a picture that leaves it.
-void MprView::paintHandles(QPainter &painter) const {
-    m_crop.paint(painter, mapping(), rect(), m_tool == Tool::crop,
-                 overlayColors(colorRole(m_orientation)));
-    painter.save();
-    painter.setClipRegion(QRegion(rect()) - upperAndLowerLetters(rect()));
-    crosshairLines().paint(painter, size(), m_tool == Tool::crosshair);
-    painter.restore();
-}
-
-void MprView::paintAnnotations(QPainter &painter, MeasureTool::Marks marks, Names names) const {
-    m_measure.paint(painter, measurePane(), overlayColors(colorRole(m_orientation)), marks);
-    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, names);
-}
-
 std::function<QImage()> MprView::pictureMaker(int scale) const {
     mpr::Plane cut = plane();
     cut.width *= scale;
@@ -226,7 +192,8 @@ std::function<QImage()> MprView::pictureMaker(int scale) const {
 }
 
 void MprView::paintOver(QPainter &painter, Names names) const {
-    paintAnnotations(painter, MeasureTool::Marks::plain, names);
+    m_tools.paintPlain(painter, surface());
+    paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, names);
     const OverlayColors colors = overlayColors(colorRole(m_orientation));
     const int line = painter.fontMetrics().height() + 3;
     drawText(painter, rect().adjusted(8, 8 + line, -8, -8), Qt::AlignLeft | Qt::AlignTop,
@@ -239,66 +206,22 @@ void MprView::resizeEvent(QResizeEvent *) {
 
 void MprView::mousePressEvent(QMouseEvent *event) {
     setFocus();
-    // A second button does not disturb what the first one drags.
-    if (!showsVolume() || m_dragging != Drag::none)
+    if (!showsVolume())
         return;
-    m_button = event->button();
-    m_last = event->position().toPoint();
-    m_drag = nextDragId();
-    m_dragging = Drag::none;
-    if (event->button() == Qt::MiddleButton) {
-        m_dragging = Drag::tool;
-        m_dragTool = Tool::pan;
-    } else if (event->button() == Qt::LeftButton) {
-        m_dragTool = m_tool;
-        if (m_tool == Tool::crosshair && crosshairLines().isHandleAt(m_last, size())) {
-            m_dragging = Drag::turn;
-            m_turnAngle = crosshairLines().angleAt(m_last);
-        } else if (m_tool == Tool::crop && m_crop.press(mapping(), event->position())) {
-            m_dragging = Drag::crop;
-        } else if (m_measure.press(measurePane(), event->position(), measuredBy(m_tool))) {
-            m_dragging = Drag::measure;
-        } else {
-            m_dragging = Drag::tool;
-        }
-    }
-    if (m_dragging == Drag::tool && m_dragTool == Tool::crosshair)
-        moveCrosshair(m_last);
+    m_tools.press(event->button(), event->position());
     update();
 }
 
 void MprView::mouseMoveEvent(QMouseEvent *event) {
-    const QPoint position = event->position().toPoint();
     if (!showsVolume())
         return;
-    if (m_measure.isBusy()) {
-        m_measure.move(measurePane(), event->position());
+    if (m_tools.move(event->position()))
         update();
-    } else if (m_crop.isBusy()) {
-        m_crop.move(mapping(), event->position());
-        update();
-    } else if (m_dragging == Drag::turn) {
-        turnTo(position);
-    } else if (m_dragging == Drag::tool) {
-        drag(position - m_last, position);
-    } else if ((event->modifiers() & Qt::ShiftModifier) != 0) {
-        moveCrosshair(position);
-    } else {
-        showCursor(event->position());
-    }
-    m_last = position;
+    else if ((event->modifiers() & Qt::ShiftModifier) != 0)
+        m_tools.moveCrosshair(event->position());
+    else
+        setCursor(m_tools.cursorAt(event->position()));
     showReadout(event->position());
-}
-
-void MprView::showCursor(const QPointF &position) {
-    const auto onCrop = m_tool == Tool::crop ? m_crop.cursorAt(mapping(), position) : std::nullopt;
-    if (onCrop) {
-        setCursor(*onCrop);
-        return;
-    }
-    const bool turns = m_tool == Tool::crosshair && crosshairLines().isHandleAt(position, size());
-    setCursor(turns || m_measure.isOver(measurePane(), position) ? Qt::PointingHandCursor
-                                                                 : cursorOf(m_tool));
 }
 
 void MprView::showReadout(const QPointF &position) {
@@ -307,72 +230,16 @@ void MprView::showReadout(const QPointF &position) {
 }
 
 void MprView::mouseReleaseEvent(QMouseEvent *event) {
-    if (event->button() != m_button)
-        return;
-    if (m_dragging == Drag::measure && showsVolume())
-        m_measure.release(measurePane(), event->position());
-    if (m_dragging == Drag::crop && showsVolume())
-        m_crop.release();
-    m_dragging = Drag::none;
+    m_tools.release(event->button(), event->position());
     update();
 }
 
 void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
     // The third point of an angle may come fast.
-    if (event->button() == Qt::LeftButton && !m_measure.isBusy())
+    if (event->button() == Qt::LeftButton && !m_tools.isMeasuring())
         emit maximizeRequested(this);
     else
         mousePressEvent(event);
-}
-
-void MprView::drag(const QPoint &delta, const QPoint &to) {
-    switch (m_dragTool) {
-    case Tool::window:
-        windowBy(delta);
-        break;
-    case Tool::crosshair:
-        moveCrosshair(to);
-        break;
-    case Tool::zoom:
-        zoomBy(std::exp(-0.008 * delta.y()));
-        break;
-    case Tool::pan: {
-        const double pixelsPerMm = mapping().pixelsPerMm();
-        moveView({m_view.zoom, m_view.panMm + glm::dvec2(-delta.x(), delta.y()) / pixelsPerMm});
-        break;
-    }
-    default: // what measures has its own drags
-        break;
-    }
-}
-
-void MprView::turnTo(const QPoint &to) {
-    const double angle = crosshairLines().angleAt(to);
-    Cut cut = m_document.cut();
-    cut.axes = cut.axes.turned(m_orientation, angle - m_turnAngle);
-    m_turnAngle = angle;
-    m_document.setCut(cut);
-}
-
-void MprView::windowBy(const QPoint &delta) {
-    // A pane's width of dragging covers the window itself once over, so that narrow and wide
-    // windows are equally easy to set.
-    volume::ValueWindow window = m_document.displayWindow();
-    const double perPixel = std::max(window.width, 1e-6) / 250.0;
-    window.width =
-        std::max(window.width + delta.x() * perPixel, 1e-3 * std::max(1.0, std::abs(window.width)));
-    window.center -= delta.y() * perPixel;
-    window.name.clear();
-    m_document.undoStack()->push(new EditDisplayWindow(m_document, window, m_drag));
-}
-
-void MprView::moveCrosshair(const QPoint &to) {
-    const volume::Lattice &lattice = m_document.volume()->lattice();
-    // Stays within the volume, where every pane has something to show.
-    glm::dvec3 v = lattice.voxel(mapping().patientAt(to)).v;
-    v = glm::clamp(v, glm::dvec3(0.0),
-                   glm::dvec3(lattice.size().i - 1, lattice.size().j - 1, lattice.size().k - 1));
-    m_document.setCrosshair(lattice.patient(volume::VoxelPoint{v}));
 }
 
 void MprView::scroll(int steps) {
@@ -392,6 +259,11 @@ bool MprView::isAtEnd() const {
         return true;
     const mpr::ScrollRange range = scrollRange();
     return glm::dot(m_document.crosshair().mm, scrollAxis()) > range.highMm - 0.5 * range.stepMm;
+}
+
+void MprView::panBy(const QPoint &delta) {
+    const double pixelsPerMm = mapping().pixelsPerMm();
+    moveView({m_view.zoom, m_view.panMm + glm::dvec2(-delta.x(), delta.y()) / pixelsPerMm});
 }
 
 void MprView::zoomBy(double factor) {
@@ -440,13 +312,11 @@ void MprView::keyPressEvent(QKeyEvent *event) {
         resetView();
         break;
     case Qt::Key_Escape:
-        if (!m_measure.isBusy() && !m_crop.isBusy()) {
+        if (!m_tools.isBusy()) {
             QWidget::keyPressEvent(event);
             break;
         }
-        m_measure.cancel();
-        m_crop.cancel();
-        m_dragging = Drag::none;
+        m_tools.cancel();
         update();
         break;
     default:

@@ -9,12 +9,9 @@
 #include <QWidget>
 
 #include "core/mpr/plane.h"
-#include "ui/document/commands.h"
-#include "ui/views/crop_tool.h"
-#include "ui/views/crosshair.h"
-#include "ui/views/measure_tool.h"
 #include "ui/views/overlay.h"
-#include "ui/views/tools.h"
+#include "ui/views/pane_mapping.h"
+#include "ui/views/tools/plane_tools.h"
 
 namespace pellucid::ui {
 
@@ -22,7 +19,7 @@ class Document;
 
 /// One of the three planes of the open volume: scroll, window, pan, zoom, crosshair and its
 /// turning, measurements, letters, scale.
-class MprView : public QWidget {
+class MprView : public QWidget, private ToolPane {
     Q_OBJECT
 public:
     MprView(Document &document, mpr::Orientation orientation, QWidget *parent = nullptr);
@@ -31,7 +28,7 @@ public:
     mpr::Orientation orientation() const { return m_orientation; }
     /// The plane that is shown, in device pixels of this widget.
     mpr::Plane plane() const;
-    PaneMapping mapping() const { return {plane(), devicePixelRatioF()}; }
+    PaneMapping mapping() const override { return {plane(), devicePixelRatioF()}; }
     /// Steps through the slices.
     void scroll(int steps);
     void scrollToEnd(bool last);
@@ -71,36 +68,21 @@ protected:
     void leaveEvent(QEvent *event) override;
 
 private:
-    /// What a drag does.
-    enum class Drag { none, tool, turn, measure, crop };
-
     bool showsVolume() const;
     void refresh();
     void updateImage();
-    void paintHandles(QPainter &painter) const;
-    void paintAnnotations(QPainter &painter, MeasureTool::Marks marks, Names names) const;
-    void drag(const QPoint &delta, const QPoint &to);
-    void moveCrosshair(const QPoint &to);
-    void turnTo(const QPoint &to);
-    void windowBy(const QPoint &delta);
-    void zoomBy(double factor);
+    ToolSurface surface() const;
     void showReadout(const QPointF &position);
-    void showCursor(const QPointF &position);
     glm::dvec3 scrollAxis() const;
     mpr::ScrollRange scrollRange() const;
-    CrosshairLines crosshairLines() const;
-    MeasureTool::Pane measurePane() const;
+    QSize paneSize() const override { return size(); }
+    double reachMm() const override;
+    void panBy(const QPoint &delta) override;
+    void zoomBy(double factor) override;
 
     Document &m_document;
     const mpr::Orientation m_orientation;
-    MeasureTool m_measure;
-    CropTool m_crop;
-    Tool m_tool = Tool::window;
-    Tool m_dragTool = Tool::window;
-    Drag m_dragging = Drag::none;
-    DragId m_drag = 0;
-    double m_turnAngle = 0.0;
-    QPoint m_last;
+    PlaneTools m_tools;
     View m_view;
     /// Of the last volume, which may have been a part of one.
     volume::Lattice m_lattice;
@@ -112,7 +94,6 @@ private:
     QElapsedTimer m_sinceCut;
     QTimer m_rest;
     bool m_isResting = false;
-    Qt::MouseButton m_button = Qt::NoButton; ///< of the drag
 };
 
 } // namespace pellucid::ui

@@ -11,7 +11,7 @@
 
 namespace pellucid::ui {
 
-ProjectionOverlay::ProjectionOverlay(const Document &document, const MeasureTool &measure,
+ProjectionOverlay::ProjectionOverlay(const Document &document, const PaneTool &measure,
                                      QWidget *parent)
     : QWidget(parent), m_document(document), m_measure(measure) {
     setObjectName("projectionOverlay");
@@ -47,11 +47,11 @@ OverlayColors ProjectionOverlay::colors() const {
 
 void ProjectionOverlay::paintEvent(QPaintEvent *) {
     QPainter painter(this);
-    paint(painter, m_mapping, MeasureTool::Marks::withSelection, Names::shown);
+    paint(painter, m_mapping, Marks::shown, Names::shown);
 }
 
-void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping,
-                              MeasureTool::Marks marks, Names names) const {
+void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Marks marks,
+                              Names names) const {
     const OverlayColors colors = this->colors();
     if (!m_comparison.isNull()) {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
@@ -118,7 +118,7 @@ void ProjectionOverlay::paintCrosshair(QPainter &painter, const PaneMapping &map
 }
 
 void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mapping,
-                                     MeasureTool::Marks marks) const {
+                                     Marks marks) const {
     const OverlayColors colors = this->colors();
     const int line = painter.fontMetrics().height() + 3;
     drawText(painter, rect().adjusted(10, 8, -10, -8), Qt::AlignRight | Qt::AlignTop,
@@ -133,9 +133,9 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
                  width() - barLeft - 60, colors);
     if (!m_comparison.isNull())
         return; // two pictures have no common places
-    if (m_showsCrosshair && marks == MeasureTool::Marks::withSelection)
+    if (m_showsCrosshair && marks != Marks::plain)
         paintCrosshair(painter, mapping);
-    m_measure.paint(painter, {mapping, 0.0}, colors, marks);
+    m_measure.paint(painter, {mapping, rect(), colors}, marks);
 }
 
 } // namespace pellucid::ui

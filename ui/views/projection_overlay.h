@@ -4,8 +4,8 @@
 #include <QImage>
 #include <QWidget>
 
-#include "ui/views/measure_tool.h"
 #include "ui/views/overlay.h"
+#include "ui/views/tools/pane_tool.h"
 
 namespace pellucid::ui {
 
@@ -20,7 +20,7 @@ public:
         QString figures; ///< engine, time and error of the picture; empty while there is none
     };
 
-    ProjectionOverlay(const Document &document, const MeasureTool &measure, QWidget *parent);
+    ProjectionOverlay(const Document &document, const PaneTool &measure, QWidget *parent);
 
     void setTexts(const Texts &texts);
     void setMapping(const PaneMapping &mapping);
@@ -29,20 +29,18 @@ public:
     /// left.
     void setComparison(const QImage &picture, const QString &name);
     /// Over any picture of the pane's size.
-    void paint(QPainter &painter, const PaneMapping &mapping, MeasureTool::Marks marks,
-               Names names) const;
+    void paint(QPainter &painter, const PaneMapping &mapping, Marks marks, Names names) const;
 
 protected:
     void paintEvent(QPaintEvent *event) override;
 
 private:
-    void paintPicture(QPainter &painter, const PaneMapping &mapping,
-                      MeasureTool::Marks marks) const;
+    void paintPicture(QPainter &painter, const PaneMapping &mapping, Marks marks) const;
     OverlayColors colors() const;
     void paintCrosshair(QPainter &painter, const PaneMapping &mapping) const;
 
     const Document &m_document;
-    const MeasureTool &m_measure;
+    const PaneTool &m_measure;
     Texts m_texts;
     QImage m_comparison;
     QString m_comparedName;

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/projection_view.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include <QKeyEvent>
-#include <QMouseEvent>
-#include <QWheelEvent>
-
 #include <glm/geometric.hpp>
 
 #include "core/task/error.h"
+#include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/language/reasons.h"
 #include "ui/views/camera_moves.h"
-#include "ui/views/overlay.h"
 #include "ui/views/projection_overlay.h"
+#include "ui/views/projection_texts.h"
 
 namespace pellucid::ui {
 
@@ -27,25 +21,12 @@ constexpr int restMs = 120;
 // Beyond this a finer picture shows the reconstruction's smoothness, not the patient.
 constexpr double samplesPerPixel = 4.0;
 
-// No more digits than are known.
-QString errorText(double error) {
-    const double percent = 100.0 * error;
-    if (percent >= 100.0) // of a part that shows next to nothing
-        return QObject::tr("error over 100 %");
-    return QObject::tr("error %1 %")
-        .arg(percent < 1.0 ? QString::number(percent, 'f', 3) : QString::number(percent, 'g', 2));
-}
-
-QString withError(const QString &stage, const QString &error) {
-    return error.isEmpty() ? stage : QObject::tr("%1, %2").arg(stage, error);
-}
-
 } // namespace
 
 ProjectionView::ProjectionView(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_canvas(makeProjectionCanvas(this)),
-      m_measure(document, true), m_overlay(new ProjectionOverlay(document, m_measure, this)),
-      m_comparison(document) {
+      m_camera(document, *this), m_tools(document, *this),
+      m_overlay(new ProjectionOverlay(document, m_tools.measure(), this)), m_comparison(document) {
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));
     setFocusPolicy(Qt::StrongFocus);
@@ -62,28 +43,11 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
     });
     connect(&m_worker, &RenderWorker::cardFailed, this, &ProjectionView::cardFailed);
     connect(&document, &Document::volumeChanged, this, [this] {
-        if (m_document.volume() && m_document.isPreview())
-            return;
-        // What was projected belongs to another volume.
-        m_prepared.reset();
-        m_onCard.reset();
-        m_worker.setEngine(std::nullopt, nullptr, ++m_generation);
-        m_planState = PlanState::holds;
-        m_measure.cancel();
-        m_comparison.forget();
-        setComparing(false);
-        if (m_tone.outlivesVolume(m_document.volume().has_value()))
-            return;
-        m_frame.reset();
-        m_drawnShading = {};
-        m_message = m_document.volume() ? tr("Preparing the projection") : QString();
-        m_canvas->setImage({});
-        m_zoom = 1.0;
-        fitCamera();
-        showTexts();
+        if (!m_document.volume() || !m_document.isPreview())
+            forgetVolume();
     });
     connect(&document, &Document::crosshairChanged, this, [this] {
-        if (m_orbitsCrosshair)
+        if (orbitsCrosshair())
             m_overlay->update();
     });
     connect(&document, &Document::cameraChanged, this,
@@ -100,6 +64,25 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
 ProjectionView::~ProjectionView() {
     // The canvas is also a child widget: it goes before the base class deletes its children.
     m_canvas.reset();
+}
+
+// What was projected belongs to another volume.
+void ProjectionView::forgetVolume() {
+    m_prepared.reset();
+    m_onCard.reset();
+    m_worker.setEngine(std::nullopt, nullptr, ++m_generation);
+    m_planState = PlanState::holds;
+    m_tools.cancel();
+    m_comparison.forget();
+    setComparing(false);
+    if (m_tone.outlivesVolume(m_document.volume().has_value()))
+        return;
+    m_frame.reset();
+    m_drawnShading = {};
+    m_message = m_document.volume() ? tr("Preparing the projection") : QString();
+    m_canvas->setImage({});
+    m_camera.fitWhole();
+    showTexts();
 }
 
 void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
@@ -144,12 +127,7 @@ void ProjectionView::jobStarted() {
 
 void ProjectionView::adoptCamera(const scene::Camera &wanted,
                                  const std::optional<glm::dvec3> &pivotMm) {
-    scene::Camera camera = m_document.scene().camera;
-    camera.orientation = wanted.orientation;
-    camera.panMm = pannedTo(wanted, pivotMm.value_or(this->pivotMm()), this->pivotMm());
-    m_document.setCamera(camera);
-    m_zoom = std::clamp(fittingPixelMm() / wanted.pixelMm, 0.2, 20.0);
-    fitCamera();
+    m_camera.adopt(wanted, pivotMm);
     requestFrame(true); // another view may be moving with it
 }
 
@@ -184,38 +162,13 @@ void ProjectionView::setMessage(const QString &message) {
     showTexts();
 }
 
-double ProjectionView::fittingPixelMm() const {
-    const double ratio = devicePixelRatioF();
-    const double side = std::max(1.0, std::min(width(), height()) * ratio);
-    // The outer seventh of the sphere around a scan holds only the corners of its box, which are
-    // air.
-    return m_document.volume() ? 2.0 * m_document.volume()->lattice().radiusMm() / side * 0.86
-                               : 1.0;
-}
-
-void ProjectionView::fitCamera() {
-    scene::Camera camera = m_document.scene().camera;
-    const double ratio = devicePixelRatioF();
-    camera.width = std::max(2, int(std::lround(width() * ratio)));
-    camera.height = std::max(2, int(std::lround(height() * ratio)));
-    camera.pixelMm = fittingPixelMm() / m_zoom;
-    m_document.setCamera(camera);
-}
-
 void ProjectionView::resetView() {
-    m_zoom = 1.0;
-    scene::Camera camera = m_document.scene().camera;
-    camera.orientation = scene::viewOrientation(scene::StandardView::front);
-    camera.panMm = {0.0, 0.0};
-    m_document.setCamera(camera);
-    fitCamera();
+    m_camera.reset();
     requestFrame(false);
-    scene::Scene scene = m_document.scene();
-    if (scene.tone.low || scene.tone.high) {
+    editScene(m_document, tr("Reset window"), noDrag, [](scene::Scene &scene) {
         scene.tone.low.reset();
         scene.tone.high.reset();
-        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Reset window")));
-    }
+    });
 }
 
 void ProjectionView::moveCamera(const scene::Camera &camera, bool moving) {
@@ -223,14 +176,8 @@ void ProjectionView::moveCamera(const scene::Camera &camera, bool moving) {
     requestFrame(moving);
 }
 
-glm::dvec3 ProjectionView::pivotMm() const {
-    return m_orbitsCrosshair && m_document.volume()
-               ? m_document.crosshair().mm - m_document.volume()->lattice().center().mm
-               : glm::dvec3(0.0);
-}
-
 void ProjectionView::setOrbitsCrosshair(bool isAboutCrosshair) {
-    m_orbitsCrosshair = isAboutCrosshair;
+    m_camera.setOrbitsCrosshair(isAboutCrosshair);
     m_overlay->setShowsCrosshair(isAboutCrosshair);
 }
 
@@ -365,7 +312,7 @@ std::function<picture::ProjectionImage(const scene::Camera &)> ProjectionView::p
 
 void ProjectionView::paintAnnotations(QPainter &painter, const scene::Camera &camera,
                                       Names names) const {
-    m_overlay->paint(painter, mapping(camera), MeasureTool::Marks::plain, names);
+    m_overlay->paint(painter, m_camera.mapping(camera), Marks::plain, names);
 }
 
 scene::Camera ProjectionView::turnedAroundPatient(const scene::Camera &camera,
@@ -376,91 +323,12 @@ scene::Camera ProjectionView::turnedAroundPatient(const scene::Camera &camera,
 void ProjectionView::resizeEvent(QResizeEvent *) {
     m_canvas->widget()->setGeometry(rect());
     m_overlay->setGeometry(rect());
-    fitCamera();
+    m_camera.fit();
     requestFrame(false);
 }
 
 PaneMapping ProjectionView::mapping() const {
-    return mapping(m_document.scene().camera);
-}
-
-PaneMapping ProjectionView::mapping(const scene::Camera &camera) const {
-    PaneMapping mapping;
-    mapping.pixelRatio = devicePixelRatioF();
-    const glm::dmat3 axes = camera.axes();
-    mapping.plane = {{}, {axes[0], axes[1]}, camera.pixelMm, camera.width, camera.height};
-    if (m_document.volume())
-        mapping.plane.center = {m_document.volume()->lattice().center().mm +
-                                camera.panMm.x * axes[0] + camera.panMm.y * axes[1]};
-    return mapping;
-}
-
-void ProjectionView::setTool(Tool tool) {
-    m_tool = tool;
-    m_measure.cancel();
-    showCursor();
-}
-
-void ProjectionView::showCursor() {
-    if (m_tool == Tool::distance)
-        setCursor(Qt::CrossCursor);
-    else
-        unsetCursor();
-}
-
-void ProjectionView::mousePressEvent(QMouseEvent *event) {
-    setFocus();
-    if (m_measure.isBusy()) // a second button does not disturb what the first one drags
-        return;
-    if (event->button() == Qt::LeftButton && m_frame &&
-        m_measure.press({mapping(), 0.0}, event->position(),
-                        m_tool == Tool::distance ? std::optional(measure::Kind::projectedDistance)
-                                                 : std::nullopt)) {
-        m_button = Qt::NoButton;
-        m_overlay->update();
-        return;
-    }
-    m_button = event->button();
-    m_last = event->position().toPoint();
-    m_drag = nextDragId();
-    setCursor(m_button == Qt::LeftButton     ? Qt::ClosedHandCursor
-              : m_button == Qt::MiddleButton ? Qt::SizeAllCursor
-                                             : Qt::ArrowCursor);
-}
-
-void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
-    const QPoint position = event->position().toPoint(), delta = position - m_last;
-    m_last = position;
-    if (m_measure.isBusy()) {
-        m_measure.move({mapping(), 0.0}, event->position());
-        m_overlay->update();
-        return;
-    }
-    if (!m_prepared || delta.isNull())
-        return;
-    if (m_button == Qt::LeftButton)
-        orbit(delta);
-    else if (m_button == Qt::MiddleButton)
-        moveCamera(panned(m_document.scene().camera, delta, devicePixelRatioF()), true);
-    else if (m_button == Qt::RightButton)
-        windowBy(delta);
-}
-
-void ProjectionView::mouseReleaseEvent(QMouseEvent *event) {
-    if (m_measure.isBusy() && event->button() == Qt::LeftButton)
-        m_measure.release({mapping(), 0.0}, event->position());
-    m_button = Qt::NoButton;
-    showCursor();
-    m_overlay->update();
-}
-
-void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
-    if (event->button() == Qt::LeftButton)
-        emit maximizeRequested(this);
-}
-
-void ProjectionView::orbit(const QPoint &delta) {
-    moveCamera(orbited(m_document.scene().camera, delta, pivotMm()), true);
+    return m_camera.mapping(m_document.scene().camera);
 }
 
 void ProjectionView::turnAroundPatient(double degrees) {
@@ -472,85 +340,10 @@ void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {
     moveCamera(turnedTo(m_document.scene().camera, orientation, pivotMm()), false);
 }
 
-void ProjectionView::windowBy(const QPoint &delta) {
-    scene::Scene scene = m_document.scene();
-    const picture::ToneRange &automatic = m_tone.range();
-    const scene::Tone shown = shownTone();
-    const double low = *shown.low, high = *shown.high;
-    const double perPixel = (automatic.high - automatic.low) / 300.0;
-    const double center = 0.5 * (low + high) - delta.y() * perPixel;
-    const double width = std::max(high - low + delta.x() * perPixel, 2.0 * perPixel);
-    scene.tone.low = center - 0.5 * width;
-    scene.tone.high = center + 0.5 * width;
-    m_document.undoStack()->push(new EditScene(m_document, scene, tr("Projection window"), m_drag));
-}
-
-void ProjectionView::zoomBy(double factor) {
-    m_zoom = std::clamp(m_zoom * factor, 0.2, 20.0);
-    fitCamera();
-    requestFrame(true);
-}
-
-void ProjectionView::wheelEvent(QWheelEvent *event) {
-    if (event->angleDelta().y() != 0)
-        zoomBy(event->angleDelta().y() > 0 ? 1.15 : 1.0 / 1.15);
-    event->accept();
-}
-
-bool ProjectionView::event(QEvent *event) {
-    // The keypad belongs to the views here, not to the window presets of the same digits.
-    if (event->type() == QEvent::ShortcutOverride &&
-        (static_cast<QKeyEvent *>(event)->modifiers() & Qt::KeypadModifier) != 0) {
-        event->accept();
-        return true;
-    }
-    return QWidget::event(event);
-}
-
-void ProjectionView::keyPressEvent(QKeyEvent *event) {
-    using scene::StandardView;
-    const bool keypad = (event->modifiers() & Qt::KeypadModifier) != 0;
-    const bool shift = (event->modifiers() & Qt::ShiftModifier) != 0;
-    // With Shift, or without Num Lock, keypad digits arrive as the keys printed below them.
-    if (keypad && (event->key() == Qt::Key_1 || event->key() == Qt::Key_End))
-        showStandardView(shift ? StandardView::back : StandardView::front);
-    else if (keypad && (event->key() == Qt::Key_3 || event->key() == Qt::Key_PageDown))
-        showStandardView(shift ? StandardView::right : StandardView::left);
-    else if (keypad && (event->key() == Qt::Key_7 || event->key() == Qt::Key_Home))
-        showStandardView(shift ? StandardView::bottom : StandardView::top);
-    else if ((keypad && (event->key() == Qt::Key_0 || event->key() == Qt::Key_Insert)) ||
-             event->key() == Qt::Key_R)
-        resetView();
-    else if (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right)
-        orbit({event->key() == Qt::Key_Left ? -11 : 11, 0}); // about five degrees
-    else if (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down)
-        orbit({0, event->key() == Qt::Key_Up ? -11 : 11});
-    else if (event->key() == Qt::Key_Escape && m_measure.isBusy())
-        m_measure.cancel();
-    else
-        QWidget::keyPressEvent(event);
-}
-
 void ProjectionView::showTexts() {
     ProjectionOverlay::Texts texts{m_lookName, m_message, {}};
-    if (m_frame) {
-        // The error is that of the picture, which may still be the former engine's. It is not
-        // computed while the view moves.
-        const QString error = m_frameError ? errorText(*m_frameError)
-                              : m_pending  ? QString()
-                                           : tr("error not known yet");
-        const QString quality =
-            m_planState == PlanState::cancelled   ? tr("cancelled: F5 prepares it")
-            : m_planState == PlanState::failed    ? tr("not prepared: F5 tries again")
-            : m_frameStage == EngineStage::coarse ? withError(tr("coarse"), error)
-            : m_frameStage == EngineStage::live   ? withError(tr("live"), error)
-            : m_planState == PlanState::underway  ? tr("error not known yet")
-                                                  : error;
-        texts.figures = QString("%1  %2  %3")
-                            .arg(m_frame->onCard ? "GPU" : "CPU")
-                            .arg(millisecondsText(m_frame->times.totalMs()))
-                            .arg(m_frame->draft ? tr("draft") : quality);
-    }
+    if (m_frame)
+        texts.figures = figuresText({*m_frame, m_frameError, m_frameStage, m_planState, m_pending});
     m_overlay->setTexts(texts);
 }
 

@@ -10,15 +10,14 @@
 
 #include "core/picture/automatic_tone.h"
 #include "core/task/reason.h"
-#include "ui/document/commands.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/engine/render_worker.h"
 #include "ui/engine/shown_engine.h"
 #include "ui/views/look_comparison.h"
-#include "ui/views/measure_tool.h"
 #include "ui/views/overlay.h"
+#include "ui/views/projection_camera.h"
 #include "ui/views/projection_canvas.h"
-#include "ui/views/tools.h"
+#include "ui/views/tools/projection_tools.h"
 
 namespace pellucid::ui {
 
@@ -27,7 +26,7 @@ class ProjectionOverlay;
 
 /// The Fourier projection of the open volume: orbit, pan, zoom, window and level. Draws a draft
 /// while the mouse moves if a full frame would lag, and the full frame when it rests.
-class ProjectionView : public QWidget {
+class ProjectionView : public QWidget, private ProjectionPane {
     Q_OBJECT
 public:
     explicit ProjectionView(Document &document, QWidget *parent = nullptr);
@@ -50,7 +49,7 @@ public:
     /// about a place of that, *units*: as `pivotMm()`; this view's own pivot is there then.
     void adoptCamera(const scene::Camera &wanted, const std::optional<glm::dvec3> &pivotMm = {});
     /// What turning leaves where it is in the picture, from the middle of the volume.
-    glm::dvec3 pivotMm() const;
+    glm::dvec3 pivotMm() const { return m_camera.pivotMm(); }
     /// A job is over; whatever it should have delivered is there or will not come.
     void jobEnded();
     void jobStarted();
@@ -60,7 +59,7 @@ public:
     void setTool(Tool tool);
     /// Turning keeps the crosshair, or the middle of the volume, where it is in the picture.
     void setOrbitsCrosshair(bool isAboutCrosshair);
-    bool orbitsCrosshair() const { return m_orbitsCrosshair; }
+    bool orbitsCrosshair() const { return m_camera.orbitsCrosshair(); }
     /// While it is held: the look before the last edit beside the one of now.
     void setComparing(bool isComparing);
     bool isComparing() const { return m_isComparing; }
@@ -108,25 +107,30 @@ protected:
     bool event(QEvent *event) override;
 
 private:
-    void fitCamera();
+    void forgetVolume();
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
-    scene::Tone shownTone() const;
     void updateTone();
     void moveCamera(const scene::Camera &camera, bool moving);
-    void orbit(const QPoint &delta);
     void showComparison();
-    void windowBy(const QPoint &delta);
-    void zoomBy(double factor);
-    double fittingPixelMm() const;
     void showTexts();
     void showCursor();
-    PaneMapping mapping() const;
-    PaneMapping mapping(const scene::Camera &camera) const;
+
+    PaneMapping mapping() const override;
+    QSize paneSize() const override { return size(); }
+    double reachMm() const override { return 0.0; } // a picture has no depth
+    void panBy(const QPoint &delta) override;
+    void zoomBy(double factor) override;
+    bool showsPicture() const override { return m_frame != nullptr; }
+    bool canMove() const override { return m_prepared.has_value(); }
+    void orbitBy(const QPoint &delta) override;
+    const picture::ToneRange &automaticTone() const override { return m_tone.range(); }
+    scene::Tone shownTone() const override;
 
     Document &m_document;
     std::unique_ptr<ProjectionCanvas> m_canvas;
-    MeasureTool m_measure;
+    ProjectionCamera m_camera;
+    ProjectionTools m_tools;
     ProjectionOverlay *m_overlay;
     RenderWorker m_worker;
     LookComparison m_comparison;
@@ -141,16 +145,12 @@ private:
     picture::AutomaticTone m_tone;
     QString m_message, m_lookName;
     shading::Shading m_drawnShading; ///< of the last frame that was asked for
-    double m_predictedError = 0.0, m_fullFrameMs = 0.0, m_zoom = 1.0;
+    double m_predictedError = 0.0, m_fullFrameMs = 0.0;
     EngineStage m_stage = EngineStage::coarse;
     bool m_pending = false;
-    bool m_orbitsCrosshair = false, m_isComparing = false;
+    bool m_isComparing = false;
     PlanState m_planState = PlanState::holds;
     std::uint64_t m_requested = 0, m_generation = 0;
-    Tool m_tool = Tool::window;
-    Qt::MouseButton m_button = Qt::NoButton;
-    DragId m_drag = 0;
-    QPoint m_last;
 };
 
 } // namespace pellucid::ui

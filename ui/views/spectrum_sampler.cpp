@@ -22,9 +22,6 @@ SpectrumSampler::SpectrumSampler(Document &document, QObject *parent)
     m_pause.setSingleShot(true);
     m_pause.setInterval(pauseMs);
     connect(&m_pause, &QTimer::timeout, this, &SpectrumSampler::sampleNext);
-    connect(&m_jobs, &JobRunner::finished, this, &SpectrumSampler::sampleNext);
-    connect(&m_jobs, &JobRunner::failed, this,
-            [this](const task::Reason &reason) { emit cleared(reason); });
     connect(&document, &Document::cameraChanged, this, &SpectrumSampler::follow);
     connect(&document, &Document::volumeChanged, this, [this] {
         if (m_document.volume() && m_document.isPreview())
@@ -74,13 +71,23 @@ void SpectrumSampler::sampleNext() {
         return;
     m_isStale = false;
     m_pause.start();
-    m_jobs.start({}, [this, parts = *m_parts, camera = camera()](const Job &job) {
-        // On one thread: the others are the frames'.
-        render::SpectrumSlice slice;
-        tbb::task_arena alone(1);
-        alone.execute([&] { slice = render::spectrumSlice(parts, camera, side, job.progress()); });
-        job.deliver([this, slice] { emit sampled(slice); });
-    });
+    m_jobs.start(
+        {},
+        [this, parts = *m_parts, camera = camera()](const Job &job) {
+            // On one thread: the others are the frames'.
+            render::SpectrumSlice slice;
+            tbb::task_arena alone(1);
+            alone.execute(
+                [&] { slice = render::spectrumSlice(parts, camera, side, job.progress()); });
+            job.deliver([this, slice] { emit sampled(slice); });
+        },
+        [this](const Outcome &outcome) {
+            if (outcome.kind == Outcome::Kind::cancelled) // hidden, closed or destroyed
+                return;
+            if (outcome.kind == Outcome::Kind::failed)
+                emit cleared(*outcome.reason);
+            sampleNext();
+        });
 }
 
 } // namespace pellucid::ui

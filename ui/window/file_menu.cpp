@@ -154,8 +154,8 @@ void FileMenu::openScene() {
     attempt([&] {
         scene::Scene scene = readSceneFile(path);
         scene.plannedFor = {}; // the window plans for the volume, whatever a file says
-        Document &document = m_bench.document;
-        document.undoStack()->push(new EditScene(document, scene, tr("Open scene")));
+        editScene(m_bench.document, tr("Open scene"), noDrag,
+                  [&](scene::Scene &shown) { shown = scene; });
         m_panes.projection->adoptCamera(scene.camera);
     });
 }

@@ -30,16 +30,15 @@ LookMenu::LookMenu(QMenu &menu, Document &document, LookDocks &docks, Projection
     menu.addSeparator();
     addReconstructions(menu);
     m_film = add(menu, tr("&Film (inverted)"), "filmAction", QKeySequence("I"), [this] {
-        scene::Scene scene = m_document.scene();
-        scene.tone.inverted = !scene.tone.inverted;
-        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Film")));
+        editScene(m_document, tr("Film"), noDrag,
+                  [](scene::Scene &scene) { scene.tone.inverted = !scene.tone.inverted; });
     });
     m_film->setCheckable(true);
     add(menu, tr("&Automatic tone"), "automaticToneAction", {}, [this, &projection] {
-        scene::Scene scene = m_document.scene();
-        scene.tone.low.reset();
-        scene.tone.high.reset();
-        m_document.undoStack()->push(new EditScene(m_document, scene, tr("Automatic tone")));
+        editScene(m_document, tr("Automatic tone"), noDrag, [](scene::Scene &scene) {
+            scene.tone.low.reset();
+            scene.tone.high.reset();
+        });
         projection.retakeTone();
     });
     m_windowMenu = menu.addMenu(tr("&Window of the planes"));
@@ -74,11 +73,8 @@ void LookMenu::addReconstructions(QMenu &menu) {
     using scene::Reconstruction;
     const auto addOne = [&](const QString &text, const char *name, Reconstruction which) {
         QAction *action = add(*between, text, name, {}, [this, which] {
-            scene::Scene scene = m_document.scene();
-            if (scene.image.reconstruction == which)
-                return;
-            scene.image.reconstruction = which;
-            m_document.undoStack()->push(new EditScene(m_document, scene, tr("Reconstruction")));
+            editScene(m_document, tr("Reconstruction"), noDrag,
+                      [&](scene::Scene &scene) { scene.image.reconstruction = which; });
         });
         action->setCheckable(true);
         action->setActionGroup(m_reconstructions);

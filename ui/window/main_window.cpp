@@ -4,7 +4,6 @@
 #include <QAction>
 #include <QApplication>
 #include <QCloseEvent>
-#include <QComboBox>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QLabel>
@@ -15,9 +14,6 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTimer>
-#include <QToolBar>
-#include <QToolButton>
-#include <QUndoView>
 #include <QVBoxLayout>
 
 #include "core/system/log.h"
@@ -28,17 +24,14 @@
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/phase_bar.h"
 #include "ui/panels/presets_panel.h"
-#include "ui/panels/spectrum_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/study_panel.h"
 #include "ui/settings/shortcuts.h"
-#include "ui/theme/dock.h"
 #include "ui/theme/icons.h"
 #include "ui/theme/wheel_guard.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
-#include "ui/views/spectrum_sampler.h"
 #include "ui/window/application.h"
 #include "ui/window/file_menu.h"
 #include "ui/window/help_menu.h"
@@ -48,9 +41,10 @@
 #include "ui/window/preferences_dialog.h"
 #include "ui/window/projection_keys.h"
 #include "ui/window/reopening.h"
+#include "ui/window/study_docks.h"
+#include "ui/window/tool_bar.h"
 #include "ui/window/tools_menu.h"
 #include "ui/window/view_menu.h"
-#include "ui/window/window_chooser.h"
 
 namespace pellucid::ui {
 
@@ -64,10 +58,8 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
     qApp->installEventFilter(new WheelGuard(this));
     createPanes();
-    createStudyDock();
-    createMeasurementsDock();
-    createHistoryDock();
-    createSpectrumDock();
+    m_docks = new StudyDocks(*this, m_bench, m_theme);
+    connectStudyDocks();
     m_look = new LookDocks(*this, m_bench.document, m_bench.preparer, m_bench.copier, *m_projection,
                            m_theme);
     connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
@@ -76,39 +68,17 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     createViewMenu();
     auto *lookMenu =
         new LookMenu(*menuBar()->addMenu(tr("&Look")), m_bench.document, *m_look, *m_projection);
-    m_windowMenu = &lookMenu->windowMenu();
     m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_bench.document, m_mpr,
                             *m_projection, m_bench.phases);
     m_pair->setTool(m_tools->tool());
     connect(m_tools, &ToolsMenu::toolChosen, m_pair, &StudyPair::setTool);
     createHelpMenu();
     giveIcons(*this, m_theme);
-    createToolBar();
+    makeToolBar(*this, m_bench.document, m_theme, m_preferences.toolBar,
+                {*m_tools, m_view->layouts(), lookMenu->windowMenu()});
     createStatusBar();
     applyShortcuts(*this);
-    connect(&m_bench.document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
-    connect(&m_bench.copier, &CardCopier::engineReady, m_projection, &ProjectionView::setEngine);
-    connect(m_projection, &ProjectionView::cardFailed, &m_bench.card, &GraphicsCard::giveUp);
-    connect(&m_bench.card, &GraphicsCard::changed, this, [this] {
-        if (!m_bench.document.volume())
-            m_engine->setText(m_bench.card.description());
-    });
-    connect(&m_bench.preparer, &LookPreparer::planChanged, m_projection,
-            &ProjectionView::setPlanState);
-    connect(&m_bench.opener, &StudyOpener::cameraKept, this,
-            [this](const scene::Camera &kept) { m_projection->adoptCamera(kept); });
-    connect(&m_bench.opener, &StudyOpener::brightnessKept, m_projection,
-            &ProjectionView::adoptTone);
-    connect(&m_bench.opener, &StudyOpener::hugeFound, this,
-            [this](const QStringList &paths, const std::vector<dicom::Skipped> &huge) {
-                askForHuge(this, huge, [this, paths] {
-                    m_bench.opener.openPaths(paths, {}, {.takesHuge = true});
-                });
-            });
-    connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
-    connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
-            &ProjectionView::setMessage);
-    connect(&m_bench.document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
+    connectBench();
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
@@ -162,13 +132,38 @@ void MainWindow::createPanes() {
     setCentralWidget(m_stack);
 }
 
-void MainWindow::createStudyDock() {
-    m_studies = new StudyPanel(m_bench.document, m_bench.library, m_theme);
-    connect(m_studies, &StudyPanel::sourceActivated, &m_bench.opener, &StudyOpener::openSource);
-    connect(m_studies, &StudyPanel::closeRequested, &m_bench.opener, &StudyOpener::closeSource);
-    connect(m_studies, &StudyPanel::besideRequested, m_pair, &StudyPair::openBeside);
-    connect(m_studies, &StudyPanel::libraryVolumeActivated, m_reopening,
-            &Reopening::openFromLibrary);
+void MainWindow::connectBench() {
+    connect(&m_bench.document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
+    connect(&m_bench.copier, &CardCopier::engineReady, m_projection, &ProjectionView::setEngine);
+    connect(m_projection, &ProjectionView::cardFailed, &m_bench.card, &GraphicsCard::giveUp);
+    connect(&m_bench.card, &GraphicsCard::changed, this, [this] {
+        if (!m_bench.document.volume())
+            m_engine->setText(m_bench.card.description());
+    });
+    connect(&m_bench.preparer, &LookPreparer::planChanged, m_projection,
+            &ProjectionView::setPlanState);
+    connect(&m_bench.opener, &StudyOpener::cameraKept, this,
+            [this](const scene::Camera &kept) { m_projection->adoptCamera(kept); });
+    connect(&m_bench.opener, &StudyOpener::brightnessKept, m_projection,
+            &ProjectionView::adoptTone);
+    connect(&m_bench.opener, &StudyOpener::hugeFound, this,
+            [this](const QStringList &paths, const std::vector<dicom::Skipped> &huge) {
+                askForHuge(this, huge, [this, paths] {
+                    m_bench.opener.openPaths(paths, {}, {.takesHuge = true});
+                });
+            });
+    connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
+    connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
+            &ProjectionView::setMessage);
+    connect(&m_bench.document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
+}
+
+void MainWindow::connectStudyDocks() {
+    StudyPanel *studies = &m_docks->studies();
+    connect(studies, &StudyPanel::sourceActivated, &m_bench.opener, &StudyOpener::openSource);
+    connect(studies, &StudyPanel::closeRequested, &m_bench.opener, &StudyOpener::closeSource);
+    connect(studies, &StudyPanel::besideRequested, m_pair, &StudyPair::openBeside);
+    connect(studies, &StudyPanel::libraryVolumeActivated, m_reopening, &Reopening::openFromLibrary);
     connect(&m_bench.library, &StudyLibrary::failed, this, &MainWindow::report);
     connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
         m_bench.document.addProblems(result.skipped);
@@ -178,43 +173,9 @@ void MainWindow::createStudyDock() {
                                      .arg(result.skipped.size()),
                                  8000);
     });
-    QDockWidget *dock = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
-    m_studies->setMinimumWidth(250);
-    addDockWidget(Qt::LeftDockWidgetArea, dock);
-}
-
-void MainWindow::createMeasurementsDock() {
-    m_measurements = new MeasurementsPanel(m_bench.document);
-    connect(m_measurements, &MeasurementsPanel::viewRequested, m_projection,
+    connect(&m_docks->measurements(), &MeasurementsPanel::viewRequested, m_projection,
             &ProjectionView::lookAlong);
     connect(&m_bench.measurements, &MeasurementStore::failed, this, &MainWindow::report);
-    auto *dock =
-        makeDock(tr("MEASUREMENTS"), "measurementsDock", m_measurements, m_measurements->corner());
-    addDockWidget(Qt::LeftDockWidgetArea, dock);
-    resizeDocks({findChild<QDockWidget *>("studyDock"), dock}, {700, 180}, Qt::Vertical);
-}
-
-void MainWindow::createHistoryDock() {
-    auto *history = new QUndoView(m_bench.document.undoStack());
-    history->setObjectName("historyView");
-    history->setAccessibleName(tr("History of edits"));
-    history->setToolTip(tr("A click goes back to how it was after that edit"));
-    history->setEmptyLabel(tr("As it was opened"));
-    QDockWidget *dock = makeDock(tr("HISTORY"), "historyDock", history, nullptr);
-    addDockWidget(Qt::LeftDockWidgetArea, dock);
-    dock->hide();
-}
-
-void MainWindow::createSpectrumDock() {
-    auto *sampler = new SpectrumSampler(m_bench.document, this);
-    auto *panel = new SpectrumPanel(m_theme);
-    connect(&m_bench.copier, &CardCopier::engineReady, sampler, &SpectrumSampler::setEngine);
-    connect(sampler, &SpectrumSampler::sampled, panel, &SpectrumPanel::showSlice);
-    connect(sampler, &SpectrumSampler::cleared, panel, &SpectrumPanel::clear);
-    connect(panel, &SpectrumPanel::visibilityChanged, sampler, &SpectrumSampler::setActive);
-    QDockWidget *dock = makeDock(tr("SPECTRUM"), "spectrumDock", panel, nullptr);
-    addDockWidget(Qt::LeftDockWidgetArea, dock);
-    dock->hide();
 }
 
 QAction *MainWindow::command(QMenu &menu, const QString &text, const char *name,
@@ -234,9 +195,9 @@ void MainWindow::createFileMenu() {
     connect(m_file, &FileMenu::quitRequested, this, &QWidget::close);
     connect(m_file, &FileMenu::recentForgotten, m_reopening, &Reopening::forgetAll);
     connect(m_file, &FileMenu::preferencesRequested, this, [this] { openPreferences(); });
-    connect(m_measurements, &MeasurementsPanel::exportRequested, m_file,
+    connect(&m_docks->measurements(), &MeasurementsPanel::exportRequested, m_file,
             &FileMenu::exportMeasurements);
-    connect(m_studies, &StudyPanel::importRequested, m_file, &FileMenu::importPaths);
+    connect(&m_docks->studies(), &StudyPanel::importRequested, m_file, &FileMenu::importPaths);
     connect(m_start, &StartPage::openFilesRequested, m_file, &FileMenu::chooseFiles);
     connect(m_start, &StartPage::openFolderRequested, m_file, &FileMenu::chooseFolder);
 }
@@ -264,19 +225,19 @@ void MainWindow::createEditMenu() {
     menu->addActions({undo, redo});
     menu->addSeparator();
     command(*menu, tr("&Find a study"), "findStudyAction", QKeySequence::Find, [this] {
-        findChild<QDockWidget *>("studyDock")->show();
-        m_studies->focusSearch();
+        m_docks->study().show();
+        m_docks->studies().focusSearch();
     });
     menu->addSeparator();
     command(*menu, tr("&Delete measurement"), "deleteMeasurementAction", QKeySequence::Delete,
-            [this] { m_measurements->removeSelected(); });
+            [this] { m_docks->measurements().removeSelected(); });
 }
 
 void MainWindow::createViewMenu() {
     m_view = new ViewMenu(*menuBar()->addMenu(tr("&View")), *this,
                           {m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
-    m_view->addPane(*findChild<QDockWidget *>("spectrumDock")->toggleViewAction(), tr("Spectr&um"),
-                    "spectrumAction", QKeySequence("Shift+S"));
+    m_view->addPane(*m_docks->spectrum().toggleViewAction(), tr("Spectr&um"), "spectrumAction",
+                    QKeySequence("Shift+S"));
     connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
     connect(m_view, &ViewMenu::linkRequested, m_pair, &StudyPair::toggleLink);
     connect(m_view, &ViewMenu::closeBesideRequested, m_pair, &StudyPair::closeBeside);
@@ -288,50 +249,11 @@ void MainWindow::createViewMenu() {
 
 void MainWindow::createHelpMenu() {
     QMenu *window = menuBar()->addMenu(tr("W&indow"));
-    for (const char *dock : {"studyDock", "measurementsDock", "historyDock"})
-        window->addAction(findChild<QDockWidget *>(dock)->toggleViewAction());
+    for (QDockWidget *dock : m_docks->listed())
+        window->addAction(dock->toggleViewAction());
     for (QDockWidget *dock : m_look->docks())
         window->addAction(dock->toggleViewAction());
     addHelpMenu(*menuBar()->addMenu(tr("&Help")), *this);
-}
-
-void MainWindow::createToolBar() {
-    QToolBar *bar = addToolBar(tr("Tools"));
-    bar->setObjectName("toolBar");
-    bar->setMovable(false);
-    bar->setIconSize({20, 20});
-    bar->setToolButtonStyle(m_preferences.toolBar == ToolBarStyle::icons ? Qt::ToolButtonIconOnly
-                            : m_preferences.toolBar == ToolBarStyle::words
-                                ? Qt::ToolButtonTextOnly
-                                : Qt::ToolButtonTextBesideIcon);
-    bar->addAction(findChild<QAction *>("openFilesAction"));
-    bar->addAction(findChild<QAction *>("importAction"));
-    bar->addSeparator();
-    m_tools->addTo(*bar);
-    bar->addSeparator();
-    bar->addActions(m_view->layouts());
-    bar->addSeparator();
-    bar->addAction(findChild<QAction *>("savePictureAction"));
-    bar->addAction(findChild<QAction *>("exportPictureAction"));
-    auto *space = new QWidget;
-    space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-    bar->addWidget(space);
-    auto *windowBox = new QComboBox;
-    windowBox->setObjectName("windowBox");
-    windowBox->setAccessibleName(tr("Window of the planes"));
-    windowBox->setToolTip(tr("Window of the planes: width / center (keys 0 to 5)"));
-    windowBox->setMinimumWidth(64); // on a screen of 960 points, too
-    windowBox->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    windowBox->setMinimumContentsLength(22);
-    windowBox->setMaximumWidth(260);
-    bar->addWidget(windowBox);
-    new WindowChooser(m_bench.document, *m_windowMenu, *windowBox);
-    // What does not fit is behind an arrow, which Qt draws in the colours of its own style.
-    if (auto *more = bar->findChild<QToolButton *>("qt_toolbar_ext_button")) {
-        more->setIcon(themedIcon("down", m_theme));
-        more->setToolTip(tr("More"));
-        more->setAccessibleName(tr("More"));
-    }
 }
 
 void MainWindow::createStatusBar() {
@@ -345,12 +267,7 @@ void MainWindow::createStatusBar() {
     statusBar()->addWidget(new JobStrip(m_bench.jobs, "job"));
     statusBar()->addPermanentWidget(m_engine);
     connect(&m_bench.jobs, &JobRunner::started, m_projection, &ProjectionView::jobStarted);
-    connect(&m_bench.jobs, &JobRunner::finished, this, [this] {
-        m_projection->jobEnded();
-        // A load that was cancelled leaves nothing selected.
-        if (!m_bench.document.volume())
-            m_bench.document.setCurrentSource(-1);
-    });
+    connect(&m_bench.jobs, &JobRunner::finished, m_projection, &ProjectionView::jobEnded);
     connect(&m_bench.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
     connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
         if (text != m_engine->text())
@@ -404,10 +321,7 @@ void MainWindow::report(const task::Reason &what, const QString &path) {
 
 void MainWindow::reportLoad(const task::Reason &what, const QString &path) {
     report(what, path);
-    // The window stays usable: what was open stays, or the start page is there again.
-    if (!m_bench.document.volume())
-        m_bench.document.setCurrentSource(-1);
-    else
+    if (m_bench.document.volume())
         m_projection->setMessage(translated(what));
 }
 

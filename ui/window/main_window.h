@@ -18,15 +18,14 @@ namespace pellucid::ui {
 
 class FileMenu;
 class LookDocks;
-class MeasurementsPanel;
 class MprView;
 class PaneArea;
 class PreferencesDialog;
 class ProjectionView;
 class Reopening;
 class StartPage;
+class StudyDocks;
 class StudyPair;
-class StudyPanel;
 class ToolsMenu;
 class ViewMenu;
 
@@ -66,15 +65,12 @@ protected:
 
 private:
     void createPanes();
-    void createStudyDock();
-    void createMeasurementsDock();
-    void createHistoryDock();
-    void createSpectrumDock();
+    void connectStudyDocks();
+    void connectBench();
     void createFileMenu();
     void createEditMenu();
     void createViewMenu();
     void createHelpMenu();
-    void createToolBar();
     void createStatusBar();
     void showVolumeState();
     void compareLooks(bool isComparing);
@@ -97,11 +93,9 @@ private:
     StartPage *m_start = nullptr;
     Reopening *m_reopening = nullptr;
     QStackedWidget *m_stack = nullptr;
-    StudyPanel *m_studies = nullptr;
-    MeasurementsPanel *m_measurements = nullptr;
+    StudyDocks *m_docks = nullptr;
     ToolsMenu *m_tools = nullptr;
     ViewMenu *m_view = nullptr;
-    QMenu *m_windowMenu = nullptr;
     QLabel *m_readout = nullptr, *m_engine = nullptr;
 };
 

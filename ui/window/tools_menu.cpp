@@ -40,10 +40,8 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
     addInterpolation(menu);
     m_wholeVolume = addCommand(menu, tr("S&how the whole volume"), "wholeVolumeAction",
                                QKeySequence("Shift+K"), this, [this] {
-                                   scene::Scene scene = m_document.scene();
-                                   scene.crop = {};
-                                   m_document.undoStack()->push(
-                                       new EditScene(m_document, scene, tr("Whole volume")));
+                                   editScene(m_document, tr("Whole volume"), noDrag,
+                                             [](scene::Scene &scene) { scene.crop = {}; });
                                });
     connect(&document, &Document::sceneChanged, this, &ToolsMenu::showCut);
     m_straighten = addCommand(menu, tr("S&traighten the planes"), "straightenAction",

@@ -6,7 +6,7 @@
 #include <QObject>
 
 #include "core/mpr/reslice.h"
-#include "ui/views/tools.h"
+#include "ui/views/tools/tool.h"
 
 class QAction;
 class QActionGroup;

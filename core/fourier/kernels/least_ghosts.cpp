@@ -23,6 +23,73 @@ Real dot(const Vector &a, const Vector &b) {
     return sum;
 }
 
+constexpr int positions = 32; ///< of samples, from the wrap voxel to the edge of the field
+
+// The shares of the energy by position, half of them spread evenly. *Shape*: `energy` as of
+// `makeKernel`, or empty.
+Vector energyByPosition(std::span<const double> energy) {
+    Vector e(positions, 1 / Real(positions));
+    if (energy.empty())
+        return e;
+    Real total = 0;
+    Vector spread(positions, 0);
+    for (std::size_t n = 0; n < energy.size(); ++n) {
+        spread[n * positions / energy.size()] += energy[n];
+        total += energy[n];
+    }
+    for (int i = 0; i < positions && total > 0; ++i)
+        e[i] = (e[i] + spread[i] / total) / 2;
+    return e;
+}
+
+// What the pieces of a basis make of a sample at a position x.
+struct Responses {
+    Vector direct;               ///< b_0
+    std::vector<Vector> ghosts;  ///< b_m, and what they add up to for a frequency on the grid
+    std::vector<Vector> squares; ///< sum_m b_m b_m^T, its upper half
+};
+
+Responses responsesAt(Real x, int width, const PiecewiseBasis &kernel) {
+    constexpr int farthest = 5;
+    const std::size_t count = kernel.count();
+    Responses r{kernel.transforms(x), {}, std::vector<Vector>(count, Vector(count, 0))};
+    for (int m = -farthest; m <= farthest; ++m)
+        if (m != 0)
+            r.ghosts.push_back(kernel.transforms(x + m));
+    for (const Real c : width % 2 == 0 ? std::vector<Real>{-0.5} : std::vector<Real>{-0.5, 0}) {
+        auto [real, imaginary] = kernel.transformsAt(c, x);
+        for (std::size_t p = 0; p < count; ++p)
+            real[p] -= r.direct[p];
+        r.ghosts.push_back(std::move(real));
+        r.ghosts.push_back(std::move(imaginary));
+    }
+    for (const Vector &b : r.ghosts)
+        for (std::size_t p = 0; p < count; ++p)
+            for (std::size_t q = p; q < count; ++q)
+                r.squares[p][q] += b[p] * b[q];
+    return r;
+}
+
+// The coefficients a for h and g by position.
+Vector solved(const std::vector<Responses> &responses, const Vector &energy, const Vector &h,
+              const Vector &g) {
+    const std::size_t count = responses.front().direct.size();
+    std::vector<Vector> matrix(count, Vector(count, 0));
+    Vector right(count, 0);
+    for (int i = 0; i < positions; ++i) {
+        const Responses &r = responses[i];
+        const Real weight = energy[i] / (h[i] * h[i]);
+        for (std::size_t p = 0; p < count; ++p) {
+            for (std::size_t q = p; q < count; ++q)
+                matrix[p][q] += weight * r.squares[p][q];
+            right[p] += weight * g[i] / h[i] * r.direct[p];
+        }
+    }
+    for (std::size_t p = 0; p < count; ++p)
+        matrix[p][p] += Real(1e-19); // far below the ghosts of any width
+    return solveSymmetric(std::move(matrix), std::move(right));
+}
+
 // What is minimised is J(a) = sum_x e(x) g(x) / h(x)^2 with h = b_0.a and g the sum of the squares
 // of b_m.a over the ghosts m, and of what they add up to for a frequency on the grid. There, in
 // views along an axis, they are in phase: the kernel of width 4 that only spared them one by one
@@ -31,70 +98,30 @@ Real dot(const Vector &a, const Vector &b) {
 // which a few rounds of solving for a with g and h of the round before reach.
 Vector leastGhostCoefficients(int width, const PiecewiseBasis &kernel, double padding,
                               std::span<const double> energy) {
-    constexpr int positions = 32, farthest = 5, rounds = 16;
+    constexpr int rounds = 16;
     constexpr Real settled = 1e-8; // of coefficients up to 1: the ghosts change by its square
-    const std::size_t count = kernel.count();
-    Vector e(positions, 1 / Real(positions));
-    if (!energy.empty()) {
-        Real total = 0;
-        Vector spread(positions, 0);
-        for (std::size_t n = 0; n < energy.size(); ++n) {
-            spread[n * positions / energy.size()] += energy[n];
-            total += energy[n];
-        }
-        for (int i = 0; i < positions && total > 0; ++i)
-            e[i] = (e[i] + spread[i] / total) / 2;
-    }
-    std::vector<Vector> direct(positions);
-    std::vector<std::vector<Vector>> ghosts(positions);
-    std::vector<std::vector<Vector>> squares(positions,
-                                             std::vector<Vector>(count, Vector(count, 0)));
+    const Vector e = energyByPosition(energy);
+    std::vector<Responses> responses(positions);
     tbb::parallel_for(0, positions, [&](int i) {
         const Real x = (i + Real(0.5)) / positions / (2 * Real(padding));
-        direct[i] = kernel.transforms(x);
-        for (int m = -farthest; m <= farthest; ++m)
-            if (m != 0)
-                ghosts[i].push_back(kernel.transforms(x + m));
-        for (const Real c : width % 2 == 0 ? std::vector<Real>{-0.5} : std::vector<Real>{-0.5, 0}) {
-            auto [real, imaginary] = kernel.transformsAt(c, x);
-            for (std::size_t p = 0; p < count; ++p)
-                real[p] -= direct[i][p];
-            ghosts[i].push_back(std::move(real));
-            ghosts[i].push_back(std::move(imaginary));
-        }
-        for (const Vector &b : ghosts[i])
-            for (std::size_t p = 0; p < count; ++p)
-                for (std::size_t q = p; q < count; ++q)
-                    squares[i][p][q] += b[p] * b[q];
+        responses[i] = responsesAt(x, width, kernel);
     });
-    Vector a(count, 0), h(positions, 1), g(positions, 1);
+    Vector a(kernel.count(), 0), h(positions, 1), g(positions, 1);
     const Vector middle = kernel.transforms(0);
     for (int round = 0; round < rounds; ++round) {
-        std::vector<Vector> matrix(count, Vector(count, 0));
-        Vector right(count, 0);
-        for (int i = 0; i < positions; ++i) {
-            const Real weight = e[i] / (h[i] * h[i]);
-            for (std::size_t p = 0; p < count; ++p) {
-                for (std::size_t q = p; q < count; ++q)
-                    matrix[p][q] += weight * squares[i][p][q];
-                right[p] += weight * g[i] / h[i] * direct[i][p];
-            }
-        }
-        for (std::size_t p = 0; p < count; ++p)
-            matrix[p][p] += Real(1e-19); // far below the ghosts of any width
-        const Vector before = std::exchange(a, solveSymmetric(std::move(matrix), std::move(right)));
+        const Vector before = std::exchange(a, solved(responses, e, h, g));
         const Real scale = 1 / dot(a, middle);
         for (Real &value : a)
             value *= scale;
         Real change = 0;
-        for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t p = 0; p < a.size(); ++p)
             change = std::max(change, std::abs(a[p] - before[p]));
         if (change < settled)
             break;
         for (int i = 0; i < positions; ++i) {
-            h[i] = dot(a, direct[i]);
+            h[i] = dot(a, responses[i].direct);
             g[i] = 0;
-            for (const Vector &b : ghosts[i]) {
+            for (const Vector &b : responses[i].ghosts) {
                 const Real ghost = dot(a, b);
                 g[i] += ghost * ghost;
             }

@@ -69,45 +69,71 @@ volume::Volume smallHead() {
 }
 
 using Write = std::function<void(const fs::path &folder)>;
+using Turn = std::function<void(SeriesKnobs &)>;
 
-std::map<std::string, Write> habits() {
-    std::map<std::string, Write> all;
-    const auto add = [&](const std::string &name, const std::function<void(SeriesKnobs &)> &turn,
-                         const Form &form = Form()) {
-        all[name] = [turn, form](const fs::path &folder) {
+// How a series of each habit is written, by the habit's name.
+class HabitList {
+public:
+    void add(const std::string &name, const Turn &turn, const Form &form = Form()) {
+        writers[name] = [turn, form](const fs::path &folder) {
             SeriesKnobs knobs;
             turn(knobs);
             test::writeSeries(folder, knobs, form);
         };
-    };
-    add("each slice its own frame of reference", [](auto &k) { k.ownFrames = true; });
-    add("each slice its own frame of reference, but two that share one", [](auto &k) {
+    }
+    // A series in a transfer syntax, and what is done to its files then.
+    void addCoded(const std::string &name, dicom::TransferSyntax syntax,
+                  const std::function<void(const fs::path &)> &then) {
+        writers[name] = [syntax, then](const fs::path &folder) {
+            dicom::writeCtSeries(folder, smallHead(), {}, syntax);
+            then(folder);
+        };
+    }
+
+    std::map<std::string, Write> writers;
+};
+
+// Identifiers that say less, or something else, than they should.
+void addIdentifiers(HabitList &all) {
+    all.add("each slice its own frame of reference", [](auto &k) { k.ownFrames = true; });
+    all.add("each slice its own frame of reference, but two that share one", [](auto &k) {
         k.slices = 20;
         k.change = [](DicomWriter &w, int slice) {
             w.put({0x0020, 0x0052}, "UI", "1.2.3." + std::to_string(std::max(1, slice)));
         };
     });
-    add("each slice its own study", [](auto &k) { k.ownStudies = true; });
-    add("one instance UID in all slices", [](auto &k) { k.slices = 93, k.oneInstance = true; });
-    all["an Enhanced file and its slices under one instance UID"] = [](const fs::path &folder) {
-        SeriesKnobs knobs;
-        knobs.slices = 7;
-        knobs.oneInstance = true;
-        test::writeSeries(folder, knobs);
-        enhanced(knobs).write(folder / "enhanced.dcm");
-    };
-    add("positions with one decimal",
-        [](auto &k) { k.slices = 114, k.stepMm = 1.25, k.positionDigit = 0.1; });
-    add("positions with one decimal, a slice missing",
-        [](auto &k) { k.slices = 114, k.stepMm = 1.25, k.positionDigit = 0.1, k.missing = {50}; });
-    add("two slices missing side by side", [](auto &k) { k.slices = 30, k.missing = {11, 12}; });
-    add("axes jitter by 1e-4", [](auto &k) { k.axisJitterRad = 1e-4; });
-    add("axes jitter by 1e-3", [](auto &k) { k.slices = 30, k.axisJitterRad = 1e-3; });
-    add("pixel spacings 3.2000 and 3.2002", [](auto &k) {
+    all.add("each slice its own study", [](auto &k) { k.ownStudies = true; });
+    all.add("one instance UID in all slices", [](auto &k) { k.slices = 93, k.oneInstance = true; });
+    all.writers["an Enhanced file and its slices under one instance UID"] =
+        [](const fs::path &folder) {
+            SeriesKnobs knobs;
+            knobs.slices = 7;
+            knobs.oneInstance = true;
+            test::writeSeries(folder, knobs);
+            enhanced(knobs).write(folder / "enhanced.dcm");
+        };
+}
+
+// Positions, axes and spacings that are rounded, jitter or are missing.
+void addGeometry(HabitList &all) {
+    all.add("positions with one decimal",
+            [](auto &k) { k.slices = 114, k.stepMm = 1.25, k.positionDigit = 0.1; });
+    all.add("positions with one decimal, a slice missing", [](auto &k) {
+        k.slices = 114, k.stepMm = 1.25, k.positionDigit = 0.1, k.missing = {50};
+    });
+    all.add("two slices missing side by side", [](auto &k) {
+        k.slices = 30, k.missing = {11, 12};
+    });
+    all.add("axes jitter by 1e-4", [](auto &k) { k.axisJitterRad = 1e-4; });
+    all.add("axes jitter by 1e-3", [](auto &k) { k.slices = 30, k.axisJitterRad = 1e-3; });
+    all.add("pixel spacings 3.2000 and 3.2002", [](auto &k) {
         k.pixelMm = {3.2, 3.2}, k.pixelJitter = 6e-5;
     });
-    add("a Siemens mosaic", [](auto &k) { k = mosaicKnobs(); });
-    add("a Siemens mosaic that counts its images in 0019,100A", [](auto &k) {
+}
+
+void addMosaics(HabitList &all) {
+    all.add("a Siemens mosaic", [](auto &k) { k = mosaicKnobs(); });
+    all.add("a Siemens mosaic that counts its images in 0019,100A", [](auto &k) {
         k = mosaicKnobs();
         k.change = [old = k.change](DicomWriter &w, int n) {
             old(w, n);
@@ -116,85 +142,96 @@ std::map<std::string, Write> habits() {
             w.putShort({0x0019, 0x100A}, 11);
         };
     });
-    add("a Siemens mosaic that counts nothing", [](auto &k) {
+    all.add("a Siemens mosaic that counts nothing", [](auto &k) {
         k = mosaicKnobs();
         k.change = [old = k.change](DicomWriter &w, int n) {
             old(w, n);
             w.remove({0x0029, 0x1010});
         };
     });
-    const auto fragments = [](const std::function<std::string(const std::string &)> &code) {
-        return [code](SeriesKnobs &k) {
-            k.change = [code](DicomWriter &w, int) {
-                w.putFragments({code(w.text(DicomWriter::pixelData))});
-                w.remove(DicomWriter::pixelData);
-            };
+}
+
+// Pixels in one fragment that is coded by a function.
+Turn fragments(const std::function<std::string(const std::string &)> &code) {
+    return [code](SeriesKnobs &k) {
+        k.change = [code](DicomWriter &w, int) {
+            w.putFragments({code(w.text(DicomWriter::pixelData))});
+            w.remove(DicomWriter::pixelData);
         };
     };
+}
+
+void addFragments(HabitList &all) {
     const auto xl = [](int bits) {
         return [bits](const std::string &pixels) { return jpegXl(pixels, 8, 10, bits); };
     };
-    add("JPEG XL", fragments(xl(16)), {.syntax = "1.2.840.10008.1.2.4.110"});
-    add("JPEG XL of 12 bits",
-        [=](SeriesKnobs &k) {
-            fragments(xl(12))(k);
-            k.change = [old = k.change](DicomWriter &w, int n) {
-                old(w, n);
-                w.putShort({0x0028, 0x0101}, 12);
-                w.putShort({0x0028, 0x0102}, 11);
-                w.putShort({0x0028, 0x0103}, 0);
-            };
-        },
-        {.syntax = "1.2.840.10008.1.2.4.112"});
-    add("JPEG XL that is cut off", fragments([=](const std::string &pixels) {
-            const std::string whole = xl(16)(pixels);
-            return whole.substr(0, whole.size() / 2);
-        }),
-        {.syntax = "1.2.840.10008.1.2.4.110"});
-    add("an unknown syntax", fragments(xl(16)), {.syntax = "1.2.840.10008.1.2.4.999"});
-    add("run lengths", fragments([](const auto &p) { return runLengths(p); }),
-        {.syntax = "1.2.840.10008.1.2.5"});
-    add("run lengths without an end", fragments([](const auto &p) { return runLengths(p); }),
-        {.syntax = "1.2.840.10008.1.2.5", .hasDelimiter = false});
-    add("run lengths of too few bytes", fragments([](const auto &p) { return runLengths(p, 3); }),
-        {.syntax = "1.2.840.10008.1.2.5"});
-    add("plain pixels under a compressed syntax", [](auto &) {},
-        {.syntax = "1.2.840.10008.1.2.4.90"});
-    add("implicit data labelled explicit", [](auto &) {}, {.isImplicit = true});
-    add("three samples of MONOCHROME2", [](auto &k) {
+    all.add("JPEG XL", fragments(xl(16)), {.syntax = "1.2.840.10008.1.2.4.110"});
+    all.add("JPEG XL of 12 bits",
+            [=](SeriesKnobs &k) {
+                fragments(xl(12))(k);
+                k.change = [old = k.change](DicomWriter &w, int n) {
+                    old(w, n);
+                    w.putShort({0x0028, 0x0101}, 12);
+                    w.putShort({0x0028, 0x0102}, 11);
+                    w.putShort({0x0028, 0x0103}, 0);
+                };
+            },
+            {.syntax = "1.2.840.10008.1.2.4.112"});
+    all.add("JPEG XL that is cut off", fragments([=](const std::string &pixels) {
+                const std::string whole = xl(16)(pixels);
+                return whole.substr(0, whole.size() / 2);
+            }),
+            {.syntax = "1.2.840.10008.1.2.4.110"});
+    all.add("an unknown syntax", fragments(xl(16)), {.syntax = "1.2.840.10008.1.2.4.999"});
+    all.add("run lengths", fragments([](const auto &p) { return runLengths(p); }),
+            {.syntax = "1.2.840.10008.1.2.5"});
+    all.add("run lengths without an end", fragments([](const auto &p) { return runLengths(p); }),
+            {.syntax = "1.2.840.10008.1.2.5", .hasDelimiter = false});
+    all.add("run lengths of too few bytes",
+            fragments([](const auto &p) { return runLengths(p, 3); }),
+            {.syntax = "1.2.840.10008.1.2.5"});
+}
+
+// What the header says of the pixels and is not so, or is no image of this program.
+void addHeaders(HabitList &all) {
+    all.add("plain pixels under a compressed syntax", [](auto &) {},
+            {.syntax = "1.2.840.10008.1.2.4.90"});
+    all.add("implicit data labelled explicit", [](auto &) {}, {.isImplicit = true});
+    all.add("three samples of MONOCHROME2", [](auto &k) {
         k.change = [](DicomWriter &w, int) { w.putShort({0x0028, 0x0002}, 3); };
     });
-    add("a label map", [](auto &k) {
+    all.add("a label map", [](auto &k) {
         k.change = [](DicomWriter &w, int) {
             w.put({0x0008, 0x0016}, "UI", std::string("1.2.840.10008.5.1.4.1.1.66.7"));
         };
     });
-    add("an image of 20000 columns", [](auto &k) { k.slices = 1, k.rows = 2, k.columns = 20000; });
-    all["a bare JPEG 2000 stream of defined length"] = [](const fs::path &folder) {
-        dicom::writeCtSeries(folder, smallHead(), {}, dicom::TransferSyntax::jpeg2000);
-        for (const auto &entry : fs::directory_iterator(folder)) {
-            // Take the only fragment out of its item.
-            std::string bytes = test::readText(entry.path());
-            const auto at = bytes.find(std::string("\xE0\x7F\x10\x00OB\0\0\xFF\xFF\xFF\xFF", 12));
-            ASSERT_NE(at, bytes.npos);
-            const auto begin = bytes.find("\xFF\x4F\xFF\x51", at);
-            const std::string stream = bytes.substr(begin, bytes.size() - 8 - begin);
-            bytes = bytes.substr(0, at + 8) + DicomWriter::number(std::uint32_t(stream.size())) +
-                    stream;
-            test::writeText(entry.path(), bytes);
-        }
-    };
-    const auto coded = [&](const std::string &name, dicom::TransferSyntax syntax,
-                           const std::function<void(const fs::path &)> &then) {
-        all[name] = [syntax, then](const fs::path &folder) {
-            dicom::writeCtSeries(folder, smallHead(), {}, syntax);
-            then(folder);
-        };
-    };
-    coded("lossless JPEG labelled baseline", dicom::TransferSyntax::jpegLossless,
-          [](const fs::path &folder) {
-              relabel(folder, "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.50");
-          });
+    all.add("an image of 20000 columns",
+            [](auto &k) { k.slices = 1, k.rows = 2, k.columns = 20000; });
+}
+
+// Takes the only fragment of each file out of its item.
+void unwrapFragments(const fs::path &folder) {
+    for (const auto &entry : fs::directory_iterator(folder)) {
+        std::string bytes = test::readText(entry.path());
+        const auto at = bytes.find(std::string("\xE0\x7F\x10\x00OB\0\0\xFF\xFF\xFF\xFF", 12));
+        ASSERT_NE(at, bytes.npos);
+        const auto begin = bytes.find("\xFF\x4F\xFF\x51", at);
+        const std::string stream = bytes.substr(begin, bytes.size() - 8 - begin);
+        bytes =
+            bytes.substr(0, at + 8) + DicomWriter::number(std::uint32_t(stream.size())) + stream;
+        test::writeText(entry.path(), bytes);
+    }
+}
+
+// Streams that contradict the header.
+void addContradictions(HabitList &all) {
+    using dicom::TransferSyntax;
+    all.addCoded("a bare JPEG 2000 stream of defined length", TransferSyntax::jpeg2000,
+                 unwrapFragments);
+    all.addCoded("lossless JPEG labelled baseline", TransferSyntax::jpegLossless,
+                 [](const fs::path &folder) {
+                     relabel(folder, "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.50");
+                 });
     const auto rows = [](int value) {
         return [value](const fs::path &folder) {
             relabel(folder, std::string("\x28\0\x10\0US\2\0\x1E\0", 10),
@@ -202,18 +239,28 @@ std::map<std::string, Write> habits() {
                         DicomWriter::number(std::uint16_t(value)));
         };
     };
-    coded("JPEG smaller than the header says", dicom::TransferSyntax::jpegLossless, rows(31));
-    coded("JPEG larger than the header says", dicom::TransferSyntax::jpegLossless, rows(29));
-    coded("JPEG-LS larger than the header says", dicom::TransferSyntax::jpegLs, rows(29));
-    coded("JPEG 2000 larger than the header says", dicom::TransferSyntax::jpeg2000, rows(29));
-    coded("lossless JPEG of more bits than BitsStored", dicom::TransferSyntax::jpegLossless,
-          [](const fs::path &folder) {
-              relabel(folder, std::string("\x28\0\1\1US\2\0\x10\0", 10),
-                      std::string("\x28\0\1\1US\2\0\x0A\0", 10));
-              relabel(folder, std::string("\x28\0\2\1US\2\0\x0F\0", 10),
-                      std::string("\x28\0\2\1US\2\0\x09\0", 10));
-          });
-    return all;
+    all.addCoded("JPEG smaller than the header says", TransferSyntax::jpegLossless, rows(31));
+    all.addCoded("JPEG larger than the header says", TransferSyntax::jpegLossless, rows(29));
+    all.addCoded("JPEG-LS larger than the header says", TransferSyntax::jpegLs, rows(29));
+    all.addCoded("JPEG 2000 larger than the header says", TransferSyntax::jpeg2000, rows(29));
+    all.addCoded("lossless JPEG of more bits than BitsStored", TransferSyntax::jpegLossless,
+                 [](const fs::path &folder) {
+                     relabel(folder, std::string("\x28\0\1\1US\2\0\x10\0", 10),
+                             std::string("\x28\0\1\1US\2\0\x0A\0", 10));
+                     relabel(folder, std::string("\x28\0\2\1US\2\0\x0F\0", 10),
+                             std::string("\x28\0\2\1US\2\0\x09\0", 10));
+                 });
+}
+
+std::map<std::string, Write> habits() {
+    HabitList all;
+    addIdentifiers(all);
+    addGeometry(all);
+    addMosaics(all);
+    addFragments(all);
+    addHeaders(all);
+    addContradictions(all);
+    return all.writers;
 }
 
 } // namespace

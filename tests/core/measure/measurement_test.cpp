@@ -142,11 +142,19 @@ TEST(Measurement, BadFilesAreRefusedWithAReason) {
     for (const char *text : {"", "[]", "{", R"({"schema": 3})", R"({"schema": "other"})"})
         EXPECT_NE(reason(text).find("is not a list of measurements"), std::string::npos) << text;
     EXPECT_EQ(reason(one("3")), "measurement 1: must be an object");
-    EXPECT_EQ(reason(one(R"({"kind": "volume"})")), "measurement 1: its kind is unknown");
+    EXPECT_EQ(reason(one(R"({"kind": "volume"})")),
+              "measurement 1: /kind: 'volume' is none of distance, angle, ellipse, rectangle, "
+              "projected distance");
+    EXPECT_EQ(reason(one(R"({"kind": "angle", "name": 3})")),
+              "measurement 1: /name: must be a text");
     EXPECT_EQ(reason(one(R"({"kind": "angle", "points_mm": [[0,0,0],[1,1,1]]})")),
               "measurement 1: it must have 3 points");
     EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1,1e300]]})")),
-              "measurement 1: a number is out of range");
+              "measurement 1: /points_mm/1/2: is out of range");
+    EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1]]})")),
+              "measurement 1: /points_mm/1: must be three numbers");
+    EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1,1]]})")),
+              "measurement 1: has no right");
     EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1,1]],
                              "right": [1,0,0], "up": [1,0,0]})")),
               "measurement 1: its directions are not at right angles");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "core/plan/energy_marginals.h"
+#include "core/plan/slab_products.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {

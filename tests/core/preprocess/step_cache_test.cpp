@@ -13,6 +13,7 @@ namespace pellucid {
 namespace {
 
 using classify::Region;
+using classify::StepKind;
 using classify::TissueClass;
 
 volume::Volume head() {
@@ -29,7 +30,8 @@ TissueClass bone(std::vector<classify::Step> steps) {
 
 TEST(StepCache, ComputesByContentOnce) {
     preprocess::StepCache cache(std::size_t(1) << 30);
-    const TissueClass smooth = bone({{"gaussian", {{"sigma_mm", 2.0}}}, {"largest", {}}});
+    const TissueClass smooth =
+        bone({{StepKind::gaussian, {{"sigma_mm", 2.0}}}, {StepKind::largestComponent, {}}});
     const auto first = cache.run(head(), smooth, {});
     EXPECT_EQ(cache.computedCount(), 2U);
     // The series is loaded again; the class differs in weight and colour only.
@@ -51,7 +53,9 @@ TEST(StepCache, ComputesByContentOnce) {
 TEST(StepCache, DropsWhatWasUsedLongestAgo) {
     const std::size_t one = std::size_t(40) * 40 * 24 * 4; // smoothed values are floats
     preprocess::StepCache cache(2 * one);
-    const auto with = [](double sigma) { return bone({{"gaussian", {{"sigma_mm", sigma}}}}); };
+    const auto with = [](double sigma) {
+        return bone({{StepKind::gaussian, {{"sigma_mm", sigma}}}});
+    };
     cache.run(head(), with(1.0), {});
     cache.run(head(), with(2.0), {});
     cache.run(head(), with(1.0), {});
@@ -68,7 +72,7 @@ TEST(StepCache, DropsWhatWasUsedLongestAgo) {
 TEST(StepCache, EdgesAreShownWithADensityOfOneWithinTheRange) {
     preprocess::StepCache cache(0);
     TissueClass edges{"edges", -600, 3000, 100};
-    edges.steps = {{"edges", {{"sigma_mm", 2.0}}}};
+    edges.steps = {{StepKind::edges, {{"sigma_mm", 2.0}}}};
     const auto volume = head();
     const auto samples = cache.run(volume, edges, {});
     EXPECT_EQ(samples.density, classify::DensityKind::one);
@@ -88,7 +92,7 @@ TEST(StepCache, EdgesAreShownWithADensityOfOneWithinTheRange) {
 TEST(StepCache, BinariseGivesNothingButZeroAndOne) {
     preprocess::StepCache cache(0);
     TissueClass dense{"dense", -1000, 4000, 0};
-    dense.steps = {{"binarise", {{"from", 200.0}}}};
+    dense.steps = {{StepKind::binarise, {{"from", 200.0}}}};
     const auto volume = head();
     const auto field = classify::classField(volume, {-900, 2000}, dense, &cache);
     int ones = 0;
@@ -104,10 +108,10 @@ TEST(StepCache, BinariseGivesNothingButZeroAndOne) {
 TEST(StepCache, OpeningKeepsTheSoftRimAndClosingFills) {
     preprocess::StepCache cache(0);
     const auto plain = classify::classField(head(), {-900, 2000}, bone({}), nullptr);
-    const auto opened = classify::classField(head(), {-900, 2000},
-                                             bone({{"opening", {{"radius_mm", 9.0}}}}), &cache);
-    const auto closed = classify::classField(head(), {-900, 2000},
-                                             bone({{"closing", {{"radius_mm", 12.0}}}}), &cache);
+    const auto opened = classify::classField(
+        head(), {-900, 2000}, bone({{StepKind::opening, {{"radius_mm", 9.0}}}}), &cache);
+    const auto closed = classify::classField(
+        head(), {-900, 2000}, bone({{StepKind::closing, {{"radius_mm", 12.0}}}}), &cache);
     int removed = 0, filled = 0;
     for (int n = 0; n < 40 * 40 * 24; ++n) {
         const volume::VoxelIndex at{n % 40, n / 40 % 40, n / 1600};
@@ -128,8 +132,9 @@ TEST(StepCache, StepsOfRegionsFollowEachOther) {
     const auto regions = [&](std::vector<classify::Step> steps) {
         return *cache.run(head(), bone(std::move(steps)), {}).regions;
     };
-    const classify::Step edges{"edges", {{"sigma_mm", 2.0}}}, largest{"largest", {}},
-        opening{"opening", {{"radius_mm", 9.0}}}, closing{"closing", {{"radius_mm", 12.0}}};
+    const classify::Step edges{StepKind::edges, {{"sigma_mm", 2.0}}},
+        largest{StepKind::largestComponent, {}}, opening{StepKind::opening, {{"radius_mm", 9.0}}},
+        closing{StepKind::closing, {{"radius_mm", 12.0}}};
     const auto count = [](const std::vector<Region> &r, Region what) {
         return std::count(r.begin(), r.end(), what);
     };
@@ -148,15 +153,21 @@ TEST(StepCache, StepsOfRegionsFollowEachOther) {
 }
 
 TEST(StepCache, RefusesWhatItDoesNotKnowAndWrongOrder) {
-    EXPECT_THROW(classify::validate(bone({{"sharpen", {}}})), task::Error);
-    EXPECT_THROW(classify::validate(bone({{"gaussian", {{"radius_mm", 1.0}}}})), task::Error);
-    EXPECT_THROW(classify::validate(bone({{"gaussian", {{"sigma_mm", 1e308}}}})), task::Error);
-    EXPECT_THROW(classify::validate(bone({{"diffusion", {{"iterations", 2.5}}}})), task::Error);
-    EXPECT_THROW(classify::validate(bone({{"largest", {}}, {"median", {}}})), task::Error);
-    EXPECT_THROW(classify::validate(bone({{"edges", {{"low", 90.0}}}})), task::Error);
-    EXPECT_THROW(classify::validate(bone(std::vector<classify::Step>(17, {"body", {}}))),
+    EXPECT_THROW(classify::stepKindNamed("sharpen"), task::Error);
+    EXPECT_THROW(classify::validate(bone({{StepKind::gaussian, {{"radius_mm", 1.0}}}})),
                  task::Error);
-    classify::validate(bone({{"median", {}}, {"edges", {{"low", 90.0}, {"high", 95.0}}}}));
+    EXPECT_THROW(classify::validate(bone({{StepKind::gaussian, {{"sigma_mm", 1e308}}}})),
+                 task::Error);
+    EXPECT_THROW(classify::validate(bone({{StepKind::diffusion, {{"iterations", 2.5}}}})),
+                 task::Error);
+    EXPECT_THROW(
+        classify::validate(bone({{StepKind::largestComponent, {}}, {StepKind::median, {}}})),
+        task::Error);
+    EXPECT_THROW(classify::validate(bone({{StepKind::edges, {{"low", 90.0}}}})), task::Error);
+    EXPECT_THROW(classify::validate(bone(std::vector<classify::Step>(17, {StepKind::body, {}}))),
+                 task::Error);
+    classify::validate(
+        bone({{StepKind::median, {}}, {StepKind::edges, {{"low", 90.0}, {"high", 95.0}}}}));
     for (const char *text : {"largest", "edges(high=80,sigma_mm=1.5)", "median(radius_mm=2)"})
         EXPECT_EQ(classify::stepText(classify::stepFromText(text)), text);
     for (const char *text : {"edges(", "edges(low)", "edges(low=x)", "blur", ""})

@@ -95,9 +95,15 @@ TEST(Preset, RefusesWithLineAndReason) {
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"\"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "[2000, -900]")).rfind("line 5: /window: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "[-1e308, 1e308]")),
-              "line 5: /window: is out of range");
+              "line 5: /window/0: is out of range");
+    EXPECT_EQ(reasonOf(with("[-900, 2000]", "[-900, \"x\"]")),
+              "line 5: /window/1: must be a number");
+    EXPECT_EQ(reasonOf(with("[-900, 2000]", "3")), "line 5: /window: must be two numbers");
+    EXPECT_EQ(reasonOf(with("\"#fff0d0\"", "7")), "line 13: /classes/0/color: must be a text");
+    EXPECT_EQ(reasonOf(with("\"#fff0d0\"", "\"red\"")),
+              "line 13: /classes/0/color: 'red' is not a colour #rrggbb");
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"   \"")).rfind("line 3: /name: ", 0), 0U);
-    EXPECT_EQ(reasonOf("[]").rfind("line 1: ", 0), 0U);
+    EXPECT_EQ(reasonOf("[]"), "line 1: must be an object");
     EXPECT_EQ(reasonOf("").rfind("line 1: ", 0), 0U);
     // Cut off anywhere, it is refused and names a line.
     const std::string text = full;

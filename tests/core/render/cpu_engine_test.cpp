@@ -5,6 +5,7 @@
 
 #include "core/phantom/ellipsoids.h"
 #include "core/phantom/phantom.h"
+#include "core/plan/render_plan.h"
 #include "core/reference/direct_sum.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/cpu_engine.h"

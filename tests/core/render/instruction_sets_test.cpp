@@ -6,6 +6,8 @@
 
 #include <hwy/targets.h>
 
+#include "core/plan/error_prediction.h"
+#include "core/plan/slab_products.h"
 #include "core/reference/shaded_field.h"
 #include "core/reference/wide_kernel.h"
 #include "core/render/cpu_engine.h"

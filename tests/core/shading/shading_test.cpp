@@ -132,6 +132,16 @@ TEST(Shading, GoesThroughJson) {
     EXPECT_EQ(shading::shadingFromJson("{}"), Shading());
 }
 
+TEST(Shading, NumbersAreReadAsTheyAreTyped) {
+    EXPECT_EQ(shading::lightFromText("0, +1, -.5:#ff0000: 0.5"),
+              (Light{{0.0, 1.0, -0.5}, {1.0, 0.0, 0.0}, 0.5}));
+    EXPECT_EQ(shading::cueFromText("curve:0, 2,+0.5"),
+              (shading::DepthCue{CueKind::curve, 1.0, {0.0, 2.0, 0.5}}));
+    for (const char *text : {"linear:", "linear:x", "linear:inf", "linear:nan", "linear:0.5 ",
+                             "linear:0,5", "curve:1,,2", "curve:1,2,"})
+        EXPECT_THROW(shading::cueFromText(text), task::Error) << text;
+}
+
 TEST(Shading, BadJsonIsRefusedWithItsPlace) {
     const auto refuse = [](const std::string &text, const std::string &reason) {
         try {
@@ -142,7 +152,7 @@ TEST(Shading, BadJsonIsRefusedWithItsPlace) {
             EXPECT_EQ(found.rfind(reason, 0), 0U) << found;
         }
     };
-    refuse("[]", ": must be an object");
+    refuse("[]", "must be an object");
     refuse(R"({"cue": "linear"})", "/cue: must be an object with a kind");
     refuse(R"({"cue": {"kind": "cubic"}})", "/cue/kind: 'cubic' is none of");
     refuse(R"({"cue": {"kind": "linear", "strength": 2}})", "/cue: the strength");
@@ -151,7 +161,8 @@ TEST(Shading, BadJsonIsRefusedWithItsPlace) {
     refuse(R"({"lights": {}})", "/lights: must be a list");
     refuse(R"({"lights": [{}]})", "/lights/0: must be an object with a direction");
     refuse(R"({"lights": [{"direction": [1, 2]}]})", "/lights/0/direction: must be three");
-    refuse(R"({"lights": [{"direction": [1, 2, 1e999]}]})", ": must be an object");
+    refuse(R"({"lights": [{"direction": [1, 2, 1e999]}]})", "must be an object");
+    refuse(R"({"lights": [{"direction": [1, 2, 1e31]}]})", "/lights/0/direction/2: is out of");
     refuse(R"({"lights": [{"direction": [0, 0, 0]}]})", "/lights/0: the direction");
     refuse(R"({"lights": [{"direction": [1, 0, 0], "color": "red"}]})", "/lights/0/color: ");
     refuse(R"({"lights": [{"direction": [1, 0, 0], "follows": "me"}]})", "/lights/0/follows: 'me'");

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "core/task/error.h"
 #include "core/task/progress.h"
 
 namespace pellucid {
@@ -25,12 +24,6 @@ TEST(Progress, StopsWhenAsked) {
     source.request_stop();
     EXPECT_THROW(progress.part(0, 1).report(0.2), task::Cancelled);
     EXPECT_THROW(progress.check(), task::Cancelled);
-}
-
-TEST(Error, NamesThePath) {
-    const task::Error error(task::ErrorCode::unusable, task::because::isEmpty, "/a/b");
-    EXPECT_STREQ(error.what(), "/a/b: is empty");
-    EXPECT_EQ(error.reason(), task::because::isEmpty);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/views/crop_tool.h"
+#include "ui/views/tools/crop_tool.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,8 @@ namespace {
 constexpr double reach = 7.0; // of the hand, logical pixels
 constexpr int outsideAlpha = 130;
 
-QPointF position(const PaneMapping &pane, const glm::dvec2 &pixel) {
-    return QPointF(pixel.x + 0.5, pixel.y + 0.5) / pane.pixelRatio;
+QPointF position(const PaneMapping &mapping, const glm::dvec2 &pixel) {
+    return QPointF(pixel.x + 0.5, pixel.y + 0.5) / mapping.pixelRatio;
 }
 
 QPointF inside(const QRect &area, const QPointF &p) {
@@ -49,16 +49,17 @@ const classify::CropBox &CropTool::shown() const {
     return m_dragged ? m_moved : m_document.scene().crop;
 }
 
-std::vector<mpr::BoxEdge> CropTool::outline(const PaneMapping &pane) const {
+std::vector<mpr::BoxEdge> CropTool::outline(const PaneMapping &mapping) const {
     const volume::Lattice &lattice = m_document.volume()->lattice();
-    return mpr::boxOutline(lattice, latticeBox(shown(), lattice.size()), pane.plane);
+    return mpr::boxOutline(lattice, latticeBox(shown(), lattice.size()), mapping.plane);
 }
 
-std::optional<mpr::BoxEdge> CropTool::edgeAt(const PaneMapping &pane, const QPointF &at) const {
+std::optional<mpr::BoxEdge> CropTool::edgeAt(const QPointF &at) const {
+    const PaneMapping mapping = m_pane.mapping();
     std::optional<mpr::BoxEdge> nearest;
     double least = reach;
-    for (const mpr::BoxEdge &edge : outline(pane)) {
-        const double d = distance(at, position(pane, edge.from), position(pane, edge.to));
+    for (const mpr::BoxEdge &edge : outline(mapping)) {
+        const double d = distance(at, position(mapping, edge.from), position(mapping, edge.to));
         if (edge.axis >= 0 && d < least) {
             least = d;
             nearest = edge;
@@ -67,8 +68,16 @@ std::optional<mpr::BoxEdge> CropTool::edgeAt(const PaneMapping &pane, const QPoi
     return nearest;
 }
 
-bool CropTool::press(const PaneMapping &pane, const QPointF &at) {
-    const auto edge = edgeAt(pane, at);
+std::optional<Qt::CursorShape> CropTool::gripCursor(const QPointF &at) const {
+    const auto edge = edgeAt(at);
+    if (!edge)
+        return std::nullopt;
+    const glm::dvec2 along = edge->to - edge->from;
+    return std::abs(along.x) > std::abs(along.y) ? Qt::SizeVerCursor : Qt::SizeHorCursor;
+}
+
+bool CropTool::press(const QPointF &at) {
+    const auto edge = edgeAt(at);
     if (!edge)
         return false;
     m_moved = m_document.scene().crop;
@@ -76,54 +85,43 @@ bool CropTool::press(const PaneMapping &pane, const QPointF &at) {
     return true;
 }
 
-void CropTool::move(const PaneMapping &pane, const QPointF &at) {
+bool CropTool::move(const HandMove &hand) {
+    if (!m_dragged)
+        return false;
     const volume::Lattice &lattice = m_document.volume()->lattice();
     const int axis = m_dragged->axis, count = lattice.size()[axis];
     // Faces lie between samples.
-    const double voxel = lattice.voxel(pane.patientAt(at)).v[axis];
+    const double voxel = lattice.voxel(m_pane.mapping().patientAt(hand.at)).v[axis];
     const double share = std::clamp(std::round(voxel + 0.5), 0.0, double(count)) / count;
     const double one = 1.0 / count;
     if (m_dragged->isHigh)
         m_moved.high[axis] = std::max(share, m_moved.low[axis] + one);
     else
         m_moved.low[axis] = std::min(share, m_moved.high[axis] - one);
+    return true;
 }
 
-void CropTool::release() {
+void CropTool::release(const QPointF & /*at*/) {
     if (!m_dragged)
         return;
     m_dragged.reset();
-    if (m_moved == m_document.scene().crop)
-        return;
-    scene::Scene scene = m_document.scene();
-    scene.crop = m_moved;
-    m_document.undoStack()->push(
-        new EditScene(m_document, scene, QCoreApplication::translate("CropTool", "Crop")));
+    editScene(m_document, QCoreApplication::translate("CropTool", "Crop"), noDrag,
+              [this](scene::Scene &scene) { scene.crop = m_moved; });
 }
 
-std::optional<Qt::CursorShape> CropTool::cursorAt(const PaneMapping &pane,
-                                                  const QPointF &at) const {
-    const auto edge = edgeAt(pane, at);
-    if (!edge)
-        return std::nullopt;
-    const glm::dvec2 along = edge->to - edge->from;
-    return std::abs(along.x) > std::abs(along.y) ? Qt::SizeVerCursor : Qt::SizeHorCursor;
-}
-
-void CropTool::paint(QPainter &painter, const PaneMapping &pane, const QRect &area, bool withLines,
-                     const OverlayColors &colors) const {
+void CropTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {
     const bool isWhole = shown().isWhole();
-    if (isWhole && !withLines)
+    if (marks == Marks::plain || (isWhole && marks != Marks::chosen))
         return;
-    const auto edges = outline(pane);
+    const auto edges = outline(surface.mapping);
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
     if (!isWhole) {
         QPainterPath outside;
-        outside.addRect(area);
+        outside.addRect(surface.area);
         QPolygonF inside;
         for (const mpr::BoxEdge &edge : edges)
-            inside << position(pane, edge.from);
+            inside << position(surface.mapping, edge.from);
         if (!inside.isEmpty()) {
             QPainterPath hole;
             hole.addPolygon(inside);
@@ -132,22 +130,28 @@ void CropTool::paint(QPainter &painter, const PaneMapping &pane, const QRect &ar
         }
         painter.fillPath(outside, QColor(0, 0, 0, outsideAlpha));
     }
+    paintSides(painter, surface, edges, marks);
+    painter.restore();
+}
+
+void CropTool::paintSides(QPainter &painter, const ToolSurface &surface,
+                          const std::vector<mpr::BoxEdge> &edges, Marks marks) const {
+    const bool canBeTaken = marks == Marks::chosen;
     for (const mpr::BoxEdge &edge : edges) {
         if (edge.axis < 0)
             continue;
         const bool isTaken =
             m_dragged && m_dragged->axis == edge.axis && m_dragged->isHigh == edge.isHigh;
-        painter.setPen(QPen(colors.accent, isTaken ? 2.5 : withLines ? 1.5 : 1.0));
+        painter.setPen(QPen(surface.colors.accent, isTaken ? 2.5 : canBeTaken ? 1.5 : 1.0));
         // Of a volume that fills the pane the sides lie on its border.
-        const QPointF from = inside(area, position(pane, edge.from)),
-                      to = inside(area, position(pane, edge.to));
+        const QPointF from = inside(surface.area, position(surface.mapping, edge.from)),
+                      to = inside(surface.area, position(surface.mapping, edge.to));
         painter.drawLine(from, to);
-        if (withLines) {
-            painter.setBrush(colors.accent);
+        if (canBeTaken) {
+            painter.setBrush(surface.colors.accent);
             painter.drawEllipse(0.5 * (from + to), 3.5, 3.5);
         }
     }
-    painter.restore();
 }
 
 } // namespace pellucid::ui

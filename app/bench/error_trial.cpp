@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/bench/error_trial.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "app/bench/trial_fields.h"
+#include "core/accuracy/view_error.h"
+#include "core/prepare/prepared_engine.h"
+#include "core/reference/shaded_field.h"
+#include "core/reference/wide_kernel.h"
+
+namespace pellucid::bench {
+
+namespace {
+
+// The view [U V W] with W along a direction, rolled about it.
+glm::dquat facing(const glm::dvec3 &w, double roll) {
+    const glm::dvec3 helper = std::abs(w.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(helper, w)), v = glm::cross(w, u);
+    const glm::dvec3 right = std::cos(roll) * u + std::sin(roll) * v;
+    return glm::quat_cast(glm::dmat3(right, glm::cross(w, right), w));
+}
+
+glm::dquat viewOf(Genes &genes, const volume::Lattice &lattice, const glm::dvec3 &along,
+                  std::string &name) {
+    const auto inPatient = [&](const glm::dvec3 &coordinates) {
+        glm::dvec3 sum(0.0);
+        for (int d = 0; d < 3; ++d)
+            sum += coordinates[d] * 0.5 * double(lattice.size()[d]) * lattice.step(d);
+        return glm::normalize(sum);
+    };
+    const auto ofSteps = [&](int a, int b, int c) {
+        return glm::normalize(double(a) * lattice.step(0) + double(b) * lattice.step(1) +
+                              double(c) * lattice.step(2));
+    };
+    constexpr std::array kindsOfView{
+        "any", "axis", "near an axis", "45 degrees", "along the shape", "near the shape"};
+    const int kind = genes.choice(int(kindsOfView.size()));
+    name = kindsOfView[std::size_t(kind)];
+    const int axis = genes.choice(3), sign = genes.choice(2) * 2 - 1;
+    const glm::dvec3 any = genes.direction();
+    const double near = std::pow(10.0, genes.between(-4.0, -0.7)),
+                 roll = genes.next() < 0.5 ? 0.0 : genes.between(0.0, 2.0 * std::numbers::pi);
+    glm::dvec3 w = any;
+    if (kind == 1 || kind == 2)
+        w = ofSteps(axis == 0, axis == 1, axis == 2);
+    else if (kind == 3)
+        w = ofSteps(axis != 0, axis != 1 ? (axis == 0 ? sign : 1) : 0, axis != 2 ? sign : 0);
+    else if (kind > 3)
+        w = inPatient(along);
+    if (kind == 2 || kind == 5)
+        w = glm::normalize(w + near * any);
+    return facing(w, roll);
+}
+
+// Crops the picture, off centre.
+void cropPicture(Genes &genes, scene::Camera &camera) {
+    const auto side = [&](int pixels) {
+        return std::max(8, 2 * int(0.5 * pixels * genes.between(0.3, 1.0)));
+    };
+    const int width = side(camera.width), height = side(camera.height);
+    camera.panMm = 0.5 * camera.pixelMm *
+                   glm::dvec2((camera.width - width) * genes.between(-0.7, 0.7),
+                              (camera.height - height) * genes.between(-0.7, 0.7));
+    camera.width = width;
+    camera.height = height;
+}
+
+shading::Shading shadingOf(Genes &genes) {
+    using shading::CueKind;
+    constexpr std::array cues{CueKind::linear, CueKind::sine, CueKind::curve};
+    shading::Shading result;
+    const bool isCued = genes.next() < 0.6, isLit = !isCued || genes.next() < 0.4;
+    if (isCued)
+        result.cue = {cues[std::size_t(genes.choice(int(cues.size())))],
+                      std::min(1.0, genes.between(0.1, 1.3)), // often in full
+                      {0.2, 1.0, 0.4}};
+    if (isLit) {
+        result.ambient = genes.between(0.1, 0.8);
+        result.lights.push_back({genes.direction()});
+        if (genes.next() < 0.3) {
+            result.lights.front().color = {1.0, 0.6, 0.2};
+            result.lights.push_back({genes.direction()});
+            result.lights.back().color = {0.1, 0.3, 1.0};
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+Trial trialOf(const Candidate &candidate, Asked asked) {
+    Genes genes(candidate.genes);
+    constexpr std::array<double, 4> tolerances{1e-2, 1.1e-3, 1e-4, 1e-5};
+    const auto kind = FieldKind(genes.choice(fieldKinds));
+    const double tolerance = tolerances[std::size_t(genes.choice(int(tolerances.size())))];
+    double zoom = genes.next() < 0.7 ? 1.0 : genes.between(0.5, 2.5);
+    if (kind == FieldKind::pattern) // so that the pattern's lines lie in the roll-off
+        zoom = genes.between(0.94, 1.0);
+    const volume::Lattice lattice = latticeOf(genes);
+    const Shape shape = shapeOf(kind, genes, lattice);
+    std::string view;
+    Trial trial;
+    trial.scene.camera = scene::defaultCamera(lattice);
+    trial.scene.camera.orientation = viewOf(genes, lattice, shape.along, view);
+    trial.scene.tolerance = tolerance;
+    const volume::GridSize size = lattice.size();
+    trial.field = classify::densityField(
+        volume::Volume(lattice, samplesOf(kind, shape, genes, size), volume::ValueUnit::none),
+        {0.0, 1.0});
+    // The zoom changes the pixel size; the picture still holds the whole field.
+    scene::Camera &camera = trial.scene.camera;
+    camera.pixelMm *= zoom;
+    camera.width = camera.height = 2 * int(std::ceil(0.5 * camera.width / zoom));
+    std::string more;
+    if (asked == Asked::anyPicture) {
+        if (genes.next() < 0.3) {
+            cropPicture(genes, camera);
+            more += ", cropped";
+        }
+        if (genes.next() < 0.4) {
+            trial.scene.shading = shadingOf(genes);
+            more += trial.scene.shading.isLit() ? ", lit" : ", with a cue";
+        }
+    }
+    trial.name =
+        fmt::format("{}, {}x{}x{}, {}{}, pixel {:.2f} mm, tolerance {:.2g}", fieldKindName(kind),
+                    size.i, size.j, size.k, view, more, camera.pixelMm, tolerance);
+    return trial;
+}
+
+Verdict judge(const Trial &trial) {
+    const scene::Scene &scene = trial.scene;
+    const classify::ShownFields fields{{trial.field}, {}};
+    const auto shaded = prepare::shadedFields(fields.channels, scene.shading,
+                                              shading::shadingScale(trial.field.values.lattice()));
+    const auto summaries = prepare::summarise(shaded, scene.shading.cue);
+    const auto plan = plan::planRender(scene, summaries, prepare::imagesOf(1, scene.shading));
+    const auto engine = prepare::makeEngine(shaded, {}, plan);
+    const auto image = engine->render(scene.camera, scene.image, scene.shading);
+    const auto truth =
+        scene.shading.isPlain()
+            ? reference::WideKernel(trial.field.values, trial.field.support)
+                  .image(scene.camera, scene.image)
+            : reference::shadedImage(fields, scene.shading, scene.camera, scene.image);
+    double difference = 0.0, energy = 0.0;
+    for (std::size_t n = 0; n < truth.size(); ++n) {
+        const double off = double(image.samples[n]) - truth[n];
+        difference += off * off;
+        energy += truth[n] * truth[n];
+    }
+    Verdict verdict{plan.predictedError, energy > 0.0 ? std::sqrt(difference / energy) : 0.0,
+                    accuracy::ViewErrorModel(plan, summaries)
+                        .errorOf(image, scene.camera, scene.image, engine->parts(), scene.shading)
+                        .relative,
+                    true};
+    verdict.keepsTolerance = plan.predictedError <= trial.scene.tolerance;
+    return verdict;
+}
+
+} // namespace pellucid::bench

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/look_options.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/input.h"
+#include "app/cli/scene_options.h"
+#include "core/presets/preset_library.h"
+#include "core/task/error.h"
+
+namespace pellucid::cli {
+
+namespace {
+
+namespace because = task::because;
+namespace fs = std::filesystem;
+using task::Error;
+using task::ErrorCode;
+
+std::vector<double> weightsFromText(const std::string &text) {
+    const auto count = std::size_t(std::count(text.begin(), text.end(), ',')) + 1;
+    return parseNumbers("--bezier", text, ',', count);
+}
+
+classify::TissueClass classFromText(const std::string &text) {
+    const auto equals = text.find('=');
+    const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
+    if (equals == std::string::npos)
+        throw Error(ErrorCode::usage,
+                    because::inWords("--class: '" + text + "' is not NAME=WEIGHT[:#rrggbb]"));
+    classify::TissueClass tissue = classNamed(text.substr(0, equals));
+    // Grey unless a colour is named: so is the picture then.
+    tissue.color = colon == std::string::npos ? classify::Color{}
+                                              : classify::colorFromText(text.substr(colon + 1));
+    tissue.weight =
+        parseNumbers("--class",
+                     text.substr(equals + 1, colon == std::string::npos ? std::string::npos
+                                                                        : colon - equals - 1),
+                     ',', 1)
+            .front();
+    return tissue;
+}
+
+} // namespace
+
+const classify::TissueClass &classNamed(const std::string &name) {
+    std::string names;
+    for (const classify::TissueClass &tissue : classify::standardClasses()) {
+        if (tissue.name == name)
+            return tissue;
+        names += (names.empty() ? "" : ", ") + tissue.name;
+    }
+    throw Error(ErrorCode::usage, because::inWords("--class: '" + name + "' is none of " + names));
+}
+
+std::optional<presets::Preset> presetFor(const SceneOptions &options) {
+    if (options.preset.empty())
+        return std::nullopt;
+    const fs::path path(options.preset);
+    if (path.extension() == ".json" || path.has_parent_path())
+        return presets::readPreset(path);
+    return presets::PresetLibrary::ofUser().get(options.preset).preset;
+}
+
+void changeLook(classify::Look &look, const SceneOptions &options) {
+    if (!options.bezier.empty()) {
+        look.transferFunction.weights = weightsFromText(options.bezier);
+        look.classes.clear();
+    }
+    if (!options.classes.empty())
+        look.classes.clear();
+    for (const std::string &text : options.classes)
+        look.classes.push_back(classFromText(text));
+    classify::validate(look);
+}
+
+classify::Look lookFor(const SceneOptions &options, const std::optional<presets::Preset> &preset) {
+    classify::Look look = preset ? preset->look : classify::Look();
+    changeLook(look, options);
+    return look;
+}
+
+shading::Shading shadingFor(const SceneOptions &o, const CLI::App &command,
+                            const std::optional<presets::Preset> &preset,
+                            const shading::Shading &former) {
+    shading::Shading shading = preset ? preset->shading : former;
+    const auto read = [](const char *option, const std::string &text, auto &&fromText) {
+        try {
+            return fromText(text);
+        } catch (const Error &error) {
+            throw Error(error.code(),
+                        because::inWords(std::string(option) + ": " + error.reason().english()));
+        }
+    };
+    if (command.count("--depth-cue") > 0)
+        shading.cue = read("--depth-cue", o.depthCue, shading::cueFromText);
+    if (command.count("--ambient") > 0)
+        shading.ambient = o.ambient;
+    if (!o.lights.empty())
+        shading.lights.clear();
+    for (const std::string &text : o.lights)
+        shading.lights.push_back(read("--light", text, shading::lightFromText));
+    if (shading.lights.size() > shading::mostLights)
+        throw Error(ErrorCode::usage, because::inWords(fmt::format("--light: more than {} lights",
+                                                                   shading::mostLights)));
+    return shading;
+}
+
+} // namespace pellucid::cli

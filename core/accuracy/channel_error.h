@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "core/accuracy/central_rounding.h"
+#include "core/accuracy/coarse_fields.h"
+#include "core/picture/projection_image.h"
+
+namespace pellucid::accuracy {
+
+/// A picture, and what it was rendered with.
+struct PictureContext {
+    const picture::ProjectionImage &picture;
+    const scene::Camera &camera;
+    const scene::ImageDefinition &image;
+    const shading::Shading &shading;
+    plan::SliceGrid grid;
+    CentralEnergies central; ///< of the picture
+};
+
+/// The weights of a field's mass and energy in a channel.
+struct FieldWeight {
+    double mass = 0.0, energy = 0.0;
+    bool isGradient = false;
+};
+
+/// The energies of one channel, and of its error. *Units*: of the picture squared, times mm^2.
+struct ChannelEnergies {
+    double image = 0.0, error = 0.0;
+    bool isWhole = true; ///< nothing of the fields lies beside the picture
+};
+
+/// Predicts the energy of the error in one channel of a picture: ghosts, rounding, tails of the
+/// roll-off, and what the moment kernels of a linear cue leave. *Shape*: one weight for each of the
+/// fields; `bound`: the plan's bound of the relative error.
+ChannelEnergies channelEnergies(const CoarseFields &fields, double bound,
+                                const PictureContext &context, int channel,
+                                std::span<const FieldWeight> weights);
+
+} // namespace pellucid::accuracy

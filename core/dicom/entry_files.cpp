@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/entry_files.h"
+
+#include <map>
+
+#include "core/dicom/group_series.h"
+
+namespace pellucid::dicom {
+
+std::vector<EntryFile> filesOf(const VolumeEntry &entry) {
+    std::vector<EntryFile> files;
+    std::map<std::filesystem::path, std::size_t> known;
+    for (std::size_t n = 0; n < entry.frames.size(); ++n) {
+        const std::filesystem::path &path = entry.frames[n].path;
+        const auto [it, isNew] = known.try_emplace(path, files.size());
+        if (isNew)
+            files.push_back({path, {}});
+        files[it->second].frames.push_back(n);
+    }
+    return files;
+}
+
+bool isStillThere(const FrameReference &meant, const decoder::InstanceHeader &found) {
+    return meant.frame < int(found.frames.size()) &&
+           meant.digest == digestOf(found.sopInstanceUid, found.frameOfReferenceUid, found.modality,
+                                    found.frames[std::size_t(meant.frame)]);
+}
+
+} // namespace pellucid::dicom

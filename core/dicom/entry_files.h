@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "core/decoder/instance.h"
+#include "core/dicom/catalogue.h"
+
+namespace pellucid::dicom {
+
+/// A file of a volume, and which of the volume's frames are in it.
+struct EntryFile {
+    std::filesystem::path path;
+    std::vector<std::size_t> frames; ///< indices of `VolumeEntry::frames`, ascending
+};
+
+/// The files of a volume, each once, in the order of their first frames.
+std::vector<EntryFile> filesOf(const VolumeEntry &entry);
+
+/// Whether a file that was read again still holds the frame that the scan found in it.
+bool isStillThere(const FrameReference &meant, const decoder::InstanceHeader &found);
+
+} // namespace pellucid::dicom

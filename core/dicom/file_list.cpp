@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/dicom/file_list.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/decoder/decoder.h"
+#include "core/decoder/unpack_archive.h"
+#include "core/system/text.h"
+#include "core/task/error.h"
+#include "core/volume/volume_file.h"
+
+namespace pellucid::dicom {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace because = task::because;
+using task::Error;
+using task::ErrorCode;
+
+// CDs are written in capitals and mounted in lower case: an entry matches whatever its case. Each
+// folder is read once.
+class CaselessFolders {
+public:
+    fs::path childOf(const fs::path &folder, const std::string &name) {
+        std::error_code ignored;
+        if (fs::exists(folder / name, ignored))
+            return folder / name;
+        const auto [names, isNew] = m_names.try_emplace(folder);
+        if (isNew)
+            for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+                 entry.increment(ignored))
+                names->second.try_emplace(system::lowered(entry->path().filename().string()),
+                                          entry->path());
+        const auto it = names->second.find(system::lowered(name));
+        return it == names->second.end() ? folder / name : it->second;
+    }
+
+private:
+    std::map<fs::path, std::map<std::string, fs::path>> m_names;
+};
+
+} // namespace
+
+fs::path resolved(const fs::path &path) {
+    std::error_code unknown;
+    const fs::path canonical = fs::weakly_canonical(path, unknown);
+    return unknown ? path : canonical;
+}
+
+FileList::FileList(const task::Progress &progress) : m_progress(progress) {}
+
+void FileList::add(const fs::path &path) {
+    if (path.empty())
+        throw Error(ErrorCode::unusable, because::emptyPath);
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status))
+        throw Error(ErrorCode::unusable,
+                    error && status.type() != fs::file_type::not_found ? task::systemReason(error)
+                                                                       : because::doesNotExist,
+                    path);
+    if (fs::is_directory(status))
+        addFolder(path);
+    else if (!fs::is_regular_file(status))
+        throw Error(ErrorCode::unusable, because::isNeitherFileNorFolder, path);
+    else if (decoder::isArchive(path))
+        addArchive(path);
+    else if (const auto directory = directoryAt(path); directory.isDirectory)
+        addDirectory(path, directory);
+    else
+        addFile(path);
+}
+
+void FileList::addFile(const fs::path &path) {
+    if (m_seen.insert(resolved(path)).second)
+        found.push_back(path);
+}
+
+void FileList::addArchive(const fs::path &path) {
+    auto folder = std::make_shared<files::SessionFolder>();
+    for (const auto &file :
+         decoder::unpackArchive(decoder::Decoder::ofProgram(), path, folder->path(), m_progress))
+        skipped.push_back({path / fs::path(file.name).relative_path(), file.reason});
+    addFolder(folder->path());
+    unpacked.push_back({std::move(folder), path});
+}
+
+// What is no DICOM file at all is said when it is read.
+decoder::DirectoryFile FileList::directoryAt(const fs::path &path) const {
+    return volume::isVolumeFile(path) ? decoder::DirectoryFile()
+                                      : decoder::Decoder::ofProgram().directory(path, m_progress);
+}
+
+void FileList::addDirectory(const fs::path &path, const decoder::DirectoryFile &directory) {
+    std::error_code unknown;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(path).parent_path(), unknown);
+    CaselessFolders folders;
+    for (const auto &parts : directory.files) {
+        m_progress.check();
+        fs::path listed = path.parent_path();
+        for (const std::string &part : parts) {
+            // A part must be a plain name: an index may not lead out of its own folder.
+            if (part == ".." || part.find_first_of(std::string_view("/\0", 2)) != part.npos)
+                throw Error(ErrorCode::unusable, because::listsAFileOutside, path);
+            listed = folders.childOf(listed, part);
+        }
+        std::error_code ignored;
+        if (!fs::is_regular_file(listed, ignored)) {
+            skipped.push_back({listed, because::isListedButMissing});
+            continue;
+        }
+        // A link leads elsewhere, too.
+        const fs::path meant =
+            fs::weakly_canonical(fs::absolute(listed), ignored).lexically_relative(folder);
+        if (meant.empty() || *meant.begin() == "..")
+            skipped.push_back({listed, because::listsAFileOutside});
+        else
+            addFile(listed);
+    }
+}
+
+void FileList::addFolder(const fs::path &folder) {
+    std::error_code error;
+    fs::directory_iterator top(folder, error);
+    if (error)
+        throw Error(ErrorCode::unusable, task::systemReason(error), folder);
+    std::vector<fs::path> pending{folder}, below;
+    while (!pending.empty()) {
+        m_progress.check();
+        const fs::path current = pending.back();
+        pending.pop_back();
+        fs::directory_iterator entries(current, error);
+        if (error) {
+            skipped.push_back({current, task::systemReason(error)});
+            continue;
+        }
+        for (; entries != fs::directory_iterator(); entries.increment(error)) {
+            const fs::directory_entry &entry = *entries;
+            std::error_code ignored;
+            const bool link = entry.is_symlink(ignored);
+            if (entry.is_directory(ignored)) {
+                if (link)
+                    skipped.push_back({entry.path(), because::linksToAFolder});
+                else
+                    pending.push_back(entry.path());
+            } else if (entry.is_regular_file(ignored)) {
+                below.push_back(entry.path());
+            } else {
+                skipped.push_back(
+                    {entry.path(), link ? because::isABrokenLink : because::isNotARegularFile});
+            }
+        }
+        if (error) // a share or a CD that fails half way
+            skipped.push_back({current, task::systemReason(error)});
+    }
+    std::sort(below.begin(), below.end());
+    for (const fs::path &path : below)
+        addFile(path);
+}
+
+} // namespace pellucid::dicom

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "core/decoder/instance.h"
+#include "core/dicom/catalogue.h"
+#include "core/task/progress.h"
+
+namespace pellucid::dicom {
+
+/// The same for every path to a file, as far as the system tells.
+std::filesystem::path resolved(const std::filesystem::path &path);
+
+/// The files that paths lead to, each once: files, those of folders, those that a DICOMDIR lists,
+/// and those of archives, which are unpacked.
+class FileList {
+public:
+    /// *Requires*: `progress` outlives the list.
+    explicit FileList(const task::Progress &progress);
+
+    /// *Throws* Error{unusable} if the path does not exist, cannot be read or is refused,
+    /// Error{output} if an archive cannot be unpacked; Cancelled.
+    void add(const std::filesystem::path &path);
+
+    std::vector<std::filesystem::path> found;
+    std::vector<Skipped> skipped; ///< what was found on the way and is not used
+    std::vector<Unpacked> unpacked;
+
+private:
+    void addFile(const std::filesystem::path &path);
+    void addArchive(const std::filesystem::path &path);
+    void addDirectory(const std::filesystem::path &path, const decoder::DirectoryFile &directory);
+    void addFolder(const std::filesystem::path &folder);
+    decoder::DirectoryFile directoryAt(const std::filesystem::path &path) const;
+
+    const task::Progress &m_progress;
+    std::set<std::filesystem::path> m_seen;
+};
+
+} // namespace pellucid::dicom

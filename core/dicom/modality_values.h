@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/decoder/decoder.h"
+#include "core/volume/narrowing.h"
+
+namespace pellucid::dicom {
+
+// From the values that are stored in files to those of the modality, such as HU: by the rescale or
+// the modality table of each file. A volume's samples are of type T, int16 or float.
+
+/// Marks samples that have no value: padding, and slices that have not arrived.
+template <class T> constexpr T missingValue() {
+    return std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN()
+                                                 : std::numeric_limits<T>::lowest();
+}
+
+/// Whether the values of a file are likely to fit int16 without loss. HU hardly ever use all of the
+/// 16 bits that their header announces, so they are tried.
+bool fitsShort(const decoder::InstanceHeader &header, volume::ValueUnit unit);
+
+/// Writes the values of one frame; padding becomes `missingValue`. False if a value does not fit T,
+/// and `out` is written in part. *Shape*: out: rows x columns.
+template <class T>
+bool writeValues(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit, T *out,
+                 volume::Narrowing &narrowing);
+
+/// Replaces missing values by the lowest of the others, or by 0 if there are none.
+template <class T> void fillMissing(std::vector<T> &samples);
+
+} // namespace pellucid::dicom

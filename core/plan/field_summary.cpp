@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/plan/field_summary.h"
+
+namespace pellucid::plan {
+
+FieldSummary summarise(const classify::DensityField &field) {
+    return summarise({&field, 1}).front();
+}
+
+std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields) {
+    volume::VoxelBox box = fields.front().support;
+    for (const classify::DensityField &field : fields)
+        box = volume::united(box, field.support);
+    std::vector<FieldSummary> summaries;
+    for (const classify::DensityField &field : fields)
+        summaries.push_back(
+            {field.values.lattice(), box, energyMarginals(field.values, box), {}, {}});
+    return summaries;
+}
+
+} // namespace pellucid::plan

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/classify/density_field.h"
+#include "core/plan/energy_marginals.h"
+#include "core/plan/slab_products.h"
+
+namespace pellucid::plan {
+
+/// What the planner needs to know of a field.
+struct FieldSummary {
+    volume::Lattice lattice;
+    volume::VoxelBox support;
+    EnergyMarginals energy;
+    /// For linear cues; without it the field is taken for noise.
+    std::optional<std::array<SlabProducts, 3>> slabs;
+    /// What the depth of a cue is measured by; the lattice's own radius if absent.
+    std::optional<double> depthRadiusMm;
+};
+
+/// The summary of a field in the box of its support.
+FieldSummary summarise(const classify::DensityField &field);
+/// Of fields on one lattice that share a plan: each in the box that holds all.
+std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields);
+
+} // namespace pellucid::plan

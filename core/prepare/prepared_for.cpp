@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/prepare/prepared_for.h"
+
+#include "core/classify/layers.h"
+#include "core/scene/planning_scene.h"
+
+namespace pellucid::prepare {
+
+PreparedFor::PreparedFor(const scene::Scene &scene)
+    : window(scene.fieldWindow), look(scene.look), crop(scene.crop), tolerance(scene.tolerance),
+      interpolation(scene.interpolation), image(scene.image),
+      cue(scene::plannedCue(scene.shading.cue)), isLit(scene.shading.isLit()) {}
+
+bool PreparedFor::hasLayersOf(const PreparedFor &other) const {
+    return window == other.window && crop == other.crop && tolerance == other.tolerance &&
+           interpolation == other.interpolation && image == other.image && cue == other.cue &&
+           isLit == other.isLit &&
+           classify::mixtureOf(look).layers == classify::mixtureOf(other.look).layers;
+}
+
+bool PreparedFor::showsSameAs(const PreparedFor &other) const {
+    return window == other.window && look == other.look && crop == other.crop &&
+           tolerance == other.tolerance && interpolation == other.interpolation;
+}
+
+} // namespace pellucid::prepare

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/render/frame_inputs.h"
+
+namespace pellucid::render {
+
+namespace {
+
+// The lights shine on what was prepared for them alone.
+shading::Shading activeShading(const shading::Shading &shading, const EngineSpectra &spectra) {
+    shading::Shading active = shading;
+    if (spectra.gradients.empty())
+        active.lights.clear();
+    return active;
+}
+
+} // namespace
+
+double FrameInputs::unit() const {
+    return geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
+}
+
+ChannelShares FrameInputs::tint() const {
+    return !mixing.grey && mixing.channels == 1 ? mixing.color : ChannelShares{1.0, 1.0, 1.0};
+}
+
+FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
+                                  const std::vector<ChannelShares> &shares,
+                                  const scene::Camera &camera, const scene::ImageDefinition &image,
+                                  const shading::Shading &shading) {
+    const fourier::Spectrum &spectrum = *spectra.fields.front();
+    const glm::dmat3 axes = camera.axes();
+    const shading::Shading active = activeShading(shading, spectra);
+    const shading::SliceShading slices = shading::sliceShading(active, axes, spectra.scale);
+    FrameInputs inputs{.mixing = Mixing(spectra, shares, slices, active.isGrey())};
+    if (inputs.isEmpty())
+        return inputs;
+    inputs.grid = m_framed.gridFor(camera, m_room, spectrum.lattice(), image);
+    inputs.geometry = FrameGeometry(camera, inputs.grid, spectrum);
+    inputs.shading = frameShading(slices, inputs.mixing, spectrum, inputs.geometry.toWrap, axes[2],
+                                  spectra.scale.stepMm);
+    inputs.isShaded = !slices.isPlain();
+    if (inputs.shading.cued) {
+        if (!m_moments)
+            m_moments.emplace(momentKernels(spectrum.layout()));
+        inputs.shading.kernels = &*m_moments;
+    }
+    inputs.zero = zeroSums(inputs.mixing, inputs.shading, spectrum.layout());
+    return inputs;
+}
+
+} // namespace pellucid::render

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/render/grid_tables.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace pellucid::render {
+
+using fourier::stripLanes;
+
+std::vector<std::complex<double>> rotations(int count, double turns) {
+    std::vector<std::complex<double>> result(count);
+    const double angle = 2.0 * std::numbers::pi * (turns - std::floor(turns));
+    const double re = std::cos(angle), im = std::sin(angle);
+    // Turning step by step in double keeps 1e-13.
+    double x = 1.0, y = 0.0;
+    for (auto &r : result) {
+        r = {x, y};
+        const double next = x * re - y * im;
+        y = x * im + y * re;
+        x = next;
+    }
+    return result;
+}
+
+GridTables::GridTables(const plan::SliceGrid &size, double share)
+    : grid(size), rollOffShare(share), alongRows(size.rows), halfColumns(size.columns / 2) {
+    for (const auto &factor : rotations(size.columns / 2, 1.0 / size.columns))
+        untangle.emplace_back(factor);
+    const auto radius = [&](int column, int row) {
+        return std::hypot(2.0 * column / size.columns, 2.0 * row / size.rows);
+    };
+    // The Nyquist row and column lie on the edge of the disc, whose roll-off is 0.
+    for (int strip = 0; strip < stripsOf(size.columns / 2); ++strip) {
+        const int first = strip * stripLanes, last = first + stripLanes - 1;
+        StripBounds bounds;
+        while (bounds.outerRow + 1 < size.rows / 2 && radius(first, bounds.outerRow + 1) < 1.0)
+            ++bounds.outerRow;
+        while (bounds.innerRow < bounds.outerRow &&
+               radius(last, bounds.innerRow + 1) <= 1.0 - share)
+            ++bounds.innerRow;
+        bounds.rollOff = rollOff.size();
+        for (int row = bounds.innerRow + 1; row <= bounds.outerRow; ++row)
+            for (int column = first; column <= last; ++column)
+                rollOff.push_back(float(scene::rollOffFactor(share, radius(column, row))));
+        strips.push_back(bounds);
+    }
+}
+
+} // namespace pellucid::render

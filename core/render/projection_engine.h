@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/fourier/spectrum.h"
+#include "core/picture/projector.h"
+#include "core/plan/slice_grid.h"
+#include "core/shading/slice_shading.h"
+
+namespace pellucid::render {
+
+/// How much of red, green and blue a field has in a picture.
+using ChannelShares = std::array<double, 3>;
+
+/// Whether all channels are alike, hence one is enough.
+inline bool areGrey(std::span<const ChannelShares> shares) {
+    return std::all_of(shares.begin(), shares.end(), [](const ChannelShares &share) {
+        return share[0] == share[1] && share[1] == share[2];
+    });
+}
+
+/// The spectra that an engine slices, of one layout.
+struct EngineSpectra {
+    using Spectra = std::vector<std::shared_ptr<const fourier::Spectrum>>;
+    Spectra fields;
+    Spectra gradients; ///< of the |g| of each field, for light; or none
+    shading::ShadingScale scale;
+};
+
+/// What an engine makes its pictures of; another engine makes the same of it.
+struct EngineParts {
+    EngineSpectra spectra;
+    std::vector<ChannelShares> shares; ///< one each field
+    plan::SliceRoom room;
+};
+
+/// Makes projections of prepared fields by slicing their spectra. Engines are interchangeable:
+/// under the same plan they give the same image within a stated rounding bound.
+class ProjectionEngine : public picture::Projector {
+public:
+    virtual EngineParts parts() const = 0;
+};
+
+} // namespace pellucid::render

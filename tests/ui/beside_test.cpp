@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Two studies side by side: what moves along, and what is matched by hand.
+#include "tests/ui/studies_window.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QToolButton>
+
+#include "ui/beside/study_beside.h"
+
+namespace pellucid {
+
+using namespace test;
+
+class BesideTest : public StudiesWindow {
+    Q_OBJECT
+private slots:
+    void initTestCase() {
+        StudiesWindow::initTestCase();
+        writeChests();
+    }
+    // Each test has a library of its own.
+    void init() { restartWithoutLibrary(); }
+
+    // One after the other beside one study; what follows a step that fails is not tried.
+    void aPriorStandsBesideAndMovesAlong() {
+        using Step = void (BesideTest::*)();
+        for (const Step step :
+             {&BesideTest::openAPrior, &BesideTest::turnTheProjections,
+              &BesideTest::turnAboutTheCrosshairs, &BesideTest::movePlanesAndWindows,
+              &BesideTest::chooseALookAndALayout, &BesideTest::matchByHand,
+              &BesideTest::closeThePrior}) {
+            (this->*step)();
+            if (QTest::currentTestFailed())
+                return;
+        }
+    }
+
+private:
+    void openAPrior() {
+        open(headPath());
+        import(m_folder / "three", false);
+        const scene::Camera camera = now().scene().camera;
+        choose(volumeRow("Zhang Wei"), "openBesideAction");
+        settleBeside();
+        QVERIFY(find<QLabel>("studyHeading")->isVisible());
+        QVERIFY(find<QLabel>("besideName")->text().contains("Zhang Wei"));
+        QCOMPARE(now().scene().camera.orientation, camera.orientation); // the open one led
+        QCOMPARE(now().scene().camera.panMm, camera.panMm);
+    }
+
+    // From either side.
+    void turnTheProjections() {
+        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
+        QVERIFY(prior().scene().camera.orientation == now().scene().camera.orientation);
+        dragMouse(other(), Qt::LeftButton, other()->rect().center(), {-90, 0});
+        QVERIFY(prior().scene().camera.orientation == now().scene().camera.orientation);
+        QVERIFY(std::abs(prior().scene().camera.pixelMm - now().scene().camera.pixelMm) < 1e-9);
+    }
+
+    // Each about its own, which are at the same place of the pictures.
+    void turnAboutTheCrosshairs() {
+        find<QAction>("orbitCrosshairAction")->trigger();
+        auto *axial = find<QWidget>("axialView");
+        const QPoint to = axial->rect().center() + QPoint(40, 50);
+        QMouseEvent move(QEvent::MouseMove, to, axial->mapToGlobal(to), Qt::NoButton, {},
+                         Qt::ShiftModifier);
+        QCoreApplication::sendEvent(axial, &move);
+        for (QWidget *turned : {projection(), other()}) {
+            dragMouse(turned, Qt::LeftButton, turned->rect().center(), {50, -30});
+            const auto onPicture = [](ui::Document &document) {
+                const scene::Camera &view = document.scene().camera;
+                const glm::dvec3 at =
+                    document.crosshair().mm - document.volume()->lattice().center().mm;
+                return glm::dvec2(glm::dot(view.axes()[0], at), glm::dot(view.axes()[1], at)) -
+                       view.panMm;
+            };
+            QVERIFY(glm::length(onPicture(now())) > 10.0);
+            QVERIFY(glm::distance(onPicture(now()), onPicture(prior())) < 1e-6);
+        }
+        find<QAction>("orbitCrosshairAction")->trigger();
+    }
+
+    // The window of either is one step to undo.
+    void movePlanesAndWindows() {
+        const glm::dvec3 before = apart();
+        turnWheel(find<QWidget>("axialView"), 2);
+        QVERIFY(glm::distance(apart(), before) < 1e-6);
+        turnWheel(find<QWidget>("beside_axialView"), -1);
+        QVERIFY(glm::distance(apart(), before) < 1e-6);
+        QTest::keyClick(m_window.get(), Qt::Key_S);
+        QVERIFY(prior().cut() == now().cut());
+        const auto window = now().displayWindow();
+        dragMouse(find<QWidget>("beside_coronalView"), Qt::LeftButton, {60, 60}, {40, -20});
+        QVERIFY(!(now().displayWindow() == window));
+        QVERIFY(prior().displayWindow() == now().displayWindow());
+        find<QAction>("undoAction")->trigger();
+        QVERIFY(now().displayWindow() == window);
+        QVERIFY(prior().displayWindow() == window);
+    }
+
+    void chooseALookAndALayout() {
+        clickPreset(*m_window, "Bone");
+        settle();
+        QVERIFY(prior().scene().look == now().scene().look);
+        settleBeside();
+        save("beside");
+        QTest::mouseDClick(find<QWidget>("beside_axialView"), Qt::LeftButton, {}, {50, 80});
+        QVERIFY(find<QWidget>("axialView")->isVisible());
+        QVERIFY(!projection()->isVisible());
+        QTest::mouseDClick(find<QWidget>("axialView"), Qt::LeftButton, {}, {50, 80});
+        QVERIFY(other()->isVisible());
+    }
+
+    // Unlinked, moved, linked again.
+    void matchByHand() {
+        const glm::dvec3 before = apart();
+        QTest::mouseClick(find<QToolButton>("linkButton"), Qt::LeftButton);
+        QVERIFY(!find<QAction>("linkStudiesAction")->isChecked());
+        // The keypad turns the projection that has the keyboard.
+        const auto orientation = now().scene().camera.orientation;
+        QTest::keyClick(other(), Qt::Key_7, Qt::KeypadModifier);
+        QVERIFY(prior().scene().camera.orientation ==
+                scene::viewOrientation(scene::StandardView::top));
+        QVERIFY(now().scene().camera.orientation == orientation);
+        turnWheel(find<QWidget>("beside_axialView"), 1);
+        const glm::dvec3 matched = apart();
+        QVERIFY(glm::distance(matched, before) > 0.5);
+        find<QAction>("linkStudiesAction")->trigger();
+        turnWheel(find<QWidget>("axialView"), 1);
+        QVERIFY(glm::distance(apart(), matched) < 1e-6);
+    }
+
+    void closeThePrior() {
+        QTest::mouseClick(find<QToolButton>("closeBesideButton"), Qt::LeftButton);
+        QTRY_VERIFY(m_window->findChild<ui::StudyBeside *>("studyBeside") == nullptr);
+        QVERIFY(!find<QLabel>("studyHeading")->isVisible());
+        dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
+        settle();
+    }
+
+    ui::StudyBeside *beside() { return find<ui::StudyBeside>("studyBeside"); }
+    ui::ProjectionView *other() { return find<ui::ProjectionView>("beside_projectionView"); }
+    ui::Document &now() { return m_window->document(); }
+    ui::Document &prior() { return beside()->document(); }
+    // Of the crosshairs. *Units*: mm.
+    glm::dvec3 apart() { return prior().crosshair().mm - now().crosshair().mm; }
+    void settleBeside() {
+        QTRY_VERIFY_WITH_TIMEOUT(other()->showsFinalImage() && !beside()->jobs().isRunning(),
+                                 patienceMs);
+    }
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::BesideTest>(argc, argv);
+}
+
+#include "beside_test.moc"

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The starter of a job learns its end exactly once, however it ends.
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include <QSignalSpy>
+#include <QThread>
+#include <QtTest>
+
+#include "core/task/error.h"
+#include "ui/jobs/job_runner.h"
+
+namespace pellucid {
+
+namespace because = task::because;
+using ui::Job;
+using ui::JobRunner;
+using ui::Outcome;
+
+using Kind = Outcome::Kind;
+
+namespace {
+
+// Runs until it is asked to stop.
+void endless(const Job &job) {
+    for (;;) {
+        job.progress().check();
+        QThread::yieldCurrentThread();
+    }
+}
+
+} // namespace
+
+class JobRunnerTest : public QObject {
+    Q_OBJECT
+private slots:
+    void init() {
+        m_runner = std::make_unique<JobRunner>();
+        m_heard.clear();
+    }
+    void cleanup() { m_runner.reset(); }
+
+    void whatIsDoneIsDoneAfterAllWasDelivered() {
+        m_runner->start(
+            "job",
+            [this](const Job &job) { job.deliver([this] { m_heard.emplace_back("delivered"); }); },
+            listener("job"));
+        QVERIFY(m_runner->isRunning());
+        QTRY_VERIFY(!m_runner->isRunning());
+        QCOMPARE(m_heard, QStringList({"delivered", "job done"}));
+        staysSo();
+    }
+
+    void whatFailsSaysWhyAndWhereItWas() {
+        const QSignalSpy failed(m_runner.get(), &JobRunner::failed);
+        std::vector<Outcome> outcomes;
+        const auto listen = [&](const Outcome &outcome) { outcomes.push_back(outcome); };
+        m_runner->start(
+            "of a file",
+            [](const Job &) {
+                throw task::Error(task::ErrorCode::unusable, because::isEmpty, "/file");
+            },
+            listen, "/folder");
+        QTRY_COMPARE(outcomes.size(), std::size_t(1));
+        m_runner->start(
+            "of no file", [](const Job &) { throw std::bad_alloc(); }, listen, "/folder");
+        QTRY_COMPARE(outcomes.size(), std::size_t(2));
+        QVERIFY(outcomes[0].kind == Kind::failed && outcomes[1].kind == Kind::failed);
+        QVERIFY(outcomes[0].reason->is(because::isEmpty));
+        QCOMPARE(outcomes[0].path, QString("/file"));
+        QVERIFY(outcomes[1].reason->is(because::notEnoughMemory));
+        QCOMPARE(outcomes[1].path, QString("/folder"));
+        QCOMPARE(failed.size(), 2);
+    }
+
+    void whatIsCancelledIsToldAtOnceAndDeliversNoMore() {
+        m_runner->start(
+            "job",
+            [this](const Job &job) {
+                job.deliver([this] { m_heard.emplace_back("delivered"); });
+                endless(job);
+            },
+            listener("job"));
+        QTRY_COMPARE(m_heard, QStringList({"delivered"}));
+        m_runner->cancel();
+        QVERIFY(!m_runner->isRunning());
+        QCOMPARE(m_heard, QStringList({"delivered", "job cancelled"}));
+        m_runner->cancel();
+        staysSo();
+    }
+
+    void whatStopsByItselfIsCancelled() {
+        m_runner->start(
+            "job", [](const Job &) { throw task::Cancelled(); }, listener("job"));
+        QTRY_COMPARE(m_heard, QStringList({"job cancelled"}));
+    }
+
+    void whatIsReplacedIsCancelledBeforeTheNextStarts() {
+        connect(m_runner.get(), &JobRunner::started, this,
+                [this](const QString &title) { m_heard << title + " started"; });
+        m_runner->start("one", endless, listener("one"));
+        m_runner->start(
+            "two", [](const Job &) {}, listener("two"));
+        QTRY_VERIFY(!m_runner->isRunning());
+        QCOMPARE(m_heard, QStringList({"one started", "one cancelled", "two started", "two done"}));
+        staysSo();
+    }
+
+    // A job cannot slip in between the one that ends and the one that replaces it.
+    void whatStartsMeanwhileGivesWay() {
+        m_runner->start("one", endless, [this](const Outcome &) {
+            m_heard << (m_runner->isRunning() ? "running" : "idle");
+            m_runner->start("between", endless, listener("between"));
+        });
+        m_runner->start(
+            "two", [](const Job &) {}, listener("two"));
+        QCOMPARE(m_heard, QStringList({"running", "between cancelled"}));
+        QCOMPARE(m_runner->title(), QString("two"));
+        QTRY_COMPARE(m_heard, QStringList({"running", "between cancelled", "two done"}));
+    }
+
+    void anEndMayStartTheNext() {
+        const QSignalSpy finished(m_runner.get(), &JobRunner::finished);
+        m_runner->start(
+            "one", [](const Job &) {},
+            [&](const Outcome &) {
+                m_heard << (m_runner->isRunning() ? "running" : "idle");
+                QCOMPARE(finished.size(), 1); // those who show it heard of it before
+                m_runner->start(
+                    "two", [](const Job &) {}, listener("two"));
+            });
+        QTRY_COMPARE(m_heard, QStringList({"idle", "two done"}));
+        QCOMPARE(finished.size(), 2);
+    }
+
+    void whatIsCancelledAsItStartsIsNotBegun() {
+        connect(m_runner.get(), &JobRunner::started, m_runner.get(), &JobRunner::cancel);
+        std::atomic<bool> hasBegun = false;
+        m_runner->start(
+            "job", [&](const Job &) { hasBegun = true; }, listener("job"));
+        QCOMPARE(m_heard, QStringList({"job cancelled"}));
+        m_runner->join();
+        QVERIFY(!hasBegun);
+        staysSo();
+    }
+
+    void joiningEndsWhatRunsAndStartsNothing() {
+        m_runner->start("job", endless, [this](const Outcome &) {
+            m_heard << "ended";
+            m_runner->start("next", endless, listener("next"));
+        });
+        m_runner->join();
+        QCOMPARE(m_heard, QStringList({"ended", "next cancelled"}));
+        QVERIFY(!m_runner->isRunning());
+    }
+
+    void theEndOfTheRunnerIsThatOfItsJob() {
+        std::atomic<int> threads = 0;
+        m_runner->start(
+            "job",
+            [&](const Job &job) {
+                ++threads;
+                try {
+                    endless(job);
+                } catch (const task::Cancelled &) {
+                    --threads;
+                    throw;
+                }
+            },
+            listener("job"));
+        QTRY_COMPARE(threads.load(), 1);
+        bool isShown = false;
+        connect(m_runner.get(), &JobRunner::finished, this, [&] { isShown = true; });
+        m_runner.reset();
+        QCOMPARE(m_heard, QStringList({"job cancelled"}));
+        QCOMPARE(threads.load(), 0); // it was waited for
+        QVERIFY(!isShown);
+        staysSo();
+    }
+
+    void whoStartedItHearsOfTheEndWhateverSlotsThrow() {
+        connect(m_runner.get(), &JobRunner::finished, this, [] { throw std::bad_alloc(); });
+        m_runner->start("job", endless, listener("job"));
+        QVERIFY_EXCEPTION_THROWN(m_runner->cancel(), std::bad_alloc);
+        QCOMPARE(m_heard, QStringList({"job cancelled"}));
+        QVERIFY(!m_runner->isRunning());
+    }
+
+private:
+    JobRunner::OnEnd listener(const QString &name) {
+        return [this, name](const Outcome &outcome) {
+            QVERIFY(QThread::currentThread() == thread());
+            m_heard << name + (outcome.kind == Kind::done        ? " done"
+                               : outcome.kind == Kind::cancelled ? " cancelled"
+                                                                 : " failed");
+        };
+    }
+    // Nothing more is queued.
+    void staysSo() {
+        const QStringList heard = m_heard;
+        QCoreApplication::processEvents();
+        QCOMPARE(m_heard, heard);
+    }
+
+    std::unique_ptr<JobRunner> m_runner;
+    QStringList m_heard;
+};
+
+} // namespace pellucid
+
+QTEST_GUILESS_MAIN(pellucid::JobRunnerTest)
+
+#include "job_runner_test.moc"

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files that cannot be used, faults, too little memory: the program says so and goes on.
+#include "tests/ui/workstation.h"
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+#include <QListWidget>
+#include <QProcess>
+#include <QPushButton>
+
+#include "app/exit_code.h"
+#include "core/task/error.h"
+#include "tests/support/little_memory.h"
+#include "ui/document/commands.h"
+#include "ui/window/workstation.h"
+
+namespace pellucid {
+
+using namespace test;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Of the first signal.
+const task::Reason &reasonOf(const QSignalSpy &failures) {
+    return *static_cast<const task::Reason *>(failures[0][0].constData());
+}
+
+} // namespace
+
+class WorkstationFaultsTest : public Workstation {
+    Q_OBJECT
+private slots:
+    void init() {}
+
+    void problemsAreListedAndNothingPopsUp() {
+        restart();
+        const std::string file = (m_folder / "notes.txt").string();
+        std::ofstream(file) << "this is a letter to the patient and no image at all";
+        drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
+        auto *list = find<QListWidget>("problemList");
+        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && !m_window->jobs().isRunning(), patienceMs);
+        QVERIFY(list->item(0)->text().contains("not a DICOM file"));
+        QVERIFY(QApplication::activeModalWidget() == nullptr);
+        drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
+        QTRY_VERIFY_WITH_TIMEOUT(
+            list->count() == 2 && list->item(1)->text().contains("does not exist"), patienceMs);
+        QVERIFY(find<QWidget>("startPage")->isVisible());
+        // What was there is still there, once; until it has been read.
+        drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
+        QTRY_VERIFY(!m_window->jobs().isRunning());
+        QCOMPARE(list->count(), 2);
+        QTest::mouseClick(find<QPushButton>("clearProblemsButton"), Qt::LeftButton);
+        QVERIFY(!list->isVisible());
+    }
+
+    // A study that cannot be loaded gives way to the one that was shown.
+    void whatCannotBeLoadedLeavesWhatWasShown() {
+        restart();
+        open(headPath());
+        const auto shown = m_window->document().currentSource();
+        const QImage before = projection()->picture();
+        const std::string file = (m_folder / "damaged.nrrd").string();
+        std::ofstream(file) << "NRRD0004\ntype: short\ndimension: 3\nsizes: 9 9 9\n"
+                               "endian: little\nencoding: gzip\n\nno gzip stream at all";
+        drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
+        auto *list = find<QListWidget>("problemList");
+        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && m_window->document().volume() &&
+                                     m_window->document().currentSource() == shown,
+                                 patienceMs);
+        QVERIFY(list->item(0)->text().contains("damaged or truncated"));
+        settle();
+        QVERIFY(changed(before, projection()->picture()) < 0.001);
+    }
+
+    // Whatever is thrown, on whatever thread: it is said, and the next thing works.
+    void whatThrowsIsSaidAndTheProgramGoesOn() {
+        ui::Workstation program;
+        QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
+        QTimer::singleShot(0, &program, [] { throw std::bad_alloc(); });
+        QTRY_COMPARE(said.size(), 1);
+        QVERIFY(reasonOf(said).is(task::because::notEnoughMemory));
+        ui::JobRunner &jobs = program.bench().jobs;
+        QSignalSpy failed(&jobs, &ui::JobRunner::failed);
+        const std::vector<std::pair<std::function<void()>, task::Reason>> faults{
+            {[] { throw std::bad_alloc(); }, task::because::notEnoughMemory},
+            {[] { throw std::out_of_range("vector"); }, task::because::faultOfTheProgram},
+            {[] { throw 7; }, task::because::faultOfTheProgram},
+            {[] { throw task::Error(task::ErrorCode::unusable, task::because::isEmpty, "/a"); },
+             task::because::isEmpty}};
+        for (const auto &[fault, reason] : faults) {
+            failed.clear();
+            jobs.start("fault", [fault = fault](const ui::Job &) { fault(); });
+            QTRY_COMPARE(failed.size(), 1);
+            QVERIFY(reasonOf(failed) == reason);
+            QVERIFY(!jobs.isRunning());
+        }
+        program.window().openPaths({headPath()});
+        QTRY_VERIFY_WITH_TIMEOUT(
+            program.bench().document.volume() && !program.bench().document.isPreview(), patienceMs);
+    }
+
+#ifndef PELLUCID_SANITIZED // which reserve terabytes
+    void aPreparationThatFailsSaysSoAndIsTriedAgainByF5() {
+        restart();
+        open(headPath());
+        {
+            const test::LittleMemory little(2); // too little for a thread
+            ui::editScene(m_window->document(), "Tolerance", ui::noDrag,
+                          [](scene::Scene &scene) { scene.tolerance = 1e-5; });
+            QTRY_VERIFY(!m_window->jobs().isRunning());
+            QCOMPARE(projection()->planState(), ui::PlanState::failed);
+            QCOMPARE(m_window->document().problems().size(), 1U);
+        }
+        QTest::keyClick(m_window.get(), Qt::Key_F5);
+        QCOMPARE(projection()->planState(), ui::PlanState::underway);
+        settle();
+        QCOMPARE(projection()->planState(), ui::PlanState::holds);
+    }
+
+    // A limit that is too low to start is said, before libraries that need more crash.
+    void aLowLimitIsSaidInOneLine() {
+        for (const char *kilobytes : {"300000", "400000", "600000", "1000000"}) {
+            QProcess program;
+            program.start("/bin/sh",
+                          {"-c", "ulimit -v $0; exec \"$1\"", kilobytes, PELLUCID_WORKSTATION});
+            QVERIFY(program.waitForFinished(patienceMs));
+            QCOMPARE(program.exitStatus(), QProcess::NormalExit);
+            QCOMPARE(program.exitCode(), exitCode(task::ErrorCode::outOfMemory));
+            const QByteArray said = program.readAllStandardError();
+            QVERIFY2(said.startsWith("pellucid: not enough memory to start") &&
+                         said.count('\n') == 1,
+                     said.constData());
+        }
+    }
+
+    // From too little to enough, in steps: a study is open or a reason is given, and with memory
+    // the next one opens.
+    void littleMemoryIsSaidAndTheNextStudyOpens() {
+        const fs::path large = m_folder / "large";
+        dicom::writeCtSeries(large,
+                             phantom::makePhantom(phantom::Kind::head,
+                                                  phantom::phantomLattice(
+                                                      phantom::Kind::head,
+                                                      {.size = volume::GridSize{256, 256, 128}})),
+                             {}, dicom::TransferSyntax::explicitLittle);
+        ui::Workstation program;
+        ui::Document &document = program.bench().document;
+        ui::JobRunner &jobs = program.bench().jobs;
+        QSignalSpy failed(&jobs, &ui::JobRunner::failed);
+        QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
+        const auto rests = [&] { return !jobs.isRunning() && !document.isPreview(); };
+        program.window().openPaths({headPath()}); // all that is made once is there
+        QTRY_VERIFY_WITH_TIMEOUT(document.volume() && rests(), patienceMs);
+        auto *const view = program.window().findChild<ui::ProjectionView *>("projectionView");
+        int opened = 0, refused = 0;
+        for (const std::size_t mb : {5, 10, 40, 80, 120, 160, 240, 320, 480, 640, 960, 1600}) {
+            failed.clear();
+            said.clear();
+            std::optional<LittleMemory> little(mb);
+            program.window().openPaths({QString::fromStdString(large.string())});
+            const bool isOver = QTest::qWaitFor(rests, patienceMs);
+            // Frames, too.
+            (void)QTest::qWaitFor([&] { return view->showsFinalImage() || !said.isEmpty(); }, 2000);
+            little.reset();
+            QVERIFY(isOver);
+            const bool isOpen = document.volume()->lattice().size().k == 128;
+            opened += isOpen ? 1 : 0;
+            refused += failed.size() + said.size() > 0 ? 1 : 0;
+            for (const auto &failure : failed)
+                QCOMPARE(fs::path(failure[1].toString().toStdString()), large);
+            QVERIFY2(isOpen || failed.size() + said.size() > 0, qPrintable(QString::number(mb)));
+            program.window().openPaths({headPath()});
+            QTRY_VERIFY_WITH_TIMEOUT(document.volume()->lattice().size().k == 80 && rests(),
+                                     patienceMs);
+        }
+        qInfo("%d opened, %d with a reason", opened, refused);
+        QVERIFY(opened > 0 && refused > 0);
+    }
+#endif
+};
+
+} // namespace pellucid
+
+int main(int argc, char **argv) {
+    return pellucid::test::run<pellucid::WorkstationFaultsTest>(argc, argv);
+}
+
+#include "workstation_faults_test.moc"

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/engine/make_engines.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/classify/coarse_field.h"
+#include "core/classify/layers.h"
+#include "core/classify/shown_fields.h"
+#include "core/scene/planning_scene.h"
+#include "core/system/memory.h"
+#include "core/task/error.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+using prepare::Detail;
+
+// The coarse projection: small enough to be there within a blink of the volume.
+constexpr int coarseSide = 96;
+
+bool isLarge(const volume::Volume &volume) {
+    const volume::GridSize n = volume.lattice().size();
+    return std::max({n.i, n.j, n.k}) > coarseSide;
+}
+
+// One engine serves every view of the pane.
+scene::Scene planningScene(const volume::Volume &volume, const prepare::PreparedFor &wanted) {
+    scene::Scene scene;
+    scene.plannedFor = scene::PlannedFor::volume;
+    scene.tolerance = wanted.tolerance;
+    scene.interpolation = wanted.interpolation;
+    scene.image = wanted.image;
+    scene.shading.cue = wanted.cue;
+    if (wanted.isLit)
+        scene.shading.lights.emplace_back();
+    return scene::planningScene(scene, volume.lattice());
+}
+
+accuracy::AxisProjections projectionsOf(const prepare::ShadedFields &shaded,
+                                        const task::Progress &progress) {
+    accuracy::AxisProjections projections;
+    for (const auto *const fields : {&shaded.fields, &shaded.gradients})
+        for (const classify::DensityField &field : *fields)
+            projections.add(field, progress);
+    return projections;
+}
+
+classify::FieldWindow windowOf(const EngineSource &source) {
+    return source.wanted.window.value_or(classify::defaultFieldWindow(source.volume));
+}
+
+class EngineMaker {
+public:
+    EngineMaker(const EngineSource &source, const TakeEngine &take, const task::Progress &progress)
+        : m_source(source), m_take(take), m_progress(progress),
+          m_scene(planningScene(source.volume, source.wanted)), m_window(windowOf(source)),
+          m_scale(shading::shadingScale(source.volume.lattice())) {}
+
+    void make(Detail first) {
+        requireMemory();
+        if (first == Detail::coarse && isLarge(m_source.volume))
+            makeCoarse();
+        const auto fields = fieldsOf(m_source.volume, m_progress.part(0.1, 0.3));
+        const plan::Budget budget = budgetFor(fields);
+        const auto shaded = prepare::shadedFields(fields.channels, m_scene.shading, m_scale,
+                                                  m_progress.part(0.3, 0.35));
+        if (m_coarse)
+            tellErrorOfCoarse(shaded, fields.channels.size());
+        m_take(prepare::prepareEngine(m_scene, shaded, fields.color, budget,
+                                      m_progress.part(0.35, 1.0)),
+               Detail::full);
+    }
+
+private:
+    void requireMemory() const {
+        const volume::GridSize size = m_source.volume.lattice().size();
+        const classify::Look &look = m_source.wanted.look;
+        const std::size_t needed =
+            classify::peakBytes(look, size.count()) +
+            prepare::bytesForLight(m_scene.shading, size, classify::mixesColors(look) ? 3 : 1);
+        if (needed > system::availableMemoryBytes())
+            throw task::Error(task::ErrorCode::outOfMemory,
+                              task::because::fieldsNeedMemory(needed >> 20));
+    }
+
+    classify::ShownFields fieldsOf(const volume::Volume &volume,
+                                   const task::Progress &progress) const {
+        return classify::cropped(classify::shownFields(volume, m_window, m_source.wanted.look,
+                                                       m_source.steps.get(), progress),
+                                 m_source.wanted.crop);
+    }
+
+    plan::Budget budgetFor(const classify::ShownFields &fields) const {
+        const std::size_t free = system::availableMemoryBytes(),
+                          light = prepare::bytesForLight(
+                              m_scene.shading, fields.channels.front().values.lattice().size(),
+                              fields.channels.size());
+        return {free > light ? free - light : 0};
+    }
+
+    // The steps of classes take no time on a small volume.
+    void makeCoarse() {
+        const auto fields = fieldsOf(classify::coarseVolume(m_source.volume, coarseSide), {});
+        const auto shaded = prepare::shadedFields(fields.channels, m_scene.shading, m_scale);
+        m_coarse = prepare::prepareEngine(m_scene, shaded, fields.color, budgetFor(fields),
+                                          m_progress.part(0.0, 0.1));
+        m_coarse->isCoarse = true;
+        m_take(*m_coarse, Detail::coarse);
+        m_coarseProjections = projectionsOf(shaded, m_progress);
+    }
+
+    // The coarse picture is on the screen meanwhile.
+    void tellErrorOfCoarse(const prepare::ShadedFields &shaded, std::size_t channels) {
+        m_coarse->detailLoss = std::make_shared<const accuracy::DetailLoss>(
+            projectionsOf(shaded, m_progress), m_coarseProjections, channels, m_scale.stepMm);
+        m_take(*m_coarse, Detail::coarse);
+    }
+
+    const EngineSource &m_source;
+    const TakeEngine &m_take;
+    const task::Progress m_progress;
+    const scene::Scene m_scene;
+    const classify::FieldWindow m_window;
+    const shading::ShadingScale m_scale;
+    std::optional<prepare::PreparedEngine> m_coarse;
+    accuracy::AxisProjections m_coarseProjections;
+};
+
+} // namespace
+
+void makeEngine(const EngineSource &source, Detail first, const TakeEngine &take,
+                const task::Progress &progress) {
+    EngineMaker(source, take, progress).make(first);
+}
+
+void makeLayers(const EngineSource &source, const TakeLayers &take,
+                const task::Progress &progress) {
+    const auto mixture = classify::mixtureOf(source.wanted.look);
+    const classify::FieldWindow window = windowOf(source);
+    const auto make = [&](const volume::Volume &of, Detail detail, const task::Progress &part) {
+        take(prepare::LayerSet::prepare(
+                 planningScene(of, source.wanted), mixture.layers.size(),
+                 [&](std::size_t n, const task::Progress &p) {
+                     return classify::cropped(
+                         classify::layerField(of, window, mixture.layers[n], source.steps.get(), p),
+                         source.wanted.crop);
+                 },
+                 // Half of it: engines of the sum are to come.
+                 {system::availableMemoryBytes() / 2}, part,
+                 shading::shadingScale(source.volume.lattice())),
+             detail);
+    };
+    // The hand does not wait for the full ones.
+    if (isLarge(source.volume))
+        make(classify::coarseVolume(source.volume, coarseSide), Detail::coarse,
+             progress.part(0.0, 0.1));
+    make(source.volume, Detail::full, progress.part(0.1, 1.0));
+}
+
+} // namespace pellucid::ui

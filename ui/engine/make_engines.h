@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/prepare/layer_set.h"
+#include "core/prepare/next_step.h"
+#include "core/preprocess/step_cache.h"
+
+namespace pellucid::ui {
+
+/// What the engines of a look are made from.
+struct EngineSource {
+    volume::Volume volume;
+    prepare::PreparedFor wanted;
+    std::shared_ptr<preprocess::StepCache> steps; ///< earlier results of the classes' steps
+};
+
+using TakeEngine = std::function<void(const prepare::PreparedEngine &, prepare::Detail)>;
+using TakeLayers = std::function<void(const std::shared_ptr<prepare::LayerSet> &, prepare::Detail)>;
+
+/// Makes the engine of a look and hands it over. With `first` coarse, a large volume gets a coarse
+/// engine before, which is handed over at once and again when its error is known. *Throws*
+/// Error{outOfMemory}, Cancelled.
+void makeEngine(const EngineSource &source, prepare::Detail first, const TakeEngine &take,
+                const task::Progress &progress);
+
+/// Makes the layers of a look; a large volume gets coarse ones first. *Throws* Error{outOfMemory},
+/// Cancelled.
+void makeLayers(const EngineSource &source, const TakeLayers &take, const task::Progress &progress);
+
+} // namespace pellucid::ui

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/projection_texts.h"
+
+#include <QCoreApplication>
+#include <QObject>
+
+#include "ui/views/overlay.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+struct ProjectionTexts {
+    Q_DECLARE_TR_FUNCTIONS(ProjectionTexts)
+};
+
+// No more digits than are known.
+QString errorText(double error) {
+    const double percent = 100.0 * error;
+    if (percent >= 100.0) // of a part that shows next to nothing
+        return QObject::tr("error over 100 %");
+    return QObject::tr("error %1 %")
+        .arg(percent < 1.0 ? QString::number(percent, 'f', 3) : QString::number(percent, 'g', 2));
+}
+
+QString withError(const QString &stage, const QString &error) {
+    return error.isEmpty() ? stage : QObject::tr("%1, %2").arg(stage, error);
+}
+
+QString qualityText(const DescribedFrame &described) {
+    // The error is that of the picture, which may still be the former engine's. It is not computed
+    // while the view moves.
+    const QString error = described.error       ? errorText(*described.error)
+                          : described.isPending ? QString()
+                                                : ProjectionTexts::tr("error not known yet");
+    if (described.planState == PlanState::cancelled)
+        return ProjectionTexts::tr("cancelled: F5 prepares it");
+    if (described.planState == PlanState::failed)
+        return ProjectionTexts::tr("not prepared: F5 tries again");
+    if (described.stage == EngineStage::coarse)
+        return withError(ProjectionTexts::tr("coarse"), error);
+    if (described.stage == EngineStage::live)
+        return withError(ProjectionTexts::tr("live"), error);
+    if (described.planState == PlanState::underway)
+        return ProjectionTexts::tr("error not known yet");
+    return error;
+}
+
+} // namespace
+
+QString figuresText(const DescribedFrame &described) {
+    const RenderedFrame &frame = described.frame;
+    return QString("%1  %2  %3")
+        .arg(frame.onCard ? "GPU" : "CPU")
+        .arg(millisecondsText(frame.times.totalMs()))
+        .arg(frame.draft ? ProjectionTexts::tr("draft") : qualityText(described));
+}
+
+} // namespace pellucid::ui

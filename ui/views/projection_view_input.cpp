@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What mouse, wheel and keys do in the projection.
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QWheelEvent>
+
+#include "ui/document/document.h"
+#include "ui/views/camera_moves.h"
+#include "ui/views/projection_overlay.h"
+#include "ui/views/projection_view.h"
+#include "ui/views/view_keys.h"
+
+namespace pellucid::ui {
+
+void ProjectionView::setTool(Tool tool) {
+    m_tools.choose(tool);
+    showCursor();
+}
+
+void ProjectionView::showCursor() {
+    if (const auto cursor = m_tools.cursor())
+        setCursor(*cursor);
+    else
+        unsetCursor();
+}
+
+void ProjectionView::mousePressEvent(QMouseEvent *event) {
+    setFocus();
+    if (m_tools.isMeasuring())
+        return;
+    m_tools.press(event->button(), event->position());
+    if (m_tools.isMeasuring())
+        m_overlay->update();
+    else
+        setCursor(m_tools.heldCursor());
+}
+
+void ProjectionView::mouseMoveEvent(QMouseEvent *event) {
+    m_tools.move(event->position());
+    if (m_tools.isMeasuring())
+        m_overlay->update();
+}
+
+void ProjectionView::mouseReleaseEvent(QMouseEvent *event) {
+    m_tools.release(event->button(), event->position());
+    showCursor();
+    m_overlay->update();
+}
+
+void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
+    if (event->button() == Qt::LeftButton)
+        emit maximizeRequested(this);
+}
+
+void ProjectionView::orbitBy(const QPoint &delta) {
+    moveCamera(orbited(m_document.scene().camera, delta, pivotMm()), true);
+}
+
+void ProjectionView::panBy(const QPoint &delta) {
+    moveCamera(panned(m_document.scene().camera, delta, devicePixelRatioF()), true);
+}
+
+void ProjectionView::zoomBy(double factor) {
+    m_camera.zoomBy(factor);
+    requestFrame(true);
+}
+
+void ProjectionView::wheelEvent(QWheelEvent *event) {
+    if (event->angleDelta().y() != 0)
+        zoomBy(event->angleDelta().y() > 0 ? 1.15 : 1.0 / 1.15);
+    event->accept();
+}
+
+bool ProjectionView::event(QEvent *event) {
+    // The keypad belongs to the views here, not to the window presets of the same digits.
+    if (event->type() == QEvent::ShortcutOverride &&
+        (static_cast<QKeyEvent *>(event)->modifiers() & Qt::KeypadModifier) != 0) {
+        event->accept();
+        return true;
+    }
+    return QWidget::event(event);
+}
+
+void ProjectionView::keyPressEvent(QKeyEvent *event) {
+    const bool keypad = (event->modifiers() & Qt::KeypadModifier) != 0;
+    if (const auto view = standardViewOf(*event))
+        showStandardView(*view);
+    else if ((keypad && (event->key() == Qt::Key_0 || event->key() == Qt::Key_Insert)) ||
+             event->key() == Qt::Key_R)
+        resetView();
+    else if (event->key() == Qt::Key_Left || event->key() == Qt::Key_Right)
+        orbitBy({event->key() == Qt::Key_Left ? -11 : 11, 0}); // about five degrees
+    else if (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down)
+        orbitBy({0, event->key() == Qt::Key_Up ? -11 : 11});
+    else if (event->key() == Qt::Key_Escape && m_tools.isMeasuring())
+        m_tools.cancel();
+    else
+        QWidget::keyPressEvent(event);
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/tools/crosshair_tool.h"
+
+#include <QPainter>
+#include <QRegion>
+
+#include <glm/common.hpp>
+
+#include "ui/document/document.h"
+
+namespace pellucid::ui {
+
+CrosshairLines CrosshairTool::lines(const PaneMapping &mapping) const {
+    return {mapping, m_document.crosshair(), m_document.cut().axes, m_orientation};
+}
+
+std::optional<Qt::CursorShape> CrosshairTool::gripCursor(const QPointF &at) const {
+    return lines(m_pane.mapping()).isHandleAt(at, m_pane.paneSize())
+               ? std::optional(Qt::PointingHandCursor)
+               : std::nullopt;
+}
+
+bool CrosshairTool::press(const QPointF &at) {
+    const QPoint pressed = at.toPoint();
+    const CrosshairLines shown = lines(m_pane.mapping());
+    m_isTurning = shown.isHandleAt(pressed, m_pane.paneSize());
+    if (m_isTurning)
+        m_turnAngle = shown.angleAt(pressed);
+    else
+        moveTo(pressed);
+    return true;
+}
+
+bool CrosshairTool::move(const HandMove &hand) {
+    if (m_isTurning)
+        turnTo(hand.at.toPoint());
+    else
+        moveTo(hand.at.toPoint());
+    return true;
+}
+
+void CrosshairTool::moveTo(const QPoint &to) {
+    const volume::Lattice &lattice = m_document.volume()->lattice();
+    // Stays within the volume, where every pane has something to show.
+    glm::dvec3 v = lattice.voxel(m_pane.mapping().patientAt(to)).v;
+    v = glm::clamp(v, glm::dvec3(0.0),
+                   glm::dvec3(lattice.size().i - 1, lattice.size().j - 1, lattice.size().k - 1));
+    m_document.setCrosshair(lattice.patient(volume::VoxelPoint{v}));
+}
+
+void CrosshairTool::turnTo(const QPoint &to) {
+    const double angle = lines(m_pane.mapping()).angleAt(to);
+    Cut cut = m_document.cut();
+    cut.axes = cut.axes.turned(m_orientation, angle - m_turnAngle);
+    m_turnAngle = angle;
+    m_document.setCut(cut);
+}
+
+void CrosshairTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks) const {
+    if (marks == Marks::plain)
+        return;
+    painter.save();
+    painter.setClipRegion(QRegion(surface.area) - upperAndLowerLetters(surface.area));
+    lines(surface.mapping).paint(painter, surface.area.size(), marks == Marks::chosen);
+    painter.restore();
+}
+
+} // namespace pellucid::ui

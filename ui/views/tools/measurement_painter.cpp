@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/tools/measurement_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <QLineF>
+#include <QPainter>
+
+#include "ui/language/measurement_text.h"
+#include "ui/views/tools/measurement_figure.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+// A place for a figure's text near one of its points that covers no other text and, if there is
+// one, no line. *Units*: logical pixels.
+QRect placeOf(const QSize &text, const std::vector<QPointF> &points, const QRect &viewport,
+              const std::vector<QRect> &taken, const QRegion &lines) {
+    const int w = text.width(), h = text.height();
+    const auto isFree = [&](const QRect &area) {
+        return viewport.contains(area) &&
+               std::none_of(taken.begin(), taken.end(),
+                            [&](const QRect &other) { return other.intersects(area); });
+    };
+    std::optional<QRect> found;
+    for (int distance = 10; distance < 200; distance += 14) {
+        for (const QPointF &point : points) {
+            const QPoint p = point.toPoint();
+            for (const QPoint &at :
+                 {p + QPoint(distance, -8), p + QPoint(-distance - w, -8),
+                  p + QPoint(-w / 2, distance), p + QPoint(-w / 2, -distance - h)}) {
+                const QRect area(at, text);
+                if (!isFree(area))
+                    continue;
+                if (!lines.intersects(area.adjusted(-3, -2, 3, 2)))
+                    return area;
+                if (!found)
+                    found = area;
+            }
+        }
+    }
+    if (found)
+        return *found;
+    // In a pane that is full: in its corner, whatever is there.
+    QRect area(points.front().toPoint(), text);
+    area.translate(std::min(0, viewport.right() - area.right()),
+                   std::min(0, viewport.bottom() - area.bottom()));
+    return area;
+}
+
+QRegion regionAround(const QPolygonF &outline) {
+    QRegion region;
+    for (qsizetype n = 1; n < outline.size(); ++n) {
+        // Short pieces: the box of a long oblique line is mostly empty.
+        const QLineF line(outline[n - 1], outline[n]);
+        const int pieces = std::clamp(int(line.length() / 12.0), 1, 200);
+        for (int k = 0; k < pieces; ++k)
+            region += QRectF(line.pointAt(double(k) / pieces), line.pointAt(double(k + 1) / pieces))
+                          .normalized()
+                          .toAlignedRect()
+                          .adjusted(-1, -1, 1, 1);
+    }
+    return region;
+}
+
+// What no text may cover: the patient's letters at the four sides.
+std::vector<QRect> lettersOf(const QRect &viewport) {
+    const QRegion upperAndLower = upperAndLowerLetters(viewport);
+    std::vector<QRect> letters(upperAndLower.begin(), upperAndLower.end());
+    letters.emplace_back(0, viewport.center().y() - 12, 26, 24);
+    letters.emplace_back(viewport.right() - 26, viewport.center().y() - 12, 26, 24);
+    return letters;
+}
+
+// The grips on the pane, from right to left.
+std::vector<QPointF> gripsOn(const PaneMapping &mapping, const measure::Measurement &measurement) {
+    std::vector<QPointF> points;
+    for (const glm::dvec3 &p : gripsOf(measurement))
+        if (const QPointF at = mapping.positionOf({p});
+            std::abs(at.x()) < 1e6 && std::abs(at.y()) < 1e6) // far outside of the pane
+            points.push_back(at);
+    std::sort(points.begin(), points.end(),
+              [](const QPointF &a, const QPointF &b) { return a.x() > b.x(); });
+    return points;
+}
+
+// A line to a text that is far from its figure.
+void paintLeader(QPainter &painter, const std::vector<QPointF> &points, const QRect &area,
+                 const QColor &color) {
+    const QPointF nearest =
+        *std::min_element(points.begin(), points.end(), [&](const QPointF &a, const QPointF &b) {
+            return QLineF(a, area.center()).length() < QLineF(b, area.center()).length();
+        });
+    const QPointF edge(std::clamp(nearest.x(), qreal(area.left()), qreal(area.right())),
+                       std::clamp(nearest.y(), qreal(area.top()), qreal(area.bottom())));
+    if (QLineF(nearest, edge).length() > 26.0) {
+        painter.setPen(QPen(color, 1.0, Qt::DotLine));
+        painter.drawLine(nearest, edge);
+    }
+}
+
+} // namespace
+
+void paintMeasurements(QPainter &painter, const ToolSurface &surface,
+                       const std::vector<DrawnMeasurement> &drawn, const volume::Volume &volume) {
+    const PaneMapping &mapping = surface.mapping;
+    const auto colorOf = [&](const DrawnMeasurement &d) {
+        return d.isSelected ? surface.colors.accent : surface.colors.curve;
+    };
+    // All lines first: a text stands on none, and beside the texts before it.
+    QRegion lines;
+    for (const DrawnMeasurement &d : drawn) {
+        paintMeasurement(painter, mapping, d.measured.measurement, colorOf(d), d.isSelected);
+        lines += regionAround(outlineOf(d.measured.measurement, mapping));
+    }
+    const QRect viewport(0, 0, int(mapping.plane.width / mapping.pixelRatio),
+                         int(mapping.plane.height / mapping.pixelRatio));
+    std::vector<QRect> taken = lettersOf(viewport);
+    for (const DrawnMeasurement &d : drawn) {
+        const std::vector<QPointF> points = gripsOn(mapping, d.measured.measurement);
+        const QString text =
+            allFigures(d.measured.measurement, d.measured.result, volume).join('\n');
+        if (points.empty() || text.isEmpty())
+            continue;
+        const QSize size =
+            painter.fontMetrics().boundingRect(QRect(0, 0, 400, 200), Qt::AlignLeft, text).size();
+        const QRect area = placeOf(size, points, viewport.adjusted(6, 4, -6, -4), taken, lines);
+        taken.push_back(area.adjusted(-5, -3, 5, 3));
+        paintLeader(painter, points, area, colorOf(d));
+        painter.fillRect(area.adjusted(-4, -2, 4, 2), QColor(0, 0, 0, 165));
+        drawText(painter, area, Qt::AlignLeft, text, colorOf(d));
+    }
+}
+
+void paintMeasurement(QPainter &painter, const PaneMapping &mapping, const measure::Measurement &m,
+                      const QColor &color, bool isSelected) {
+    const QPolygonF outline = outlineOf(m, mapping);
+    // A dark line below keeps it legible on bone.
+    painter.setPen(QPen(QColor(0, 0, 0, 150), 3.0));
+    painter.drawPolyline(outline);
+    painter.setPen(QPen(color, 1.4));
+    painter.drawPolyline(outline);
+    for (const glm::dvec3 &p : gripsOf(m)) {
+        const QPointF at = mapping.positionOf({p});
+        if (isSelected) {
+            painter.setBrush(QColor(0, 0, 0, 160));
+            painter.drawEllipse(at, 3.5, 3.5);
+            painter.setBrush(Qt::NoBrush);
+        } else if (!measure::isRegion(m.kind)) {
+            painter.drawLine(at - QPointF(3, 3), at + QPointF(3, 3));
+            painter.drawLine(at - QPointF(3, -3), at + QPointF(3, -3));
+        }
+    }
+}
+
+} // namespace pellucid::ui

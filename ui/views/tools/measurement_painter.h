@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "ui/document/document.h"
+#include "ui/views/tools/pane_tool.h"
+
+namespace pellucid::ui {
+
+/// A measurement with its result, and whether it is drawn as the selected one.
+struct DrawnMeasurement {
+    const Measured &measured;
+    bool isSelected;
+};
+
+/// Draws measurements and their results: no text covers another one or, where there is room, a
+/// figure.
+void paintMeasurements(QPainter &painter, const ToolSurface &surface,
+                       const std::vector<DrawnMeasurement> &drawn, const volume::Volume &volume);
+
+/// Draws one without its result.
+void paintMeasurement(QPainter &painter, const PaneMapping &mapping,
+                      const measure::Measurement &measurement, const QColor &color,
+                      bool isSelected);
+
+} // namespace pellucid::ui

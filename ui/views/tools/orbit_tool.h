@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "ui/views/tools/pane_tool.h"
+#include "ui/views/tools/tool_pane.h"
+
+namespace pellucid::ui {
+
+/// Turns the projection.
+class OrbitTool : public PaneTool {
+public:
+    explicit OrbitTool(ProjectionPane &pane) : m_pane(pane) {}
+
+    Qt::CursorShape cursor() const override { return Qt::ClosedHandCursor; }
+    bool press(const QPointF & /*at*/) override { return true; }
+    bool move(const HandMove &hand) override;
+
+private:
+    ProjectionPane &m_pane;
+};
+
+} // namespace pellucid::ui

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/tools/plane_tools.h"
+
+#include <algorithm>
+
+#include "ui/views/tools/crop_tool.h"
+#include "ui/views/tools/crosshair_tool.h"
+#include "ui/views/tools/measure_tool.h"
+#include "ui/views/tools/pan_tool.h"
+#include "ui/views/tools/window_tool.h"
+#include "ui/views/tools/zoom_tool.h"
+
+namespace pellucid::ui {
+
+PlaneTools::PlaneTools(Document &document, mpr::Orientation orientation, ToolPane &pane) {
+    auto crosshair = std::make_unique<CrosshairTool>(document, pane, orientation);
+    auto measure = std::make_unique<MeasureTool>(document, pane, MeasureTool::Figures::inPatient);
+    m_crosshair = crosshair.get();
+    m_measure = measure.get();
+    add(Tool::crop, std::make_unique<CropTool>(document, pane));
+    add(Tool::crosshair, std::move(crosshair));
+    add(Tool::window, std::make_unique<WindowTool>(document));
+    add(Tool::pan, std::make_unique<PanTool>(pane, Qt::OpenHandCursor));
+    add(Tool::zoom, std::make_unique<ZoomTool>(pane));
+    add(Tool::distance, std::move(measure)); // and whatever else is measured
+    m_chosen = find(Tool::window);
+}
+
+PlaneTools::~PlaneTools() = default;
+
+void PlaneTools::add(Tool tool, std::unique_ptr<PaneTool> made) {
+    m_tools.emplace_back(tool, std::move(made));
+}
+
+PaneTool *PlaneTools::find(Tool tool) const {
+    if (measuredBy(tool))
+        return m_measure;
+    return std::find_if(m_tools.begin(), m_tools.end(),
+                        [&](const auto &entry) { return entry.first == tool; })
+        ->second.get();
+}
+
+void PlaneTools::choose(Tool tool) {
+    dropHalfDone();
+    m_chosen = find(tool);
+    m_measure->setKind(measuredBy(tool));
+}
+
+// What the chosen tool can drag comes first, then what is measured.
+PaneTool &PlaneTools::toolAt(const QPointF &at) const {
+    return !m_chosen->gripCursor(at) && m_measure->gripCursor(at) ? *m_measure : *m_chosen;
+}
+
+Qt::CursorShape PlaneTools::cursorAt(const QPointF &at) const {
+    const PaneTool &tool = toolAt(at);
+    return tool.gripCursor(at).value_or(tool.cursor());
+}
+
+void PlaneTools::press(Qt::MouseButton button, const QPointF &at) {
+    if (m_button != Qt::NoButton || (button != Qt::LeftButton && button != Qt::MiddleButton))
+        return;
+    m_button = button;
+    m_last = at.toPoint();
+    PaneTool &tool = button == Qt::MiddleButton ? *find(Tool::pan) : toolAt(at);
+    m_held = tool.press(at) ? &tool : nullptr;
+}
+
+bool PlaneTools::move(const QPointF &at) {
+    const HandMove hand{at, at.toPoint() - m_last};
+    m_last = at.toPoint();
+    // An angle that lacks its third point has all moves, with any button and without.
+    if (m_measure->isBusy())
+        return m_measure->move(hand);
+    if (m_button == Qt::NoButton)
+        return false;
+    return m_held == nullptr || m_held->move(hand);
+}
+
+void PlaneTools::release(Qt::MouseButton button, const QPointF &at) {
+    if (button != m_button)
+        return;
+    if (m_held != nullptr)
+        m_held->release(at);
+    m_held = nullptr;
+    m_button = Qt::NoButton;
+}
+
+bool PlaneTools::isBusy() const {
+    return std::any_of(m_tools.begin(), m_tools.end(),
+                       [](const auto &entry) { return entry.second->isBusy(); });
+}
+
+bool PlaneTools::isMeasuring() const {
+    return m_measure->isBusy();
+}
+
+void PlaneTools::dropHalfDone() {
+    for (const auto &[tool, does] : m_tools)
+        does->cancel();
+}
+
+void PlaneTools::cancel() {
+    dropHalfDone();
+    m_held = nullptr;
+    m_button = Qt::NoButton;
+}
+
+void PlaneTools::moveCrosshair(const QPointF &at) {
+    m_crosshair->moveTo(at.toPoint());
+}
+
+void PlaneTools::paint(QPainter &painter, const ToolSurface &surface) const {
+    for (const auto &[tool, does] : m_tools)
+        does->paint(painter, surface, does.get() == m_chosen ? Marks::chosen : Marks::shown);
+}
+
+void PlaneTools::paintPlain(QPainter &painter, const ToolSurface &surface) const {
+    for (const auto &[tool, does] : m_tools)
+        does->paint(painter, surface, Marks::plain);
+}
+
+} // namespace pellucid::ui

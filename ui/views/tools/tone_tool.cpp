@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/views/tools/tone_tool.h"
+
+#include <algorithm>
+
+#include <QCoreApplication>
+
+namespace pellucid::ui {
+
+bool ToneTool::press(const QPointF & /*at*/) {
+    m_drag = nextDragId();
+    return true;
+}
+
+bool ToneTool::move(const HandMove &hand) {
+    const picture::ToneRange &automatic = m_pane.automaticTone();
+    const scene::Tone shown = m_pane.shownTone();
+    const double low = *shown.low, high = *shown.high;
+    const double perPixel = (automatic.high - automatic.low) / 300.0;
+    const double center = 0.5 * (low + high) - hand.delta.y() * perPixel;
+    const double width = std::max(high - low + hand.delta.x() * perPixel, 2.0 * perPixel);
+    editScene(m_document, QCoreApplication::translate("ToneTool", "Projection window"), m_drag,
+              [&](scene::Scene &scene) {
+                  scene.tone.low = center - 0.5 * width;
+                  scene.tone.high = center + 0.5 * width;
+              });
+    return true;
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/study_docks.h"
+
+#include <QDockWidget>
+#include <QMainWindow>
+#include <QUndoView>
+
+#include "ui/panels/measurements_panel.h"
+#include "ui/panels/spectrum_panel.h"
+#include "ui/panels/study_panel.h"
+#include "ui/theme/dock.h"
+#include "ui/views/spectrum_sampler.h"
+#include "ui/window/workbench.h"
+
+namespace pellucid::ui {
+
+StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme)
+    : QObject(&window), m_studies(new StudyPanel(bench.document, bench.library, theme)),
+      m_measurements(new MeasurementsPanel(bench.document)) {
+    m_study = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
+    m_studies->setMinimumWidth(250);
+    window.addDockWidget(Qt::LeftDockWidgetArea, m_study);
+    m_measured =
+        makeDock(tr("MEASUREMENTS"), "measurementsDock", m_measurements, m_measurements->corner());
+    window.addDockWidget(Qt::LeftDockWidgetArea, m_measured);
+    window.resizeDocks({m_study, m_measured}, {700, 180}, Qt::Vertical);
+    m_history = addHistory(window, bench);
+    m_spectrum = addSpectrum(window, bench, theme);
+}
+
+QDockWidget *StudyDocks::addHistory(QMainWindow &window, Workbench &bench) {
+    auto *history = new QUndoView(bench.document.undoStack());
+    history->setObjectName("historyView");
+    history->setAccessibleName(tr("History of edits"));
+    history->setToolTip(tr("A click goes back to how it was after that edit"));
+    history->setEmptyLabel(tr("As it was opened"));
+    QDockWidget *dock = makeDock(tr("HISTORY"), "historyDock", history, nullptr);
+    window.addDockWidget(Qt::LeftDockWidgetArea, dock);
+    dock->hide();
+    return dock;
+}
+
+QDockWidget *StudyDocks::addSpectrum(QMainWindow &window, Workbench &bench, const Theme &theme) {
+    auto *sampler = new SpectrumSampler(bench.document, this);
+    auto *panel = new SpectrumPanel(theme);
+    connect(&bench.copier, &CardCopier::engineReady, sampler, &SpectrumSampler::setEngine);
+    connect(sampler, &SpectrumSampler::sampled, panel, &SpectrumPanel::showSlice);
+    connect(sampler, &SpectrumSampler::cleared, panel, &SpectrumPanel::clear);
+    connect(panel, &SpectrumPanel::visibilityChanged, sampler, &SpectrumSampler::setActive);
+    QDockWidget *dock = makeDock(tr("SPECTRUM"), "spectrumDock", panel, nullptr);
+    window.addDockWidget(Qt::LeftDockWidgetArea, dock);
+    dock->hide();
+    return dock;
+}
+
+} // namespace pellucid::ui

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <QObject>
+
+#include "ui/theme/theme.h"
+
+class QDockWidget;
+class QMainWindow;
+
+namespace pellucid::ui {
+
+class MeasurementsPanel;
+class StudyPanel;
+struct Workbench;
+
+/// The docks at the left of the window, which say what is open and what was done with it: studies,
+/// measurements, history of edits, spectrum. The last two start hidden.
+class StudyDocks : public QObject {
+    Q_OBJECT
+public:
+    StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme);
+
+    StudyPanel &studies() { return *m_studies; }
+    MeasurementsPanel &measurements() { return *m_measurements; }
+    /// The docks that the menu Window lists.
+    std::vector<QDockWidget *> listed() const { return {m_study, m_measured, m_history}; }
+    QDockWidget &study() { return *m_study; }
+    QDockWidget &spectrum() { return *m_spectrum; }
+
+private:
+    QDockWidget *addHistory(QMainWindow &window, Workbench &bench);
+    QDockWidget *addSpectrum(QMainWindow &window, Workbench &bench, const Theme &theme);
+
+    StudyPanel *m_studies;
+    MeasurementsPanel *m_measurements;
+    QDockWidget *m_study, *m_measured, *m_history, *m_spectrum;
+};
+
+} // namespace pellucid::ui

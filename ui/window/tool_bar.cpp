@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/tool_bar.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QCoreApplication>
+#include <QMainWindow>
+#include <QToolBar>
+#include <QToolButton>
+
+#include "ui/theme/icons.h"
+#include "ui/window/tools_menu.h"
+#include "ui/window/window_chooser.h"
+
+namespace pellucid::ui {
+
+namespace {
+
+struct ToolBarTexts {
+    Q_DECLARE_TR_FUNCTIONS(ToolBarTexts)
+};
+
+Qt::ToolButtonStyle buttonStyle(ToolBarStyle style) {
+    switch (style) {
+    case ToolBarStyle::icons:
+        return Qt::ToolButtonIconOnly;
+    case ToolBarStyle::words:
+        return Qt::ToolButtonTextOnly;
+    case ToolBarStyle::both:
+        break;
+    }
+    return Qt::ToolButtonTextBesideIcon;
+}
+
+QComboBox *makeWindowBox() {
+    auto *box = new QComboBox;
+    box->setObjectName("windowBox");
+    box->setAccessibleName(ToolBarTexts::tr("Window of the planes"));
+    box->setToolTip(ToolBarTexts::tr("Window of the planes: width / center (keys 0 to 5)"));
+    box->setMinimumWidth(64); // on a screen of 960 points, too
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(22);
+    box->setMaximumWidth(260);
+    return box;
+}
+
+} // namespace
+
+void makeToolBar(QMainWindow &window, Document &document, const Theme &theme, ToolBarStyle style,
+                 const ToolBarSources &sources) {
+    QToolBar *bar = window.addToolBar(ToolBarTexts::tr("Tools"));
+    bar->setObjectName("toolBar");
+    bar->setMovable(false);
+    bar->setIconSize({20, 20});
+    bar->setToolButtonStyle(buttonStyle(style));
+    bar->addAction(window.findChild<QAction *>("openFilesAction"));
+    bar->addAction(window.findChild<QAction *>("importAction"));
+    bar->addSeparator();
+    sources.tools.addTo(*bar);
+    bar->addSeparator();
+    bar->addActions(sources.layouts);
+    bar->addSeparator();
+    bar->addAction(window.findChild<QAction *>("savePictureAction"));
+    bar->addAction(window.findChild<QAction *>("exportPictureAction"));
+    auto *space = new QWidget;
+    space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    bar->addWidget(space);
+    QComboBox *windowBox = makeWindowBox();
+    bar->addWidget(windowBox);
+    new WindowChooser(document, sources.windowMenu, *windowBox);
+    // What does not fit is behind an arrow, which Qt draws in the colours of its own style.
+    if (auto *more = bar->findChild<QToolButton *>("qt_toolbar_ext_button")) {
+        more->setIcon(themedIcon("down", theme));
+        more->setToolTip(ToolBarTexts::tr("More"));
+        more->setAccessibleName(ToolBarTexts::tr("More"));
+    }
+}
+
+} // namespace pellucid::ui
