@@ -169,9 +169,13 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (turn)
         turn->commit();
     if (viewError > scene.tolerance && renderer->predictedError() <= scene.tolerance)
-        warn(fmt::format("the tolerance of {:.2g} is met by pictures of the whole; {:.2g} is "
-                         "predicted for what this one shows",
-                         scene.tolerance, viewError));
+        warn(isWhole == false
+                 ? fmt::format("the tolerance of {:.2g} is met by pictures of the whole; {:.2g} is "
+                               "predicted for what this one shows",
+                               scene.tolerance, viewError)
+                 : fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted for this "
+                               "picture",
+                               scene.tolerance, viewError));
     if (!o.json)
         return;
     json skipped = json::array();

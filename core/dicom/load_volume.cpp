@@ -368,7 +368,7 @@ private:
         std::vector<Skipped> skipped;
         std::vector<SeriesFile> files;
         // Grouping sees the frames of this volume only, renumbered; this leads back.
-        std::map<std::filesystem::path, std::vector<int>> originalFrame;
+        std::map<std::filesystem::path, std::vector<FrameReference>> original;
         for (const auto &path : m_paths) {
             const auto &frames = m_files.at(path);
             const auto it = std::find_if(failed.begin(), failed.end(),
@@ -386,11 +386,13 @@ private:
             }
             std::vector<FrameHeader> kept;
             for (const std::size_t slice : frames) {
-                const int frame = m_entry.frames[slice].frame;
-                kept.push_back(file.header.frames[std::size_t(frame)]);
-                originalFrame[path].push_back(frame);
+                const FrameReference &frame = m_entry.frames[slice];
+                kept.push_back(file.header.frames[std::size_t(frame.frame)]);
+                original[path].push_back(frame);
             }
             file.header.frames = std::move(kept);
+            // All slices together were found to be one volume; fewer must not be split by it.
+            file.header.frameOfReferenceUid.clear();
             files.push_back(std::move(file));
         }
         if (files.empty())
@@ -413,7 +415,7 @@ private:
         VolumeEntry rest = m_entry;
         rest.frames = found->frames;
         for (FrameReference &frame : rest.frames)
-            frame.frame = originalFrame.at(frame.path).at(std::size_t(frame.frame));
+            frame = original.at(frame.path).at(std::size_t(frame.frame));
         rest.geometry = found->geometry;
         rest.placed = found->placed;
         rest.notes.placed = rest.placed;

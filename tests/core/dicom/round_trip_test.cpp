@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -27,10 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-volume::Volume tiltedHead() {
+volume::Volume tiltedHead(int slices = 7) {
     return phantom::makePhantom(
         phantom::Kind::head,
-        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{33, 30, 7},
+        phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{33, 30, slices},
                                                       .spacingMm = glm::dvec3(6.1, 6.7, 30.0),
                                                       .tiltRad = 0.3}));
 }
@@ -358,6 +359,22 @@ TEST(Scan, AnotherSpaceIsAnotherVolume) {
                        {folder / "IM0001.dcm", folder / "IM0002.dcm", folder / "IM0003.dcm"}));
     const auto all = dicom::selections(dicom::scan({folder.path()}));
     EXPECT_EQ(all.size(), 2U);
+}
+
+// Of 20 images 18 are alone in theirs, which is just enough to ignore it; of the 19 that are left
+// 17 are, which is not.
+TEST(Load, ALostSliceDoesNotSplitItsVolumeByFrameOfReference) {
+    const test::TemporaryFolder folder;
+    dicom::writeCtSeries(folder.path(), tiltedHead(20), {}, dicom::TransferSyntax::explicitLittle);
+    for (int n = 1; n <= 18; ++n)
+        ASSERT_TRUE(modify("-m FrameOfReferenceUID=1.2." + std::to_string(n),
+                           {folder / fmt::format("IM{:04}.dcm", n)}));
+    const auto catalogue = dicom::scan({folder.path()});
+    ASSERT_EQ(dicom::selections(catalogue).size(), 1U);
+    fs::remove(folder / "IM0005.dcm");
+    const auto loaded = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
+    EXPECT_EQ(loaded.skipped.size(), 1U);
+    EXPECT_EQ(loaded.volume.lattice().size().k, 20); // the lost one is interpolated
 }
 
 // An index that leads out of its folder, in words or by a link.
