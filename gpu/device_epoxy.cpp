@@ -18,9 +18,9 @@ Device::Device(std::unique_ptr<Context> context) : m_context(std::move(context))
         m_capabilities = currentCapabilities();
         if (!m_capabilities.canRender())
             throw task::Error(task::ErrorCode::noSuchDevice,
-                              fmt::format("OpenGL here is {}.{} ({}); the GPU engine needs 4.3",
-                                          m_capabilities.version / 10, m_capabilities.version % 10,
-                                          m_capabilities.renderer));
+                              task::because::tooOldOpenGl(m_capabilities.version / 10,
+                                                          m_capabilities.version % 10,
+                                                          m_capabilities.renderer));
         system::log(fmt::format("OpenGL {}.{}, {}", m_capabilities.version / 10,
                                 m_capabilities.version % 10, m_capabilities.renderer));
         glEnable(GL_DEBUG_OUTPUT);
@@ -51,7 +51,7 @@ void Device::run(const std::function<void()> &work) {
     post([&] {
         try {
             if (m_lost)
-                throw task::Error(task::ErrorCode::noSuchDevice, "the graphics card was lost");
+                throw task::Error(task::ErrorCode::noSuchDevice, task::because::cardWasLost);
             std::exception_ptr failure;
             try {
                 work();
@@ -63,8 +63,7 @@ void Device::run(const std::function<void()> &work) {
             }
             if (m_capabilities.canRender() && m_context->isLost()) {
                 m_lost = true;
-                throw task::Error(task::ErrorCode::noSuchDevice,
-                                  "the graphics card was lost: its driver was reset");
+                throw task::Error(task::ErrorCode::noSuchDevice, task::because::cardWasReset);
             }
             if (failure)
                 std::rethrow_exception(failure);

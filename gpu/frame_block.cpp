@@ -112,8 +112,7 @@ FrameBlock frameBlock(const plan::SliceGrid &grid, const scene::ImageDefinition 
         if (std::abs(geometry.cellsPerColumn[d]) * grid.columns +
                 std::abs(geometry.cellsPerRow[d]) * grid.rows >
             0x1p22)
-            throw task::Error(task::ErrorCode::outOfMemory,
-                              "the image reaches further than the graphics card's slice can count");
+            throw task::Error(task::ErrorCode::outOfMemory, task::because::imageExceedsCard);
     const Steps column = stepsOf(geometry.cellsPerColumn, geometry.turnsPerColumn);
     const Steps row = stepsOf(geometry.cellsPerRow, geometry.turnsPerRow);
     Steps origin{};

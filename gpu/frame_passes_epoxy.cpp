@@ -6,7 +6,6 @@
 #include <chrono>
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 
 #include "core/task/error.h"
 #include "gpu/buffer.h"
@@ -161,13 +160,10 @@ std::shared_ptr<CardPicture> FramePasses::pictureFor(const scene::Camera &camera
         glWaitSync(sync, 0, GL_TIMEOUT_IGNORED);
         glDeleteSync(sync);
     }
-    if (std::max(camera.width, camera.height) > m_device->capabilities().largest2dTexture)
-        throw task::Error(
-            task::ErrorCode::outOfMemory,
-            fmt::format("an image of {} x {} pixels is larger than the graphics card's textures, "
-                        "{} x {} at most",
-                        camera.width, camera.height, m_device->capabilities().largest2dTexture,
-                        m_device->capabilities().largest2dTexture));
+    const int largest = m_device->capabilities().largest2dTexture;
+    if (std::max(camera.width, camera.height) > largest)
+        throw task::Error(task::ErrorCode::outOfMemory, task::because::imageExceedsTextures(
+                                                            camera.width, camera.height, largest));
     target.texture.reserve(camera.width, camera.height, layers);
     picture->m_passes = shared_from_this();
     picture->m_texture = &target.texture;
@@ -237,8 +233,7 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
         glDeleteSync(done);
         checkErrors("a frame");
         if (waited != GL_ALREADY_SIGNALED && waited != GL_CONDITION_SATISFIED)
-            throw task::Error(task::ErrorCode::noSuchDevice,
-                              "the graphics card does not answer any more");
+            throw task::Error(task::ErrorCode::noSuchDevice, task::because::cardDoesNotAnswer);
         if (times != nullptr)
             *times = {place.stampMs(0, 1), place.stampMs(1, 2), 1e3 * (submitted - start),
                       dispatches};

@@ -45,8 +45,8 @@ render::EngineParts GpuEngine::parts() const {
     return {m_textures->spectra(), m_shares, m_room};
 }
 
-std::string GpuEngine::description() const {
-    return "GPU engine, " + m_textures->passes()->device().capabilities().renderer;
+task::Reason GpuEngine::description() const {
+    return task::because::gpuEngine(m_textures->passes()->device().capabilities().renderer);
 }
 
 picture::ProjectionImage GpuEngine::render(const scene::Camera &camera,

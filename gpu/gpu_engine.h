@@ -43,7 +43,7 @@ public:
     std::shared_ptr<GpuEngine> withShares(std::vector<render::ChannelShares> shares) const;
     std::shared_ptr<GpuEngine> withoutLight() const;
 
-    std::string description() const override;
+    task::Reason description() const override;
     render::EngineParts parts() const override;
     /// Reads the picture back. *Throws* Error{outOfMemory}, Error{noSuchDevice}.
     picture::ProjectionImage render(const scene::Camera &camera,

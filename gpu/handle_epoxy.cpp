@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gpu/handle.h"
 
-#include <string>
-
 #include <epoxy/gl.h>
 
 #include "core/task/error.h"
@@ -65,12 +63,10 @@ void checkErrors(const char *doing) {
     for (int n = 0; n < 16 && glGetError() != GL_NO_ERROR; ++n)
         ;
     if (first == GL_CONTEXT_LOST)
-        throw task::Error(task::ErrorCode::noSuchDevice, "the graphics card was lost");
+        throw task::Error(task::ErrorCode::noSuchDevice, task::because::cardWasLost);
     if (first == GL_OUT_OF_MEMORY)
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          std::string("the graphics card has not enough memory for ") + doing);
-    throw task::Error(task::ErrorCode::internal,
-                      std::string("OpenGL error ") + std::to_string(first) + " with " + doing);
+        throw task::Error(task::ErrorCode::outOfMemory, task::because::cardLacksMemory(doing));
+    throw task::Error(task::ErrorCode::internal, task::because::openGlError(first, doing));
 }
 
 } // namespace pellucid::gpu

@@ -41,7 +41,7 @@ void append(ShaderText &out, const std::string &file, const Defines &defines) {
 std::string fileNames(const ShaderText &shader) {
     std::string names;
     for (std::size_t n = 0; n < shader.files.size(); ++n)
-        names += " " + std::to_string(n) + "=" + shader.files[n];
+        names += (n > 0 ? " " : "") + std::to_string(n) + "=" + shader.files[n];
     return names;
 }
 
@@ -58,7 +58,8 @@ ShaderName compile(GLenum stage, const std::string &file, const Defines &defines
         int length = 0;
         glGetShaderInfoLog(name.name(), int(log.size()), &length, log.data());
         log.resize(std::size_t(length));
-        throw task::Error(task::ErrorCode::internal, "shader" + fileNames(shader) + ": " + log);
+        throw task::Error(task::ErrorCode::internal,
+                          task::because::shaderDoesNotCompile(fileNames(shader), log));
     }
     return name;
 }
@@ -77,7 +78,7 @@ ProgramName link(std::span<const ShaderName> shaders, const std::string &files) 
         int length = 0;
         glGetProgramInfoLog(program.name(), int(log.size()), &length, log.data());
         log.resize(std::size_t(length));
-        throw task::Error(task::ErrorCode::internal, files + ": " + log);
+        throw task::Error(task::ErrorCode::internal, task::because::at(files, log));
     }
     return program;
 }

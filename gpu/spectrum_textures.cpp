@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/task/error.h"
@@ -61,10 +60,8 @@ SpectrumTextures::SpectrumTextures(std::shared_ptr<FramePasses> passes,
     m_layout.planes = planes;
     if (std::max(m_layout.columns, m_layout.rows) > card.largest3dTexture)
         throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("a spectrum of {} x {} x {} cells is larger than the "
-                                      "graphics card's textures, {} a side",
-                                      m_layout.columns, m_layout.rows, planes,
-                                      card.largest3dTexture));
+                          task::because::spectrumExceedsTextures(m_layout.columns, m_layout.rows,
+                                                                 planes, card.largest3dTexture));
     const int mostPlanes = int(std::min(mostTextureBytes / planeBytes(m_layout, layout.storage),
                                         std::size_t(card.largest3dTexture)));
     m_layout.perPage = std::max(1, mostPlanes / planes);
@@ -82,9 +79,7 @@ SpectrumTextures::SpectrumTextures(std::shared_ptr<FramePasses> passes,
     const int units = std::min(bindings::mostPages, card.textureUnits);
     if (pages > units || sources > std::size_t(bindings::mostSpectra))
         throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("{} spectra in {} textures are more than the graphics card "
-                                      "reads at once",
-                                      sources, pages));
+                          task::because::tooManySpectraForCard(sources, pages));
 }
 
 std::shared_ptr<const SpectrumTextures>
@@ -98,8 +93,7 @@ SpectrumTextures::upload(std::shared_ptr<FramePasses> passes, render::EngineSpec
     const std::size_t needed = textures->bytes();
     if (free && needed + spareBytes > *free)
         throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("the spectra need {} MB, the graphics card has {} MB free",
-                                      needed >> 20, *free >> 20));
+                          task::because::spectraExceedCard(needed >> 20, *free >> 20));
     const double share = double(fields.size()) / double(fields.size() + gradients.size());
     textures->m_fields = textures->uploadAll(fields, progress.part(0.0, share));
     textures->m_gradients = textures->uploadAll(gradients, progress.part(share, 1.0));

@@ -2,7 +2,6 @@
 #include "gpu/surfaceless_context.h"
 
 #include <array>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,7 +15,9 @@ namespace pellucid::gpu {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string &why) {
+namespace because = task::because;
+
+[[noreturn]] void refuse(const task::Reason &why) {
     throw task::Error(task::ErrorCode::noSuchDevice, why);
 }
 
@@ -106,9 +107,9 @@ bool Context::isLost() {
 
 SurfacelessContext::SurfacelessContext(bool software) {
     if (!isThere("libEGL.so.1"))
-        refuse("there is no libEGL on this machine");
+        refuse(because::noLibEgl);
     if (!isThere("libOpenGL.so.0") && !isThere("libGL.so.1"))
-        refuse("there is no libOpenGL on this machine");
+        refuse(because::noLibOpenGl);
     bool wasThere = false;
     // A device further down with 4.3 is better than an old one.
     for (const auto &[major, minor] : {std::pair(4, 3), {3, 3}})
@@ -123,9 +124,9 @@ SurfacelessContext::SurfacelessContext(bool software) {
             if (m_context != EGL_NO_CONTEXT)
                 return;
         }
-    refuse(wasThere   ? "EGL here makes no OpenGL 3.3 context"
-           : software ? "EGL finds no device here"
-                      : "there is no graphics card that EGL knows of");
+    refuse(wasThere   ? because::noEglContext
+           : software ? because::noEglDevice
+                      : because::noCardForEgl);
 }
 
 SurfacelessContext::~SurfacelessContext() {
@@ -136,7 +137,7 @@ void SurfacelessContext::makeCurrent() {
     // Which interface is meant is a thread's own affair.
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE ||
         eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context) == EGL_FALSE)
-        refuse("EGL cannot use its context");
+        refuse(because::eglContextUnusable);
 }
 
 void SurfacelessContext::doneCurrent() {

@@ -5,7 +5,6 @@
 #include <bit>
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 
 #include "core/task/error.h"
 
@@ -44,10 +43,8 @@ void TransformPasses::fit(const plan::SliceGrid &grid, int images) {
     if (bytes > m_device.capabilities().storageBytes)
         throw task::Error(
             task::ErrorCode::outOfMemory,
-            fmt::format("the slice of this image, {} x {} cells, needs {} MB in one piece; the "
-                        "graphics card gives {} MB (larger pixels need fewer cells)",
-                        grid.columns, grid.rows, bytes >> 20,
-                        m_device.capabilities().storageBytes >> 20));
+            task::because::sliceExceedsCard(grid.columns, grid.rows, bytes >> 20,
+                                            m_device.capabilities().storageBytes >> 20));
     m_slice.fit(bytes);
     m_lines.fit(bytes);
 }

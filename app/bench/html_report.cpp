@@ -173,7 +173,7 @@ void makeReportFolder(const std::filesystem::path &folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
-        throw task::Error(task::ErrorCode::output, error.message(), folder);
+        throw task::Error(task::ErrorCode::output, task::systemReason(error), folder);
 }
 
 void writeHtmlReport(const std::filesystem::path &folder, const Machine &machine,

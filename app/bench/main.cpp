@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/bench/suites.h"
+#include "app/exit_code.h"
 #include "core/decoder/read_volume_file.h"
 #include "core/files/atomic_file.h"
 #include "core/reference/wide_kernel.h"
@@ -23,7 +24,8 @@ void checkWritable(const std::filesystem::path &path) {
     if (path.empty())
         return;
     if (std::filesystem::is_directory(path))
-        throw pellucid::task::Error(pellucid::task::ErrorCode::output, "is a folder", path);
+        throw pellucid::task::Error(pellucid::task::ErrorCode::output,
+                                    pellucid::task::because::inWords("is a folder"), path);
     pellucid::files::AtomicFile{path};
 }
 
@@ -45,8 +47,9 @@ pellucid::bench::Subject readSubject(const std::string &path) {
     const std::size_t available = system::availableMemoryBytes();
     if (needed > available)
         throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("its exact projection needs {} MB, {} MB are available",
-                                      (needed >> 20) + 1, available >> 20),
+                          task::because::inWords(
+                              fmt::format("its exact projection needs {} MB, {} MB are available",
+                                          (needed >> 20) + 1, available >> 20)),
                           path);
     return subject;
 }
@@ -123,8 +126,9 @@ int main(int argc, char **argv) {
         if (!file.empty()) {
             for (const std::string &suite : suites)
                 if (suite != "kernels" && suite != "scaling")
-                    throw task::Error(task::ErrorCode::usage,
-                                      "--volume goes with --suite kernels or scaling");
+                    throw task::Error(
+                        task::ErrorCode::usage,
+                        task::because::inWords("--volume goes with --suite kernels or scaling"));
             given = readSubject(file);
         }
         const auto machine = bench::thisMachine();
@@ -147,13 +151,13 @@ int main(int argc, char **argv) {
         return app.exit(success);
     } catch (const CLI::ParseError &error) {
         std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
-        return 2;
+        return exitCode(task::ErrorCode::usage);
     } catch (const task::Error &error) {
         std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
-        return int(error.code());
+        return exitCode(error.code());
     } catch (const std::exception &error) {
         std::fprintf(stderr, "pellucid-bench: %s\n", error.what());
-        return 1;
+        return exitCode(task::ErrorCode::internal);
     }
     return 0;
 }

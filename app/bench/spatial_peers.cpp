@@ -44,7 +44,8 @@ SpatialVolume::SpatialVolume(const volume::Volume &field) : m_lattice(field.latt
         layOut(n.k, n.j, n.i, m_exchangedRowStride, m_exchangedPlaneStride, m_exchangedFirst), 0);
     // The ray sum's vectors hold byte offsets of 32 bits.
     if (std::max(m_samples.size(), m_exchanged.size()) > std::size_t(1) << 30)
-        throw task::Error(task::ErrorCode::usage, "the ray sum takes at most 2^30 samples");
+        throw task::Error(task::ErrorCode::usage,
+                          task::because::inWords("the ray sum takes at most 2^30 samples"));
     field.visit([&](auto values) {
         tbb::parallel_for(0, n.j, [&](int j) {
             for (int k = 0; k < n.k; ++k)

@@ -140,7 +140,7 @@ Card findCard() {
                     std::make_unique<gpu::SurfacelessContext>(false))),
                 {}};
     } catch (const task::Error &error) {
-        return {nullptr, error.reason()};
+        return {nullptr, error.reason().english()};
     }
 }
 

@@ -13,6 +13,7 @@ namespace pellucid::cli {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
@@ -29,15 +30,16 @@ OutputKind outputKind(const fs::path &out) {
         return OutputKind::nrrd;
     if (suffix == ".dcm")
         return OutputKind::capture;
-    throw Error(ErrorCode::usage,
-                "-o: '" + out.string() + "' must end in .png, .npy, .nrrd or .dcm");
+    throw Error(ErrorCode::usage, because::inWords("-o: '" + out.string() +
+                                                   "' must end in .png, .npy, .nrrd or .dcm"));
 }
 
 } // namespace
 
 void checkOutput(const fs::path &out, bool isGrey) {
     if (outputKind(out) == OutputKind::nrrd && !isGrey)
-        throw Error(ErrorCode::usage, "-o: coloured pictures are written as .png, .npy or .dcm");
+        throw Error(ErrorCode::usage,
+                    because::inWords("-o: coloured pictures are written as .png, .npy or .dcm"));
 }
 
 void writeImage(const fs::path &path, const picture::ProjectionImage &image,

@@ -29,7 +29,7 @@ json volumeJson(const dicom::VolumeEntry &v) {
     for (const auto &w : v.notes.windows)
         windows.push_back({{"center", w.center}, {"width", w.width}, {"name", w.name}});
     const auto vector = [](const glm::dvec3 &x) { return json{x.x, x.y, x.z}; };
-    json out = {{"label", v.label},
+    json out = {{"label", dicom::labelText(v.label)},
                 {"volume", v.placed},
                 {"size", {l.size().i, l.size().j, l.size().k}},
                 {"spacing_mm", {l.spacingMm(0), l.spacingMm(1), l.sliceDistanceMm()}},
@@ -42,9 +42,9 @@ json volumeJson(const dicom::VolumeEntry &v) {
                 {"unit", v.unit == volume::ValueUnit::hounsfield ? "HU" : ""},
                 {"lossy", v.notes.lossy},
                 {"windows", windows},
-                {"warnings", v.notes.warnings}};
+                {"warnings", englishTexts(v.notes.warnings)}};
     if (!v.placed)
-        out["reason"] = v.notPlacedReason;
+        out["reason"] = v.notPlacedReason->english();
     return out;
 }
 
@@ -80,7 +80,7 @@ json catalogueJson(const dicom::Catalogue &catalogue) {
     }
     json skipped = json::array();
     for (const auto &s : catalogue.skipped)
-        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason}});
+        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason.english()}});
     return {{"patients", patients}, {"skipped", skipped}};
 }
 
@@ -98,13 +98,13 @@ void printCatalogue(const dicom::Catalogue &catalogue) {
                     const std::string number =
                         e.volumes.size() == 1 ? "" : fmt::format("{}. ", &v - e.volumes.data() + 1);
                     fmt::print("      {}{}{} x {} x {}, {:.3f} x {:.3f} x {:.3f} mm{}{}\n", number,
-                               v.label.empty() ? "" : printable(v.label) + ": ", l.size().i,
-                               l.size().j, l.size().k, l.spacingMm(0), l.spacingMm(1),
+                               v.label.empty() ? "" : printable(dicom::labelText(v.label)) + ": ",
+                               l.size().i, l.size().j, l.size().k, l.spacingMm(0), l.spacingMm(1),
                                l.sliceDistanceMm(),
                                v.unit == volume::ValueUnit::hounsfield ? ", HU" : "",
                                v.notes.lossy ? ", lossy" : "");
                     for (const auto &w : v.notes.warnings)
-                        fmt::print("        {}\n", printable(w));
+                        fmt::print("        {}\n", printable(w.english()));
                 }
             }
         }
@@ -112,7 +112,7 @@ void printCatalogue(const dicom::Catalogue &catalogue) {
     if (!catalogue.skipped.empty())
         fmt::print("Not used ({}):\n", catalogue.skipped.size());
     for (const auto &s : catalogue.skipped)
-        fmt::print("  {}: {}\n", printable(s.path.string()), printable(s.reason));
+        fmt::print("  {}: {}\n", printable(s.path.string()), printable(s.reason.english()));
 }
 
 } // namespace

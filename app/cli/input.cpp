@@ -27,6 +27,7 @@ double nowMs() {
         .count();
 }
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -38,7 +39,8 @@ void requireOther(const std::vector<std::filesystem::path> &outs, const std::fil
         return;
     const auto check = [&](const std::filesystem::path &file) {
         if (const auto out = there.find(file))
-            throw Error(ErrorCode::usage, "-o: is one of the files that are read", *out);
+            throw Error(ErrorCode::usage, because::inWords("-o: is one of the files that are read"),
+                        *out);
     };
     check(path);
     for (const dicom::Skipped &s : catalogue.skipped)
@@ -63,12 +65,12 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
     constexpr std::size_t most = 20; // lines
     std::size_t others = 0, more = 0, lines = 0;
     for (const dicom::Skipped &skipped : catalogue.skipped)
-        if (skipped.reason == "is not a DICOM file")
+        if (skipped.reason.is(because::isNotDicom))
             ++others; // texts and programs lie beside images
         else if (lines++ >= most)
             ++more;
         else
-            warn(skipped.path.string() + ": not used: " + skipped.reason);
+            warn(skipped.path.string() + ": not used: " + skipped.reason.english());
     if (more > 0)
         warn(fmt::format("more files that are not used: {}; 'info' lists them", more));
     if (others > 0)
@@ -90,19 +92,21 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
         const std::size_t all = shown.series->files.size();
         warn(fmt::format("volume {} of {} in the series ('{}', {} of {} file{}); --volume selects "
                          "another, 'info' lists them",
-                         shown.volume - volumes.data() + 1, volumes.size(), shown.volume->label,
-                         files, all, all == 1 ? "" : "s"));
+                         shown.volume - volumes.data() + 1, volumes.size(),
+                         dicom::labelText(shown.volume->label), files, all, all == 1 ? "" : "s"));
     }
 }
 
 // What is missing for want of memory tells nothing of the files.
 void requireAllRead(const std::vector<dicom::Skipped> &skipped, const std::filesystem::path &path) {
     const auto lacking = std::count_if(skipped.begin(), skipped.end(), [](const auto &s) {
-        return s.reason == dicom::lacksMemory;
+        return s.reason.is(because::needsTooMuchMemory);
     });
     if (lacking > 0)
         throw Error(ErrorCode::outOfMemory,
-                    fmt::format("{} of its files need more memory than there is", lacking), path);
+                    because::inWords(
+                        fmt::format("{} of its files need more memory than there is", lacking)),
+                    path);
 }
 
 } // namespace
@@ -127,7 +131,7 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
     } catch (const std::exception &error) {
         if (!task::isLackOfMemory(error))
             throw;
-        throw Error(ErrorCode::outOfMemory, "not enough memory", path);
+        throw Error(ErrorCode::outOfMemory, because::notEnoughMemory, path);
     }
 }
 
@@ -137,15 +141,18 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
     const auto huge = std::find_if(catalogue.skipped.begin(), catalogue.skipped.end(),
                                    [](const dicom::Skipped &s) { return s.isHuge; });
     if (huge != catalogue.skipped.end())
-        throw Error(ErrorCode::unusable, huge->reason + "; --large opens it", huge->path);
+        throw Error(ErrorCode::unusable,
+                    because::inWords(huge->reason.english() + "; --large opens it"), huge->path);
     if (catalogue.skipped.size() == 1)
         throw Error(ErrorCode::unusable, catalogue.skipped[0].reason, catalogue.skipped[0].path);
-    std::string reason = "holds no usable images";
-    if (!catalogue.skipped.empty())
-        reason +=
-            fmt::format(" in {} files; {}: {}", catalogue.skipped.size(),
-                        catalogue.skipped[0].path.filename().string(), catalogue.skipped[0].reason);
-    throw Error(ErrorCode::unusable, reason, path);
+    if (catalogue.skipped.empty())
+        throw Error(ErrorCode::unusable, because::holdsNoUsableImages, path);
+    throw Error(ErrorCode::unusable,
+                because::inWords(fmt::format("holds no usable images in {} files; {}: {}",
+                                             catalogue.skipped.size(),
+                                             catalogue.skipped[0].path.filename().string(),
+                                             catalogue.skipped[0].reason.english())),
+                path);
 }
 
 CLI::Validator notEmpty() {
@@ -205,7 +212,9 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
     if (!selection.volume->placed) {
         requireAllRead(catalogue.skipped, path);
         throw Error(ErrorCode::unusable,
-                    "holds images but no volume: " + selection.volume->notPlacedReason, path);
+                    because::inWords("holds images but no volume: " +
+                                     selection.volume->notPlacedReason->english()),
+                    path);
     }
     try {
         input.loaded = dicom::loadVolume(*selection.volume, progress);
@@ -216,7 +225,8 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
     if (!input.loaded.volume.notes().placed) {
         requireAllRead(input.loaded.skipped, path);
         throw Error(ErrorCode::unusable,
-                    "holds images but no volume: " + input.loaded.volume.notes().warnings.back(),
+                    because::inWords("holds images but no volume: " +
+                                     input.loaded.volume.notes().warnings.back().english()),
                     path);
     }
     input.seriesUid = selection.series->uid;
@@ -228,8 +238,8 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
                          input.loaded.skipped.end());
     // Said even where no JSON is asked for: that a slice is left out, above all.
     warnOfOthers(catalogue, selection, options.series.empty(), options.volume == 0);
-    for (const std::string &warning : input.loaded.volume.notes().warnings)
-        warn(warning);
+    for (const task::Reason &warning : input.loaded.volume.notes().warnings)
+        warn(warning.english());
     input.loadMs = watch.lapMs();
     return input;
 }
@@ -245,9 +255,10 @@ std::vector<double> parseNumbers(const std::string &option, const std::string &t
         const bool last = values.size() + 1 == count;
         if (error != std::errc() || !std::isfinite(value) ||
             (last ? stop != end : *stop != separator))
-            throw Error(ErrorCode::usage, option + ": '" + text + "' is not " +
-                                              std::to_string(count) + " numbers separated by '" +
-                                              separator + "'");
+            throw Error(ErrorCode::usage,
+                        because::inWords(option + ": '" + text + "' is not " +
+                                         std::to_string(count) + " numbers separated by '" +
+                                         separator + "'"));
         values.push_back(value);
         at = stop + 1;
     }
@@ -257,7 +268,8 @@ std::vector<double> parseNumbers(const std::string &option, const std::string &t
 classify::FieldWindow parseWindow(const std::string &text) {
     const auto values = parseNumbers("--window", text, ',', 2);
     if (!(values[0] < values[1]))
-        throw Error(ErrorCode::usage, "--window: the low end must lie below the high end");
+        throw Error(ErrorCode::usage,
+                    because::inWords("--window: the low end must lie below the high end"));
     return {values[0], values[1]};
 }
 

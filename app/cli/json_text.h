@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "app/cli/terminal.h"
+#include "core/task/reason.h"
 #include "core/volume/lattice.h"
 
 namespace pellucid::cli {
@@ -13,6 +15,13 @@ namespace pellucid::cli {
 /// Indented JSON; bytes of a header that are no UTF-8 are replaced instead of refused.
 inline std::string jsonText(const nlohmann::json &value) {
     return escapedControls(value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+inline std::vector<std::string> englishTexts(const std::vector<task::Reason> &reasons) {
+    std::vector<std::string> texts;
+    for (const task::Reason &reason : reasons)
+        texts.push_back(reason.english());
+    return texts;
 }
 
 inline nlohmann::json sizeJson(const volume::GridSize &size) {

@@ -12,6 +12,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/terminal.h"
+#include "app/exit_code.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
@@ -20,7 +21,7 @@
 
 namespace {
 
-constexpr int cancelledExit = 130, usageExit = 2, memoryExit = 4, internalExit = 1;
+constexpr int cancelledExit = 130;
 
 int report(const std::string &what, int code) {
     std::fprintf(stderr, "pellucid-cli: %s\n", pellucid::cli::printable(what).c_str());
@@ -76,14 +77,14 @@ int run(int argc, char **argv) {
     if (argc > 1 && !known(argv[1]))
         return report(std::string("unknown command '") + argv[1] +
                           "'; there are info, render, volume, preset and phantom",
-                      usageExit);
+                      exitCode(task::ErrorCode::usage));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success &success) {
         return app.exit(success);
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        return report("standard output cannot be written", int(task::ErrorCode::output));
+        return report("standard output cannot be written", exitCode(task::ErrorCode::output));
     return 0;
 }
 
@@ -94,14 +95,15 @@ int main(int argc, char **argv) {
     try {
         return run(argc, argv);
     } catch (const CLI::ParseError &error) {
-        return report(error.what(), usageExit);
+        return report(error.what(), exitCode(task::ErrorCode::usage));
     } catch (const task::Error &error) {
-        return report(error.what(), int(error.code()));
+        return report(error.what(), exitCode(error.code()));
     } catch (const task::Cancelled &) {
         return report("cancelled", cancelledExit);
     } catch (const std::exception &error) {
         return task::isLackOfMemory(error)
-                   ? report("not enough memory", memoryExit)
-                   : report(std::string("internal error: ") + error.what(), internalExit);
+                   ? report("not enough memory", exitCode(task::ErrorCode::outOfMemory))
+                   : report(std::string("internal error: ") + error.what(),
+                            exitCode(task::ErrorCode::internal));
     }
 }

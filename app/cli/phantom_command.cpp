@@ -22,6 +22,7 @@ struct Options {
 };
 
 void run(const Options &o, const CLI::App &command, const Context &context) {
+    namespace because = task::because;
     using task::Error;
     using task::ErrorCode;
     const phantom::Kind kind = phantom::kindFromName(o.kind);
@@ -30,12 +31,14 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     if (command.count("--size") > 0) {
         if (o.size.find_first_not_of("0123456789x") != std::string::npos)
             throw Error(ErrorCode::usage,
-                        "--size: '" + o.size + "' is not whole numbers with 'x' between them");
+                        because::inWords("--size: '" + o.size +
+                                         "' is not whole numbers with 'x' between them"));
         const auto n = parseNumbers("--size", o.size, 'x', 3);
         for (const double v : n)
             if (v != std::round(v) || v < 1 || v > 4096)
                 throw Error(ErrorCode::usage,
-                            "--size: '" + o.size + "' is not COLUMNSxROWSxSLICES of 1 to 4096");
+                            because::inWords("--size: '" + o.size +
+                                             "' is not COLUMNSxROWSxSLICES of 1 to 4096"));
         sampling.size = volume::GridSize{int(n[0]), int(n[1]), int(n[2])};
     }
     if (command.count("--spacing") > 0) {
@@ -44,7 +47,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     }
     sampling.tiltRad = o.tiltDeg * 3.14159265358979323846 / 180.0;
     if (o.folder.empty())
-        throw Error(ErrorCode::usage, "DIR: an empty path leads nowhere");
+        throw Error(ErrorCode::usage, because::inWords("DIR: an empty path leads nowhere"));
     files::requireWritable(o.folder);
     const task::Progress progress(context.stop);
     const auto volume = phantom::makePhantom(kind, phantom::phantomLattice(kind, sampling),

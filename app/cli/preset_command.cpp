@@ -15,6 +15,7 @@ namespace pellucid::cli {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using presets::PresetEntry;
 using presets::PresetLibrary;
@@ -28,7 +29,7 @@ struct Options {
 PresetLibrary openLibrary() {
     PresetLibrary library = PresetLibrary::ofUser();
     for (const auto &skipped : library.skipped())
-        warn(skipped.path.string() + ": " + skipped.reason);
+        warn(skipped.path.string() + ": " + skipped.reason.english());
     return library;
 }
 
@@ -45,9 +46,11 @@ void list() {
 
 void validate(const Options &o) {
     if (presets::isSlicerPreset(o.path))
-        throw task::Error(task::ErrorCode::usage,
-                          "is a volume property of 3D Slicer; 'preset import' makes a preset of it",
-                          o.path);
+        throw task::Error(
+            task::ErrorCode::usage,
+            because::inWords(
+                "is a volume property of 3D Slicer; 'preset import' makes a preset of it"),
+            o.path);
     const auto preset = presets::readPreset(o.path);
     std::puts(printable(fmt::format("{}: a preset named '{}'", o.path, preset.name)).c_str());
 }
@@ -78,8 +81,9 @@ void import(const Options &o) {
         former != nullptr && !former->isBuiltIn() && !o.replace)
         throw task::Error(
             task::ErrorCode::usage,
-            "there is a preset '" + preset.name +
-                "' already; --replace replaces it, --name gives this one another name");
+            because::inWords(
+                "there is a preset '" + preset.name +
+                "' already; --replace replaces it, --name gives this one another name"));
     library.save(preset);
     std::puts(printable(fmt::format("imported '{}'{}", preset.name, fit)).c_str());
 }

@@ -25,6 +25,7 @@ namespace pellucid::cli {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using nlohmann::json;
 using task::Error;
@@ -53,7 +54,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     // Refused before any work is done.
     checkOutput(out, classify::isGrey(lookFor(o.scene)) && shadingFor(o.scene, command).isGrey());
     if (o.turntable != (o.frames > 0))
-        throw Error(ErrorCode::usage, "--frames and --turntable go together");
+        throw Error(ErrorCode::usage, because::inWords("--frames and --turntable go together"));
     const CardChoice card = chooseCard(o.engine, o.frames);
     std::optional<tbb::global_control> threads;
     if (o.threads > 0)
@@ -79,8 +80,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                              (scene.crop.isWhole() ? 0 : samples * sizeof(float));
     if (command.count("--memory") > 0 && o.memory < held)
         throw Error(ErrorCode::outOfMemory,
-                    fmt::format("the volume needs {} MB, {} MB are allowed", (held >> 20) + 1,
-                                o.memory >> 20),
+                    because::inWords(fmt::format("the volume needs {} MB, {} MB are allowed",
+                                                 (held >> 20) + 1, o.memory >> 20)),
                     o.input.path);
     const classify::ShownFields fields = fieldsFor(scene, volume, context);
     // Asking for more than there is would end in the system killing the program.
@@ -100,15 +101,16 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         } catch (const Error &error) {
             if (error.code() != ErrorCode::outOfMemory || command.count("--memory") == 0)
                 throw;
-            throw Error(error.code(),
-                        fmt::format("{}; {} of {} MB are the volume and its fields", error.reason(),
-                                    held >> 20, o.memory >> 20),
-                        o.input.path);
+            throw Error(
+                error.code(),
+                because::inWords(fmt::format("{}; {} of {} MB are the volume and its fields",
+                                             error.reason().english(), held >> 20, o.memory >> 20)),
+                o.input.path);
         }
     };
     Renderer *renderer = &prepare();
     double prepareMs = watch.lapMs();
-    std::vector<std::string> warnings = volume.notes().warnings;
+    std::vector<std::string> warnings = englishTexts(volume.notes().warnings);
     const auto warn = [&](const std::string &text) {
         warnings.push_back(text);
         cli::warn(text);
@@ -180,7 +182,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         return;
     json skipped = json::array();
     for (const auto &s : input.skipped)
-        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason}});
+        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason.english()}});
     const volume::Lattice &l = volume.lattice();
     std::puts(jsonText({{"engine", renderer->description()},
                         {"device", renderer->isOnCard() ? "gpu" : "cpu"},

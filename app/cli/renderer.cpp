@@ -27,7 +27,7 @@ constexpr const char *whyExact = "no engine keeps the tolerance: the exact refer
 task::Error cardRefused(const task::Error &error) {
     const bool isTooSmall = error.code() == task::ErrorCode::outOfMemory;
     return {isTooSmall ? error.code() : task::ErrorCode::noSuchDevice,
-            "--engine gpu: " + error.reason()};
+            task::because::inWords("--engine gpu: " + error.reason().english())};
 }
 
 prepare::ShadedFields shadedFor(const scene::Scene &scene, const classify::ShownFields &fields,
@@ -58,7 +58,7 @@ CardChoice chooseCard(const std::string &engine, int frames) {
         } catch (const task::Error &error) {
             if (choice.isAsked)
                 throw cardRefused(error);
-            choice.reason = error.reason();
+            choice.reason = error.reason().english();
         }
     return choice;
 }
@@ -124,7 +124,8 @@ void Renderer::use(const CardChoice &card) {
     if (!m_engine)
         m_choice.reason = whyExact;
     if (!m_engine && card.isAsked)
-        throw cardRefused({task::ErrorCode::noSuchDevice, m_choice.reason + ", on the processor"});
+        throw cardRefused({task::ErrorCode::noSuchDevice,
+                           task::because::inWords(m_choice.reason + ", on the processor")});
     if (!m_engine || !card.passes)
         return;
     try {
@@ -135,7 +136,7 @@ void Renderer::use(const CardChoice &card) {
     } catch (const task::Error &error) {
         if (card.isAsked)
             throw cardRefused(error);
-        m_choice.reason = error.reason();
+        m_choice.reason = error.reason().english();
     }
 }
 
@@ -150,7 +151,7 @@ picture::ProjectionImage Renderer::image(const scene::Camera &camera, picture::F
             // the user requires the card.
             if (m_choice.isAsked)
                 throw cardRefused(error);
-            m_choice.reason = error.reason();
+            m_choice.reason = error.reason().english();
             m_card.reset();
             m_predictedError = m_fitting.plan.predictedError;
         }
@@ -206,8 +207,8 @@ picture::ProjectionImage Renderer::exactImage(const scene::Camera &camera) const
 
 std::string Renderer::description() const {
     if (m_card)
-        return m_card->description();
-    return m_engine ? m_engine->description() : "exact reference, double precision";
+        return m_card->description().english();
+    return m_engine ? m_engine->description().english() : "exact reference, double precision";
 }
 
 json Renderer::planJson() const {
@@ -263,7 +264,7 @@ json Renderer::planJson() const {
             {"slice_grid", {grid.columns, grid.rows}},
             {"storage", fourier::storageName(s.storage)},
             {"predicted_error", plan.predictedError},
-            {"reason", plan.reason}};
+            {"reason", plan.reason.english()}};
 }
 
 std::optional<double> Renderer::predictedMaximum() const {

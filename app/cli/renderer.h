@@ -58,7 +58,7 @@ public:
     bool isReduced() const { return m_fitting.reduction > 1; }
     /// Whether the exact reference makes the pictures.
     bool isExact() const { return !m_engine; }
-    const std::string &reason() const { return m_fitting.plan.reason; }
+    std::string reason() const { return m_fitting.plan.reason.english(); }
     /// An upper bound on the error of any view of the whole volume. It is the worst channel's
     /// bound; the error of the picture, all channels taken together, is no larger.
     double predictedError() const { return m_predictedError; }

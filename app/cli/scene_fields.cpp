@@ -47,8 +47,8 @@ std::vector<std::string> lookWarnings(const SceneOptions &options, const CLI::Ap
         warnings.emplace_back(
             "the ranges of --class are Hounsfield units, which the values are not known to be");
     if (const auto preset = presetFor(options))
-        if (const std::string why = presets::mismatch(*preset, volume); !why.empty())
-            warnings.push_back(why);
+        if (const auto why = presets::mismatch(*preset, volume))
+            warnings.push_back(why->english());
     return warnings;
 }
 

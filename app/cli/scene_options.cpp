@@ -20,6 +20,7 @@ namespace pellucid::cli {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
@@ -37,7 +38,7 @@ const std::map<std::string, scene::Reconstruction> reconstructions{
 
 scene::Scene readScene(const fs::path &path) {
     if (path.empty())
-        throw Error(ErrorCode::usage, "--scene: an empty path leads nowhere");
+        throw Error(ErrorCode::usage, because::inWords("--scene: an empty path leads nowhere"));
     const std::string text = files::readText(path, files::mostOfPreset);
     try {
         return scene::sceneFromJson(text);
@@ -55,7 +56,8 @@ classify::TissueClass classFromText(const std::string &text) {
     const auto equals = text.find('=');
     const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
     if (equals == std::string::npos)
-        throw Error(ErrorCode::usage, "--class: '" + text + "' is not NAME=WEIGHT[:#rrggbb]");
+        throw Error(ErrorCode::usage,
+                    because::inWords("--class: '" + text + "' is not NAME=WEIGHT[:#rrggbb]"));
     classify::TissueClass tissue = classNamed(text.substr(0, equals));
     // Grey unless a colour is named: so is the picture then.
     tissue.color = colon == std::string::npos ? classify::Color{}
@@ -91,7 +93,7 @@ const classify::TissueClass &classNamed(const std::string &name) {
             return tissue;
         names += (names.empty() ? "" : ", ") + tissue.name;
     }
-    throw Error(ErrorCode::usage, "--class: '" + name + "' is none of " + names);
+    throw Error(ErrorCode::usage, because::inWords("--class: '" + name + "' is none of " + names));
 }
 
 std::optional<presets::Preset> presetFor(const SceneOptions &options) {
@@ -119,7 +121,8 @@ shading::Shading shadingFor(const SceneOptions &o, const CLI::App &command,
         try {
             return fromText(text);
         } catch (const Error &error) {
-            throw Error(error.code(), std::string(option) + ": " + error.reason());
+            throw Error(error.code(),
+                        because::inWords(std::string(option) + ": " + error.reason().english()));
         }
     };
     if (command.count("--depth-cue") > 0)
@@ -131,8 +134,8 @@ shading::Shading shadingFor(const SceneOptions &o, const CLI::App &command,
     for (const std::string &text : o.lights)
         shading.lights.push_back(read("--light", text, shading::lightFromText));
     if (shading.lights.size() > shading::mostLights)
-        throw Error(ErrorCode::usage,
-                    fmt::format("--light: more than {} lights", shading::mostLights));
+        throw Error(ErrorCode::usage, because::inWords(fmt::format("--light: more than {} lights",
+                                                                   shading::mostLights)));
     return shading;
 }
 
@@ -240,18 +243,21 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
                                       {"--roll", o.rollDeg},
                                       {"--roll-off", std::max(o.rollOff, 0.0)}})
         if (!std::isfinite(value))
-            throw Error(ErrorCode::usage, std::string(name) + ": the number must be finite");
+            throw Error(ErrorCode::usage,
+                        because::inWords(std::string(name) + ": the number must be finite"));
     if (given("--orientation")) {
         if (given("--view") || given("--azimuth") || given("--elevation") || given("--roll"))
             throw Error(ErrorCode::usage,
-                        "--orientation excludes --view, --azimuth, --elevation and --roll");
+                        because::inWords(
+                            "--orientation excludes --view, --azimuth, --elevation and --roll"));
         const auto q = parseNumbers("--orientation", o.orientation, ',', 4);
         // Scaled first, so that huge and tiny quaternions can be normalised too.
         const double largest =
             std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3]), 1e-300});
         const glm::dquat rotation(q[0] / largest, q[1] / largest, q[2] / largest, q[3] / largest);
         if (!(glm::length(rotation) > 0.0))
-            throw Error(ErrorCode::usage, "--orientation: the quaternion must not be zero");
+            throw Error(ErrorCode::usage,
+                        because::inWords("--orientation: the quaternion must not be zero"));
         scene.camera.orientation = glm::normalize(rotation);
     } else if (o.scene.empty() || given("--view") || given("--azimuth") || given("--elevation") ||
                given("--roll")) {
@@ -266,9 +272,9 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
             if (!(o.pixelMm > 0.0) || side > scene::largestImageSize)
                 throw Error(
                     ErrorCode::usage,
-                    fmt::format(
+                    because::inWords(fmt::format(
                         "--pixel-mm: an image of the whole volume would have {:.0f} pixels a side",
-                        side));
+                        side)));
             const int n = int(std::ceil(side - 1e-6));
             scene.camera.width = scene.camera.height = std::max(2, n + n % 2);
         }
@@ -276,13 +282,14 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
     if (given("--size")) {
         if (o.size.find_first_not_of("0123456789x") != std::string::npos)
             throw Error(ErrorCode::usage,
-                        "--size: '" + o.size + "' is not whole numbers with 'x' between them");
+                        because::inWords("--size: '" + o.size +
+                                         "' is not whole numbers with 'x' between them"));
         const auto n = parseNumbers("--size", o.size, 'x', 2);
         if (n[0] != std::round(n[0]) || n[1] != std::round(n[1]) || std::min(n[0], n[1]) < 1 ||
             std::max(n[0], n[1]) > scene::largestImageSize)
-            throw Error(ErrorCode::usage,
-                        fmt::format("--size: '{}' is not WIDTHxHEIGHT of 1 to {} pixels", o.size,
-                                    scene::largestImageSize));
+            throw Error(ErrorCode::usage, because::inWords(fmt::format(
+                                              "--size: '{}' is not WIDTHxHEIGHT of 1 to {} pixels",
+                                              o.size, scene::largestImageSize)));
         scene.camera.width = int(n[0]);
         scene.camera.height = int(n[1]);
     }
@@ -298,7 +305,8 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
     scene.shading = shadingFor(o, command, scene.shading);
     if (given("--light-frame")) {
         if (o.lights.empty())
-            throw Error(ErrorCode::usage, "--light-frame says how a --light is meant");
+            throw Error(ErrorCode::usage,
+                        because::inWords("--light-frame says how a --light is meant"));
         // Directions are given as seen in the scene's view.
         const glm::dmat3 axes = scene.camera.axes();
         for (shading::Light &light : scene.shading.lights)

@@ -21,6 +21,7 @@ namespace pellucid::cli {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using nlohmann::json;
 using task::Error;
@@ -31,12 +32,13 @@ using task::ErrorCode;
 void checkSpectrum(const fs::path &out, const CLI::App &command) {
     if (out.extension() != ".png" && out.extension() != ".npy")
         throw Error(ErrorCode::usage,
-                    "-o: '" + out.string() + "' must end in .png or .npy with --spectrum");
+                    because::inWords("-o: '" + out.string() +
+                                     "' must end in .png or .npy with --spectrum"));
     for (const char *option : shadingOptions)
         if (command.count(option) > 0)
             throw Error(ErrorCode::usage,
-                        std::string(option) +
-                            ": --spectrum shows the fields without cue and light");
+                        because::inWords(std::string(option) +
+                                         ": --spectrum shows the fields without cue and light"));
 }
 
 void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
@@ -50,11 +52,11 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     const classify::FieldWindow window = windowFor(scene, volume);
     const classify::ShownFields fields = fieldsFor(scene, volume, context);
     if (const std::string why = whyEmpty(scene, volume, fields); !why.empty())
-        throw Error(ErrorCode::unusable, why);
+        throw Error(ErrorCode::unusable, because::inWords(why));
     const auto prepared = prepare::prepareEngine(
         scene::planningScene(scene, fields.channels.front().values.lattice()), fields,
         {system::availableMemoryBytes()}, progress);
-    std::vector<std::string> warnings = volume.notes().warnings;
+    std::vector<std::string> warnings = englishTexts(volume.notes().warnings);
     const auto warnOf = [&](const std::string &text) {
         warnings.push_back(text);
         warn(text);
@@ -62,7 +64,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     for (const std::string &text : lookWarnings(options, command, scene, volume))
         warnOf(text);
     if (!prepared.viewError) // means of the samples were prepared
-        warnOf(prepared.plan.reason);
+        warnOf(prepared.plan.reason.english());
     const int side = std::max({scene.camera.width, scene.camera.height, 2});
     const render::SpectrumSlice slice =
         render::spectrumSlice(prepared.engine->parts(), scene.camera, side, progress);
@@ -74,7 +76,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
         return;
     json skipped = json::array();
     for (const auto &s : input.skipped)
-        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason}});
+        skipped.push_back({{"path", s.path.string()}, {"reason", s.reason.english()}});
     const fourier::SpectrumLayout &layout = prepared.plan.spectrum;
     std::puts(jsonText({{"size", {side, side}},
                         {"step_per_mm", slice.stepPerMm},
@@ -89,7 +91,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
                           {"box", sizeJson(layout.box.size())},
                           {"storage", fourier::storageName(layout.storage)},
                           {"predicted_error", prepared.plan.predictedError},
-                          {"reason", prepared.plan.reason}}},
+                          {"reason", prepared.plan.reason.english()}}},
                         {"warnings", warnings},
                         {"skipped", skipped}})
                   .c_str());

@@ -17,6 +17,8 @@ namespace pellucid::cli {
 
 namespace {
 
+namespace because = task::because;
+
 struct Options {
     InputOptions input;
     SceneOptions scene;
@@ -41,11 +43,14 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
         return;
     }
     if (std::filesystem::path(o.out).extension() != ".nrrd")
-        throw task::Error(task::ErrorCode::usage, "-o: '" + o.out + "' must end in .nrrd");
+        throw task::Error(task::ErrorCode::usage,
+                          because::inWords("-o: '" + o.out + "' must end in .nrrd"));
     if (command.count("--window") > 0 && !o.field && o.scene.classes.empty() && !o.edges)
-        throw task::Error(task::ErrorCode::usage, "--window needs --field or --class");
+        throw task::Error(task::ErrorCode::usage,
+                          because::inWords("--window needs --field or --class"));
     if (o.scene.classes.size() > 1)
-        throw task::Error(task::ErrorCode::usage, "--class: one class is written at a time");
+        throw task::Error(task::ErrorCode::usage,
+                          because::inWords("--class: one class is written at a time"));
     std::optional<classify::TissueClass> tissue;
     if (command.count("--class") > 0 || o.edges)
         tissue = classNamed(o.edges ? "edges" : o.scene.classes.front());

@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/exit_code.h"
 #include "app/pellucid/log_spdlog.h"
 #include "core/files/session_folder.h"
 #include "core/files/user_folders.h"
@@ -77,7 +78,7 @@ int main(int argc, char **argv) {
         return options.exit(success);
     } catch (const CLI::ParseError &error) {
         std::fprintf(stderr, "pellucid: %s\n", error.what());
-        return int(task::ErrorCode::usage);
+        return exitCode(task::ErrorCode::usage);
     }
     QSurfaceFormat format;
     format.setVersion(3, 3);
@@ -91,7 +92,7 @@ int main(int argc, char **argv) {
         const QString line = text.section('\n', 0, 0).simplified();
         if (type == QtFatalMsg) {
             std::fprintf(stderr, "pellucid: %s\n", qPrintable(reason.isEmpty() ? line : reason));
-            std::_Exit(int(task::ErrorCode::noSuchDevice));
+            std::_Exit(exitCode(task::ErrorCode::noSuchDevice));
         }
         if (type != QtWarningMsg && type != QtCriticalMsg)
             return;
@@ -111,7 +112,7 @@ int main(int argc, char **argv) {
         qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) {
         std::fprintf(stderr, "pellucid: there is no display (neither DISPLAY nor WAYLAND_DISPLAY "
                              "is set)\n");
-        return int(task::ErrorCode::noSuchDevice);
+        return exitCode(task::ErrorCode::noSuchDevice);
     }
 #endif
     // Libraries map much while they begin, and some software renderers crash where they cannot.
@@ -120,7 +121,7 @@ int main(int argc, char **argv) {
         std::fprintf(
             stderr, "pellucid: not enough memory to start: needs %zu MB, the limit leaves %zu MB\n",
             mappedToStart >> 20, system::mappableBytes() >> 20);
-        return int(task::ErrorCode::outOfMemory);
+        return exitCode(task::ErrorCode::outOfMemory);
     }
     system::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
     // The engine's context shares with those of the windows: its pictures stay on the card.
@@ -149,12 +150,12 @@ int main(int argc, char **argv) {
         return QApplication::exec();
     } catch (const task::Error &error) {
         std::fprintf(stderr, "pellucid: %s\n", error.what());
-        return int(error.code());
+        return exitCode(error.code());
     } catch (const std::bad_alloc &) {
         std::fprintf(stderr, "pellucid: not enough memory to start\n");
-        return int(task::ErrorCode::outOfMemory);
+        return exitCode(task::ErrorCode::outOfMemory);
     } catch (...) {
-        std::fprintf(stderr, "pellucid: %s\n", qPrintable(ui::currentFailure().what));
-        return int(task::ErrorCode::internal);
+        std::fprintf(stderr, "pellucid: %s\n", ui::currentFailure().what.english().c_str());
+        return exitCode(task::ErrorCode::internal);
     }
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 #include <tbb/parallel_for.h>
 
@@ -32,8 +31,7 @@ Range samplesBetween(double low, double high, int count) {
 void validate(const CropBox &box) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(box.low[axis] >= 0.0 && box.high[axis] <= 1.0 && box.low[axis] < box.high[axis]))
-            throw task::Error(task::ErrorCode::usage,
-                              "the crop box needs 0 <= low < high <= 1 on every axis");
+            throw task::Error(task::ErrorCode::usage, task::because::cropBoxOutOfRange);
 }
 
 volume::VoxelBox samplesIn(const CropBox &box, const volume::GridSize &size) {
@@ -48,7 +46,7 @@ DensityField cropped(DensityField field, const CropBox &box) {
         return field;
     const volume::GridSize size = field.values.lattice().size();
     const volume::VoxelBox in = samplesIn(box, size);
-    try {
+    return task::orOutOfMemory(task::because::noMemoryForTheCroppedField, [&] {
         std::vector<float> samples(size.count(), 0.0F);
         field.values.visit([&](const auto &from) {
             tbb::parallel_for(in.lo.k, in.hi.k, [&](int k) {
@@ -61,9 +59,7 @@ DensityField cropped(DensityField field, const CropBox &box) {
             });
         });
         return fieldOf(field.values, std::move(samples));
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for the cropped field");
-    }
+    });
 }
 
 ShownFields cropped(ShownFields fields, const CropBox &box) {

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <new>
 
-#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -77,21 +75,17 @@ DensityField densityField(const volume::Volume &volume, const FieldWindow &windo
     const volume::GridSize size = volume.lattice().size();
     const double width = window.high - window.low;
     const Mapping map{float(window.low), width > 0.0 ? float(1.0 / width) : 0.0F};
-    try {
+    return task::orOutOfMemory(task::because::noMemoryForAField(size.i, size.j, size.k), [&] {
         std::vector<float> values(size.count());
         const VoxelBox box = volume.visit([&](auto samples) {
             using T = std::remove_const_t<typename decltype(samples)::element_type>;
             return mapSlices<T>(samples, values, size, map, progress);
         });
         progress.report(1.0);
-        return {volume::Volume(volume.lattice(), std::move(values), volume::ValueUnit::none,
-                               volume.notes()),
-                orMiddle(box, size)};
-    } catch (const std::bad_alloc &) {
-        throw task::Error(
-            task::ErrorCode::outOfMemory,
-            fmt::format("not enough memory for a field of {} x {} x {}", size.i, size.j, size.k));
-    }
+        return DensityField{volume::Volume(volume.lattice(), std::move(values),
+                                           volume::ValueUnit::none, volume.notes()),
+                            orMiddle(box, size)};
+    });
 }
 
 DensityField fieldOf(const volume::Volume &like, std::vector<float> samples) {

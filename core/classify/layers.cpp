@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/classify/layers.h"
 
-#include <new>
-
 #include "core/classify/shown_fields.h"
 #include "core/classify/value_curve.h"
 #include "core/task/error.h"
@@ -39,14 +37,12 @@ DensityField layerField(const volume::Volume &volume, const FieldWindow &window,
     const WeightedCurve curve{ValueCurve(window, DensityKind::window, std::nullopt, [&](double f) {
         return bernstein(layer.index, layer.degree, f);
     })};
-    try {
+    return task::orOutOfMemory(task::because::noMemoryForABasisField, [&] {
         std::vector<std::vector<float>> sums(
             1, std::vector<float>(volume.lattice().size().count(), 0.0F));
         addCurves(volume, nullptr, {&curve, 1}, sums, progress);
         return fieldOf(volume, std::move(sums.front()));
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for a basis field");
-    }
+    });
 }
 
 } // namespace pellucid::classify

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include <fmt/format.h>
-
 #include "core/task/error.h"
 
 namespace pellucid::classify {
@@ -33,9 +31,8 @@ bool isGrey(const Look &look) {
 void validate(const Look &look) {
     validate(look.transferFunction);
     if (look.classes.size() > mostClasses)
-        throw task::Error(
-            task::ErrorCode::usage,
-            fmt::format("there are {} classes, {} are allowed", look.classes.size(), mostClasses));
+        throw task::Error(task::ErrorCode::usage,
+                          task::because::tooManyClasses(look.classes.size(), mostClasses));
     for (const TissueClass &tissue : look.classes)
         validate(tissue);
 }

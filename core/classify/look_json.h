@@ -11,8 +11,8 @@ namespace pellucid::classify {
 /// each with name, range, softness, weight, color, steps and perhaps a transfer_function.
 std::string toJson(const Look &look);
 
-/// From such an object; keys of others are left alone. *Throws* Error{usage}; the reason begins
-/// with the JSON pointer of what is wrong and a colon.
+/// From such an object; keys of others are left alone. *Throws* Error{usage} with the JSON
+/// pointer of what is wrong (`because::at`).
 Look lookFromJson(const std::string &text);
 
 } // namespace pellucid::classify

@@ -10,6 +10,7 @@ namespace pellucid::classify {
 
 namespace {
 
+namespace because = task::because;
 using nlohmann::json;
 using task::Error;
 
@@ -30,9 +31,9 @@ TransferFunction functionFromJson(const json &in, const std::string &where) {
 
 Step stepFromJson(const json &in, const std::string &where) {
     if (!in.is_object())
-        refuseJson(where, "must be an object with a kind");
+        refuseJson(where, because::mustHaveAKind);
     if (!in.contains("kind"))
-        refuseJson(where, "has no kind");
+        refuseJson(where, because::hasNo("kind"));
     Step step{jsonText(in["kind"], where + "/kind"), {}};
     for (const auto &[key, value] : in.items())
         if (key != "kind") {
@@ -46,15 +47,15 @@ Step stepFromJson(const json &in, const std::string &where) {
 
 TissueClass classFromJson(const json &in, const std::string &where) {
     if (!in.is_object())
-        refuseJson(where, "must be an object with a name and a range");
+        refuseJson(where, because::mustHaveANameAndARange);
     for (const char *key : {"name", "range"})
         if (!in.contains(key))
-            refuseJson(where, "has no " + std::string(key));
+            refuseJson(where, because::hasNo(key));
     TissueClass tissue;
     tissue.name = jsonText(in["name"], where + "/name");
     const auto range = jsonNumbers(in["range"], where + "/range");
     if (range.size() != 2)
-        refuseJson(where + "/range", "must be two numbers");
+        refuseJson(where + "/range", because::mustBeTwoNumbers);
     tissue.low = range[0];
     tissue.high = range[1];
     if (in.contains("softness"))
@@ -69,7 +70,7 @@ TissueClass classFromJson(const json &in, const std::string &where) {
             functionFromJson(in["transfer_function"], where + "/transfer_function");
     if (in.contains("steps")) {
         if (!in["steps"].is_array())
-            refuseJson(where + "/steps", "must be a list");
+            refuseJson(where + "/steps", because::mustBeAList);
         for (std::size_t n = 0; n < in["steps"].size(); ++n)
             tissue.steps.push_back(
                 stepFromJson(in["steps"][n], where + "/steps/" + std::to_string(n)));
@@ -110,15 +111,15 @@ std::string toJson(const Look &look) {
 Look lookFromJson(const std::string &source) {
     const json in = json::parse(source, nullptr, false);
     if (!in.is_object())
-        refuseJson("", "must be an object");
+        refuseJson("", because::mustBeAnObject);
     Look look;
     if (in.contains("transfer_function"))
         look.transferFunction = functionFromJson(in["transfer_function"], "/transfer_function");
     if (in.contains("classes")) {
         if (!in["classes"].is_array())
-            refuseJson("/classes", "must be a list");
+            refuseJson("/classes", because::mustBeAList);
         if (in["classes"].size() > mostClasses)
-            refuseJson("/classes", "holds more than " + std::to_string(mostClasses) + " classes");
+            refuseJson("/classes", because::holdsTooManyClasses(mostClasses));
         for (std::size_t n = 0; n < in["classes"].size(); ++n)
             look.classes.push_back(
                 classFromJson(in["classes"][n], "/classes/" + std::to_string(n)));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
 
 #include "core/classify/value_curve.h"
 #include "core/task/error.h"
@@ -58,8 +57,7 @@ ClassSamples samplesOf(const volume::Volume &volume, const TissueClass &tissue, 
     if (tissue.steps.empty())
         return {volume, DensityKind::window, nullptr};
     if (runner == nullptr)
-        throw task::Error(task::ErrorCode::usage,
-                          "the steps of the class '" + tissue.name + "' cannot be run here");
+        throw task::Error(task::ErrorCode::usage, task::because::stepsCannotRun(tissue.name));
     return runner->run(volume, tissue, progress);
 }
 
@@ -80,7 +78,7 @@ ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window,
     const std::vector<TissueClass> shown = visibleClasses(look);
     const bool oneColor = !mixesColors(look);
     ShownFields result;
-    try {
+    task::orOutOfMemory(task::because::noMemoryForTheClassFields, [&] {
         std::vector<std::vector<float>> sums(
             oneColor ? 1 : 3, std::vector<float>(volume.lattice().size().count(), 0.0F));
         if (look.classes.empty()) {
@@ -92,9 +90,7 @@ ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window,
         }
         for (auto &samples : sums)
             result.channels.push_back(fieldOf(volume, std::move(samples)));
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for the class fields");
-    }
+    });
     if (oneColor && !shown.empty())
         result.color = shown.front().color;
     return result;

@@ -13,6 +13,7 @@ namespace pellucid::classify {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -31,10 +32,9 @@ const StepParameter &parameterOf(const StepKind &kind, const std::string &name) 
     std::string names;
     for (const StepParameter &p : kind.parameters)
         names += (names.empty() ? "" : ", ") + p.name;
-    throw Error(ErrorCode::usage,
-                names.empty() ? fmt::format("the step '{}' has no parameters", kind.name)
-                              : fmt::format("'{}' is no parameter of the step '{}', which has {}",
-                                            name, kind.name, names));
+    throw Error(ErrorCode::usage, names.empty()
+                                      ? because::stepHasNoParameters(kind.name)
+                                      : because::stepHasOtherParameters(name, kind.name, names));
 }
 
 } // namespace
@@ -106,7 +106,7 @@ const StepKind &stepKind(const std::string &name) {
             return kind;
         names += (names.empty() ? "" : ", ") + kind.name;
     }
-    throw Error(ErrorCode::usage, "the step '" + name + "' is none of " + names);
+    throw Error(ErrorCode::usage, because::stepIsUnknown(name, names));
 }
 
 double Step::at(const std::string &parameter) const {
@@ -116,20 +116,19 @@ double Step::at(const std::string &parameter) const {
 
 void validate(const Step &step) {
     const StepKind &kind = stepKind(step.kind);
+    const auto number = [](double n) { return fmt::format("{:g}", n); };
     for (const auto &[name, value] : step.parameters) {
         const StepParameter &p = parameterOf(kind, name);
         if (!(value >= p.low && value <= p.high))
-            throw Error(ErrorCode::usage, fmt::format("{} of the step '{}' is {:g}, not within "
-                                                      "{:g} and {:g}",
-                                                      name, kind.name, value, p.low, p.high));
+            throw Error(ErrorCode::usage,
+                        because::stepParameterOutOfRange(name, kind.name, number(value),
+                                                         number(p.low), number(p.high)));
         if (p.isWhole && value != std::round(value))
-            throw Error(ErrorCode::usage, fmt::format("{} of the step '{}' is {:g}, not a whole "
-                                                      "number",
-                                                      name, kind.name, value));
+            throw Error(ErrorCode::usage,
+                        because::stepParameterNotWhole(name, kind.name, number(value)));
     }
     if (find(kind, "low") != nullptr && step.at("low") > step.at("high"))
-        throw Error(ErrorCode::usage,
-                    fmt::format("low of the step '{}' lies above high", kind.name));
+        throw Error(ErrorCode::usage, because::stepLowAboveHigh(kind.name));
 }
 
 std::string stepText(const Step &step) {
@@ -145,7 +144,7 @@ Step stepFromText(const std::string &text) {
     Step step{text.substr(0, open), {}};
     if (open != std::string::npos) {
         if (text.back() != ')')
-            throw Error(ErrorCode::usage, "the step '" + text + "' has no closing bracket");
+            throw Error(ErrorCode::usage, because::stepHasNoBracket(text));
         std::string rest = text.substr(open + 1, text.size() - open - 2);
         while (!rest.empty()) {
             const auto comma = rest.find(',');
@@ -159,8 +158,7 @@ Step stepFromText(const std::string &text) {
             const char *const end = number.data() + number.size();
             const auto read = std::from_chars(number.data(), end, value);
             if (number.empty() || read.ec != std::errc() || read.ptr != end)
-                throw Error(ErrorCode::usage,
-                            "'" + item + "' in the step '" + text + "' is not NAME=NUMBER");
+                throw Error(ErrorCode::usage, because::stepHasNoNumber(item, text));
             step.parameters[item.substr(0, equals)] = value;
         }
     }

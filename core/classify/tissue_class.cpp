@@ -13,6 +13,8 @@ namespace pellucid::classify {
 
 namespace {
 
+namespace because = task::because;
+
 // 0 below -1/2, 1 above 1/2.
 double raisedCosine(double x) {
     return x <= -0.5 ? 0.0 : x >= 0.5 ? 1.0 : 0.5 * (1.0 + std::sin(std::numbers::pi * x));
@@ -27,7 +29,7 @@ double component(const std::string &text, std::size_t at) {
 Color colorFromText(const std::string &text) {
     if (text.size() != 7 || text[0] != '#' ||
         text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
-        throw task::Error(task::ErrorCode::usage, "'" + text + "' is not a colour #rrggbb");
+        throw task::Error(task::ErrorCode::usage, because::isNoColor(text));
     return {component(text, 1), component(text, 3), component(text, 5)};
 }
 
@@ -43,23 +45,25 @@ double TissueClass::membership(double value) const {
 }
 
 void validate(const TissueClass &tissue) {
-    const auto refuse = [&](const std::string &what) {
-        throw task::Error(task::ErrorCode::usage, fmt::format("class '{}': {}", tissue.name, what));
+    const auto refuse = [&](const task::Reason &what) {
+        throw task::Error(task::ErrorCode::usage, because::ofClass(tissue.name, what));
     };
     if (tissue.name.empty())
-        throw task::Error(task::ErrorCode::usage, "a class has no name");
+        throw task::Error(task::ErrorCode::usage, because::classHasNoName);
     if (!std::isfinite(tissue.low) || !std::isfinite(tissue.high) || tissue.low > tissue.high)
-        refuse(fmt::format("the range {:g} to {:g} is empty", tissue.low, tissue.high));
+        refuse(because::rangeIsEmpty(fmt::format("{:g}", tissue.low),
+                                     fmt::format("{:g}", tissue.high)));
     if (!(tissue.softness >= 0.0 && std::isfinite(tissue.softness)))
-        refuse("the softness must be 0 or more");
+        refuse(because::softnessIsNegative);
     if (!(tissue.weight >= 0.0 && tissue.weight <= TransferFunction::largestWeight))
-        refuse(fmt::format("the weight {:g} is not within 0 and {:g}", tissue.weight,
-                           TransferFunction::largestWeight));
+        refuse(
+            because::classWeightOutOfRange(fmt::format("{:g}", tissue.weight),
+                                           fmt::format("{:g}", TransferFunction::largestWeight)));
     for (const double c : {tissue.color.red, tissue.color.green, tissue.color.blue})
         if (!(c >= 0.0 && c <= 1.0))
-            refuse("the colour is not within 0 and 1");
+            refuse(because::colorOutOfRange);
     if (tissue.steps.size() > mostSteps)
-        refuse(fmt::format("has {} steps, {} are allowed", tissue.steps.size(), mostSteps));
+        refuse(because::hasTooManySteps(tissue.steps.size(), mostSteps));
     try {
         if (tissue.transferFunction)
             validate(*tissue.transferFunction);
@@ -74,7 +78,7 @@ void validate(const TissueClass &tissue) {
     const auto firstRegion = std::find_if(tissue.steps.begin(), tissue.steps.end(), isRegion);
     const auto late = std::find_if_not(firstRegion, tissue.steps.end(), isRegion);
     if (late != tissue.steps.end())
-        refuse(fmt::format("the step '{}' must come before '{}'", late->kind, firstRegion->kind));
+        refuse(because::stepMustComeBefore(late->kind, firstRegion->kind));
 }
 
 const std::vector<TissueClass> &standardClasses() {

@@ -59,15 +59,14 @@ void validate(const TransferFunction &function) {
     const int points = int(function.weights.size());
     if (points < TransferFunction::fewestPoints || points > TransferFunction::mostPoints)
         throw task::Error(task::ErrorCode::usage,
-                          fmt::format("a transfer function has {} to {} weights, not {}",
-                                      TransferFunction::fewestPoints, TransferFunction::mostPoints,
-                                      points));
+                          task::because::weightsOutOfRange(TransferFunction::fewestPoints,
+                                                           TransferFunction::mostPoints, points));
     for (const double weight : function.weights)
         if (!(weight >= 0.0 && weight <= TransferFunction::largestWeight))
             throw task::Error(task::ErrorCode::usage,
-                              fmt::format("the weight {:g} of a transfer function is not within "
-                                          "0 and {:g}",
-                                          weight, TransferFunction::largestWeight));
+                              task::because::weightOutOfRange(
+                                  fmt::format("{:g}", weight),
+                                  fmt::format("{:g}", TransferFunction::largestWeight)));
 }
 
 FittedTransferFunction fitTransferFunction(const std::function<double(double)> &curve, int points,

@@ -61,7 +61,7 @@ void prepareDcmtk() {
         return dcmDataDict.isDictionaryLoaded() == OFTrue;
     }();
     if (!loaded)
-        throw task::Error(task::ErrorCode::internal, "the DICOM data dictionary is missing");
+        throw task::Error(task::ErrorCode::internal, task::because::dictionaryMissing);
 }
 
 } // namespace pellucid::dcmtk

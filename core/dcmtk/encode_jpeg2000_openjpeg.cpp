@@ -40,7 +40,9 @@ OPJ_BOOL seekWrite(OPJ_OFF_T to, void *user) {
 } // namespace
 
 std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {
-    const auto fail = [] { throw Error(ErrorCode::internal, "JPEG 2000 encoding failed"); };
+    const auto fail = [] {
+        throw Error(ErrorCode::internal, task::because::jpeg2000EncodingFailed);
+    };
     opj_cparameters_t parameters;
     opj_set_default_encoder_parameters(&parameters);
     parameters.irreversible = 0;

@@ -71,7 +71,7 @@ Mapping::Mapping(int fd, std::size_t bytes, Access access) {
     void *const data = ::mmap(nullptr, bytes, may, MAP_SHARED, fd, 0);
     if (data == MAP_FAILED)
         throw task::Error(task::ErrorCode::outOfMemory,
-                          std::string("cannot be mapped: ") + std::strerror(errno));
+                          task::because::cannotBeMapped(task::systemReason(errno)));
     m_data = static_cast<std::byte *>(data);
     m_size = bytes;
 }

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
 #include <mutex>
 #include <poll.h>
@@ -28,6 +27,7 @@ namespace pellucid::decoder {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
@@ -42,10 +42,10 @@ constexpr std::chrono::milliseconds endPatience(500);
 
 [[noreturn]] void failStarting(const std::filesystem::path &program, int error) {
     if (error == ENOMEM)
-        throw Error(ErrorCode::outOfMemory, "not enough memory for a decoder");
+        throw Error(ErrorCode::outOfMemory, because::noMemoryForADecoder);
     throw Error(ErrorCode::internal,
-                std::string("the decoder cannot be started: ") +
-                    (error == 0 ? "it does not answer" : std::strerror(error)),
+                because::decoderCannotStart(error == 0 ? because::doesNotAnswer
+                                                       : task::systemReason(error)),
                 program);
 }
 
@@ -187,7 +187,7 @@ void Child::ask(const Message &request, int file) {
     const bool isSent = send(m_socket.get(), request, file);
     m_isSound = false; // until it has answered
     if (!isSent)
-        throw Error(ErrorCode::unusable, "the decoder is gone");
+        throw Error(ErrorCode::unusable, because::decoderIsGone);
 }
 
 void Child::askForNext() {
@@ -216,7 +216,7 @@ bool Child::waitForMessage(const task::Progress &progress) const {
 Child::Answer Child::answer(const task::Progress &progress) {
     for (int wishes = 0;;) {
         if (!waitForMessage(progress))
-            throw Error(ErrorCode::unusable, "takes too long to read");
+            throw Error(ErrorCode::unusable, because::takesTooLong);
         const auto received = receive(m_socket.get(), Takes::noDescriptors);
         if (!received)
             failAsItEnded();
@@ -224,7 +224,7 @@ Child::Answer Child::answer(const task::Progress &progress) {
         switch (message.kind) {
         case Message::Kind::need: {
             if (++wishes > mostWishes) // it only wants to be talked to
-                throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                throw Error(ErrorCode::unusable, because::decodedToNonsense);
             const bool isGranted = grow(message.size);
             if (!send(m_socket.get(), {isGranted ? Message::Kind::granted : Message::Kind::refused,
                                        0, m_arenaBytes, 0}))
@@ -235,7 +235,7 @@ Child::Answer Child::answer(const task::Progress &progress) {
         case Message::Kind::done:
             return take(message);
         default:
-            throw Error(ErrorCode::unusable, "was decoded to nonsense");
+            throw Error(ErrorCode::unusable, because::decodedToNonsense);
         }
     }
 }
@@ -261,19 +261,17 @@ Child::Answer Child::take(const Message &message) {
     if (message.size > std::min(m_arenaBytes, largestBodyBytes) ||
         dataOffset(message.size) > m_arenaBytes ||
         message.dataBytes > m_arenaBytes - dataOffset(message.size))
-        throw Error(ErrorCode::unusable, "was decoded to nonsense");
+        throw Error(ErrorCode::unusable, because::decodedToNonsense);
     if (m_mapped.size() < m_arenaBytes)
         m_mapped = Mapping(m_arena.get(), m_arenaBytes, Mapping::Access::read);
     m_body.assign(reinterpret_cast<const char *>(m_mapped.data()), message.size);
     const auto body = std::as_bytes(std::span(m_body));
     if (message.kind == Message::Kind::done) {
+        const auto refusal = message.code != 0 ? std::optional(unpackReason(body)) : std::nullopt;
         m_isSound = true;
-        if (message.code != 0) {
-            const std::string reason = unpackReason(body);
-            throw Error(message.code == int(ErrorCode::outOfMemory) ? ErrorCode::outOfMemory
-                                                                    : ErrorCode::unusable,
-                        reason.empty() ? "was decoded to nonsense" : reason);
-        }
+        if (refusal)
+            throw Error(message.code == needsMemory ? ErrorCode::outOfMemory : ErrorCode::unusable,
+                        *refusal);
     }
     return {message, body, m_mapped.bytes().subspan(dataOffset(message.size), message.dataBytes)};
 }
@@ -287,7 +285,7 @@ void Child::failAsItEnded() {
         if (ended < 0 && errno != EINTR)
             break;
         if (ended == 0 && Clock::now() > end)
-            throw Error(ErrorCode::unusable, "was decoded to nonsense");
+            throw Error(ErrorCode::unusable, because::decodedToNonsense);
         if (ended == 0)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -296,15 +294,15 @@ void Child::failAsItEnded() {
     system::log("a decoder ended: signal " + std::to_string(signal));
     switch (signal) {
     case SIGPROF:
-        throw Error(ErrorCode::unusable, "takes too long to read");
+        throw Error(ErrorCode::unusable, because::takesTooLong);
     case SIGBUS:
-        throw Error(ErrorCode::unusable, "changed while it was read");
+        throw Error(ErrorCode::unusable, because::changedWhileRead);
     case SIGKILL:
-        throw Error(ErrorCode::outOfMemory, "its decoder was killed, for want of memory perhaps");
+        throw Error(ErrorCode::outOfMemory, because::decoderWasKilled);
     case SIGSYS:
-        throw Error(ErrorCode::unusable, "made the decoder try what no image needs");
+        throw Error(ErrorCode::unusable, because::decoderBrokeItsConfinement);
     default:
-        throw Error(ErrorCode::unusable, "is so damaged that the decoder crashed");
+        throw Error(ErrorCode::unusable, because::decoderCrashed);
     }
 }
 

@@ -19,6 +19,7 @@ namespace pellucid::decoder {
 namespace {
 
 namespace fs = std::filesystem;
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -34,7 +35,7 @@ struct OpenFile {
         struct stat about {};
         if (::fstat(descriptor.get(), &about) != 0 || std::uint64_t(about.st_size) != bytes ||
             about.st_ctim.tv_sec != changed.tv_sec || about.st_ctim.tv_nsec != changed.tv_nsec)
-            throw Error(ErrorCode::unusable, "changed while it was read");
+            throw Error(ErrorCode::unusable, because::changedWhileRead);
     }
 };
 
@@ -42,9 +43,9 @@ OpenFile open(const fs::path &path) {
     OpenFile file{files::openRegular(path)};
     struct stat about {};
     if (::fstat(file.descriptor.get(), &about) != 0)
-        throw Error(ErrorCode::unusable, std::strerror(errno), path);
+        throw Error(ErrorCode::unusable, task::systemReason(errno), path);
     if (about.st_size == 0)
-        throw Error(ErrorCode::unusable, "is empty", path);
+        throw Error(ErrorCode::unusable, because::isEmpty, path);
     file.bytes = std::uint64_t(about.st_size);
     file.changed = about.st_ctim;
     return file;
@@ -55,9 +56,9 @@ void checkStart(const OpenFile &file, const fs::path &path) {
     std::array<std::byte, 132> start{};
     const ssize_t got = ::pread(file.descriptor.get(), start.data(), start.size(), 0);
     if (got < 0)
-        throw Error(ErrorCode::unusable, std::strerror(errno), path);
+        throw Error(ErrorCode::unusable, task::systemReason(errno), path);
     if (!looksLikeDicom(std::span(start).first(std::size_t(got))))
-        throw Error(ErrorCode::unusable, "is not a DICOM file", path);
+        throw Error(ErrorCode::unusable, because::isNotDicom, path);
 }
 
 // Runs f with the path in its errors.
@@ -77,7 +78,7 @@ std::uint64_t sampleCount(const InstanceHeader &h) {
         __builtin_mul_overflow(std::uint64_t(h.rows) * std::uint64_t(h.columns),
                                std::uint64_t(h.frames.size()), &samples) ||
         samples > (std::uint64_t(1) << 62))
-        throw Error(ErrorCode::unusable, "was decoded to nonsense");
+        throw Error(ErrorCode::unusable, because::decodedToNonsense);
     return samples;
 }
 
@@ -221,7 +222,7 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
             InstanceHeader h = unpackHeader(answer.body);
             const std::uint64_t count = sampleCount(h);
             if (whyUnusable(h) || answer.data.size() != 2 * count)
-                throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                throw Error(ErrorCode::unusable, because::decodedToNonsense);
             file.requireUnchanged();
             samples = {reinterpret_cast<const std::uint16_t *>(answer.data.data()), count};
             return h;
@@ -265,14 +266,14 @@ void Decoder::archive(const fs::path &path,
                 const bool isDamaged = (flags & damagedPart) != 0;
                 if ((flags & announcement) != 0) {
                     if (!isAnnouncing)
-                        throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                        throw Error(ErrorCode::unusable, because::decodedToNonsense);
                     isAnnouncing = files.size() == filesAnnouncedAtOnce;
                     for (const ArchiveFile &f : files)
                         announce(f);
                 } else {
                     if (files.size() != 1 || isFirst == isInFile ||
                         (!isLast && (isDamaged || answer.data.size() != archivePartBytes)))
-                        throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                        throw Error(ErrorCode::unusable, because::decodedToNonsense);
                     isAnnouncing = false;
                     isInFile = !isLast;
                     take({files[0], answer.data, isFirst, isLast, isDamaged});
@@ -316,7 +317,7 @@ bool Decoder::samples(const fs::path &path, const SampleRange &samples,
                 if (isDone ? left != 0
                            : bytes == 0 || bytes > left ||
                                  bytes % std::uint64_t(samples.bytesEach) != 0)
-                    throw Error(ErrorCode::unusable, "was decoded to nonsense");
+                    throw Error(ErrorCode::unusable, because::decodedToNonsense);
                 if (isDone)
                     return;
                 left -= bytes;

@@ -41,7 +41,7 @@ struct ArchivePart {
     const ArchiveFile &file;
     std::span<const std::byte> data;
     bool isFirst, isLast;
-    bool isDamaged; ///< the last: `data` says why, and the file is not what came before
+    bool isDamaged; ///< the last: `data` is a packed reason, and the file is not what came before
 };
 
 /// Reads files whose bytes nobody vouches for, in processes of their own (`pellucid-decode`) that

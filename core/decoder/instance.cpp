@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace pellucid::decoder {
 
 namespace {
+
+namespace because = task::because;
 
 // Media Storage Directory Storage; Segmentation and Label Map
 // Segmentation Storage (PS3.4, B.5).
@@ -17,43 +17,41 @@ constexpr const char *segmentationClass = "1.2.840.10008.5.1.4.1.1.66.4",
 
 } // namespace
 
-std::optional<std::string> whyUnusable(const InstanceHeader &h) {
+std::optional<task::Reason> whyUnusable(const InstanceHeader &h) {
     if (h.sopClassUid == directoryClass)
-        return "is an index of files, not an image";
+        return because::isAnIndex;
     if (h.sopClassUid == segmentationClass || h.sopClassUid == labelMapClass)
-        return "segmentations are not shown";
+        return because::isASegmentation;
     if (h.floatPixels)
-        return "floating-point pixels are not supported";
+        return because::hasFloatingPointPixels;
     if (!h.hasPixels)
-        return h.sopClassName.empty() ? std::string("has no pixels")
-                                      : "has no pixels (" + h.sopClassName + ")";
+        return h.sopClassName.empty() ? task::Reason(because::hasNoPixels)
+                                      : because::hasNoPixelsBut(h.sopClassName);
     if (h.rows < 1 || h.columns < 1)
-        return "has an image without size";
+        return because::hasAnImageWithoutSize;
     if (h.rows > 65535 || h.columns > 65535)
-        return "has an image larger than DICOM allows";
+        return because::hasATooLargeImage;
     if (h.announcedFrames != int(h.frames.size()))
-        return fmt::format("announces {} frames, more than the file can hold", h.announcedFrames);
+        return because::announcesTooManyFrames(h.announcedFrames);
     const bool isMonochrome =
         h.photometric == "MONOCHROME1" || h.photometric == "MONOCHROME2" || h.photometric.empty();
     if (!isMonochrome)
-        return "is a colour image (" + h.photometric + ")";
+        return because::isAColorImage(h.photometric);
     if (h.samplesPerPixel != 1)
-        return fmt::format("has {} samples per pixel; monochrome images have one",
-                           h.samplesPerPixel);
+        return because::hasSeveralSamples(h.samplesPerPixel);
     if (!h.unsupportedSyntax.empty())
-        return "transfer syntax not supported: " + h.unsupportedSyntax;
+        return because::unsupportedSyntax(h.unsupportedSyntax);
     if (h.bitsAllocated != 8 && h.bitsAllocated != 16)
-        return fmt::format("has {} bits per sample; 8 and 16 are supported", h.bitsAllocated);
+        return because::hasUnsupportedBits(h.bitsAllocated);
     if (h.bitsStored < 1 || h.bitsStored > h.bitsAllocated || h.highBit >= h.bitsAllocated ||
         h.highBit + 1 < h.bitsStored)
-        return fmt::format("says that {} of {} bits are stored up to bit {}", h.bitsStored,
-                           h.bitsAllocated, h.highBit);
+        return because::storesImplausibleBits(h.bitsStored, h.bitsAllocated, h.highBit);
     if (h.pixelRepresentation != 0 && h.pixelRepresentation != 1)
-        return "does not say whether its values are signed";
+        return because::doesNotSayWhetherSigned;
     for (const FrameHeader &frame : h.frames)
         if (h.modalityTable.empty() &&
             !(frame.rescale.isSlopeReadable && frame.rescale.isInterceptReadable))
-            return "has a rescale slope or intercept that gives no values";
+            return because::rescaleGivesNoValues;
     return std::nullopt;
 }
 

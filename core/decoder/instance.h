@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/task/reason.h"
 #include "core/volume/volume.h"
 
 namespace pellucid::decoder {
@@ -100,7 +101,7 @@ bool hasSurplusPixels(const InstanceHeader &header);
 bool isHuge(const InstanceHeader &header, std::uint64_t fileBytes);
 
 /// Why a file's pixels cannot be part of a volume or an image set, or nothing if they can.
-std::optional<std::string> whyUnusable(const InstanceHeader &header);
+std::optional<task::Reason> whyUnusable(const InstanceHeader &header);
 
 /// A DICOMDIR, or a DICOM file that is none.
 struct DirectoryFile {

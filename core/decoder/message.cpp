@@ -19,10 +19,10 @@ namespace {
 // Longer ones are cut where they are read from a file.
 constexpr std::uint64_t longestString = 1 << 16;
 constexpr std::uint64_t mostElements = 1'000'000;
-constexpr std::size_t longestReason = 400;
+constexpr std::size_t longestReason = 2000; // a text of a header is up to 1024 bytes long
 
 [[noreturn]] void fail() {
-    throw task::Error(task::ErrorCode::unusable, "was decoded to nonsense");
+    throw task::Error(task::ErrorCode::unusable, task::because::decodedToNonsense);
 }
 
 // Writer and reader go through the same fields in the same order.
@@ -318,12 +318,17 @@ VolumeLayout unpackLayout(std::span<const std::byte> body) {
     return layout;
 }
 
-std::string unpackReason(std::span<const std::byte> body) {
-    std::string reason(reinterpret_cast<const char *>(body.data()),
-                       std::min(body.size(), longestReason));
+task::Reason unpackReason(std::span<const std::byte> body) {
+    if (body.size() > longestReason)
+        fail();
+    std::string text(reinterpret_cast<const char *>(body.data()), body.size());
+    // The encoding itself has no such bytes, and counts those of the texts.
     std::replace_if(
-        reason.begin(), reason.end(), [](char c) { return (unsigned char)(c) < 0x20; }, ' ');
-    return reason;
+        text.begin(), text.end(), [](char c) { return (unsigned char)(c) < 0x20; }, ' ');
+    auto reason = task::Reason::decoded(text);
+    if (!reason)
+        fail();
+    return *std::move(reason);
 }
 
 } // namespace pellucid::decoder

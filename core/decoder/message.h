@@ -9,6 +9,7 @@
 
 #include "core/decoder/instance.h"
 #include "core/decoder/volume_layout.h"
+#include "core/task/reason.h"
 
 namespace pellucid::decoder {
 
@@ -34,12 +35,15 @@ struct Message {
         done,        ///< `code`, `size` bytes of body, then `dataBytes`
     };
     Kind kind = Kind::ready;
-    std::int32_t code = 0;       ///< 0, or a task::ErrorCode whose reason is the body
+    std::int32_t code = 0;       ///< of `done`: 0, or a `Refusal` whose reason is the body
     std::uint64_t size = 0;      ///< of the body
     std::uint64_t dataBytes = 0; ///< of what lies after it
     /// Of samples: where they begin in the file, and what is to be skipped once it is inflated.
     std::uint64_t at = 0, skip = 0;
 };
+
+/// `Message::code` of a `done` without an answer.
+enum Refusal : std::int32_t { isUnusable = 1, needsMemory = 2 };
 
 /// Bits of `Message::code` of `ready`.
 enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2 };
@@ -72,7 +76,7 @@ std::string pack(const std::vector<ArchiveFile> &files);
 std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body);
 std::string pack(const VolumeLayout &layout);
 VolumeLayout unpackLayout(std::span<const std::byte> body);
-/// A reason: printable, one line, not endless.
-std::string unpackReason(std::span<const std::byte> body);
+/// As `task::Reason::encoded` gives it, unless it is endless; its texts become one printable line.
+task::Reason unpackReason(std::span<const std::byte> body);
 
 } // namespace pellucid::decoder

@@ -9,8 +9,6 @@
 #include <type_traits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/decoder/decoder.h"
 #include "core/system/memory.h"
 #include "core/task/error.h"
@@ -22,6 +20,7 @@ namespace pellucid::decoder {
 namespace {
 
 namespace fs = std::filesystem;
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 using volume::Lattice;
@@ -33,7 +32,7 @@ fs::path detachedData(const fs::path &header, const std::string &name) {
     const fs::path relative = fs::path(name).lexically_normal();
     if (name.find('\0') != std::string::npos || relative.is_absolute() || relative.empty() ||
         *relative.begin() == "..")
-        throw Error(ErrorCode::unusable, "lists a file outside its folder", header);
+        throw Error(ErrorCode::unusable, because::listsAFileOutside, header);
     const fs::path data = header.parent_path() / relative;
     // A link leads elsewhere, too.
     std::error_code unknown;
@@ -41,7 +40,7 @@ fs::path detachedData(const fs::path &header, const std::string &name) {
         header.parent_path().empty() ? fs::path(".") : header.parent_path(), unknown);
     const fs::path meant = fs::weakly_canonical(data, unknown).lexically_relative(folder);
     if (unknown || meant.empty() || *meant.begin() == "..")
-        throw Error(ErrorCode::unusable, "lists a file outside its folder", header);
+        throw Error(ErrorCode::unusable, because::listsAFileOutside, header);
     return data;
 }
 
@@ -62,8 +61,7 @@ OpenVolume open(const fs::path &path, const task::Progress &progress) {
     const std::string name = path.filename().string();
     file.header.notes.title = name.substr(0, name.size() - volume::volumeSuffix(path).size());
     if (!layout.isOfPatient)
-        file.header.notes.warnings.emplace_back(
-            "names no space of the patient; taken for left-posterior-superior");
+        file.header.notes.warnings.emplace_back(because::namesNoSpace);
     file.header.samplesFile = layout.dataFile.empty() ? path : detachedData(path, layout.dataFile);
     return file;
 }
@@ -77,8 +75,7 @@ void checkSize(const fs::path &path, const SampleRange &samples) {
     const bool fits = samples.isDeflated ? wanted / 1032 <= there : wanted + samples.at <= there;
     if (!unknown && !fits)
         throw Error(ErrorCode::unusable,
-                    samples.isDeflated ? "the compressed data are damaged or truncated"
-                                       : "is truncated",
+                    samples.isDeflated ? because::compressedDataDamaged : because::isTruncated,
                     path);
 }
 
@@ -187,11 +184,10 @@ Volume taken(const OpenVolume &file, int which, Taken values, const task::Progre
         progress);
     VolumeNotes notes = file.header.notes;
     if (hasMore && which == layout.volumes - 1)
-        notes.warnings.emplace_back("holds more samples than its header says");
+        notes.warnings.emplace_back(because::holdsMoreSamplesThanSaid);
     const volume::Narrowing &narrowing = values.narrowing();
     if (narrowing.notFinite() > 0)
-        notes.warnings.push_back(
-            fmt::format("samples that are no finite numbers: {}", narrowing.notFinite()));
+        notes.warnings.push_back(because::samplesNotFinite(narrowing.notFinite()));
     narrowing.requireDistinct();
     if (const auto warning = narrowing.warning())
         notes.warnings.push_back(*warning);
@@ -247,10 +243,8 @@ VolumeFileHeader readVolumeFileHeader(const fs::path &path, const task::Progress
     OpenVolume file = open(path, progress);
     std::error_code unknown;
     if (!fs::exists(file.header.samplesFile, unknown))
-        throw Error(
-            ErrorCode::unusable,
-            fmt::format("its samples are missing: {}", file.header.samplesFile.filename().string()),
-            path);
+        throw Error(ErrorCode::unusable,
+                    because::samplesMissing(file.header.samplesFile.filename().string()), path);
     checkSize(file.header.samplesFile, rangeOf(file, 0));
     return file.header;
 }
@@ -267,13 +261,13 @@ Volume readVolumeFile(const fs::path &path, const task::Progress &progress, int 
     const auto samplesBefore = stateOf(samples);
     try {
         if (volume < 0 || volume >= file.layout.volumes)
-            throw Error(ErrorCode::unusable, "holds fewer volumes than before");
+            throw Error(ErrorCode::unusable, because::holdsFewerVolumes);
         Volume read = decoder::read(file, volume, progress);
         if (stateOf(path) != before || stateOf(samples) != samplesBefore)
-            throw Error(ErrorCode::unusable, "changed while it was read");
+            throw Error(ErrorCode::unusable, because::changedWhileRead);
         return read;
     } catch (const std::bad_alloc &) {
-        throw Error(ErrorCode::outOfMemory, "not enough memory for the volume", path);
+        throw Error(ErrorCode::outOfMemory, because::noMemoryForTheVolume, path);
     } catch (const Error &error) {
         if (!error.path().empty())
             throw;

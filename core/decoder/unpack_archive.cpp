@@ -23,6 +23,7 @@ namespace pellucid::decoder {
 namespace {
 
 namespace fs = std::filesystem;
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -61,12 +62,13 @@ fs::path freePlace(const fs::path &folder, const std::string &name, std::size_t 
     to = folder / ("_" + std::to_string(number)) / to.filename();
     fs::create_directories(to.parent_path(), failed);
     if (failed)
-        throw Error(ErrorCode::output, failed.message(), to);
+        throw Error(ErrorCode::output, task::systemReason(failed), to);
     return to;
 }
 
 [[noreturn]] void failWriting(const fs::path &to) {
-    throw Error(ErrorCode::output, errno != 0 ? std::strerror(errno) : "cannot be written", to);
+    throw Error(ErrorCode::output, errno != 0 ? task::systemReason(errno) : because::isNotWritable,
+                to);
 }
 
 } // namespace
@@ -98,25 +100,22 @@ std::vector<LeftOutFile> unpackArchive(Decoder &decoder, const fs::path &path,
         path,
         [&](const ArchiveFile &file) {
             if (file.isEncrypted)
-                throw Error(ErrorCode::unusable, "is encrypted", path);
+                throw Error(ErrorCode::unusable, because::isEncrypted, path);
             // Sizes are up to 2^63: no sum may wrap before it is looked at.
             if (file.bytes > most || announced + file.bytes > most)
-                throw Error(
-                    ErrorCode::unusable,
-                    fmt::format("unpacks to more than the {} there is room for", sizeText(most)),
-                    path);
+                throw Error(ErrorCode::unusable,
+                            because::unpacksToMoreThanThereIsRoom(sizeText(most)), path);
             announced += file.bytes;
             if (++files > limits.files)
-                throw Error(ErrorCode::unusable,
-                            fmt::format("holds more than {} files", limits.files), path);
+                throw Error(ErrorCode::unusable, because::holdsTooManyFiles(limits.files), path);
             if (file.isLink)
-                leftOut.push_back({file.name, "is a link in an archive"});
+                leftOut.push_back({file.name, because::isALinkInAnArchive});
         },
         [&](const ArchivePart &part) {
             errno = 0;
             if (part.isFirst) {
                 if (++number > files)
-                    throw Error(ErrorCode::unusable, "holds more files than it announces", path);
+                    throw Error(ErrorCode::unusable, because::holdsMoreFilesThanAnnounced, path);
                 to = freePlace(folder, part.file.name, number);
                 out.close();
                 out.clear();
@@ -128,13 +127,12 @@ std::vector<LeftOutFile> unpackArchive(Decoder &decoder, const fs::path &path,
                 std::error_code ignored;
                 out.close();
                 fs::remove(to, ignored);
-                leftOut.push_back(
-                    {part.file.name, "is damaged in the archive: " + unpackReason(part.data)});
+                leftOut.push_back({part.file.name, unpackReason(part.data)});
                 return;
             }
             written += part.data.size();
             if (written > most)
-                throw Error(ErrorCode::unusable, "unpacks to more than it announces", path);
+                throw Error(ErrorCode::unusable, because::unpacksToMoreThanAnnounced, path);
             out.write(reinterpret_cast<const char *>(part.data.data()),
                       std::streamsize(part.data.size()));
             if (part.isLast)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/task/progress.h"
+#include "core/task/reason.h"
 
 namespace pellucid::decoder {
 
@@ -19,7 +20,8 @@ struct UnpackLimits {
 
 /// A file of an archive that is not unpacked, under its name there, and why.
 struct LeftOutFile {
-    std::string name, reason;
+    std::string name;
+    task::Reason reason;
     bool operator==(const LeftOutFile &) const = default;
 };
 

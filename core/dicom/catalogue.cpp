@@ -5,13 +5,13 @@
 #include <set>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "core/task/error.h"
 
 namespace pellucid::dicom {
 
 namespace {
+
+namespace because = task::because;
 
 // A large single image is no volume beside a stack, a file of labels is none beside the series that
 // they are of, and what was scanned comes before what was filled in.
@@ -49,6 +49,13 @@ std::optional<std::filesystem::path> below(const std::filesystem::path &folder,
 
 } // namespace
 
+std::string labelText(const std::vector<task::Reason> &label) {
+    std::string text;
+    for (const task::Reason &part : label)
+        text += (text.empty() ? "" : ", ") + part.english();
+    return text;
+}
+
 std::filesystem::path Catalogue::named(const std::filesystem::path &file) const {
     for (const Unpacked &u : unpacked)
         if (const auto inside = below(u.folder->path(), file))
@@ -76,7 +83,7 @@ std::vector<Selection> selections(const Catalogue &catalogue) {
 Selection defaultSelection(const Catalogue &catalogue, Holes holes) {
     const auto all = choose(selections(catalogue), holes);
     if (all.empty())
-        throw task::Error(task::ErrorCode::unusable, "holds no usable images");
+        throw task::Error(task::ErrorCode::unusable, because::holdsNoUsableImages);
     return largest(all);
 }
 
@@ -101,11 +108,9 @@ Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUi
         if (series.insert(s.series).second)
             uids += (uids.empty() ? "" : ", ") + s.series->uid;
     if (series.size() > 1)
-        throw task::Error(task::ErrorCode::unusable,
-                          "several series are '" + numberOrUid + "'; by UID: " + uids);
+        throw task::Error(task::ErrorCode::unusable, because::severalSeriesAre(numberOrUid, uids));
     if (matching.empty())
-        throw task::Error(task::ErrorCode::unusable,
-                          "no series '" + numberOrUid + "'; there are " + known);
+        throw task::Error(task::ErrorCode::unusable, because::noSeries(numberOrUid, known));
     return largest(matching);
 }
 
@@ -114,8 +119,9 @@ Selection selectVolume(const Selection &selection, int number) {
     if (number < 1 || number > int(volumes.size()))
         throw task::Error(
             task::ErrorCode::unusable,
-            fmt::format("no volume {} in series {}; there {}", number, selection.series->number,
-                        volumes.size() == 1 ? "is one" : fmt::format("are {}", volumes.size())));
+            volumes.size() == 1
+                ? because::noVolumeBesideOne(number, selection.series->number)
+                : because::noVolumeInSeries(number, selection.series->number, volumes.size()));
     Selection chosen = selection;
     chosen.volume = &volumes[std::size_t(number - 1)];
     return chosen;

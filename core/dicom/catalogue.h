@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/files/session_folder.h"
+#include "core/task/reason.h"
 #include "core/volume/volume.h"
 
 namespace pellucid::dicom {
@@ -15,12 +16,9 @@ namespace pellucid::dicom {
 /// A file that is not used, and why.
 struct Skipped {
     std::filesystem::path path;
-    std::string reason;
+    task::Reason reason; ///< `because::needsTooMuchMemory` is not its fault
     bool isHuge = false; ///< it is used if that is asked for, see `ScanOptions`
 };
-
-/// The reason of those that are left out for want of memory, which is not their fault.
-inline constexpr const char *lacksMemory = "needs more memory than there is";
 
 /// One image plane: a file, or one frame of a multi-frame file.
 struct FrameReference {
@@ -42,13 +40,14 @@ struct StackGeometry {
 
 /// Frames that make one volume, or, without positions, a set of images.
 struct VolumeEntry {
-    std::string label; ///< what tells it from the other volumes of its series; empty if it is alone
+    /// What tells it from the other volumes of its series; empty if it is alone.
+    std::vector<task::Reason> label;
     std::vector<FrameReference> frames; ///< in the order of the stack
     StackGeometry geometry;
     bool placed = true; ///< false: images only, not a volume
     /// Holes of several slices are interpolated; the runs between them are volumes of their own.
     bool fillsHoles = false;
-    std::string notPlacedReason;
+    std::optional<task::Reason> notPlacedReason; ///< set if it is not placed
     volume::ValueUnit unit = volume::ValueUnit::none;
     volume::VolumeNotes notes;
     std::filesystem::path volumeFile; ///< set instead of frames for a file of one volume or several
@@ -56,6 +55,9 @@ struct VolumeEntry {
 
     std::size_t voxels() const { return geometry.lattice.size().count(); }
 };
+
+/// A volume's label in English.
+std::string labelText(const std::vector<task::Reason> &label);
 
 /// A file of a series; its UID tells copies of one instance. A NRRD file has none.
 struct InstanceFile {

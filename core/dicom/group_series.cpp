@@ -17,6 +17,7 @@ namespace pellucid::dicom {
 
 namespace {
 
+namespace because = task::because;
 using Frames = std::vector<PlacedFrame>;
 
 bool sameAxis(const glm::dvec3 &a, const glm::dvec3 &b) {
@@ -71,8 +72,8 @@ void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
         if (isNew)
             return false;
         if (reported.insert(frame.reference.path).second)
-            skipped.push_back({frame.reference.path,
-                               "has the instance UID of " + it->second.filename().string()});
+            skipped.push_back(
+                {frame.reference.path, because::hasInstanceUidOf(it->second.filename().string())});
         return true;
     });
     for (PlacedFrame &frame : frames)
@@ -81,21 +82,38 @@ void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
 }
 
 struct Part {
-    std::string label;
+    std::vector<task::Reason> label;
     Frames frames;
 };
 
-// By a name that every frame has, in the order in which the names first come.
-std::vector<Part> splitBy(const Frames &sorted,
-                          const std::function<std::string(const PlacedFrame &)> &name,
+// What can tell volumes at the same places apart.
+struct Attribute {
+    task::Because<1> label;
+    std::function<std::string(const PlacedFrame &)> valueOf;
+};
+
+// Those of the header, as `FrameHeader::dimensions` names them.
+constexpr std::array<std::pair<const char *, task::Because<1>>, 8> dimensions{{
+    {"temporal position", because::temporalPosition},
+    {"echo", because::echo},
+    {"b-value", because::bValue},
+    {"trigger time", because::triggerTime},
+    {"stack", because::stack},
+    {"acquisition", because::acquisition},
+    {"acquisition time", because::acquisitionTime},
+    {"content time", because::contentTime},
+}};
+
+// By a value that every frame has, in the order in which the values first come.
+std::vector<Part> splitBy(const Frames &sorted, const Attribute &attribute,
                           const task::Progress &progress) {
     std::vector<Part> parts;
     std::map<std::string, std::size_t> known;
     for (const PlacedFrame &frame : sorted) {
         progress.check();
-        const auto [it, isNew] = known.try_emplace(name(frame), parts.size());
+        const auto [it, isNew] = known.try_emplace(attribute.valueOf(frame), parts.size());
         if (isNew)
-            parts.push_back({it->first, {}});
+            parts.push_back({{attribute.label(it->first)}, {}});
         parts[it->second].frames.push_back(frame);
     }
     return parts;
@@ -129,7 +147,7 @@ std::vector<Part> splitByNumber(const Frames &sorted, const task::Progress &prog
         });
         for (std::size_t n = 0; n < here.size(); ++n) {
             if (n == parts.size())
-                parts.push_back({fmt::format("set {}", n + 1), {}});
+                parts.push_back({{because::set(n + 1)}, {}});
             parts[n].frames.push_back(here[n]);
         }
     }
@@ -142,20 +160,20 @@ std::vector<Part> splitRepeats(const Frames &sorted, const task::Progress &progr
     std::size_t places = 1;
     for (std::size_t n = 1; n < sorted.size(); ++n)
         places += samePlace(sorted[n - 1], sorted[n]) ? 0 : 1;
-    std::vector<std::function<std::string(const PlacedFrame &)>> names;
-    for (const char *name : {"temporal position", "echo", "b-value", "trigger time", "stack",
-                             "acquisition", "acquisition time", "content time"})
-        names.emplace_back([name](const PlacedFrame &frame) {
-            const auto it = frame.header.dimensions.find(name);
-            return fmt::format("{} {}", name,
-                               it == frame.header.dimensions.end() ? std::string() : it->second);
-        });
-    names.emplace_back([](const PlacedFrame &f) { return "type " + f.header.imageType; });
-    names.emplace_back(
-        [](const PlacedFrame &f) { return "file " + f.reference.path.filename().string(); });
+    std::vector<Attribute> attributes;
+    for (const auto &[name, label] : dimensions)
+        attributes.push_back({label, [name = name](const PlacedFrame &frame) {
+                                  const auto it = frame.header.dimensions.find(name);
+                                  return it == frame.header.dimensions.end() ? std::string()
+                                                                             : it->second;
+                              }});
+    attributes.push_back({because::type, [](const PlacedFrame &f) { return f.header.imageType; }});
+    attributes.push_back({because::fileNamed, [](const PlacedFrame &f) {
+                              return f.reference.path.filename().string();
+                          }});
     std::vector<Part> uneven;
-    for (const auto &name : names) {
-        std::vector<Part> parts = splitBy(sorted, name, progress);
+    for (const Attribute &attribute : attributes) {
+        std::vector<Part> parts = splitBy(sorted, attribute, progress);
         if (separates(parts, places))
             return parts;
         if (uneven.empty() && separatesUnevenly(parts, places))
@@ -174,13 +192,12 @@ VolumeEntry entryFrom(const Part &part) {
     const auto shared = std::count_if(part.frames.begin(), part.frames.end(),
                                       [](const PlacedFrame &frame) { return frame.sharesUid; });
     if (shared > 0)
-        entry.notes.warnings.push_back(
-            fmt::format("different images with the same instance UID: {}", shared));
+        entry.notes.warnings.push_back(because::sameInstanceUid(shared));
     return entry;
 }
 
 // Images without a common geometry: a pile one sample thick each, shown one by one.
-void makeImages(VolumeEntry &entry, const Frames &frames, const std::string &reason) {
+void makeImages(VolumeEntry &entry, const Frames &frames, const task::Reason &reason) {
     entry.placed = false;
     entry.notPlacedReason = reason;
     const glm::dvec2 spacing = frames.front().header.spacingMm.value_or(glm::dvec2(1.0));
@@ -221,7 +238,7 @@ blocksOf(const Frames &frames,
 
 // Blocks of one space each. Anonymisers that replace UIDs one by one give each image a space of its
 // own: where hardly any repeats, they carry no information.
-std::vector<Frames> spacesOf(Frames block, std::vector<std::string> &warnings) {
+std::vector<Frames> spacesOf(Frames block, std::vector<task::Reason> &warnings) {
     constexpr std::size_t fewestSpaces = 3;
     std::map<std::string, std::size_t> known;
     std::vector<Frames> spaces;
@@ -235,7 +252,7 @@ std::vector<Frames> spacesOf(Frames block, std::vector<std::string> &warnings) {
         spaces.begin(), spaces.end(), [](const Frames &space) { return space.size() == 1; }));
     if (spaces.size() < fewestSpaces || 10 * alone < 9 * block.size())
         return spaces;
-    warnings.emplace_back("hardly any images share a frame of reference; treated as one");
+    warnings.emplace_back(because::framesOfReferenceDiffer);
     return {std::move(block)};
 }
 
@@ -245,10 +262,10 @@ std::vector<VolumeEntry> volumesOf(const Part &part) {
     const auto volumeOf = [](const Part &of) {
         VolumeEntry entry = entryFrom(of);
         StackResult stack = stackGeometry(of.frames);
-        if (stack.refusal.empty())
-            entry.geometry = std::move(stack.geometry);
+        if (stack.refusal)
+            makeImages(entry, of.frames, *stack.refusal);
         else
-            makeImages(entry, of.frames, stack.refusal);
+            entry.geometry = std::move(stack.geometry);
         entry.notes.filled = std::move(stack.filled);
         entry.notes.warnings.insert(entry.notes.warnings.end(), stack.warnings.begin(),
                                     stack.warnings.end());
@@ -259,20 +276,21 @@ std::vector<VolumeEntry> volumesOf(const Part &part) {
         return {volumeOf(part)};
     std::vector<VolumeEntry> volumes;
     for (const auto &[first, end] : runs) {
-        const std::string which = end - first > 1 ? fmt::format("slices {} to {}", first + 1, end)
-                                                  : fmt::format("slice {}", end);
-        Part run{which,
+        const bool isOne = end - first == 1;
+        Part run{part.label,
                  {part.frames.begin() + std::ptrdiff_t(first),
                   part.frames.begin() + std::ptrdiff_t(end)}};
-        if (!part.label.empty())
-            run.label = part.label + ", " + run.label;
+        run.label.push_back(isOne ? because::slice(end) : because::slicesTo(first + 1, end));
         VolumeEntry entry = volumeOf(run);
         const std::size_t next = end < part.frames.size() ? end : first;
+        const std::size_t all = part.frames.size();
+        const PlacedFrame &before = part.frames[next - 1], &behind = part.frames[next];
+        const std::string gap = fmt::format("{:.1f}", behind.depthMm - before.depthMm);
+        const std::string a = before.reference.path.filename().string(),
+                          b = behind.reference.path.filename().string();
         entry.notes.warnings.push_back(
-            fmt::format("{} of {}: a gap of {:.1f} mm between {} and {}", which, part.frames.size(),
-                        part.frames[next].depthMm - part.frames[next - 1].depthMm,
-                        part.frames[next - 1].reference.path.filename().string(),
-                        part.frames[next].reference.path.filename().string()));
+            isOne ? because::gapAroundSlice(end, all, gap, a, b)
+                  : because::gapAroundSlices(first + 1, end, all, gap, a, b));
         volumes.push_back(std::move(entry));
     }
     // More that is made up than was scanned helps nobody.
@@ -280,20 +298,27 @@ std::vector<VolumeEntry> volumesOf(const Part &part) {
     if (!whole.placed || whole.geometry.lattice.size().k > 2 * int(part.frames.size()))
         return volumes;
     whole.fillsHoles = true;
-    whole.label = (part.label.empty() ? "" : part.label + ", ") + "gaps filled";
+    whole.label.emplace_back(because::gapsFilled);
     volumes.push_back(std::move(whole));
     return volumes;
 }
 
+// How stacks are named, and those of which there are several.
+struct Direction {
+    task::Because<0> name;
+    task::Because<1> numbered;
+};
+
 // The side of the body that a stack's slices are seen from: the nearest.
-std::string orientationName(const VolumeEntry &entry) {
+Direction directionOf(const VolumeEntry &entry) {
     if (!entry.placed)
-        return "images";
+        return {because::images, because::imagesNumber};
     const glm::dvec3 normal =
         glm::abs(glm::cross(entry.geometry.lattice.step(0), entry.geometry.lattice.step(1)));
-    return normal.z >= normal.x && normal.z >= normal.y ? "axial"
-           : normal.y >= normal.x                       ? "coronal"
-                                                        : "sagittal";
+    if (normal.z >= normal.x && normal.z >= normal.y)
+        return {because::axial, because::axialNumber};
+    return normal.y >= normal.x ? Direction{because::coronal, because::coronalNumber}
+                                : Direction{because::sagittal, because::sagittalNumber};
 }
 
 // Stacks of several directions, spaces or kinds of values, as the three of a localizer, say which
@@ -301,26 +326,27 @@ std::string orientationName(const VolumeEntry &entry) {
 void nameStacks(std::vector<std::vector<VolumeEntry>> &stacks) {
     if (stacks.size() < 2)
         return;
-    std::map<std::string, int> count, number;
+    std::map<task::Reason::Id, int> count, number;
     for (const auto &stack : stacks)
-        ++count[orientationName(stack.front())];
+        ++count[directionOf(stack.front()).name.id];
     for (auto &stack : stacks) {
-        std::string name = orientationName(stack.front());
-        if (count[name] > 1)
-            name += fmt::format(" {}", ++number[name]);
+        const Direction direction = directionOf(stack.front());
+        const task::Reason::Id id = direction.name.id;
+        const task::Reason name =
+            count[id] > 1 ? direction.numbered(++number[id]) : task::Reason(direction.name);
         for (VolumeEntry &entry : stack)
-            entry.label = entry.label.empty() ? name : entry.label + ", " + name;
+            entry.label.push_back(name);
     }
 }
 
-std::string missingGeometry(const FrameHeader &h) {
+std::optional<task::Reason> missingGeometry(const FrameHeader &h) {
     if (!h.positionMm)
-        return "the images have no position";
+        return because::noPosition;
     if (!h.rowAxis)
-        return "the images have no orientation";
+        return because::noOrientation;
     if (!h.spacingMm)
-        return "the images have no pixel spacing";
-    return {};
+        return because::noPixelSpacing;
+    return std::nullopt;
 }
 
 } // namespace
@@ -340,26 +366,24 @@ std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frame
     return std::hash<std::string>()(all);
 }
 
-constexpr const char *surplus = "files with more pixels than their header says: ",
-                     *zeroSlopes = "rescale slopes of 0, taken for 1: ";
-constexpr std::array<std::pair<decoder::Oddity, const char *>, 5> oddities{{
-    {decoder::mislabelledEncoding, "files coded implicitly that say they are explicit: "},
-    {decoder::definedLengthPixels, "files of a compressed syntax with pixels of defined length: "},
-    {decoder::missingDelimiter, "files whose compressed pixels have no end: "},
-    {decoder::otherPrecision, "files whose pixels have more bits than their header says: "},
-    {decoder::unreadMosaic, "mosaics that could not be taken apart, shown flat: "},
+constexpr std::array<std::pair<decoder::Oddity, task::Because<1>>, 5> oddities{{
+    {decoder::mislabelledEncoding, because::implicitSaidExplicit},
+    {decoder::definedLengthPixels, because::pixelsOfDefinedLength},
+    {decoder::missingDelimiter, because::pixelsWithoutEnd},
+    {decoder::otherPrecision, because::moreBitsThanSaid},
+    {decoder::unreadMosaic, because::mosaicsShownFlat},
 }};
 
-std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader *> &files) {
-    std::vector<std::string> warnings;
-    const auto count = [&](const char *what, const auto &has) {
+std::vector<task::Reason> warningsOfValues(const std::vector<const InstanceHeader *> &files) {
+    std::vector<task::Reason> warnings;
+    const auto count = [&](task::Because<1> what, const auto &has) {
         if (const auto n = std::count_if(files.begin(), files.end(),
                                          [&](const InstanceHeader *h) { return has(*h); });
             n > 0)
-            warnings.push_back(what + std::to_string(n));
+            warnings.push_back(what(n));
     };
-    count(surplus, decoder::hasSurplusPixels);
-    count(zeroSlopes, [](const InstanceHeader &h) {
+    count(because::surplusPixels, decoder::hasSurplusPixels);
+    count(because::zeroSlopes, [](const InstanceHeader &h) {
         return h.modalityTable.empty() &&
                std::any_of(h.frames.begin(), h.frames.end(),
                            [](const FrameHeader &f) { return f.rescale.isSlopeZero; });
@@ -369,10 +393,10 @@ std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader
     return warnings;
 }
 
-bool isOfValues(const std::string &warning) {
-    return warning.starts_with(surplus) || warning.starts_with(zeroSlopes) ||
+bool isOfValues(const task::Reason &warning) {
+    return warning.is(because::surplusPixels) || warning.is(because::zeroSlopes) ||
            std::any_of(oddities.begin(), oddities.end(),
-                       [&](const auto &odd) { return warning.starts_with(odd.second); });
+                       [&](const auto &odd) { return warning.is(odd.second); });
 }
 
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
@@ -393,18 +417,18 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
             frame.sopInstanceUid = file.header.sopInstanceUid;
             frame.frameOfReferenceUid = file.header.frameOfReferenceUid;
             frame.modality = file.header.modality;
-            (missingGeometry(frame.header).empty() ? placed : unplaced).push_back(std::move(frame));
+            (missingGeometry(frame.header) ? unplaced : placed).push_back(std::move(frame));
         }
     dropCopies(placed, skipped);
     dropCopies(unplaced, skipped);
 
     std::vector<std::vector<VolumeEntry>> stacks;
     for (const Frames &images : blocksOf(placed, sameBlock, progress)) {
-        std::vector<std::string> warnings;
+        std::vector<task::Reason> warnings;
         for (Frames &block : spacesOf(images, warnings)) {
             sortByDepth(block);
             const std::vector<Part> parts = placesRepeat(block) ? splitRepeats(block, progress)
-                                                                : std::vector<Part>{{"", block}};
+                                                                : std::vector<Part>{{{}, block}};
             // Phases share their stacks, each run of slices is one.
             std::map<std::pair<std::size_t, bool>, std::size_t> runs;
             for (const Part &part : parts) {
@@ -433,8 +457,8 @@ std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                              return std::tuple(a.instanceNumber, a.reference.frame) <
                                     std::tuple(b.instanceNumber, b.reference.frame);
                          });
-        VolumeEntry entry = entryFrom({"", block});
-        makeImages(entry, block, missingGeometry(block.front().header));
+        VolumeEntry entry = entryFrom({{}, block});
+        makeImages(entry, block, *missingGeometry(block.front().header));
         stacks.emplace_back().push_back(std::move(entry));
     }
     nameStacks(stacks);

@@ -32,8 +32,8 @@ std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frame
 
 /// What is wrong with the values of files, and how many have it: pixels beyond those that the
 /// header describes, a rescale slope of 0.
-std::vector<std::string> warningsOfValues(const std::vector<const InstanceHeader *> &files);
+std::vector<task::Reason> warningsOfValues(const std::vector<const InstanceHeader *> &files);
 /// Whether a warning is one of those.
-bool isOfValues(const std::string &warning);
+bool isOfValues(const task::Reason &warning);
 
 } // namespace pellucid::dicom

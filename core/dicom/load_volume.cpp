@@ -16,7 +16,6 @@
 #include <set>
 #include <tuple>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/decoder/decoder.h"
@@ -30,6 +29,7 @@ namespace pellucid::dicom {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
@@ -215,13 +215,13 @@ private:
         try {
             decoder::DecodedFile image = decoder::Decoder::ofProgram().image(path, m_progress);
             if (image.header.columns != m_columns() || image.header.rows != m_rows())
-                throw Error(ErrorCode::unusable, "changed while it was read", path);
+                throw Error(ErrorCode::unusable, because::changedWhileRead, path);
             return image;
         } catch (const Error &error) {
             if (error.code() != ErrorCode::outOfMemory)
                 throw;
             m_lacksMemory = true;
-            throw Error(ErrorCode::unusable, lacksMemory, path);
+            throw Error(ErrorCode::unusable, because::needsTooMuchMemory, path);
         }
     }
     // Where no file is left that could be read.
@@ -269,7 +269,7 @@ private:
                 for (const std::size_t slice : frames) {
                     const int frame = m_entry.frames[slice].frame;
                     if (!isStillThere(m_entry.frames[slice], image.header))
-                        throw Error(ErrorCode::unusable, "changed while it was read");
+                        throw Error(ErrorCode::unusable, because::changedWhileRead);
                     if (!place(image, frame, m_entry.unit, samples.data() + slice * plane,
                                ofFile)) {
                         const std::lock_guard lock(guard);
@@ -315,19 +315,18 @@ private:
             samples = resampled(samples, m_entry.geometry, m_progress);
         volume::VolumeNotes notes = m_entry.notes;
         constexpr std::size_t mostNamed = 5;
-        std::vector<std::string> ofValues;
+        std::vector<task::Reason> ofValues;
         for (const std::string &name : damaged)
             if (ofValues.size() < mostNamed)
-                ofValues.push_back("the compressed pixels are damaged: " + name);
+                ofValues.push_back(because::damagedPixelsOf(name));
         if (damaged.size() > mostNamed)
-            ofValues.push_back(
-                fmt::format("files whose compressed pixels are damaged: {}", damaged.size()));
+            ofValues.push_back(because::damagedPixels(damaged.size()));
         if (otherwisePrecise > 0) {
             InstanceHeader header;
             header.oddities = decoder::otherPrecision;
             const std::vector<const InstanceHeader *> all(std::size_t(otherwisePrecise.load()),
                                                           &header);
-            for (const std::string &warning : warningsOfValues(all))
+            for (const task::Reason &warning : warningsOfValues(all))
                 ofValues.push_back(warning);
         }
         if (const auto warning = narrowing.warning())
@@ -381,7 +380,7 @@ private:
             if (!std::all_of(frames.begin(), frames.end(), [&](std::size_t slice) {
                     return isStillThere(m_entry.frames[slice], file.header);
                 })) {
-                skipped.push_back({path, "changed while it was read"});
+                skipped.push_back({path, because::changedWhileRead});
                 continue;
             }
             std::vector<FrameHeader> kept;
@@ -409,8 +408,7 @@ private:
                 return rank(a) < rank(b);
             });
         if (entries.size() != 1 && (!found->placed || found->geometry.lattice.size().k < 2))
-            throw Error(ErrorCode::unusable,
-                        skipped.front().reason + "; the other slices make no volume",
+            throw Error(ErrorCode::unusable, because::othersMakeNoVolume(skipped.front().reason),
                         skipped.front().path);
         VolumeEntry rest = m_entry;
         rest.frames = found->frames;
@@ -422,21 +420,20 @@ private:
         rest.notes.filled = found->notes.filled;
         // What was said of all slices no longer holds.
         std::erase_if(rest.notes.warnings,
-                      [](const std::string &w) { return isOfStack(w) || isOfValues(w); });
+                      [](const task::Reason &w) { return isOfStack(w) || isOfValues(w); });
         std::vector<const InstanceHeader *> headers;
         for (const SeriesFile &file : files)
             headers.push_back(&file.header);
-        for (const std::string &warning : warningsOfValues(headers))
+        for (const task::Reason &warning : warningsOfValues(headers))
             rest.notes.warnings.push_back(warning);
         for (const Skipped &s : skipped)
-            rest.notes.warnings.push_back("without " + s.path.filename().string() + ": " +
-                                          s.reason);
-        for (const std::string &warning : found->notes.warnings)
+            rest.notes.warnings.push_back(because::without(s.path.filename().string(), s.reason));
+        for (const task::Reason &warning : found->notes.warnings)
             if (std::find(rest.notes.warnings.begin(), rest.notes.warnings.end(), warning) ==
                 rest.notes.warnings.end())
                 rest.notes.warnings.push_back(warning);
         if (!rest.placed)
-            rest.notes.warnings.push_back("images only: " + found->notPlacedReason);
+            rest.notes.warnings.push_back(because::imagesOnly(*found->notPlacedReason));
         LoadedVolume loaded = loadVolume(rest, m_progress, m_observer);
         loaded.skipped.insert(loaded.skipped.begin(), skipped.begin(), skipped.end());
         return loaded;
@@ -460,8 +457,7 @@ LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress
         return Assembly(entry, progress, observer).load();
     } catch (const std::bad_alloc &) {
         const volume::GridSize n = entry.geometry.lattice.size();
-        throw Error(ErrorCode::outOfMemory,
-                    fmt::format("not enough memory for a volume of {} x {} x {}", n.i, n.j, n.k));
+        throw Error(ErrorCode::outOfMemory, because::noMemoryForAVolume(n.i, n.j, n.k));
     }
 }
 

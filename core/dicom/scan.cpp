@@ -27,6 +27,7 @@ namespace pellucid::dicom {
 namespace {
 
 namespace fs = std::filesystem;
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -65,18 +66,19 @@ public:
 
     void add(const fs::path &path) {
         if (path.empty())
-            throw Error(ErrorCode::unusable, "an empty path leads nowhere");
+            throw Error(ErrorCode::unusable, because::emptyPath);
         std::error_code error;
         const fs::file_status status = fs::status(path, error);
         if (!fs::exists(status))
             throw Error(ErrorCode::unusable,
-                        error && status.type() != fs::file_type::not_found ? error.message()
-                                                                           : "does not exist",
+                        error && status.type() != fs::file_type::not_found
+                            ? task::systemReason(error)
+                            : because::doesNotExist,
                         path);
         if (fs::is_directory(status))
             addFolder(path);
         else if (!fs::is_regular_file(status))
-            throw Error(ErrorCode::unusable, "is neither a file nor a folder", path);
+            throw Error(ErrorCode::unusable, because::isNeitherFileNorFolder, path);
         else if (decoder::isArchive(path))
             addArchive(path);
         else if (const auto directory = directoryAt(path); directory.isDirectory)
@@ -121,19 +123,19 @@ private:
             for (const std::string &part : parts) {
                 // A part must be a plain name: an index may not lead out of its own folder.
                 if (part == ".." || part.find_first_of(std::string_view("/\0", 2)) != part.npos)
-                    throw Error(ErrorCode::unusable, "lists a file outside its folder", path);
+                    throw Error(ErrorCode::unusable, because::listsAFileOutside, path);
                 listed = folders.childOf(listed, part);
             }
             std::error_code ignored;
             if (!fs::is_regular_file(listed, ignored)) {
-                skipped.push_back({listed, "is listed in the DICOMDIR but missing"});
+                skipped.push_back({listed, because::isListedButMissing});
                 continue;
             }
             // A link leads elsewhere, too.
             const fs::path meant =
                 fs::weakly_canonical(fs::absolute(listed), ignored).lexically_relative(folder);
             if (meant.empty() || *meant.begin() == "..")
-                skipped.push_back({listed, "lists a file outside its folder"});
+                skipped.push_back({listed, because::listsAFileOutside});
             else
                 addFile(listed);
         }
@@ -143,7 +145,7 @@ private:
         std::error_code error;
         fs::directory_iterator top(folder, error);
         if (error)
-            throw Error(ErrorCode::unusable, error.message(), folder);
+            throw Error(ErrorCode::unusable, task::systemReason(error), folder);
         std::vector<fs::path> pending{folder}, below;
         while (!pending.empty()) {
             m_progress.check();
@@ -151,7 +153,7 @@ private:
             pending.pop_back();
             fs::directory_iterator entries(current, error);
             if (error) {
-                skipped.push_back({current, error.message()});
+                skipped.push_back({current, task::systemReason(error)});
                 continue;
             }
             for (; entries != fs::directory_iterator(); entries.increment(error)) {
@@ -160,18 +162,18 @@ private:
                 const bool link = entry.is_symlink(ignored);
                 if (entry.is_directory(ignored)) {
                     if (link)
-                        skipped.push_back({entry.path(), "is a link to a folder"});
+                        skipped.push_back({entry.path(), because::linksToAFolder});
                     else
                         pending.push_back(entry.path());
                 } else if (entry.is_regular_file(ignored)) {
                     below.push_back(entry.path());
                 } else {
                     skipped.push_back(
-                        {entry.path(), link ? "is a broken link" : "is not a regular file"});
+                        {entry.path(), link ? because::isABrokenLink : because::isNotARegularFile});
                 }
             }
             if (error) // a share or a CD that fails half way
-                skipped.push_back({current, error.message()});
+                skipped.push_back({current, task::systemReason(error)});
         }
         std::sort(below.begin(), below.end());
         for (const fs::path &path : below)
@@ -195,9 +197,9 @@ std::size_t bytesToGroup(const InstanceHeader &header) {
     return copies * bytes;
 }
 
-std::string hugeReason(const InstanceHeader &h, std::uint64_t fileBytes) {
-    return fmt::format("is unusually large: {} x {} x {} pixels in a file of {:.1f} MB", h.columns,
-                       h.rows, h.frames.size(), double(fileBytes) / 1e6);
+task::Reason hugeReason(const InstanceHeader &h, std::uint64_t fileBytes) {
+    return because::isUnusuallyLarge(h.columns, h.rows, h.frames.size(),
+                                     fmt::format("{:.1f}", double(fileBytes) / 1e6));
 }
 
 using HeadersByPath = std::map<fs::path, const InstanceHeader *>;
@@ -220,10 +222,10 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     std::vector<const InstanceHeader *> each;
     for (const auto &[path, header] : files)
         each.push_back(header);
-    for (const std::string &warning : warningsOfValues(each))
+    for (const task::Reason &warning : warningsOfValues(each))
         entry.notes.warnings.push_back(warning);
     if (!entry.placed) // the last: it is what the view says
-        entry.notes.warnings.push_back("images only: " + entry.notPlacedReason);
+        entry.notes.warnings.push_back(because::imagesOnly(*entry.notPlacedReason));
     entry.notes.lossy =
         std::any_of(entry.frames.begin(), entry.frames.end(),
                     [&](const FrameReference &frame) { return headers.at(frame.path)->lossy; });
@@ -235,8 +237,7 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     // Tilt as the table needs it, so that nobody wonders about the leaning stack.
     const double tilt = entry.geometry.lattice.shearRad() * 180.0 / 3.14159265358979323846;
     if (entry.placed && tilt > 0.1 && entry.geometry.lattice.size().k > 1)
-        entry.notes.warnings.push_back(
-            fmt::format("tilted by {:.1f} degrees; shown from its own lattice", tilt));
+        entry.notes.warnings.push_back(because::tilted(fmt::format("{:.1f}", tilt)));
 }
 
 // Instance UIDs that several images share tell none of them.
@@ -292,7 +293,7 @@ void addVolumeFile(Catalogue &catalogue, const fs::path &path,
         entry.volumeFile = path;
         entry.fileVolume = n;
         if (header.volumes > 1)
-            entry.label = fmt::format("temporal position {}", n + 1);
+            entry.label = {because::temporalPosition(n + 1)};
         entry.geometry.lattice = header.lattice;
         entry.notes = header.notes;
         series.volumes.push_back(std::move(entry));
@@ -328,6 +329,11 @@ private:
     std::atomic<std::size_t> m_held = 0;
 };
 
+// Of a file that is left out: that there is no memory is not its fault.
+task::Reason reasonOf(const Error &error) {
+    return error.code() == ErrorCode::outOfMemory ? because::needsTooMuchMemory : error.reason();
+}
+
 } // namespace
 
 Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress,
@@ -341,8 +347,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
             // One of several paths does not keep the others from being opened; a full disk does.
             if (paths.size() == 1 || error.code() == ErrorCode::output)
                 throw;
-            list.skipped.push_back(
-                {path, error.code() == ErrorCode::outOfMemory ? lacksMemory : error.reason()});
+            list.skipped.push_back({path, reasonOf(error)});
         }
     }
 
@@ -351,7 +356,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     HeldMemory held(std::max(system::availableMemoryBytes() / 2, ofUsualSeries));
     std::vector<InstanceHeader> headers(list.found.size());
     std::vector<std::optional<decoder::VolumeFileHeader>> volumeFiles(list.found.size());
-    std::vector<std::string> reasons(list.found.size());
+    std::vector<std::optional<task::Reason>> reasons(list.found.size());
     std::vector<char> huge(list.found.size()); // not bool: each is written by its own thread
     std::atomic<std::size_t> done = 0;
     std::mutex reporting;
@@ -365,26 +370,24 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
                     decoder::Decoder::ofProgram().header(list.found[n], progress);
                 std::error_code unknown;
                 const auto bytes = fs::file_size(list.found[n], unknown);
-                if (const auto reason = decoder::whyUnusable(header)) {
-                    reasons[n] = *reason;
-                } else if (!options.takesHuge && decoder::isHuge(header, bytes)) {
+                reasons[n] = decoder::whyUnusable(header);
+                if (!reasons[n] && !options.takesHuge && decoder::isHuge(header, bytes)) {
                     reasons[n] = hugeReason(header, bytes);
                     huge[n] = 1;
                 }
-                if (reasons[n].empty() && !held.take(bytesToGroup(header)))
-                    reasons[n] = lacksMemory;
-                if (reasons[n].empty())
+                if (!reasons[n] && !held.take(bytesToGroup(header)))
+                    reasons[n] = because::needsTooMuchMemory;
+                if (!reasons[n])
                     headers[n] = std::move(header);
             }
         } catch (const Error &error) {
             if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
                 throw;
-            reasons[n] = error.code() == ErrorCode::outOfMemory ? lacksMemory
-                         : decoder::isArchive(list.found[n])
-                             ? "is an archive; archives are opened by themselves"
-                             : error.reason();
+            reasons[n] = error.code() != ErrorCode::outOfMemory && decoder::isArchive(list.found[n])
+                             ? because::isAnArchive
+                             : reasonOf(error);
         } catch (const std::bad_alloc &) {
-            reasons[n] = lacksMemory;
+            reasons[n] = because::needsTooMuchMemory;
         }
         const std::lock_guard lock(reporting);
         progress.report(double(++done) / double(list.found.size()));
@@ -401,10 +404,10 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
     std::vector<std::tuple<std::string, std::string, std::string, std::string>> order;
     const std::set<fs::path> samples = samplesOf(volumeFiles);
     for (std::size_t n = 0; n < list.found.size(); ++n) {
-        if (!reasons[n].empty()) {
+        if (reasons[n]) {
             if (!samples.empty() && samples.contains(resolved(list.found[n])))
                 continue;
-            catalogue.skipped.push_back({list.found[n], reasons[n], huge[n] != 0});
+            catalogue.skipped.push_back({list.found[n], *reasons[n], huge[n] != 0});
             continue;
         }
         if (volumeFiles[n]) {
@@ -436,9 +439,7 @@ Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progres
             namedStudies.insert(file.header.studyUid);
         for (VolumeEntry &volume : entry.volumes) {
             if (namedStudies.size() > 1)
-                volume.notes.warnings.push_back(
-                    fmt::format("images of one series name {} studies; shown in the first",
-                                namedStudies.size()));
+                volume.notes.warnings.push_back(because::namesSeveralStudies(namedStudies.size()));
             describe(volume, headersByPath);
         }
         studies.of(h).series.push_back(std::move(entry));

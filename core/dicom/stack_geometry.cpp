@@ -6,7 +6,6 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -17,9 +16,7 @@ namespace pellucid::dicom {
 
 namespace {
 
-constexpr std::string_view unevenStack = "uneven slice distances", missingSlices = "missing slices",
-                           jitteringAxes = "orientations differ",
-                           jitteringSpacings = "pixel spacings differ";
+namespace because = task::because;
 
 // A gap wider than this many medians is a hole in the patient, not a change of spacing.
 constexpr double largestGapRatio = 2.5;
@@ -61,8 +58,8 @@ Plane meanPlane(const std::vector<PlacedFrame> &frames) {
     return plane;
 }
 
-std::vector<std::string> jitterWarnings(const std::vector<PlacedFrame> &frames,
-                                        const Plane &plane) {
+std::vector<task::Reason> jitterWarnings(const std::vector<PlacedFrame> &frames,
+                                         const Plane &plane) {
     double axes = 0.0;
     glm::dvec2 finest = plane.spacingMm, coarsest = finest;
     for (const PlacedFrame &frame : frames) {
@@ -73,13 +70,12 @@ std::vector<std::string> jitterWarnings(const std::vector<PlacedFrame> &frames,
     }
     const glm::dvec2 off = coarsest / finest - 1.0;
     const double spacing = std::max(off.x, off.y);
-    std::vector<std::string> warnings;
+    std::vector<task::Reason> warnings;
     if (axes >= jitterToReport)
-        warnings.push_back(fmt::format("{} by up to {:.2f} degrees; the mean is used",
-                                       jitteringAxes, axes * 180.0 / 3.14159265358979323846));
+        warnings.push_back(because::orientationsDiffer(
+            fmt::format("{:.2f}", axes * 180.0 / 3.14159265358979323846)));
     if (spacing >= jitterToReport)
-        warnings.push_back(fmt::format("{} by up to {:.1f} %; the mean is used", jitteringSpacings,
-                                       100.0 * spacing));
+        warnings.push_back(because::pixelSpacingsDiffer(fmt::format("{:.1f}", 100.0 * spacing)));
     return warnings;
 }
 
@@ -223,19 +219,20 @@ std::optional<Line> anchoredLine(const std::vector<double> &depths) {
     return line;
 }
 
-std::string unevenWarning(const std::vector<PlacedFrame> &frames, const std::vector<double> &gaps,
-                          double step) {
-    std::string changes;
+task::Reason unevenWarning(const std::vector<PlacedFrame> &frames, const std::vector<double> &gaps,
+                           double step) {
+    std::vector<task::Reason> changes;
     int listed = 0;
     for (std::size_t n = 1; n < gaps.size(); ++n)
         if (std::abs(gaps[n] - gaps[n - 1]) > evennessToleranceMm(gaps[n]) && ++listed <= 6)
-            changes +=
-                fmt::format("{}{} ({:.3g} then {:.3g} mm)", changes.empty() ? "" : "; ",
-                            frames[n].reference.path.filename().string(), gaps[n - 1], gaps[n]);
+            changes.push_back(because::unevenAt(frames[n].reference.path.filename().string(),
+                                                fmt::format("{:.3g}", gaps[n - 1]),
+                                                fmt::format("{:.3g}", gaps[n])));
     if (listed > 6)
-        changes += fmt::format("; {} more", listed - 6);
-    return fmt::format("{}, resampled onto {:.3f} mm; they change at {}", unevenStack, step,
-                       changes.empty() ? "many files" : changes);
+        changes.push_back(because::more(listed - 6));
+    if (changes.empty())
+        changes.emplace_back(because::manyFiles);
+    return because::unevenSlices(fmt::format("{:.3f}", step), std::move(changes));
 }
 
 // Slices that lie inside gaps, and what is said of them.
@@ -245,7 +242,7 @@ void fillGaps(const std::vector<PlacedFrame> &frames, const std::vector<double> 
     const double step = result.geometry.lattice.sliceDistanceMm();
     const double near = evennessToleranceMm(step);
     int listed = 0;
-    std::string places;
+    std::vector<task::Reason> places;
     for (std::size_t n = 0; n < gaps.size(); ++n) {
         if (gaps[n] <= leastGapMm)
             continue;
@@ -255,14 +252,14 @@ void fillGaps(const std::vector<PlacedFrame> &frames, const std::vector<double> 
             continue;
         result.filled.push_back({first, last});
         if (++listed <= 3)
-            places += fmt::format("{}{:.1f} mm between {} and {}", places.empty() ? "" : "; ",
-                                  gaps[n], frames[n].reference.path.filename().string(),
-                                  frames[n + 1].reference.path.filename().string());
+            places.push_back(because::gapBetween(fmt::format("{:.1f}", gaps[n]),
+                                                 frames[n].reference.path.filename().string(),
+                                                 frames[n + 1].reference.path.filename().string()));
     }
     if (listed > 3)
-        places += fmt::format("; {} more", listed - 3);
+        places.push_back(because::more(listed - 3));
     if (listed > 0)
-        result.warnings.push_back(fmt::format("{}, interpolated: {}", missingSlices, places));
+        result.warnings.push_back(because::missingSlices(std::move(places)));
 }
 
 // The direction of the stack: one millimetre along the normal moves it by this much. Along the
@@ -312,7 +309,7 @@ void placeFrames(const std::vector<PlacedFrame> &frames, const Plane &plane, Sta
         depths.push_back(frame.depthMm - frames.front().depthMm);
     const double total = depths.back();
     if (!std::isfinite(total) || !(total > 0.0)) {
-        result.refusal = "all slices have the same position";
+        result.refusal = because::slicesAtOnePosition;
         return;
     }
     Axis axis = axisThrough(frames, depths);
@@ -328,8 +325,8 @@ void placeFrames(const std::vector<PlacedFrame> &frames, const Plane &plane, Sta
         }
     }
     if (!(worst <= stray)) {
-        result.refusal = fmt::format("{} is {:.2f} mm off the line through all slices",
-                                     strayed->reference.path.filename().string(), worst);
+        result.refusal = because::sliceOffTheLine(strayed->reference.path.filename().string(),
+                                                  fmt::format("{:.2f}", worst));
         return;
     }
     if (worst < exactMm)
@@ -356,8 +353,8 @@ void placeFrames(const std::vector<PlacedFrame> &frames, const Plane &plane, Sta
     const std::optional<Line> anchored = anchoredLine(depths);
     if (!anchored) {
         const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
-        result.refusal = fmt::format("slice distances from {:.3f} to {:.1f} mm have no common step",
-                                     *least, *most);
+        result.refusal = because::slicesWithoutCommonStep(fmt::format("{:.3f}", *least),
+                                                          fmt::format("{:.1f}", *most));
         return;
     }
     const Line &line = *anchored;
@@ -413,9 +410,9 @@ std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<Placed
     return runs;
 }
 
-bool isOfStack(const std::string &warning) {
-    return warning.starts_with(unevenStack) || warning.starts_with(missingSlices) ||
-           warning.starts_with(jitteringAxes) || warning.starts_with(jitteringSpacings);
+bool isOfStack(const task::Reason &warning) {
+    return warning.is(because::unevenSlices) || warning.is(because::missingSlices) ||
+           warning.is(because::orientationsDiffer) || warning.is(because::pixelSpacingsDiffer);
 }
 
 StackResult stackGeometry(const std::vector<PlacedFrame> &frames) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,9 +36,9 @@ struct PlacedFrame {
 struct StackResult {
     StackGeometry geometry;
     std::vector<volume::SliceRange> filled; ///< slices of the lattice inside a hole
-    std::vector<std::string> warnings;
+    std::vector<task::Reason> warnings;
     /// Set if the frames make no volume.
-    std::string refusal;
+    std::optional<task::Reason> refusal;
 };
 
 /// The largest distance of a slice from its place on an even grid: positions are often written with
@@ -65,6 +66,6 @@ std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<Placed
 StackResult stackGeometry(const std::vector<PlacedFrame> &frames);
 
 /// Whether a warning is one of those of `stackGeometry`.
-bool isOfStack(const std::string &warning);
+bool isOfStack(const task::Reason &warning);
 
 } // namespace pellucid::dicom

@@ -8,8 +8,6 @@
 
 #include <dcmtk/dcmdata/dctk.h>
 
-#include <fmt/format.h>
-
 #include "core/dcmtk/dictionary.h"
 #include "core/dicom/write_dataset.h"
 #include "core/task/error.h"
@@ -52,7 +50,7 @@ std::vector<std::uint8_t> samples(std::span<const std::uint8_t> rgba, bool grey)
 void putProfile(DcmDataset &d) {
     DcmItem *code = nullptr;
     if (d.findOrCreateSequenceItem(DCM_DeidentificationMethodCodeSequence, code).bad())
-        throw task::Error(task::ErrorCode::internal, "the code of the profile cannot be written");
+        throw task::Error(task::ErrorCode::internal, task::because::profileCannotBeWritten);
     put(*code, DCM_CodeValue, "113100");
     put(*code, DCM_CodingSchemeDesignator, "DCM");
     put(*code, DCM_CodeMeaning, "Basic Application Confidentiality Profile");

@@ -22,6 +22,7 @@ namespace pellucid::dicom {
 
 using task::Error;
 using task::ErrorCode;
+namespace because = task::because;
 
 std::string decimal(double value) {
     for (int digits = 12; digits > 0; --digits) {
@@ -57,8 +58,8 @@ std::string randomUid() {
 
 void put(DcmItem &dataset, const DcmTagKey &tag, const std::string &value) {
     if (dataset.putAndInsertOFStringArray(tag, value.c_str()).bad())
-        throw Error(ErrorCode::internal, fmt::format("attribute ({:04x},{:04x}) cannot be set",
-                                                     tag.getGroup(), tag.getElement()));
+        throw Error(ErrorCode::internal, because::attributeCannotBeSet(fmt::format(
+                                             "{:04x},{:04x}", tag.getGroup(), tag.getElement())));
 }
 
 // DCMTK's own file output does not notice a disk that fills at the last flush.
@@ -83,7 +84,7 @@ void writeDataset(DcmFileFormat &file, int transferSyntax, const std::filesystem
     }
     file.transferEnd();
     if (written.bad())
-        throw Error(ErrorCode::output, std::string("cannot be encoded: ") + written.text(), path);
+        throw Error(ErrorCode::output, because::cannotBeEncoded(written.text()), path);
     do // a deflating stream still holds its end back
         stream.flush();
     while (drain() > 0 || !stream.isFlushed());

@@ -29,6 +29,7 @@ namespace pellucid::dicom {
 namespace {
 
 namespace fs = std::filesystem;
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -159,7 +160,7 @@ private:
             done = d.chooseRepresentation(m_syntax, nullptr);
         }
         if (done.bad())
-            throw Error(ErrorCode::internal, std::string("compression failed: ") + done.text());
+            throw Error(ErrorCode::internal, because::compressionFailed(done.text()));
     }
 
     const volume::Volume &m_volume;
@@ -177,7 +178,7 @@ TransferSyntax transferSyntaxFromName(const std::string &name) {
             return TransferSyntax(n);
         known += std::string(known.empty() ? "" : ", ") + syntaxes()[n].name;
     }
-    throw Error(ErrorCode::usage, "unknown transfer syntax '" + name + "'; known are " + known);
+    throw Error(ErrorCode::usage, because::unknownTransferSyntax(name, known));
 }
 
 std::vector<std::string> transferSyntaxNames() {
@@ -191,11 +192,11 @@ void writeCtSeries(const fs::path &folder, const volume::Volume &volume, const S
                    TransferSyntax syntax, const task::Progress &progress) {
     dcmtk::prepareDcmtk();
     if (volume.isFloat())
-        throw Error(ErrorCode::usage, "only volumes of whole HU are written as CT");
+        throw Error(ErrorCode::usage, because::onlyWholeHuAreCt);
     std::error_code error;
     const bool made = fs::create_directories(folder, error);
     if (error)
-        throw Error(ErrorCode::output, "cannot be made: " + error.message(), folder);
+        throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(error)), folder);
     const SeriesWriter writer(volume, labels, syntax);
     const volume::GridSize size = volume.lattice().size();
     std::vector<fs::path> paths;
@@ -203,7 +204,7 @@ void writeCtSeries(const fs::path &folder, const volume::Volume &volume, const S
         paths.push_back(folder / fmt::format("IM{:04d}.dcm", k + 1));
     for (const fs::path &path : paths)
         if (fs::exists(fs::symlink_status(path, error)))
-            throw Error(ErrorCode::output, "is there already", path);
+            throw Error(ErrorCode::output, because::existsAlready, path);
     std::mutex guard;
     int done = 0;
     std::vector<fs::path> written;

@@ -3,7 +3,6 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
 #include <string>
 #include <sys/random.h>
@@ -57,7 +56,7 @@ std::filesystem::path targetOf(const std::filesystem::path &path) {
     if (std::filesystem::exists(meant, unknown) &&
         !std::filesystem::is_regular_file(meant, unknown) &&
         !std::filesystem::is_directory(meant, unknown))
-        throw task::Error(task::ErrorCode::output, "is no regular file", meant);
+        throw task::Error(task::ErrorCode::output, task::because::isNoRegularFile, meant);
     return meant;
 }
 
@@ -154,21 +153,21 @@ void AtomicFile::commit() {
 
 void AtomicFile::fail(int error) const {
     throw task::Error(task::ErrorCode::output,
-                      std::string("cannot be written: ") + std::strerror(error), m_path);
+                      task::because::cannotBeWritten(task::systemReason(error)), m_path);
 }
 
 void rename(const std::filesystem::path &from, const std::filesystem::path &to) {
     const Descriptor file(open(from.c_str(), O_RDONLY | O_CLOEXEC));
     if (!file || fsync(file.get()) != 0 || std::rename(from.c_str(), to.c_str()) != 0)
         throw task::Error(task::ErrorCode::output,
-                          std::string("cannot be written: ") + std::strerror(errno), to);
+                          task::because::cannotBeWritten(task::systemReason(errno)), to);
 }
 
 void flush(const std::filesystem::path &folder) {
     const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (!opened || syncfs(opened.get()) != 0)
         throw task::Error(task::ErrorCode::output,
-                          std::string("cannot be written: ") + std::strerror(errno), folder);
+                          task::because::cannotBeWritten(task::systemReason(errno)), folder);
 }
 
 void requireWritable(const std::filesystem::path &folder) {
@@ -178,10 +177,10 @@ void requireWritable(const std::filesystem::path &folder) {
     while (!std::filesystem::exists(there, unknown) && there.has_relative_path())
         there = there.parent_path();
     if (!std::filesystem::is_directory(there, unknown))
-        throw task::Error(task::ErrorCode::output, "is no folder", there);
+        throw task::Error(task::ErrorCode::output, task::because::isNoFolder, there);
     if (access(there.c_str(), W_OK | X_OK) != 0)
         throw task::Error(task::ErrorCode::output,
-                          std::string("cannot be written: ") + std::strerror(errno), there);
+                          task::because::cannotBeWritten(task::systemReason(errno)), there);
 }
 
 } // namespace pellucid::files

@@ -2,7 +2,6 @@
 #include "core/files/descriptor.h"
 
 #include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -21,9 +20,10 @@ Descriptor openRegular(const std::filesystem::path &path) {
     struct stat about {};
     if (!file || ::fstat(file.get(), &about) != 0)
         throw task::Error(task::ErrorCode::unusable,
-                          errno == ENOENT ? "does not exist" : std::strerror(errno), path);
+                          errno == ENOENT ? task::because::doesNotExist : task::systemReason(errno),
+                          path);
     if (!S_ISREG(about.st_mode))
-        throw task::Error(task::ErrorCode::unusable, "is not a regular file", path);
+        throw task::Error(task::ErrorCode::unusable, task::because::isNotARegularFile, path);
     return file;
 }
 

@@ -21,12 +21,13 @@ fs::path nameAside(std::size_t number, const fs::path &file) {
 SessionFolder folderFor(const fs::path &file) {
     std::error_code failed;
     if (!fs::is_directory(file.parent_path().empty() ? "." : file.parent_path(), failed))
-        throw task::Error(task::ErrorCode::output, failed ? failed.message() : "is not in a folder",
+        throw task::Error(task::ErrorCode::output,
+                          failed ? task::systemReason(failed) : task::because::isNotInAFolder,
                           file);
     try {
         return SessionFolder::beside(file);
     } catch (const task::Error &error) {
-        throw task::Error(error.code(), "cannot be written: " + error.reason(), file);
+        throw task::Error(error.code(), task::because::cannotBeWritten(error.reason()), file);
     }
 }
 
@@ -46,7 +47,8 @@ void FileSet::commit() {
         std::error_code failed;
         fs::rename(m_folder.path() / nameAside(n, m_files[n]), m_files[n], failed);
         if (failed)
-            throw task::Error(task::ErrorCode::output, "cannot be written: " + failed.message(),
+            throw task::Error(task::ErrorCode::output,
+                              task::because::cannotBeWritten(task::systemReason(failed)),
                               m_files[n]);
     }
 }

@@ -2,10 +2,7 @@
 #include "core/files/read_text.h"
 
 #include <cerrno>
-#include <cstring>
 #include <unistd.h>
-
-#include <fmt/format.h>
 
 #include "core/files/descriptor.h"
 #include "core/task/error.h"
@@ -22,14 +19,13 @@ std::string readText(const std::filesystem::path &path, std::size_t most) {
         text.resize(before + block);
         const ssize_t got = ::read(file.get(), text.data() + before, block);
         if (got < 0 && errno != EINTR)
-            throw task::Error(task::ErrorCode::unusable, std::strerror(errno), path);
+            throw task::Error(task::ErrorCode::unusable, task::systemReason(errno), path);
         text.resize(before + std::size_t(got < 0 ? 0 : got));
         if (got == 0)
             return text;
         if (text.size() > most)
             throw task::Error(task::ErrorCode::unusable,
-                              fmt::format("is larger than such files are ({} MB)", most >> 20),
-                              path);
+                              task::because::isTooLargeForItsKind(most >> 20), path);
     }
 }
 

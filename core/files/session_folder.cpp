@@ -3,7 +3,6 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
 #include <optional>
 #include <string>
@@ -58,7 +57,7 @@ Descriptor takeLockOrFile(const fs::path &lock) {
 SessionFolder::SessionFolder() {
     const auto sessions = sessionsFolder();
     if (!sessions)
-        throw task::Error(task::ErrorCode::output, "there is no folder for temporary files");
+        throw task::Error(task::ErrorCode::output, task::because::noTemporaryFolder);
     make(*sessions);
 }
 
@@ -89,7 +88,7 @@ void SessionFolder::make(const fs::path &parent) {
         if (error != EEXIST)
             break;
     }
-    throw task::Error(task::ErrorCode::output, std::strerror(errno), parent);
+    throw task::Error(task::ErrorCode::output, task::systemReason(errno), parent);
 }
 
 SessionFolder::~SessionFolder() {

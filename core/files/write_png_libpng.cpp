@@ -25,8 +25,8 @@ void writePng(const std::filesystem::path &path, std::span<const std::uint8_t> r
     png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::vector<std::byte> encoded(bytes);
     if (png_image_write_to_memory(&image, encoded.data(), &bytes, 0, rgb.data(), 0, nullptr) == 0)
-        throw task::Error(task::ErrorCode::output,
-                          std::string("cannot be encoded: ") + image.message, path);
+        throw task::Error(task::ErrorCode::output, task::because::cannotBeEncoded(image.message),
+                          path);
     AtomicFile file(path);
     file.write(std::span(encoded).first(bytes));
     file.commit();

@@ -26,8 +26,9 @@ using Complex = std::complex<float>;
 template <class T> class Scratch {
 public:
     explicit Scratch(std::size_t count)
-        : m_memory(
-              [count] { return system::allocatePages(count * sizeof(T), "a transform's rows"); }) {}
+        : m_memory([count] {
+              return system::allocatePages(count * sizeof(T), task::because::rowsOfATransform);
+          }) {}
     T *local() { return reinterpret_cast<T *>(m_memory.local().get()); }
 
 private:
@@ -216,7 +217,7 @@ Spectrum::Spectrum(const volume::Volume &field, const SpectrumLayout &layout)
     const GridSize size = box.size();
     m_wrapPoint = m_lattice.patient(
         volume::VoxelIndex{box.lo.i + size.i / 2, box.lo.j + size.j / 2, box.lo.k + size.k / 2});
-    m_cells = system::allocatePages(layout.bytes(), "a spectrum");
+    m_cells = system::allocatePages(layout.bytes(), task::because::aSpectrum);
     std::memset(m_cells.get() + layout.bytes() - 64, 0, 64);
 }
 
@@ -234,7 +235,8 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
 
     // Along x and y plane by plane, which stays in the cache; rows and planes of padding are not
     // transformed. Sample n goes to (n - middle) modulo padded.
-    const auto intermediateMemory = system::allocatePages(intermediateBytes(layout), "a transform");
+    const auto intermediateMemory =
+        system::allocatePages(intermediateBytes(layout), task::because::aTransform);
     auto *const intermediate = reinterpret_cast<float *>(intermediateMemory.get());
     const ForwardTransform1d alongX(padded.i);
     const StripTransform alongY(padded.j), alongZ(padded.k);

@@ -17,8 +17,7 @@ Storage storageFromName(const std::string &name) {
         return Storage::binary16;
     if (name == "f32")
         return Storage::float32;
-    throw task::Error(task::ErrorCode::usage,
-                      "'" + name + "' is not a storage; there are f16 and f32");
+    throw task::Error(task::ErrorCode::usage, task::because::isNoStorage(name));
 }
 
 std::string storageName(Storage storage) {

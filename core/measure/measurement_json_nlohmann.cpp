@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +12,7 @@ namespace pellucid::measure {
 
 namespace {
 
+namespace because = task::because;
 using nlohmann::json;
 
 constexpr const char *schema = "pellucid-measurements/1";
@@ -24,9 +24,8 @@ constexpr std::array<std::pair<Kind, const char *>, 5> kinds{
      {Kind::rectangle, "rectangle"},
      {Kind::projectedDistance, "projected distance"}}};
 
-[[noreturn]] void refuse(std::size_t index, const std::string &what) {
-    throw task::Error(task::ErrorCode::unusable,
-                      fmt::format("measurement {}: {}", index + 1, what));
+[[noreturn]] void refuse(std::size_t index, const task::Reason &what) {
+    throw task::Error(task::ErrorCode::unusable, because::ofMeasurement(index + 1, what));
 }
 
 json toArray(const glm::dvec3 &v) {
@@ -35,21 +34,21 @@ json toArray(const glm::dvec3 &v) {
 
 glm::dvec3 vectorAt(const json &in, std::size_t index) {
     if (!in.is_array() || in.size() != 3)
-        refuse(index, "a point or direction must be three numbers");
+        refuse(index, because::pointMustBeThreeNumbers);
     glm::dvec3 out;
     for (int d = 0; d < 3; ++d) {
         if (!in[std::size_t(d)].is_number())
-            refuse(index, "a point or direction must be three numbers");
+            refuse(index, because::pointMustBeThreeNumbers);
         out[d] = in[std::size_t(d)].get<double>();
         if (!(std::abs(out[d]) < 1e7))
-            refuse(index, "a number is out of range");
+            refuse(index, because::aNumberIsOutOfRange);
     }
     return out;
 }
 
 Measurement parsed(const json &in, std::size_t index) {
     if (!in.is_object())
-        refuse(index, "must be an object");
+        refuse(index, because::mustBeAnObject);
     Measurement m;
     const json kind = in.value("kind", json());
     bool known = false;
@@ -59,13 +58,13 @@ Measurement parsed(const json &in, std::size_t index) {
             known = true;
         }
     if (!known)
-        refuse(index, "its kind is unknown");
+        refuse(index, because::kindIsUnknown);
     if (in.contains("name") && !in["name"].is_string())
-        refuse(index, "its name must be a text");
+        refuse(index, because::nameMustBeAText);
     m.name = in.value("name", "");
     const json points = in.value("points_mm", json());
     if (!points.is_array() || points.size() != pointCount(m.kind))
-        refuse(index, fmt::format("it must have {} points", pointCount(m.kind)));
+        refuse(index, because::mustHavePoints(pointCount(m.kind)));
     for (const json &p : points)
         m.pointsMm.push_back(vectorAt(p, index));
     m.axes = {vectorAt(in.value("right", json()), index), vectorAt(in.value("up", json()), index)};
@@ -73,7 +72,7 @@ Measurement parsed(const json &in, std::size_t index) {
     if (std::abs(glm::length(m.axes.right) - 1.0) > 1e-6 ||
         std::abs(glm::length(m.axes.up) - 1.0) > 1e-6 ||
         std::abs(glm::dot(m.axes.right, m.axes.up)) > 1e-6)
-        refuse(index, "its directions are not at right angles");
+        refuse(index, because::directionsNotAtRightAngles);
     return m;
 }
 
@@ -90,8 +89,7 @@ std::vector<Measurement> measurementsFromJson(const std::string &text) {
     const json in = json::parse(text, nullptr, false);
     if (!in.is_object() || in.value("schema", json()) != schema ||
         !in.value("measurements", json()).is_array())
-        throw task::Error(task::ErrorCode::unusable,
-                          "is not a list of measurements (" + std::string(schema) + ")");
+        throw task::Error(task::ErrorCode::unusable, because::isNoListOfMeasurements(schema));
     std::vector<Measurement> out;
     for (const json &m : in["measurements"])
         out.push_back(parsed(m, out.size()));

@@ -48,7 +48,7 @@ PlaneAxes::PlaneAxes(const std::array<Axes, 3> &axes) : m_axes(axes) {
             worst = std::isfinite(off) ? std::max(worst, std::abs(off)) : 1.0;
     }
     if (worst > rounding)
-        throw task::Error(task::ErrorCode::usage, "planes are not at right angles");
+        throw task::Error(task::ErrorCode::usage, task::because::planesNotAtRightAngles);
 }
 
 glm::dvec3 PlaneAxes::scrollAxis(Orientation orientation) const {

@@ -16,9 +16,9 @@ template <class F> auto orDamaged(F &&f) {
     } catch (const task::Error &) {
         throw;
     } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "needs more memory than there is");
+        throw task::Error(task::ErrorCode::outOfMemory, task::because::needsTooMuchMemory);
     } catch (const std::exception &) {
-        throw task::Error(task::ErrorCode::unusable, "is damaged");
+        throw task::Error(task::ErrorCode::unusable, task::because::isDamaged);
     }
 }
 

@@ -24,10 +24,11 @@ namespace pellucid::parse {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-[[noreturn]] void fail(const std::string &reason) {
+[[noreturn]] void fail(const task::Reason &reason) {
     throw Error(ErrorCode::unusable, reason);
 }
 
@@ -90,13 +91,12 @@ int checkJpegFrames(const CompressedFrames &frames, const InstanceHeader &h,
     for (std::size_t n = 0; n < frames.count(); ++n) {
         const auto frame = jpegFrame(frames.frame(n));
         if (!frame)
-            fail("a compressed frame has no header");
+            fail(because::frameHasNoHeader);
         requireMatchesHeader(frame->rows == 0 ? h.rows : frame->rows, frame->columns,
                              frame->components, frame->precision, h);
         if (!isOfSyntax(frame->process))
-            fail(fmt::format("a compressed frame is coded otherwise (marker FF{:02X}) than its "
-                             "transfer syntax says: {}",
-                             frame->process, syntaxName(syntaxUid)));
+            fail(because::frameHasOtherCoding(fmt::format("FF{:02X}", frame->process),
+                                              syntaxName(syntaxUid)));
         precision = std::max(precision, frame->precision);
     }
     return precision;
@@ -144,7 +144,7 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
     const DecoderWarnings warnings;
     const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
     if (decoded.bad())
-        fail(fmt::format("{}: {}", transfer.getXferName(), decoded.text()));
+        fail(because::codecReports(transfer.getXferName(), decoded.text()));
     h.hasDamagedPixels = warnings.sayDamaged();
     // The decoder may have widened or narrowed the samples.
     const InstanceHeader after = headerOf(dataset, fileBytes);
@@ -154,7 +154,7 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
     h.pixelRepresentation = after.pixelRepresentation;
     if (after.rows != h.rows || after.columns != h.columns || after.samplesPerPixel != 1 ||
         whyUnusable(h))
-        fail("the compressed image is not what the header says");
+        fail(because::compressedImageContradictsHeader);
     if (precision > h.bitsStored && exceedsStored(dataset, h, precision)) {
         h.oddities |= decoder::otherPrecision;
         // A stream as wide as the words says nothing of their bits: plain samples are masked, too.
@@ -175,8 +175,7 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
     const int shift = h.highBit + 1 - h.bitsStored;
     const auto take = [&](const auto *data) {
         if (data == nullptr || count < needed)
-            fail(fmt::format("the pixels are truncated: {} of {} samples",
-                             data == nullptr ? 0 : count, needed));
+            fail(because::pixelsTruncatedTo(data == nullptr ? 0 : count, needed));
         for (std::size_t n = 0; n < needed; ++n)
             image.samples[n] =
                 extended(std::uint32_t(data[n]) >> shift, h.bitsStored, h.isSigned());
@@ -193,7 +192,7 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
         dataset.findAndGetUint16Array(DCM_PixelData, words, &count);
         count *= 2;
         if (words == nullptr || count < needed)
-            fail("the pixels are truncated");
+            fail(because::pixelsTruncated);
         for (std::size_t n = 0; n < needed; ++n)
             image.samples[n] = extended(std::uint32_t(words[n / 2] >> (n % 2 * 8)) >> shift,
                                         h.bitsStored, h.isSigned());
@@ -215,7 +214,7 @@ bool isPlain(const LoadedFile &file, const InstanceHeader &h) {
     Uint8 *data = nullptr;
     if (file.dataset().findAndGetElement(DCM_PixelData, element).bad() ||
         element->getUint8Array(data).bad() || data == nullptr)
-        fail("the pixels are not readable");
+        fail(because::pixelsNotReadable);
     return !beginsCodestream({reinterpret_cast<const std::byte *>(data), element->getLength()});
 }
 
@@ -224,7 +223,7 @@ bool isPlain(const LoadedFile &file, const InstanceHeader &h) {
 void requireRoom(std::size_t samples, bool isPlainAndWhole, std::size_t fileBytes) {
     constexpr std::size_t mostSamplesPerByte = 20000;
     if (samples / (isPlainAndWhole ? 1 : mostSamplesPerByte) > fileBytes)
-        fail("the pixels are truncated");
+        fail(because::pixelsTruncated);
 }
 
 void decodeFrames(const LoadedFile &file, std::size_t fileBytes, DecodedImage &image) {
@@ -241,7 +240,7 @@ void decodeFrames(const LoadedFile &file, std::size_t fileBytes, DecodedImage &i
             return;
         }
         if ((h.oddities & decoder::definedLengthPixels) != 0)
-            fail("compressed pixels without fragments: " + syntaxName(file.syntaxUid));
+            fail(because::noFragments(syntaxName(file.syntaxUid)));
         decodeByDcmtk(file, frames, fileBytes, image.header);
     }
     decodePlainFrames(dataset, image);
@@ -258,7 +257,7 @@ DecodedImage decoded(std::span<const std::byte> bytes) {
     DcmElement *pixels = nullptr;
     if (!file.isComplete && file.dataset().findAndGetElement(DCM_PixelData, pixels).good() &&
         pixels->transferState() != ERW_ready && (h.oddities & decoder::missingDelimiter) == 0)
-        fail("the pixels are truncated");
+        fail(because::pixelsTruncated);
     const std::size_t samples =
         std::size_t(h.rows) * h.columns * h.frames.size(); // at most 2^32 * 10^5
     requireRoom(samples,

@@ -12,6 +12,7 @@ namespace pellucid::parse {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -62,11 +63,11 @@ bool hasEnd(std::span<const std::byte> data) {
 
 dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
                                     const decoder::InstanceHeader &expected) {
-    const auto fail = [](const char *why) {
-        throw Error(ErrorCode::unusable, std::string("JPEG 2000: ") + why);
+    const auto fail = [](const task::Reason &why) {
+        throw Error(ErrorCode::unusable, because::jpeg2000(why));
     };
     if (data.size() < 12)
-        fail("truncated");
+        fail(because::compressedDataTruncated);
     const bool codestream = data[0] == std::byte(0xFF) && data[1] == std::byte(0x4F);
     Source source{data};
     Stream stream(opj_stream_create(1 << 16, OPJ_TRUE));
@@ -79,12 +80,12 @@ dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
     opj_dparameters_t parameters;
     opj_set_default_decoder_parameters(&parameters);
     if (opj_setup_decoder(codec.get(), &parameters) == OPJ_FALSE)
-        fail("the decoder cannot be set up");
+        fail(because::decoderCannotBeSetUp);
     opj_image_t *raw = nullptr;
     const OPJ_BOOL header = opj_read_header(stream.get(), codec.get(), &raw);
     const Image image(raw);
     if (header == OPJ_FALSE || !image || image->numcomps < 1)
-        fail("damaged header");
+        fail(because::damagedHeader);
     // The sizes are checked before the decoder asks for memory.
     requireMatchesHeader(std::int64_t(image->y1) - image->y0, std::int64_t(image->x1) - image->x0,
                          int(image->numcomps), int(image->comps[0].prec), expected);
@@ -96,7 +97,7 @@ dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
     if (opj_decode(codec.get(), stream.get(), image.get()) == OPJ_FALSE ||
         image->comps[0].data == nullptr || image->comps[0].w != OPJ_UINT32(expected.columns) ||
         image->comps[0].h != OPJ_UINT32(expected.rows))
-        fail("damaged or truncated");
+        fail(because::damagedOrTruncated);
     const opj_image_comp_t &component = image->comps[0];
     const std::size_t count = std::size_t(expected.rows) * std::size_t(expected.columns);
     return {expected.rows,

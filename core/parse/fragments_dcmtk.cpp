@@ -12,15 +12,15 @@
 #include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dctk.h>
 
-#include <fmt/format.h>
-
 #include "core/task/error.h"
 
 namespace pellucid::parse {
 
 namespace {
 
-[[noreturn]] void fail(const std::string &reason) {
+namespace because = task::because;
+
+[[noreturn]] void fail(const task::Reason &reason) {
     throw task::Error(task::ErrorCode::unusable, reason);
 }
 
@@ -32,7 +32,7 @@ DcmPixelSequence *sequenceOf(DcmDataset &dataset, DcmElement *&element) {
     E_TransferSyntax syntax = EXS_Unknown;
     const DcmRepresentationParameter *parameter = nullptr;
     if (pixels == nullptr)
-        fail("the compressed pixels are not readable");
+        fail(because::compressedPixelsNotReadable);
     pixels->getOriginalRepresentationKey(syntax, parameter);
     if (pixels->getEncapsulatedRepresentation(syntax, parameter, sequence).bad())
         return nullptr;
@@ -75,7 +75,7 @@ CompressedFrames::CompressedFrames(DcmDataset &dataset, std::size_t frames,
             Uint8 *data = nullptr;
             if (item == nullptr ||
                 (item->getLength() > 0 && (item->getUint8Array(data).bad() || data == nullptr)))
-                fail("a fragment of the compressed pixels is not readable");
+                fail(because::fragmentNotReadable);
             const Bytes bytes(reinterpret_cast<const std::byte *>(data),
                               data == nullptr ? 0 : item->getLength());
             if (object == sequence->nextInContainer(nullptr))
@@ -86,7 +86,7 @@ CompressedFrames::CompressedFrames(DcmDataset &dataset, std::size_t frames,
     } else {
         Uint8 *data = nullptr;
         if (element->getUint8Array(data).bad() || data == nullptr)
-            fail("the compressed pixels are not readable");
+            fail(because::compressedPixelsNotReadable);
         m_fragments.emplace_back(reinterpret_cast<const std::byte *>(data), element->getLength());
     }
     if (frames == 1 && !m_fragments.empty()) { // whatever its fragments begin with
@@ -104,8 +104,7 @@ CompressedFrames::CompressedFrames(DcmDataset &dataset, std::size_t frames,
         }
     }
     if (m_starts.size() != frames || m_starts.front() != 0)
-        fail(fmt::format("holds {} compressed frames, {} are announced",
-                         std::max(m_starts.size(), m_fragments.size()), frames));
+        fail(because::holdsOtherFrames(std::max(m_starts.size(), m_fragments.size()), frames));
     m_starts.push_back(m_fragments.size());
 }
 

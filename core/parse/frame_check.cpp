@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "core/task/error.h"
 
 namespace pellucid::parse {
 
 namespace {
+
+namespace because = task::because;
 
 int byteAt(std::span<const std::byte> bytes, std::size_t at) {
     return std::to_integer<int>(bytes[at]);
@@ -49,17 +49,15 @@ std::size_t unpackedBytes(std::span<const std::byte> segment, std::size_t wanted
 
 void requireMatchesHeader(std::int64_t rows, std::int64_t columns, int components, int precision,
                           const decoder::InstanceHeader &expected) {
-    const auto fail = [](const std::string &reason) {
-        throw task::Error(task::ErrorCode::unusable, "a compressed frame has " + reason);
+    const auto fail = [](const task::Reason &reason) {
+        throw task::Error(task::ErrorCode::unusable, reason);
     };
     if (columns != expected.columns || rows != expected.rows)
-        fail(fmt::format("{} x {} pixels, the header says {} x {}", columns, rows, expected.columns,
-                         expected.rows));
+        fail(because::frameHasOtherSize(columns, rows, expected.columns, expected.rows));
     if (components != 1)
-        fail(fmt::format("{} colours", components));
+        fail(because::frameHasColors(components));
     if (precision > expected.bitsAllocated)
-        fail(fmt::format("{} bits per sample, the header says {}", precision,
-                         expected.bitsAllocated));
+        fail(because::frameHasOtherBits(precision, expected.bitsAllocated));
 }
 
 std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame) {
@@ -92,29 +90,29 @@ std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame) {
     return std::nullopt;
 }
 
-std::optional<std::string> whyIncompleteRle(std::span<const std::byte> frame, int rows, int columns,
-                                            int bytesEach) {
+std::optional<task::Reason> whyIncompleteRle(std::span<const std::byte> frame, int rows,
+                                             int columns, int bytesEach) {
     constexpr std::size_t headerBytes = 64;
     if (frame.size() < headerBytes)
-        return "a run-length frame has no header";
+        return because::runsHaveNoHeader;
     const std::size_t segments = littleEndian32(frame, 0);
     if (segments != std::size_t(bytesEach))
-        return fmt::format("a run-length frame has {} segments, {} expected", segments, bytesEach);
+        return because::runsHaveOtherSegments(segments, bytesEach);
     const std::size_t wanted = std::size_t(rows) * std::size_t(columns);
     for (std::size_t n = 0; n < segments; ++n) {
         const std::size_t begin = littleEndian32(frame, 4 + 4 * n);
         const std::size_t end = n + 1 < segments ? littleEndian32(frame, 8 + 4 * n) : frame.size();
         if (begin < headerBytes || begin > end || end > frame.size())
-            return "a run-length frame has wrong offsets";
+            return because::runsHaveWrongOffsets;
         std::size_t rest = 0;
         const std::size_t given = unpackedBytes(frame.subspan(begin, end - begin), wanted, rest);
         if (given != wanted)
-            return fmt::format("a run-length segment gives {} bytes, {} expected", given, wanted);
+            return because::runSegmentIsShort(given, wanted);
         // A segment of an odd length is padded, and some writers pad to more.
         const auto padding = frame.subspan(end - rest, rest);
         if (std::any_of(padding.begin(), padding.end(),
                         [](std::byte b) { return b != std::byte(0) && b != std::byte(128); }))
-            return fmt::format("a run-length segment has {} bytes more than its image", rest);
+            return because::runSegmentIsLong(rest);
     }
     return std::nullopt;
 }

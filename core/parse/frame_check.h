@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 
 #include "core/decoder/instance.h"
+#include "core/task/reason.h"
 
 namespace pellucid::parse {
 
@@ -28,7 +28,7 @@ void requireMatchesHeader(std::int64_t rows, std::int64_t columns, int component
 
 /// Why a run-length frame does not give exactly rows x columns samples of so many bytes (PS3.5,
 /// annex G), or nothing if it does.
-std::optional<std::string> whyIncompleteRle(std::span<const std::byte> frame, int rows, int columns,
-                                            int bytesEach);
+std::optional<task::Reason> whyIncompleteRle(std::span<const std::byte> frame, int rows,
+                                             int columns, int bytesEach);
 
 } // namespace pellucid::parse

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <new>
-#include <string>
 
 #include <jxl/decode.h>
 
@@ -15,8 +14,10 @@ namespace pellucid::parse {
 
 namespace {
 
-[[noreturn]] void fail(const char *why) {
-    throw task::Error(task::ErrorCode::unusable, std::string("JPEG XL: ") + why);
+namespace because = task::because;
+
+[[noreturn]] void fail(const task::Reason &why) {
+    throw task::Error(task::ErrorCode::unusable, because::jpegXl(why));
 }
 
 struct Destroy {
@@ -31,7 +32,7 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::Instanc
         throw std::bad_alloc();
     const auto must = [](JxlDecoderStatus status) {
         if (status != JXL_DEC_SUCCESS)
-            fail("the decoder cannot be set up");
+            fail(because::decoderCannotBeSetUp);
     };
     must(JxlDecoderSubscribeEvents(decoder.get(), JXL_DEC_BASIC_INFO | JXL_DEC_FULL_IMAGE));
     // Turning is the viewer's, as for all other syntaxes.
@@ -52,7 +53,7 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::Instanc
                                  int(info.bits_per_sample), expected);
             if (info.have_animation == JXL_TRUE || info.bits_per_sample < 1 ||
                 info.exponent_bits_per_sample != 0)
-                fail("the image is not what the header says");
+                fail(because::imageContradictsHeader);
             image.precision = int(info.bits_per_sample);
             break;
         }
@@ -65,7 +66,7 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::Instanc
             break;
         case JXL_DEC_SUCCESS: {
             if (image.samples.empty())
-                fail("holds no image");
+                fail(because::holdsNoImage);
             // Integers come scaled to 16 bits.
             const double top = std::exp2(image.precision) - 1.0;
             if (image.precision < 16)
@@ -74,7 +75,7 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::Instanc
             return image;
         }
         default:
-            fail("damaged or truncated");
+            fail(because::damagedOrTruncated);
         }
     }
 }

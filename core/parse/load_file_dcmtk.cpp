@@ -20,6 +20,7 @@ namespace pellucid::parse {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -99,9 +100,9 @@ DcmDataset &LoadedFile::dataset() const {
 LoadedFile loadFile(std::span<const std::byte> bytes, Extent extent) {
     dcmtk::prepareDcmtk();
     if (bytes.empty())
-        throw Error(ErrorCode::unusable, "is empty");
+        throw Error(ErrorCode::unusable, because::isEmpty);
     if (!decoder::looksLikeDicom(bytes))
-        throw Error(ErrorCode::unusable, "is not a DICOM file");
+        throw Error(ErrorCode::unusable, because::isNotDicom);
     LoadedFile loaded;
     const auto meta = metaOf(bytes);
     const Uint32 longest = extent == Extent::header ? 4096 : DCM_MaxReadLength;
@@ -133,8 +134,8 @@ LoadedFile loadFile(std::span<const std::byte> bytes, Extent extent) {
     loaded.failure = read.good() ? "" : read.text();
     DcmDataset *const dataset = loaded.format->getDataset();
     if (dataset == nullptr || dataset->card() == 0)
-        throw Error(ErrorCode::unusable, read.bad() ? "is not readable: " + loaded.failure
-                                                    : std::string("holds no data"));
+        throw Error(ErrorCode::unusable,
+                    read.bad() ? because::isNotReadable(loaded.failure) : because::holdsNoData);
     loaded.syntaxUid = meta ? meta->syntaxUid : std::string();
     if (loaded.syntaxUid.empty())
         if (const char *const uid = DcmXfer(dataset->getOriginalXfer()).getXferID())

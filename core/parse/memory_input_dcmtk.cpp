@@ -77,7 +77,7 @@ public:
         checkStack();
         // A gigabyte of zeros is a hundred million elements, deflated to next to nothing.
         if (++m_reads > mostReads)
-            throw task::Error(task::ErrorCode::unusable, "has more elements than any image");
+            throw task::Error(task::ErrorCode::unusable, task::because::hasTooManyElements);
         return DcmInputStream::read(to, bytes);
     }
 
@@ -86,7 +86,7 @@ private:
         const std::uintptr_t here = stackPlace();
         const std::uintptr_t used = here < m_base ? m_base - here : here - m_base;
         if (used > m_most && used < 4 * m_most) // beyond it is another thread's
-            throw task::Error(task::ErrorCode::unusable, "has sequences nested too deeply");
+            throw task::Error(task::ErrorCode::unusable, task::because::isNestedTooDeeply);
     }
 
     std::span<const std::byte> m_file;

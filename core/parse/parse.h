@@ -46,7 +46,7 @@ using TakeData = std::function<void(const ArchiveFile &file, std::span<const std
                                     std::int32_t flags)>;
 /// The regular files that a ZIP archive announces; then their data, in parts of at most
 /// `decoder::archivePartBytes`. *Throws* Error{unusable} if it is damaged, but for the data of a
-/// few files: their last part is marked and says why in place of data.
+/// few files: their last part is marked and holds the encoded reason in place of data.
 void listArchive(std::span<const std::byte> archive,
                  const std::function<void(const ArchiveFile &)> &announce);
 void readArchive(std::span<const std::byte> archive, const TakeData &take);

@@ -35,8 +35,7 @@ DirectoryFile parsed(std::span<const std::byte> bytes) {
     const OFCondition loaded = file.read(*input, EXS_Unknown, EGL_noChange);
     file.transferEnd();
     if (loaded.bad() || file.getDataset() == nullptr)
-        throw task::Error(task::ErrorCode::unusable,
-                          std::string("is not readable: ") + loaded.text());
+        throw task::Error(task::ErrorCode::unusable, task::because::isNotReadable(loaded.text()));
     dropUnreadable(*file.getDataset());
     // Every record of the flat sequence is looked at; the offsets that make it a tree are often
     // wrong and not needed to find the files.

@@ -398,10 +398,10 @@ InstanceHeader parsed(std::span<const std::byte> bytes) {
                           header.bitsAllocated / 8.0 * double(header.frames.size());
     if (header.hasPixels && !isDeflated && !whyUnusable(header) && isNative(file.syntaxUid) &&
         needed > double(bytes.size()))
-        throw Error(ErrorCode::unusable, "the pixels are truncated");
+        throw Error(ErrorCode::unusable, task::because::pixelsTruncated);
     // What follows damaged elements is lost, but a complete image in front of them is not.
     if (!file.isComplete && !(header.hasPixels && header.rows > 0))
-        throw Error(ErrorCode::unusable, "is damaged: " + file.failure);
+        throw Error(ErrorCode::unusable, task::because::isDamagedBy(file.failure));
     if (const auto mosaic = mosaicOf(dataset, header))
         takeApart(header, *mosaic);
     else if (isMosaic(header))

@@ -15,7 +15,9 @@ namespace pellucid::parse {
 
 namespace {
 
-[[noreturn]] void fail(const std::string &reason) {
+namespace because = task::because;
+
+[[noreturn]] void fail(const task::Reason &reason) {
     throw task::Error(task::ErrorCode::unusable, reason);
 }
 
@@ -43,7 +45,7 @@ struct Header {
         std::vector<T> values(count);
         for (T &value : values)
             if (!(in >> value))
-                fail("MetaImage numbers expected: " + text->substr(0, 60));
+                fail(because::metaImageNumbers(text->substr(0, 60)));
         return values;
     }
 };
@@ -63,13 +65,13 @@ Header readHeader(std::span<const std::byte> file) {
             continue;
         const auto equals = line.find('=');
         if (equals == std::string::npos)
-            fail("the MetaImage header has a line without '='");
+            fail(because::metaImageLineWithoutEquals);
         const std::string name = system::lowered(trimmed(line.substr(0, equals)));
         header.fields[name] = trimmed(line.substr(equals + 1));
         if (name == "elementdatafile") // the last, whatever follows
             return header;
     }
-    fail("the MetaImage header has no 'ElementDataFile'");
+    fail(because::metaImageHasNo("ElementDataFile"));
 }
 
 StoredScalar scalarOf(const std::string &name) {
@@ -82,7 +84,7 @@ StoredScalar scalarOf(const std::string &name) {
         {"MET_FLOAT", StoredScalar::f32},     {"MET_DOUBLE", StoredScalar::f64}};
     const auto it = names.find(name);
     if (it == names.end())
-        fail("MetaImage type '" + name.substr(0, 60) + "' is not supported");
+        fail(because::metaImageType(name.substr(0, 60)));
     return it->second;
 }
 
@@ -110,21 +112,21 @@ VolumeLayout parseMetaImage(std::span<const std::byte> file) {
     const Header header = readHeader(file);
     const int dimensions = header.numbers<int>({"ndims"}, 1).value_or(std::vector<int>{0})[0];
     if (dimensions != 3 && dimensions != 4)
-        fail("only three- and four-dimensional MetaImage volumes are supported");
+        fail(because::metaImageDimensions);
     const auto sizes = header.numbers<long long>({"dimsize"}, std::size_t(dimensions));
     if (!sizes)
-        fail("the MetaImage header has no 'DimSize'");
+        fail(because::metaImageHasNo("DimSize"));
     VolumeLayout layout;
     layout.size = gridSize({(*sizes)[0], (*sizes)[1], (*sizes)[2]});
     if (dimensions == 4) {
         if ((*sizes)[3] < 1 || (*sizes)[3] > decoder::mostVolumes)
-            fail("holds more volumes than any series");
+            fail(because::holdsTooManyVolumes);
         layout.volumes = int((*sizes)[3]);
     }
     if (header.numbers<int>({"elementnumberofchannels"}, 1).value_or(std::vector<int>{1})[0] != 1)
-        fail("holds several values a voxel; volumes of one are supported");
+        fail(because::holdsSeveralValues);
     if (header.find({"binarydata"}) && !header.isTrue({"binarydata"}))
-        fail("MetaImage samples as text are not supported");
+        fail(because::metaImageText);
     layout.scalar = scalarOf(header.find({"elementtype"}).value_or(""));
     const bool isBig = header.isTrue({"binarydatabyteordermsb", "elementbyteordermsb"});
     layout.isSwapped = decoder::bytesOf(layout.scalar) > 1 &&
@@ -132,16 +134,16 @@ VolumeLayout parseMetaImage(std::span<const std::byte> file) {
     layout.isDeflated = header.isTrue({"compresseddata"});
     const std::string where = header.find({"elementdatafile"}).value_or("");
     if (where.empty())
-        fail("lists a file outside its folder");
+        fail(because::listsAFileOutside);
     if (where == "LIST" || where.find('%') != std::string::npos)
-        fail("MetaImage samples in a list of files are not supported");
+        fail(because::metaImageList);
     const bool isHere = system::lowered(where) == "local";
     if (!isHere)
         layout.dataFile = where;
     const long long inFront =
         header.numbers<long long>({"headersize"}, 1).value_or(std::vector<long long>{0})[0];
     if (inFront < 0)
-        fail("MetaImage header sizes counted from the end are not supported");
+        fail(because::metaImageHeaderSize);
     layout.at = isHere ? header.bytes : std::uint64_t(inFront);
     place(header, std::size_t(dimensions), layout);
     requireLattice(layout);

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <optional>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -18,7 +17,9 @@ namespace pellucid::parse {
 
 namespace {
 
-[[noreturn]] void fail(const std::string &reason) {
+namespace because = task::because;
+
+[[noreturn]] void fail(const task::Reason &reason) {
     throw task::Error(task::ErrorCode::unusable, reason);
 }
 
@@ -45,11 +46,11 @@ public:
     explicit Header(std::span<const std::byte> bytes) : m_bytes(bytes) {
         const auto size = headerBytes(bytes);
         if (!size)
-            fail("is not a NIfTI file");
+            fail(because::isNoNiftiFile);
         isSwapped = *size != bytesOfVersion1 && *size != bytesOfVersion2;
         isVersion2 = (isSwapped ? swapped(*size) : *size) == bytesOfVersion2;
         if (bytes.size() < std::size_t(isVersion2 ? bytesOfVersion2 : bytesOfVersion1))
-            fail("is truncated");
+            fail(because::isTruncated);
     }
 
     // A number that is a T1 in version 1 and a T2 in version 2.
@@ -100,9 +101,9 @@ StoredScalar scalarOf(int datatype) {
         return StoredScalar::u64;
     case 128:
     case 2304:
-        fail("holds colours; volumes of one value a voxel are supported");
+        fail(because::holdsColors);
     default:
-        fail(fmt::format("NIfTI data type {} is not supported", datatype));
+        fail(because::niftiType(datatype));
     }
 }
 
@@ -191,7 +192,7 @@ VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated) {
     };
     const double dimensions = size(0);
     if (!(dimensions >= 2.0 && dimensions <= 7.0))
-        fail("the NIfTI header has no dimensions");
+        fail(because::niftiHasNoDimensions);
     VolumeLayout layout;
     layout.size = gridSize(
         {(long long)(size(1)), (long long)(size(2)), dimensions >= 3.0 ? (long long)(size(3)) : 1});
@@ -199,9 +200,9 @@ VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated) {
     const double volumes = dimensions >= 4.0 ? std::max(1.0, size(4)) : 1.0;
     for (std::size_t n = 5; double(n) <= dimensions; ++n)
         if (size(n) > 1.0)
-            fail("holds several values a voxel; volumes of one are supported");
+            fail(because::holdsSeveralValues);
     if (volumes > decoder::mostVolumes)
-        fail("holds more volumes than any series");
+        fail(because::holdsTooManyVolumes);
     layout.volumes = int(volumes);
     layout.scalar = scalarOf(int(h.number<std::int16_t, std::int16_t>(70, 12)));
     layout.isSwapped = h.isSwapped && decoder::bytesOf(layout.scalar) > 1;
@@ -211,7 +212,7 @@ VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated) {
     if (slope != 0.0 && std::isfinite(slope) && std::isfinite(intercept)) { // 0: none
         if (std::abs(slope) > decoder::largestRescale ||
             std::abs(intercept) > decoder::largestRescale)
-            fail("has a rescale slope or intercept that gives no values");
+            fail(because::rescaleGivesNoValues);
         layout.slope = slope;
         layout.intercept = intercept;
     }
@@ -219,11 +220,11 @@ VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated) {
     constexpr double mostOffset = 1e12;
     const double least = h.isVersion2 ? bytesOfVersion2 + 4 : bytesOfVersion1 + 4;
     if (!(offset <= mostOffset))
-        fail("the NIfTI header says no place of the samples");
+        fail(because::niftiSaysNoPlace);
     const std::size_t magic = h.isVersion2 ? 4 : 344;
     if (header.size() > magic + 1 && header[magic] == std::byte('n') &&
         header[magic + 1] == std::byte('i'))
-        fail("has its samples in another file; .nii files hold both");
+        fail(because::niftiSamplesElsewhere);
     // Some writers leave 0 where the samples follow the header.
     (isDeflated ? layout.skip : layout.at) = std::uint64_t(std::max(offset, least));
     place(h, layout);

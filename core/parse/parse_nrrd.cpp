@@ -8,9 +8,9 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "core/parse/volume_formats.h"
@@ -21,11 +21,13 @@ namespace pellucid::parse {
 
 namespace {
 
+namespace because = task::because;
 using decoder::StoredScalar;
 using task::Error;
 using task::ErrorCode;
 
 constexpr std::size_t maxHeaderBytes = 1 << 20; // larger ones are not headers
+constexpr std::size_t longestSaid = 60;         // of what a field holds
 
 struct Header {
     std::map<std::string, std::string> fields;
@@ -47,7 +49,7 @@ Header readHeader(std::span<const std::byte> file) {
         return line;
     };
     if (!nextLine().starts_with("NRRD000"))
-        throw Error(ErrorCode::unusable, "is not a NRRD file");
+        throw Error(ErrorCode::unusable, because::isNoNrrdFile);
     while (!header.hasEnd && !rest.empty()) {
         const std::string line = trimmed(nextLine());
         header.hasEnd = line.empty();
@@ -55,14 +57,13 @@ Header readHeader(std::span<const std::byte> file) {
             continue;
         const auto colon = line.find(':');
         if (colon == std::string::npos)
-            throw Error(ErrorCode::unusable, "the NRRD header has a line without a colon");
+            throw Error(ErrorCode::unusable, because::nrrdLineWithoutColon);
         const std::string name = system::lowered(trimmed(line.substr(0, colon)));
         if (!header.fields.try_emplace(name, trimmed(line.substr(colon + 1))).second)
-            throw Error(ErrorCode::unusable,
-                        fmt::format("the NRRD header has '{}' twice", name.substr(0, 60)));
+            throw Error(ErrorCode::unusable, because::nrrdHasTwice(name.substr(0, longestSaid)));
     }
     if (!header.hasEnd && file.size() > maxHeaderBytes)
-        throw Error(ErrorCode::unusable, "the NRRD header has no end");
+        throw Error(ErrorCode::unusable, because::nrrdHasNoEnd);
     return header;
 }
 
@@ -78,17 +79,17 @@ public:
     std::string get(std::initializer_list<const char *> names) const {
         if (auto value = find(names))
             return *value;
-        fail(fmt::format("the NRRD header has no '{}'", *names.begin()));
+        fail(because::nrrdHasNo(*names.begin()));
     }
     template <class T> std::vector<T> numbers(const std::string &text, std::size_t count) const {
         std::istringstream in(text);
         std::vector<T> values(count);
         for (T &value : values)
             if (!(in >> value))
-                fail("NRRD numbers expected: " + text.substr(0, 60));
+                fail(because::nrrdNumbers(text.substr(0, longestSaid)));
         return values;
     }
-    [[noreturn]] void fail(const std::string &reason) const {
+    [[noreturn]] void fail(const task::Reason &reason) const {
         throw Error(ErrorCode::unusable, reason);
     }
 
@@ -160,7 +161,7 @@ Space spaceOf(const Fields &fields) {
         return {{1.0, -1.0, 1.0}};
     if (name == "scanner-xyz" || name == "3d-right-handed")
         return {glm::dvec3(1.0), false}; // of the scanner, or of nothing
-    fields.fail("NRRD space '" + *space + "' is not supported");
+    fields.fail(because::nrrdSpace(space->substr(0, longestSaid)));
 }
 
 std::vector<glm::dvec3> parseVectors(const Fields &fields, const std::string &text) {
@@ -169,7 +170,7 @@ std::vector<glm::dvec3> parseVectors(const Fields &fields, const std::string &te
          open = text.find('(', open + 1)) {
         const std::size_t close = text.find(')', open);
         if (close == std::string::npos)
-            fields.fail("NRRD vector without an end: " + text.substr(0, 60));
+            fields.fail(because::nrrdVectorWithoutEnd(text.substr(0, longestSaid)));
         std::string inside = text.substr(open + 1, close - open - 1);
         std::replace(inside.begin(), inside.end(), ',', ' ');
         const auto v = fields.numbers<double>(inside, 3);
@@ -179,27 +180,28 @@ std::vector<glm::dvec3> parseVectors(const Fields &fields, const std::string &te
 }
 
 // "mm" "mm" "mm", or nothing of an axis; micrometres or metres would be another patient.
-void requireMillimetres(const Fields &fields, const std::string &name, std::string units) {
+void requireMillimetres(const Fields &fields, task::Because<1> otherwise, std::string units) {
     std::replace(units.begin(), units.end(), '"', ' ');
     std::istringstream each(units);
     for (std::string unit; each >> unit;)
         if (const std::string lowered = system::lowered(unit);
             lowered != "mm" && lowered != "millimeter" && lowered != "millimeters" &&
             lowered != "millimetre" && lowered != "millimetres")
-            fields.fail("NRRD " + name + " '" + unit.substr(0, 20) + "' are not supported");
+            fields.fail(otherwise(unit.substr(0, 20)));
 }
 
 void parseLattice(const Fields &fields, VolumeLayout &layout) {
-    for (const char *const name : {"space units", "units"})
+    for (const auto &[name, otherwise] : {std::pair("space units", because::nrrdSpaceUnits),
+                                          std::pair("units", because::nrrdUnits)})
         if (const auto units = fields.find({name}))
-            requireMillimetres(fields, name, *units);
+            requireMillimetres(fields, otherwise, *units);
     std::array<glm::dvec3, 3> steps{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
     const Space space = spaceOf(fields);
     const glm::dvec3 sign = space.toLps;
     if (const auto directions = fields.find({"space directions"})) {
         const auto vectors = parseVectors(fields, *directions);
         if (vectors.size() != 3)
-            fields.fail("three NRRD space directions expected");
+            fields.fail(because::nrrdDirections);
         for (int d = 0; d < 3; ++d)
             steps[d] = sign * vectors[d];
     } else if (const auto spacings = fields.find({"spacings"})) {
@@ -211,7 +213,7 @@ void parseLattice(const Fields &fields, VolumeLayout &layout) {
     if (const auto text = fields.find({"space origin"})) {
         const auto vectors = parseVectors(fields, *text);
         if (vectors.size() != 1)
-            fields.fail("one NRRD space origin expected");
+            fields.fail(because::nrrdOrigin);
         origin = sign * vectors[0];
     }
     layout.originMm = origin;
@@ -226,34 +228,34 @@ VolumeLayout parseNrrd(std::span<const std::byte> file) {
     const Header header = readHeader(file);
     const Fields fields(header);
     if (fields.numbers<int>(fields.get({"dimension"}), 1)[0] != 3)
-        fields.fail("only three-dimensional NRRD volumes are supported");
+        fields.fail(because::nrrdDimensions);
     VolumeLayout layout;
     const auto sizes = fields.numbers<long long>(fields.get({"sizes"}), 3);
     layout.size = gridSize({sizes[0], sizes[1], sizes[2]});
     const std::string typeName = fields.get({"type"});
     const auto scalar = scalarOf(typeName);
     if (!scalar)
-        fields.fail("NRRD type '" + typeName + "' is not supported");
+        fields.fail(because::nrrdType(typeName.substr(0, longestSaid)));
     layout.scalar = *scalar;
     const std::string encoding = system::lowered(fields.get({"encoding"}));
     layout.isDeflated = encoding == "gzip" || encoding == "gz";
     if (!layout.isDeflated && encoding != "raw")
-        fields.fail("NRRD encoding '" + encoding + "' is not supported");
+        fields.fail(because::nrrdEncoding(encoding.substr(0, longestSaid)));
     if (decoder::bytesOf(*scalar) > 1) {
         const std::string endian = system::lowered(fields.get({"endian"}));
         if (endian != "little" && endian != "big")
-            fields.fail("NRRD endian '" + endian + "' is not supported");
+            fields.fail(because::nrrdEndian(endian.substr(0, longestSaid)));
         layout.isSwapped = (endian == "big") == (std::endian::native == std::endian::little);
     }
     for (const auto *skip : {"byte skip", "byteskip", "line skip", "lineskip"})
         if (const auto value = fields.find({skip}); value && *value != "0")
-            fields.fail(std::string("NRRD '") + skip + "' is not supported");
+            fields.fail(because::nrrdField(skip));
     if (const auto detached = fields.find({"data file", "datafile"})) {
         if (detached->empty())
-            fields.fail("lists a file outside its folder");
+            fields.fail(because::listsAFileOutside);
         layout.dataFile = *detached;
     } else if (!header.hasEnd) {
-        fields.fail("is truncated");
+        fields.fail(because::isTruncated);
     }
     if (layout.dataFile.empty())
         layout.at = header.bytes;

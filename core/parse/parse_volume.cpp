@@ -14,6 +14,7 @@ namespace pellucid::parse {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -34,10 +35,10 @@ volume::GridSize gridSize(const std::array<long long, 3> &sizes) {
     std::uint64_t count = 1;
     for (const long long n : sizes) {
         if (n < 1 || n > std::numeric_limits<int>::max() / 4)
-            throw Error(ErrorCode::unusable, "the size of the volume is out of range");
+            throw Error(ErrorCode::unusable, because::sizeOutOfRange);
         // Divided, not multiplied: the product of three sizes may wrap.
         if (std::uint64_t(n) > std::uint64_t(volume::mostSamples) / count)
-            throw Error(ErrorCode::unusable, "the volume is too large");
+            throw Error(ErrorCode::unusable, because::volumeTooLarge);
         count *= std::uint64_t(n);
     }
     return {int(sizes[0]), int(sizes[1]), int(sizes[2])};
@@ -47,12 +48,11 @@ void requireLattice(const VolumeLayout &layout) {
     // Which says what is wrong.
     (void)volume::Lattice::make(layout.size, {layout.originMm}, layout.stepsMm);
     if (glm::length(layout.originMm) > decoder::farthestMm)
-        throw Error(ErrorCode::unusable, "the origin is farther away than a kilometre");
+        throw Error(ErrorCode::unusable, because::originTooFar);
     for (const glm::dvec3 &step : layout.stepsMm)
         if (glm::length(step) < decoder::smallestSpacingMm ||
             glm::length(step) > decoder::largestSpacingMm)
-            throw Error(ErrorCode::unusable, "the samples are closer than a nanometre or farther "
-                                             "apart than ten metres");
+            throw Error(ErrorCode::unusable, because::samplesTooCloseOrFar);
 }
 
 VolumeLayout parseVolumeLayout(std::span<const std::byte> file) {
@@ -67,7 +67,7 @@ VolumeLayout parseVolumeLayout(std::span<const std::byte> file) {
     } else if (begins(file, "ObjectType") || begins(file, "NDims") || begins(file, "Comment")) {
         return parseMetaImage(file);
     }
-    throw Error(ErrorCode::unusable, "is not a NRRD, NIfTI or MetaImage file");
+    throw Error(ErrorCode::unusable, because::isNoVolumeFile);
 }
 
 } // namespace pellucid::parse

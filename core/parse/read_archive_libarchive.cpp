@@ -4,7 +4,6 @@
 #include <memory>
 #include <new>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <archive.h>
@@ -18,6 +17,7 @@ namespace pellucid::parse {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -29,8 +29,8 @@ using Reader = std::unique_ptr<struct archive, CloseArchive>;
 [[noreturn]] void failReading(struct archive *reader) {
     const char *const text = archive_error_string(reader);
     throw Error(ErrorCode::unusable, text != nullptr && *text != '\0'
-                                         ? std::string("is a damaged archive: ") + text
-                                         : std::string("is a damaged archive"));
+                                         ? because::isADamagedArchiveBy(text)
+                                         : because::isADamagedArchive);
 }
 
 Reader open(std::span<const std::byte> archive) {
@@ -83,7 +83,8 @@ bool readFile(struct archive *reader, const ArchiveFile &file, std::span<std::by
             if (archive_errno(reader) == ENOMEM)
                 throw std::bad_alloc();
             const char *const text = archive_error_string(reader);
-            const std::string_view why = text != nullptr ? text : "";
+            const std::string why =
+                because::isDamagedInTheArchive(text != nullptr ? text : "").encoded();
             take(file, std::as_bytes(std::span(why)),
                  flags | decoder::lastPart | decoder::damagedPart);
             return got != ARCHIVE_FATAL;
@@ -120,7 +121,7 @@ void readArchive(std::span<const std::byte> archive, const TakeData &take) {
         });
     }
     if (!isDone)
-        throw Error(ErrorCode::unusable, "is a damaged archive");
+        throw Error(ErrorCode::unusable, because::isADamagedArchive);
 }
 
 } // namespace pellucid::parse

@@ -20,6 +20,7 @@ namespace pellucid::parse {
 
 namespace {
 
+namespace because = task::because;
 using decoder::Descriptor;
 using decoder::Mapping;
 using decoder::Message;
@@ -42,7 +43,9 @@ public:
         try {
             orDamaged([&] { answer(*request); });
         } catch (const Error &error) {
-            finish(int(error.code()), error.reason(), {});
+            finish(error.code() == ErrorCode::outOfMemory ? decoder::needsMemory
+                                                          : decoder::isUnusable,
+                   error.reason().encoded(), {});
         }
         m_watch.rest();
         return true;
@@ -79,7 +82,7 @@ private:
             finish(0, {}, {});
             break;
         default:
-            throw Error(ErrorCode::usage, "is asked for in a way that the decoder does not know");
+            throw Error(ErrorCode::usage, because::isAskedForUnknowably);
         }
     }
 
@@ -125,7 +128,7 @@ private:
         if (needed > m_arenaBytes) {
             const Message reply = ask({Message::Kind::need, 0, needed, 0});
             if (reply.kind != Message::Kind::granted || reply.size < needed)
-                throw Error(ErrorCode::outOfMemory, "needs more memory than there is");
+                throw Error(ErrorCode::outOfMemory, because::needsTooMuchMemory);
             m_arenaBytes = reply.size;
         }
         if (m_mapped.size() < m_arenaBytes)

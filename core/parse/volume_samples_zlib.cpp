@@ -15,6 +15,7 @@ namespace pellucid::parse {
 
 namespace {
 
+namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
@@ -97,7 +98,7 @@ private:
             throw std::bad_alloc();
         // Without any input left there is no progress, which is an error, too.
         if (status != Z_OK && status != Z_STREAM_END)
-            throw Error(ErrorCode::unusable, "the compressed data are damaged or truncated");
+            throw Error(ErrorCode::unusable, because::compressedDataDamaged);
         m_isAtEnd = status == Z_STREAM_END;
     }
 
@@ -119,10 +120,10 @@ void readSamples(std::span<const std::byte> file, const SampleRange &samples,
     if (samples.bytesEach < 1 || samples.bytesEach > 8 ||
         partBytes % std::size_t(samples.bytesEach) != 0 ||
         samples.bytes % std::uint64_t(samples.bytesEach) != 0)
-        throw Error(ErrorCode::usage, "is asked for in a way that the decoder does not know");
+        throw Error(ErrorCode::usage, because::isAskedForUnknowably);
     const std::uint64_t begin = samples.at + (samples.isDeflated ? 0 : samples.skip);
     if (begin > file.size() || (!samples.isDeflated && file.size() - begin < samples.bytes))
-        throw Error(ErrorCode::unusable, "is truncated");
+        throw Error(ErrorCode::unusable, because::isTruncated);
     const auto stored = file.subspan(begin);
     std::optional<Inflated> inflated;
     if (samples.isDeflated) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <new>
 
 #include "core/phantom/anatomy.h"
 #include "core/task/error.h"
@@ -55,7 +54,7 @@ Kind kindFromName(const std::string &name) {
             return entry.kind;
         known += std::string(known.empty() ? "" : ", ") + entry.name;
     }
-    throw task::Error(task::ErrorCode::usage, "unknown phantom '" + name + "'; known are " + known);
+    throw task::Error(task::ErrorCode::usage, task::because::unknownPhantom(name, known));
 }
 
 std::string nameOf(Kind kind) {
@@ -71,11 +70,10 @@ volume::Lattice phantomLattice(Kind kind, const Sampling &sampling) {
              glm::dvec3(size.i, size.j, size.k);
     const double tilt = sampling.tiltRad;
     if (!(std::abs(tilt) <= 1.0))
-        throw task::Error(task::ErrorCode::usage, "the tilt must lie within -57 to 57 degrees");
+        throw task::Error(task::ErrorCode::usage, task::because::tiltOutOfRange);
     for (int d = 0; d < 3; ++d)
         if (!(size[d] >= 1 && size[d] <= 4096) || !(s[d] > 0.0 && s[d] < 1e6))
-            throw task::Error(task::ErrorCode::usage,
-                              "phantom sizes must be 1 to 4096 and spacings positive");
+            throw task::Error(task::ErrorCode::usage, task::because::phantomSizeOutOfRange);
     // The table moves along z, so that the distance along the normal is the move times cos(tilt).
     const std::array<glm::dvec3, 3> steps{s.x * glm::dvec3(1, 0, 0),
                                           s.y * glm::dvec3(0, std::cos(tilt), -std::sin(tilt)),
@@ -88,12 +86,8 @@ volume::Lattice phantomLattice(Kind kind, const Sampling &sampling) {
 
 volume::Volume makePhantom(Kind kind, const volume::Lattice &lattice,
                            const task::Progress &progress) {
-    try {
-        return entryOf(kind).make(lattice, progress);
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "not enough memory for a phantom of this size");
-    }
+    return task::orOutOfMemory(task::because::noMemoryForThePhantom,
+                               [&] { return entryOf(kind).make(lattice, progress); });
 }
 
 } // namespace pellucid::phantom

@@ -9,14 +9,14 @@
 #include <memory>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "core/fourier/transforms/padded_size.h"
 #include "core/task/error.h"
 
 namespace pellucid::plan {
 
 namespace {
+
+namespace because = task::because;
 
 // Relative times of a frequency sample by kernel width when its cells lie in the cache, with
 // binary16 and with float cells, and of its part in the transforms.
@@ -178,7 +178,7 @@ std::vector<T> choices(const std::optional<T> &fixed, std::initializer_list<T> p
     return fixed ? std::vector<T>{*fixed} : std::vector<T>(planned);
 }
 
-std::string reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool overBudget) {
+task::Reason reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool overBudget) {
     const bool meets = plan.predictedError <= scene.tolerance;
     std::string fixed;
     const scene::Interpolation &wanted = scene.interpolation;
@@ -187,12 +187,13 @@ std::string reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool ov
                                       std::pair(wanted.storage.has_value(), "storage")})
         if (given)
             fixed += (fixed.empty() ? "" : ", ") + std::string(what);
-    std::string reason = meets        ? "the cheapest that keeps the tolerance"
-                         : overBudget ? "the most accurate that fits the memory"
-                                      : "the most accurate there is";
-    if (!fixed.empty())
-        reason += " with the chosen " + fixed;
-    return reason;
+    if (fixed.empty())
+        return meets        ? because::cheapest
+               : overBudget ? because::mostAccurateThatFits
+                            : because::mostAccurate;
+    return meets        ? because::cheapestWith(fixed)
+           : overBudget ? because::mostAccurateThatFitsWith(fixed)
+                        : because::mostAccurateWith(fixed);
 }
 
 } // namespace
@@ -314,9 +315,9 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
                 const bool unmet = std::isinf(bestTime);
                 if (meets ? time < bestTime
                           : unmet && (!best || predicted < best->predictedError)) {
-                    best = RenderPlan{
-                        layout, planned.room, predicted, maximum(layout, errors) + planned.folded,
-                        0.0,    bytes,        {}};
+                    best = RenderPlan{layout,    planned.room,
+                                      predicted, maximum(layout, errors) + planned.folded,
+                                      0.0,       bytes};
                     if (meets)
                         bestTime = time;
                 }
@@ -351,12 +352,11 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
                     consider(choice, storage);
     }
     if (!best && leastBytes == std::numeric_limits<std::size_t>::max())
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "the projection needs more cells than an engine can count");
+        throw task::Error(task::ErrorCode::outOfMemory, because::projectionNeedsTooManyCells);
     if (!best)
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("the projection needs {} MB, {} MB are allowed",
-                                      (leastBytes >> 20) + 1, budget.bytes >> 20));
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            because::projectionNeedsMemory((leastBytes >> 20) + 1, budget.bytes >> 20));
     double added = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
         double worst = 0.0;

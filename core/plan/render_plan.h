@@ -6,13 +6,13 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/fourier/spectrum.h"
 #include "core/plan/error_prediction.h"
 #include "core/plan/slice_grid.h"
 #include "core/scene/scene.h"
+#include "core/task/reason.h"
 
 namespace pellucid::plan {
 
@@ -52,7 +52,7 @@ struct RenderPlan {
     /// camera.
     std::size_t bytes = 0;
     /// Why it is this one, a line for the user.
-    std::string reason;
+    task::Reason reason = task::because::mostAccurate;
 };
 
 /// The cheapest kernel, padding of each axis, storage and slice grid whose predicted error is

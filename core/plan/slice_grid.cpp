@@ -47,11 +47,10 @@ SliceGrid sliceGrid(const scene::Camera &camera, const SliceRoom &room,
         // at period - radius, the image's far edge at half its size plus the pan.
         const double reach = projection + 0.5 * side + pan;
         if (!(reach < largestSliceGrid))
-            throw task::Error(
-                task::ErrorCode::outOfMemory,
-                fmt::format("pixels of {:.3g} mm, {:.3g} mm off the centre, need a slice of more "
-                            "than {} frequencies a side",
-                            camera.pixelMm, std::abs(panMm), largestSliceGrid));
+            throw task::Error(task::ErrorCode::outOfMemory,
+                              task::because::sliceIsTooLarge(fmt::format("{:.3g}", camera.pixelMm),
+                                                             fmt::format("{:.3g}", std::abs(panMm)),
+                                                             largestSliceGrid));
         const auto keeps = [&](int period) {
             // Half for each axis, of what the image holds of the projection.
             return std::all_of(room.spreads.begin(), room.spreads.end(), [&](const auto &spread) {

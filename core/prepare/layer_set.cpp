@@ -183,8 +183,7 @@ picture::ProjectionImage LayerSet::render(const scene::Camera &camera,
         return sum;
     } catch (const std::bad_alloc &) {
         m_kept.reset();
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "not enough memory to keep the projections of the layers");
+        throw task::Error(task::ErrorCode::outOfMemory, task::because::noMemoryToKeepLayers);
     }
 }
 
@@ -196,7 +195,7 @@ MixtureEngine::MixtureEngine(std::shared_ptr<LayerSet> layers,
                              std::vector<render::ChannelShares> shares)
     : m_layers(std::move(layers)), m_shares(std::move(shares)) {}
 
-std::string MixtureEngine::description() const {
+task::Reason MixtureEngine::description() const {
     return m_layers->description();
 }
 

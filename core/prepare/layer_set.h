@@ -50,7 +50,7 @@ public:
                                     const std::vector<render::ChannelShares> &shares,
                                     picture::FrameTimes *times = nullptr);
 
-    std::string description() const { return m_engine->description(); }
+    task::Reason description() const { return m_engine->description(); }
     /// With these shares; from any thread.
     render::EngineParts parts(const std::vector<render::ChannelShares> &shares) const;
 
@@ -80,7 +80,7 @@ private:
 class MixtureEngine final : public render::ProjectionEngine {
 public:
     MixtureEngine(std::shared_ptr<LayerSet> layers, std::vector<render::ChannelShares> shares);
-    std::string description() const override;
+    task::Reason description() const override;
     picture::ProjectionImage render(const scene::Camera &camera,
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading = {},

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/classify/coarse_field.h"
 #include "core/task/error.h"
 
@@ -46,9 +44,8 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
     const std::size_t frame = std::size_t(channels) * plan::frameBytes(least, scene.camera);
     if (frame > budget.bytes)
         throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("an image of {} x {} pixels needs {} MB, {} MB are allowed",
-                                      scene.camera.width, scene.camera.height, (frame >> 20) + 1,
-                                      budget.bytes >> 20));
+                          task::because::imageNeedsMemory(scene.camera.width, scene.camera.height,
+                                                          (frame >> 20) + 1, budget.bytes >> 20));
     try {
         return {plan::planRender(scene, summaries, channels, budget), {}, 1};
     } catch (const task::Error &error) {
@@ -86,9 +83,7 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                 plan.bytes += held;
                 const volume::GridSize size =
                     fitting.reduced->fields.front().values.lattice().size();
-                plan.reason = fmt::format("means, {} x {} x {} in place of {} x {} x {}: more does "
-                                          "not fit the memory",
-                                          size.i, size.j, size.k, n.i, n.j, n.k);
+                plan.reason = task::because::reduced(size.i, size.j, size.k, n.i, n.j, n.k);
                 return fitting;
             } catch (const task::Error &smaller) {
                 if (smaller.code() != task::ErrorCode::outOfMemory)

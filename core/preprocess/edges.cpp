@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -147,15 +146,11 @@ Mask linked(const volume::GridSize &size, const std::vector<float> &strength, fl
     return edges;
 }
 
-[[noreturn]] void failForMemory() {
-    throw task::Error(task::ErrorCode::outOfMemory, "not enough memory to find edges");
-}
-
 } // namespace
 
 volume::Volume gradientMagnitude(const volume::Volume &volume, const task::Progress &progress) {
     const volume::Lattice &lattice = volume.lattice();
-    try {
+    return task::orOutOfMemory(task::because::noMemoryToFindEdges, [&] {
         const std::vector<float> values = floatsOf(volume);
         std::vector<float> result(values.size());
         const Derivatives derivatives(lattice, values.data());
@@ -166,17 +161,15 @@ volume::Volume gradientMagnitude(const volume::Volume &volume, const task::Progr
             result[n] = perMm * std::sqrt(std::max(0.0F, square));
         });
         progress.report(1.0);
-        return {lattice, std::move(result), volume::ValueUnit::none, volume.notes()};
-    } catch (const std::bad_alloc &) {
-        failForMemory();
-    }
+        return volume::Volume(lattice, std::move(result), volume::ValueUnit::none, volume.notes());
+    });
 }
 
 Mask cannyEdges(const volume::Volume &volume, const CannyOptions &options,
                 const task::Progress &progress) {
     const volume::Lattice &lattice = volume.lattice();
     const volume::GridSize size = lattice.size();
-    try {
+    return task::orOutOfMemory(task::because::noMemoryToFindEdges, [&] {
         const std::vector<float> smooth = floatsOf(
             options.sigmaMm > 0.0 ? gaussian(volume, options.sigmaMm, progress.part(0.0, 0.5))
                                   : volume);
@@ -211,9 +204,7 @@ Mask cannyEdges(const volume::Volume &volume, const CannyOptions &options,
         Mask edges = linked(size, strength, float(unit * options.low), float(unit * options.high));
         progress.report(1.0);
         return edges;
-    } catch (const std::bad_alloc &) {
-        failForMemory();
-    }
+    });
 }
 
 } // namespace pellucid::preprocess

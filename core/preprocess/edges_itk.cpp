@@ -20,11 +20,9 @@ Mask cannyEdgesByItk(const volume::Volume &volume, const CannyOptions &options,
     const volume::Lattice &lattice = volume.lattice();
     const volume::GridSize size = lattice.size();
     if (std::min({size.i, size.j, size.k}) < 4)
-        throw task::Error(
-            task::ErrorCode::usage,
-            "edges by ITK need four samples along each axis; the fast method does not");
+        throw task::Error(task::ErrorCode::usage, task::because::edgesNeedSamples);
     if (!(options.sigmaMm > 0.0))
-        throw task::Error(task::ErrorCode::usage, "edges by ITK need a sigma_mm above 0");
+        throw task::Error(task::ErrorCode::usage, task::because::edgesNeedASigma);
     const std::vector<float> input = finiteSamples(volume);
     const auto image = imageOver<FloatImage>(lattice, input.data());
     auto gradient = itk::GradientRecursiveGaussianImageFilter<FloatImage>::New();

@@ -7,7 +7,6 @@
 #include <functional>
 #include <list>
 #include <mutex>
-#include <new>
 #include <string>
 #include <variant>
 
@@ -267,7 +266,7 @@ void StepCache::trim(std::size_t budgetBytes) {
 ClassSamples StepCache::run(const volume::Volume &volume, const TissueClass &tissue,
                             const task::Progress &progress) {
     ClassSamples result{volume, DensityKind::window, nullptr};
-    try {
+    task::orOutOfMemory(task::because::noMemoryForTheSteps(tissue.name), [&] {
         std::string valuesKey = identity(volume), regionsKey;
         for (std::size_t n = 0; n < tissue.steps.size(); ++n) {
             const Step &step = tissue.steps[n];
@@ -296,10 +295,7 @@ ClassSamples StepCache::run(const volume::Volume &volume, const TissueClass &tis
             if (step.kind == "edges" || step.kind == "binarise")
                 result.density = DensityKind::one;
         }
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "not enough memory for the steps of the class '" + tissue.name + "'");
-    }
+    });
     return result;
 }
 

@@ -51,16 +51,14 @@ Look lookFor(const Preset &preset, const FieldWindow &window) {
     return mapped(preset.look, window.low, window.high - window.low, Thresholds::given);
 }
 
-std::string mismatch(const Preset &preset, const volume::Volume &volume) {
+std::optional<task::Reason> mismatch(const Preset &preset, const volume::Volume &volume) {
     const std::string &modality = volume.notes().modality;
     if (!preset.modality.empty() && !modality.empty() && preset.modality != modality)
-        return "the preset '" + preset.name + "' is made for " + preset.modality + ", not for " +
-               modality;
+        return task::because::presetIsForOther(preset.name, preset.modality, modality);
     if (preset.modality == "CT" && preset.unit == RangeUnit::value &&
         volume.unit() != volume::ValueUnit::hounsfield)
-        return "the preset '" + preset.name + "' is made for Hounsfield units, which the values " +
-               "are not known to be";
-    return {};
+        return task::because::presetIsForHounsfield(preset.name);
+    return std::nullopt;
 }
 
 Preset presetOf(const std::string &name, const Look &look, const shading::Shading &shading,

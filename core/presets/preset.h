@@ -8,6 +8,7 @@
 #include "core/classify/density_field.h"
 #include "core/classify/look.h"
 #include "core/shading/shading.h"
+#include "core/task/reason.h"
 
 namespace pellucid::presets {
 
@@ -35,7 +36,7 @@ struct Preset {
 classify::Look lookFor(const Preset &preset, const classify::FieldWindow &window);
 
 /// Why a preset is not made for a volume, a line; empty if it is.
-std::string mismatch(const Preset &preset, const volume::Volume &volume);
+std::optional<task::Reason> mismatch(const Preset &preset, const volume::Volume &volume);
 
 /// A look that is shown on a volume, as a preset: in HU for CT, by shares of the window otherwise.
 Preset presetOf(const std::string &name, const classify::Look &look,

@@ -4,9 +4,9 @@
 #include <map>
 #include <vector>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/classify/json_values_nlohmann.h"
 #include "core/classify/look_json.h"
 #include "core/presets/preset.h"
 #include "core/task/error.h"
@@ -15,11 +15,14 @@ namespace pellucid::presets {
 
 namespace {
 
+namespace because = task::because;
+using classify::refuseJson;
 using nlohmann::json;
 using task::Error;
 using task::ErrorCode;
 
 constexpr const char *schema = "pellucid-preset/1";
+constexpr int longestName = 80; // characters
 
 // Reads a text and knows the line of the last character read. The parser reads one character
 // beyond a number: a line ends where the first character of the next one is read.
@@ -140,15 +143,11 @@ private:
     std::string m_failure;
 };
 
-[[noreturn]] void refuse(const std::string &where, const std::string &what) {
-    throw Error(ErrorCode::usage, where + ": " + what);
-}
-
 std::string textAt(const json &in, const char *key) {
     if (!in.contains(key))
         return {};
     if (!in[key].is_string())
-        refuse("/" + std::string(key), "must be a text");
+        refuseJson("/" + std::string(key), because::mustBeAText);
     return in[key].get<std::string>();
 }
 
@@ -160,30 +159,31 @@ std::ptrdiff_t characters(const std::string &text) {
 
 Preset parsed(const json &in, const std::string &source) {
     if (!in.is_object())
-        refuse("", "must be an object");
+        refuseJson("", because::mustBeAnObject);
     if (textAt(in, "schema") != schema)
-        refuse("/schema", "is not " + std::string(schema));
+        refuseJson("/schema", because::isNot(schema));
     Preset preset;
     preset.name = textAt(in, "name");
-    if (preset.name.find_first_not_of(' ') == std::string::npos || characters(preset.name) > 80 ||
+    if (preset.name.find_first_not_of(' ') == std::string::npos ||
+        characters(preset.name) > longestName ||
         std::any_of(preset.name.begin(), preset.name.end(),
                     [](char c) { return static_cast<unsigned char>(c) < 32; }))
-        refuse("/name", "must be a text of 1 to 80 characters on one line");
+        refuseJson("/name", because::mustBeALine(longestName));
     preset.modality = textAt(in, "modality");
     preset.notes = textAt(in, "notes");
     const std::string unit = textAt(in, "units");
     if (!unit.empty() && unit != "value" && unit != "window")
-        refuse("/units", "must be value or window");
+        refuseJson("/units", because::mustBeValueOrWindow);
     preset.unit = unit == "window" ? RangeUnit::window : RangeUnit::value;
     if (in.contains("window")) {
         const json &w = in["window"];
         if (!w.is_array() || w.size() != 2 || !w[0].is_number() || !w[1].is_number())
-            refuse("/window", "must be two numbers");
+            refuseJson("/window", because::mustBeTwoNumbers);
         preset.window = classify::FieldWindow{w[0].get<double>(), w[1].get<double>()};
         if (!(std::abs(preset.window->low) <= 1e30 && std::abs(preset.window->high) <= 1e30))
-            refuse("/window", "is out of range");
+            refuseJson("/window", because::isOutOfRange);
         if (!(preset.window->low < preset.window->high))
-            refuse("/window", "must be two numbers, the lower first");
+            refuseJson("/window", because::mustBeTwoRisingNumbers);
     }
     preset.look = classify::lookFromJson(source);
     preset.shading = shading::shadingFromJson(source);
@@ -207,14 +207,13 @@ json joined(const json &former, json known) {
 Preset presetFromJson(const std::string &text) {
     const Lines lines(text);
     if (!lines.failure().empty())
-        throw Error(ErrorCode::unusable, fmt::format("line {}: {}", lines.line(), lines.failure()));
+        throw Error(ErrorCode::unusable, because::atLine(lines.line(), lines.failure()));
     try {
         return parsed(json::parse(text), text);
     } catch (const Error &error) {
-        const std::string &reason = error.reason();
-        const std::string pointer = reason.substr(0, reason.find(": "));
-        throw Error(ErrorCode::unusable, fmt::format("line {}: {}", lines.of(pointer),
-                                                     pointer.empty() ? reason.substr(2) : reason));
+        const auto [where, what] = classify::jsonRefusal(error.reason());
+        throw Error(ErrorCode::unusable,
+                    because::atLine(lines.of(where), where.empty() ? what : error.reason()));
     }
 }
 

@@ -16,6 +16,7 @@ namespace pellucid::presets {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
@@ -64,8 +65,7 @@ void PresetLibrary::read() {
         try {
             Preset preset = readPreset(path);
             if (find(preset.name) != nullptr)
-                m_skipped.push_back(
-                    {path, fmt::format("there is another preset named '{}'", preset.name)});
+                m_skipped.push_back({path, because::presetNameIsTaken(preset.name)});
             else
                 m_entries.push_back({std::move(preset), path});
         } catch (const Error &error) {
@@ -91,32 +91,30 @@ const PresetEntry &PresetLibrary::get(const std::string &name) const {
     for (const PresetEntry &entry : m_entries)
         if (system::lowered(entry.preset.name).find(system::lowered(name)) != std::string::npos)
             close += (close.empty() ? "" : ", ") + entry.preset.name;
-    throw Error(ErrorCode::usage, "there is no preset '" + name + "'" +
-                                      (close.empty() ? "; 'pellucid-cli preset list' names them"
-                                                     : "; there is " + close));
+    throw Error(ErrorCode::usage,
+                close.empty() ? because::noPreset(name) : because::noPresetBut(name, close));
 }
 
 void PresetLibrary::save(const Preset &preset) {
     if (m_folder.empty())
-        throw Error(ErrorCode::output, "there is no folder for the user's presets");
+        throw Error(ErrorCode::output, because::noPresetFolder);
     const PresetEntry *const former = find(preset.name);
     if (former != nullptr && former->isBuiltIn())
-        throw Error(ErrorCode::usage, "'" + former->preset.name +
-                                          "' comes with the program and stays as it is; choose "
-                                          "another name");
+        throw Error(ErrorCode::usage, because::builtInPresetNeedsAnotherName(former->preset.name));
     // What is not well formed would be lost at the next start.
     try {
         presetFromJson(toJson(preset));
     } catch (const Error &error) {
         // The line of a text that nobody sees says nothing.
-        const auto line = error.reason().find(": ");
+        const task::Reason &reason = error.reason();
         throw Error(ErrorCode::usage,
-                    "the preset cannot be kept: " + error.reason().substr(line + 2));
+                    because::presetCannotBeKept(reason.is(because::atLine) ? reason.arguments()[1]
+                                                                           : reason));
     }
     std::error_code failed;
     fs::create_directories(m_folder, failed);
     if (failed)
-        throw Error(ErrorCode::output, "cannot be made: " + failed.message(), m_folder);
+        throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed)), m_folder);
     fs::path path = former != nullptr ? former->path : m_folder / fileNameOf(preset.name);
     // A file of that name that is no preset, or another one, stays what it is.
     for (int n = 2; former == nullptr && fs::exists(path, failed); ++n)
@@ -128,12 +126,12 @@ void PresetLibrary::save(const Preset &preset) {
 void PresetLibrary::remove(const std::string &name) {
     const PresetEntry &entry = get(name);
     if (entry.isBuiltIn())
-        throw Error(ErrorCode::usage,
-                    "'" + entry.preset.name + "' comes with the program and stays");
+        throw Error(ErrorCode::usage, because::builtInPresetStays(entry.preset.name));
     std::error_code failed;
     fs::remove(entry.path, failed);
     if (failed)
-        throw Error(ErrorCode::output, "cannot be removed: " + failed.message(), entry.path);
+        throw Error(ErrorCode::output, because::cannotBeRemoved(task::systemReason(failed)),
+                    entry.path);
     read();
 }
 

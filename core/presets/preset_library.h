@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/presets/preset.h"
+#include "core/task/reason.h"
 
 namespace pellucid::presets {
 
@@ -19,7 +20,7 @@ struct PresetEntry {
 /// A file of the user's folder that is no preset.
 struct SkippedPreset {
     std::filesystem::path path;
-    std::string reason;
+    task::Reason reason;
 };
 
 /// The presets that come with the program, which stay as they are, and the user's own, a file each.

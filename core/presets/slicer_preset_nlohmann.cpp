@@ -18,6 +18,7 @@ namespace pellucid::presets {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using nlohmann::json;
 using task::Error;
@@ -28,7 +29,7 @@ struct Point {
 };
 using Points = std::vector<Point>;
 
-[[noreturn]] void refuse(const std::string &why) {
+[[noreturn]] void refuse(const task::Reason &why) {
     throw Error(ErrorCode::unusable, why);
 }
 
@@ -39,19 +40,16 @@ Points pointsOfText(const std::string &text) {
     std::string line;
     for (int n = 0; n < opacityLine; ++n)
         if (!std::getline(in, line))
-            refuse(fmt::format("line {}: the file ends before its scalar opacity", n + 1));
+            refuse(because::atLine(n + 1, because::endsBeforeItsOpacity));
     std::istringstream numbers(line);
     int count = 0;
     if (!(numbers >> count) || count < 2 || count % 2 != 0 || count > 20000)
-        refuse(fmt::format("line {}: the scalar opacity does not begin with the number of its "
-                           "values",
-                           opacityLine));
+        refuse(because::atLine(opacityLine, because::opacityHasNoCount));
     Points points;
     for (int n = 0; n < count / 2; ++n) {
         Point point{};
         if (!(numbers >> point.value >> point.opacity))
-            refuse(fmt::format("line {}: {} values are announced, {} are there", opacityLine, count,
-                               2 * n));
+            refuse(because::atLine(opacityLine, because::opacityIsShort(count, 2 * n)));
         points.push_back(point);
     }
     return points;
@@ -68,8 +66,7 @@ Points pointsOfJson(const std::string &text) {
     } catch (const json::exception &error) {
         const std::string what = error.what();
         const auto tag = what.find("] ");
-        refuse("is no volume property of 3D Slicer: " +
-               (tag == std::string::npos ? what : what.substr(tag + 2)));
+        refuse(because::isNoSlicerPreset(tag == std::string::npos ? what : what.substr(tag + 2)));
     }
 }
 
@@ -110,18 +107,18 @@ ImportedPreset importSlicerPreset(const fs::path &path, int points) {
         Points curve = path.extension() == ".json" ? pointsOfJson(text) : pointsOfText(text);
         for (const Point &p : curve)
             if (!(std::abs(p.value) <= 1e30))
-                refuse(fmt::format("the value {:g} is out of range", p.value));
+                refuse(because::opacityValueOutOfRange(fmt::format("{:g}", p.value)));
             else if (!(p.opacity >= 0.0 && p.opacity <= 1.0))
-                refuse(fmt::format("the opacity {:g} at {:g} is not within 0 and 1", p.opacity,
-                                   p.value));
+                refuse(because::opacityOutOfRange(fmt::format("{:g}", p.opacity),
+                                                  fmt::format("{:g}", p.value)));
         std::stable_sort(curve.begin(), curve.end(),
                          [](const Point &a, const Point &b) { return a.value < b.value; });
         if (curve.size() < 2 || std::none_of(curve.begin(), curve.end(),
                                              [](const Point &p) { return p.opacity > 0.0; }))
-            refuse("its opacity is 0 everywhere");
+            refuse(because::opacityIsZero);
         const classify::FieldWindow whole = windowOf(curve);
         if (!(whole.low < whole.high))
-            refuse("its opacity does not change over any range of values");
+            refuse(because::opacityDoesNotChange);
 
         // A steep beginning needs density where it begins, since weights end at 2: the window may
         // begin before the opacity does. The nearest fit is taken.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -36,7 +35,7 @@ classify::DensityField shadedField(const classify::DensityField &field,
         poles.push_back({light.frame == shading::LightFrame::viewer ? axes * along : along,
                          light.strength * color});
     }
-    try {
+    return task::orOutOfMemory(task::because::noMemoryForTheExactShadedField, [&] {
         std::vector<float> samples(size.count(), 0.0F);
         tbb::parallel_for(0, size.k, [&](int k) {
             progress.check();
@@ -59,10 +58,7 @@ classify::DensityField shadedField(const classify::DensityField &field,
                 }
         });
         return classify::fieldOf(larger.values, std::move(samples));
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "not enough memory for the exact shaded field");
-    }
+    });
 }
 
 std::vector<double> shadedImage(const classify::ShownFields &fields,

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <new>
 #include <numbers>
 
 #include <tbb/parallel_for.h>
@@ -69,12 +68,9 @@ WideKernel::WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
     const volume::VoxelIndex middle{size.i / 2, size.j / 2, size.k / 2};
     m_wrapPoint = m_lattice.patient(
         volume::VoxelIndex{box.lo.i + middle.i, box.lo.j + middle.j, box.lo.k + middle.k});
-    try {
+    task::orOutOfMemory(task::because::noMemoryForTheReference, [&] {
         m_cells.resize(std::size_t(m_rowStride) * m_padded.j * m_padded.k);
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "not enough memory for the exact reference");
-    }
+    });
     const double cell = m_lattice.cellVolumeMm3();
     field.visit([&](auto samples) {
         for (int k = 0; k < size.k; ++k) {

@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
 #include <numbers>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "core/render/frame_geometry.h"
 #include "core/render/frame_mixing.h"
@@ -110,7 +107,8 @@ struct CpuEngine::Workplace {
         const std::size_t length = std::size_t(groupsOf(std::max(grid.rows, grid.columns))) *
                                    stripLanes; // rows fill their last group
         const auto floats = [](std::size_t count) {
-            auto memory = system::allocatePages(count * sizeof(float), "an image of this size");
+            auto memory =
+                system::allocatePages(count * sizeof(float), task::because::anImageOfThisSize);
             std::fill_n(reinterpret_cast<float *>(memory.get()), count, 0.0F);
             return memory;
         };
@@ -119,8 +117,9 @@ struct CpuEngine::Workplace {
             lines.push_back(floats(groupsOf(grid.rows) * columns * stripFloats));
         columnPhase = floats(2 * columns);
         rowPhase.resize(std::size_t(grid.rows) / 2 + 1);
-        batches = system::allocatePages(
-            scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch), "an image of this size");
+        batches =
+            system::allocatePages(scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch),
+                                  task::because::anImageOfThisSize);
         strips.clear();
         for (std::size_t n = 0; n < scratch.size(); ++n) {
             strips.push_back(floats(std::size_t(channels + 1) * length * stripFloats));
@@ -210,10 +209,11 @@ std::size_t CpuEngine::bytes() const {
            m_spectra.fields.front()->bytes();
 }
 
-std::string CpuEngine::description() const {
+task::Reason CpuEngine::description() const {
     const int threads = m_workplace->team.threads();
-    return fmt::format("CPU engine, {}, {} thread{}", instructionSet(), threads,
-                       threads == 1 ? "" : "s");
+    const std::string set = instructionSet();
+    return threads == 1 ? task::because::cpuEngineOfOneThread(set, threads)
+                        : task::because::cpuEngine(set, threads);
 }
 
 picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
@@ -234,15 +234,12 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     picture::ProjectionImage result{
         camera.width, camera.height, camera.pixelMm, {}, mixing.grey ? 1 : 3};
-    try {
+    task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
         m_workplace->fit(grid, mixing.channels, image);
         result.samples.resize(pixels * std::size_t(result.channels));
         for (int c = 0; c < mixing.channels && !mixing.grey; ++c)
             m_workplace->planes[std::size_t(c)].resize(pixels);
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "not enough memory for an image of this size");
-    }
+    });
     if (mixing.sources.empty()) { // nothing is shown
         if (times != nullptr)
             *times = {};

@@ -5,13 +5,13 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/fourier/spectrum.h"
 #include "core/picture/projection_image.h"
 #include "core/plan/render_plan.h"
 #include "core/shading/slice_shading.h"
+#include "core/task/reason.h"
 
 namespace pellucid::render {
 
@@ -42,7 +42,7 @@ class ProjectionEngine {
 public:
     virtual ~ProjectionEngine() = default;
     /// The engine and what it runs on, one line.
-    virtual std::string description() const = 0;
+    virtual task::Reason description() const = 0;
     /// Not safe to call from two threads at once. Lights shine only on what was prepared for them.
     /// *Throws* Error{outOfMemory}.
     virtual picture::ProjectionImage render(const scene::Camera &camera,
@@ -82,7 +82,7 @@ public:
     /// Whether lights have what they shine on.
     bool takesLight() const { return !m_spectra.gradients.empty(); }
 
-    std::string description() const override;
+    task::Reason description() const override;
     /// *Shape*: not while the shares are set.
     EngineParts parts() const override { return {m_spectra, m_shares, m_room}; }
     const EngineSpectra &spectra() const { return m_spectra; }

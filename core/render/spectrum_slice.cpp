@@ -5,7 +5,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <new>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -78,17 +77,12 @@ SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &came
     for (const auto &[spectrum, weight] : spectra)
         atZero += weight * spectrum->mass();
     if (!(std::abs(atZero) > 0.0))
-        throw task::Error(task::ErrorCode::unusable,
-                          "nothing of the study is visible, so there is no spectrum to show");
+        throw task::Error(task::ErrorCode::unusable, task::because::nothingVisible);
     const fourier::Spectrum &first = *spectra.front().spectrum;
     const glm::dmat3 axes = camera.axes();
     SpectrumSlice slice{side, 1.0 / (side * camera.pixelMm), 0.5 / camera.pixelMm, {}};
-    try {
-        slice.decibels.resize(std::size_t(side) * std::size_t(side));
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "not enough memory for an image of this size");
-    }
+    task::orOutOfMemory(task::because::noMemoryForAnImage,
+                        [&] { slice.decibels.resize(std::size_t(side) * std::size_t(side)); });
     // Cells along each axis of the spectrum from one column, and one row, to the next.
     glm::dvec3 across(0.0), down(0.0);
     for (int d = 0; d < 3; ++d) {

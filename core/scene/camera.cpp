@@ -69,10 +69,8 @@ Camera defaultCamera(const volume::Lattice &lattice) {
     camera.pixelMm = lattice.shortestStepMm();
     const double pixels = 2.0 * lattice.radiusMm() / camera.pixelMm;
     if (pixels > largestImageSize)
-        throw task::Error(
-            task::ErrorCode::usage,
-            "the whole volume at its finest step needs an image of more than 16384 pixels a "
-            "side; name a size or a larger pixel");
+        throw task::Error(task::ErrorCode::usage,
+                          task::because::volumeNeedsALargerImage(largestImageSize));
     // The slack keeps an exact whole number from being pushed to the next even size by rounding.
     const int size = int(std::ceil(pixels - 1e-6));
     camera.width = camera.height = std::max(2, size + size % 2);

@@ -3,15 +3,15 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/task/error.h"
 
 namespace pellucid::scene {
 
 namespace {
 
-void require(bool holds, const std::string &what) {
+namespace because = task::because;
+
+void require(bool holds, const task::Reason &what) {
     if (!holds)
         throw task::Error(task::ErrorCode::usage, what);
 }
@@ -22,23 +22,21 @@ void validate(const Scene &scene) {
     const Camera &camera = scene.camera;
     require(camera.width >= 1 && camera.height >= 1 && camera.width <= largestImageSize &&
                 camera.height <= largestImageSize,
-            fmt::format("the image size must be 1 to {} pixels a side", largestImageSize));
-    require(std::isfinite(camera.pixelMm) && camera.pixelMm > 0.0,
-            "the pixel must be a positive length");
+            because::imageSizeOutOfRange(largestImageSize));
+    require(std::isfinite(camera.pixelMm) && camera.pixelMm > 0.0, because::pixelMustBePositive);
     require(std::isfinite(camera.panMm.x) && std::isfinite(camera.panMm.y),
-            "the pan must be finite");
+            because::panMustBeFinite);
     const double norm = glm::dot(camera.orientation, camera.orientation);
-    require(std::isfinite(norm) && norm > 1e-12, "the orientation must not be zero");
-    require(scene.image.rollOff >= 0.0 && scene.image.rollOff <= 1.0,
-            "the roll-off must be within 0 to 1");
+    require(std::isfinite(norm) && norm > 1e-12, because::orientationIsZero);
+    require(scene.image.rollOff >= 0.0 && scene.image.rollOff <= 1.0, because::rollOffOutOfRange);
     require(std::isfinite(scene.tolerance) && scene.tolerance > 0.0,
-            "the tolerance must be positive");
+            because::toleranceMustBePositive);
     const auto &padding = scene.interpolation.padding;
-    require(!padding || (*padding >= 1.0 && *padding <= 4.0), "the padding must be within 1 to 4");
+    require(!padding || (*padding >= 1.0 && *padding <= 4.0), because::paddingOutOfRange);
     if (scene.fieldWindow)
         require(std::isfinite(scene.fieldWindow->low) && std::isfinite(scene.fieldWindow->high) &&
                     scene.fieldWindow->low < scene.fieldWindow->high,
-                "the window's low end must lie below its high end");
+                because::windowIsEmpty);
     classify::validate(scene.look);
     classify::validate(scene.crop);
     shading::validate(scene.shading);

@@ -13,6 +13,7 @@ namespace pellucid::scene {
 
 namespace {
 
+namespace because = task::because;
 using nlohmann::json;
 
 // In version 1 "cubic", the default, was what is "spline" now: such scenes keep their pictures.
@@ -83,8 +84,7 @@ Scene sceneFromJson(const std::string &text) {
         const json in = json::parse(text);
         const bool isFirst = in.at("schema") == firstSchema;
         if (in.at("schema") != schema && !isFirst)
-            throw task::Error(task::ErrorCode::usage,
-                              "the scene's schema is not " + std::string(schema));
+            throw task::Error(task::ErrorCode::usage, because::sceneHasOtherSchema(schema));
         const json &camera = in.at("camera");
         const auto q = camera.at("orientation").get<std::array<double, 4>>();
         scene.camera.orientation = glm::dquat(q[0], q[1], q[2], q[3]);
@@ -113,15 +113,14 @@ Scene sceneFromJson(const std::string &text) {
         const auto it = reconstructionNames().find(reconstruction);
         if (it == reconstructionNames().end())
             throw task::Error(task::ErrorCode::usage,
-                              "unknown reconstruction '" + reconstruction + "' in the scene");
+                              because::unknownReconstruction(reconstruction));
         scene.image.reconstruction =
             isFirst && it->second == Reconstruction::cubic ? Reconstruction::spline : it->second;
         scene.image.rollOff = in.value("roll_off", scene.image.rollOff);
         scene.tolerance = in.value("tolerance", scene.tolerance);
         const std::string plannedFor = in.value("planned_for", "picture");
         if (plannedFor != "picture" && plannedFor != "volume")
-            throw task::Error(task::ErrorCode::usage,
-                              "planned_for is neither picture nor volume in the scene");
+            throw task::Error(task::ErrorCode::usage, because::plannedForOther);
         scene.plannedFor = plannedFor == "volume" ? PlannedFor::volume : PlannedFor::picture;
         if (in.contains("kernel"))
             scene.interpolation.kernel = fourier::kernelFromName(in.at("kernel"));
@@ -139,7 +138,7 @@ Scene sceneFromJson(const std::string &text) {
         }
     } catch (const json::exception &error) {
         throw task::Error(task::ErrorCode::usage,
-                          "the scene is not valid: " + withoutTag(error.what()));
+                          because::sceneIsNotValid(withoutTag(error.what())));
     }
     validate(scene);
     // One that is of length 1 stays bit for bit: a kept scene gives the same picture.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <new>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -53,7 +52,7 @@ bool holdsGradient(const classify::DensityField &field) {
 classify::DensityField grown(const classify::DensityField &field) {
     const volume::Lattice &lattice = field.values.lattice();
     const GridSize size = lattice.size(), larger{size.i + 2, size.j + 2, size.k + 2};
-    try {
+    return task::orOutOfMemory(task::because::noMemoryForTheLitField, [&] {
         std::vector<float> samples(larger.count(), 0.0F);
         field.values.visit([&](auto from) {
             tbb::parallel_for(0, size.k, [&](int k) {
@@ -67,12 +66,10 @@ classify::DensityField grown(const classify::DensityField &field) {
             volume::Lattice::make(larger, lattice.patient(VoxelIndex{-1, -1, -1}),
                                   {lattice.step(0), lattice.step(1), lattice.step(2)});
         const VoxelBox &box = field.support;
-        return {floatsOn(around, std::move(samples), field.values),
-                {{box.lo.i + 1, box.lo.j + 1, box.lo.k + 1},
-                 {box.hi.i + 1, box.hi.j + 1, box.hi.k + 1}}};
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory, "not enough memory for the lit field");
-    }
+        return classify::DensityField{floatsOn(around, std::move(samples), field.values),
+                                      {{box.lo.i + 1, box.lo.j + 1, box.lo.k + 1},
+                                       {box.hi.i + 1, box.hi.j + 1, box.hi.k + 1}}};
+    });
 }
 
 classify::DensityField gradientMagnitude(const classify::DensityField &field, double stepMm,
@@ -85,7 +82,7 @@ classify::DensityField gradientMagnitude(const classify::DensityField &field, do
                        {inner.hi.i + 1, inner.hi.j + 1, inner.hi.k + 1}};
     const glm::mat3 factors(differenceFactors(lattice, stepMm));
     const std::ptrdiff_t down = size.i, deep = std::ptrdiff_t(size.i) * size.j;
-    try {
+    return task::orOutOfMemory(task::because::noMemoryForTheGradient, [&] {
         std::vector<float> lengths(size.count(), 0.0F);
         field.values.visit([&](auto samples) {
             tbb::parallel_for(box.lo.k, box.hi.k, [&](int k) {
@@ -116,11 +113,8 @@ classify::DensityField gradientMagnitude(const classify::DensityField &field, do
                 }
             });
         });
-        return {floatsOn(lattice, std::move(lengths), field.values), box};
-    } catch (const std::bad_alloc &) {
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          "not enough memory for the gradient of the field");
-    }
+        return classify::DensityField{floatsOn(lattice, std::move(lengths), field.values), box};
+    });
 }
 
 } // namespace pellucid::shading

@@ -15,15 +15,17 @@ namespace pellucid::shading {
 
 namespace {
 
+namespace because = task::because;
+
 constexpr double pi = std::numbers::pi;
 
-void require(bool holds, const std::string &what) {
+void require(bool holds, const task::Reason &what) {
     if (!holds)
         throw task::Error(task::ErrorCode::usage, what);
 }
 
 // Numbers with commas between them.
-std::vector<double> numbersOf(const std::string &text, const std::string &what) {
+std::vector<double> numbersOf(const std::string &text, const task::Reason &what) {
     std::vector<double> values;
     for (std::size_t first = 0;;) {
         const std::size_t comma = std::min(text.find(',', first), text.size());
@@ -31,7 +33,7 @@ std::vector<double> numbersOf(const std::string &text, const std::string &what) 
         char *end = nullptr;
         const double value = std::strtod(part.c_str(), &end);
         require(end != part.c_str() && *end == '\0' && std::isfinite(value),
-                fmt::format("{}: '{}' is not a number", what, part));
+                because::isNoNumber(what, part));
         values.push_back(value);
         if (comma == text.size())
             return values;
@@ -39,9 +41,9 @@ std::vector<double> numbersOf(const std::string &text, const std::string &what) 
     }
 }
 
-double numberOf(const std::string &text, const std::string &what) {
+double numberOf(const std::string &text, const task::Reason &what) {
     const auto values = numbersOf(text, what);
-    require(values.size() == 1, fmt::format("{}: '{}' is not a number", what, text));
+    require(values.size() == 1, because::isNoNumber(what, text));
     return values.front();
 }
 
@@ -112,56 +114,50 @@ bool Shading::isGrey() const {
 
 void validate(const Shading &shading) {
     const DepthCue &cue = shading.cue;
-    require(cue.strength >= 0.0 && cue.strength <= 1.0,
-            "the strength of the depth cue must be within 0 to 1");
+    require(cue.strength >= 0.0 && cue.strength <= 1.0, because::cueStrengthOutOfRange);
     require(cue.curve.size() >= fewestCurveValues && cue.curve.size() <= mostCurveValues,
-            fmt::format("the curve of the depth cue must have {} to {} values", fewestCurveValues,
-                        mostCurveValues));
+            because::cueCurveHasOtherSize(fewestCurveValues, mostCurveValues));
     for (const double value : cue.curve)
         require(value >= 0.0 && value <= largestCurveValue,
-                fmt::format("the values of the depth cue's curve must be within 0 to {}",
-                            largestCurveValue));
+                because::cueCurveOutOfRange(fmt::format("{}", largestCurveValue)));
     require(shading.ambient >= 0.0 && shading.ambient <= largestAmbient,
-            fmt::format("the ambient light must be within 0 to {}", largestAmbient));
-    require(shading.lights.size() <= mostLights, fmt::format("more than {} lights", mostLights));
+            because::ambientOutOfRange(fmt::format("{}", largestAmbient)));
+    require(shading.lights.size() <= mostLights, because::tooManyLights(mostLights));
     for (const Light &light : shading.lights) {
         const double length = glm::length(light.direction);
-        require(std::isfinite(length) && length > 1e-12,
-                "the direction of a light must not be 0, nor beyond all numbers");
-        require(light.strength >= 0.0 && light.strength <= 1.0,
-                "the strength of a light must be within 0 to 1");
+        require(std::isfinite(length) && length > 1e-12, because::lightHasNoDirection);
+        require(light.strength >= 0.0 && light.strength <= 1.0, because::lightStrengthOutOfRange);
         for (const double c : {light.color.red, light.color.green, light.color.blue})
-            require(c >= 0.0 && c <= 1.0, "the colour of a light must be within 0 to 1");
+            require(c >= 0.0 && c <= 1.0, because::lightColorOutOfRange);
     }
 }
 
 DepthCue cueFromText(const std::string &text) {
-    const std::string forms = "none, linear:S, sine:S or curve:c0,c1,...";
     DepthCue cue;
     if (text == "none")
         return cue;
     const auto colon = text.find(':');
     const std::string kind = text.substr(0, colon);
     require(colon != std::string::npos && (kind == "linear" || kind == "sine" || kind == "curve"),
-            "the depth cue '" + text + "' is none of " + forms);
+            because::isNoCue(text));
     const std::string values = text.substr(colon + 1);
     if (kind == "curve") {
         cue.kind = CueKind::curve;
-        cue.curve = numbersOf(values, "the depth cue '" + text + "'");
+        cue.curve = numbersOf(values, because::theCue(text));
     } else {
         cue.kind = kind == "linear" ? CueKind::linear : CueKind::sine;
-        cue.strength = numberOf(values, "the depth cue '" + text + "'");
+        cue.strength = numberOf(values, because::theCue(text));
     }
     validate(Shading{.cue = cue});
     return cue;
 }
 
 Light lightFromText(const std::string &text) {
-    const std::string what = "the light '" + text + "'";
+    const task::Reason what = because::theLight(text);
     Light light;
     const auto color = text.find(':');
     const auto direction = numbersOf(text.substr(0, color), what);
-    require(direction.size() == 3, what + " is not u,v,w[:#rrggbb[:S]]");
+    require(direction.size() == 3, because::isNoLight(text));
     light.direction = {direction[0], direction[1], direction[2]};
     if (color != std::string::npos) {
         const auto strength = text.find(':', color + 1);

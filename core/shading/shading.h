@@ -92,8 +92,8 @@ Light lightFromText(const std::string &text);
 
 /// A JSON object with `cue`, `ambient` and `lights`, each only if it is not the usual.
 std::string toJson(const Shading &shading);
-/// From such an object; keys of others are left alone. *Throws* Error{usage}; the reason begins
-/// with the JSON pointer of what is wrong and a colon.
+/// From such an object; keys of others are left alone. *Throws* Error{usage} with the JSON
+/// pointer of what is wrong (`because::at`).
 Shading shadingFromJson(const std::string &text);
 
 } // namespace pellucid::shading

@@ -12,6 +12,7 @@ namespace pellucid::shading {
 
 namespace {
 
+namespace because = task::because;
 using classify::jsonNumber;
 using classify::jsonNumbers;
 using classify::jsonText;
@@ -33,7 +34,7 @@ template <class Names> auto valueNamed(const Names &names, const json &in, const
             return value;
         all += (all.empty() ? "" : ", ") + std::string(known);
     }
-    refuseJson(at, "'" + name + "' is none of " + all);
+    refuseJson(at, because::isNoneOf(name, all));
 }
 
 template <class Names, class T> const char *nameIn(const Names &names, T value) {
@@ -44,7 +45,7 @@ template <class Names, class T> const char *nameIn(const Names &names, T value) 
 
 DepthCue cueFromJson(const json &in) {
     if (!in.is_object() || !in.contains("kind"))
-        refuseJson("/cue", "must be an object with a kind");
+        refuseJson("/cue", because::mustHaveAKind);
     DepthCue cue;
     cue.kind = valueNamed(cueKinds, in["kind"], "/cue/kind");
     if (in.contains("strength"))
@@ -56,11 +57,11 @@ DepthCue cueFromJson(const json &in) {
 
 Light lightFromJson(const json &in, const std::string &at) {
     if (!in.is_object() || !in.contains("direction"))
-        refuseJson(at, "must be an object with a direction");
+        refuseJson(at, because::mustHaveADirection);
     Light light;
     const auto direction = jsonNumbers(in["direction"], at + "/direction");
     if (direction.size() != 3)
-        refuseJson(at + "/direction", "must be three numbers");
+        refuseJson(at + "/direction", because::mustBeThreeNumbers);
     light.direction = {direction[0], direction[1], direction[2]};
     if (in.contains("color")) {
         const std::string color = jsonText(in["color"], at + "/color");
@@ -110,7 +111,7 @@ std::string toJson(const Shading &shading) {
 Shading shadingFromJson(const std::string &text) {
     const json in = json::parse(text, nullptr, false);
     if (!in.is_object())
-        refuseJson("", "must be an object");
+        refuseJson("", because::mustBeAnObject);
     Shading shading;
     if (in.contains("cue")) {
         shading.cue = cueFromJson(in["cue"]);
@@ -122,9 +123,9 @@ Shading shadingFromJson(const std::string &text) {
     }
     if (in.contains("lights")) {
         if (!in["lights"].is_array())
-            refuseJson("/lights", "must be a list");
+            refuseJson("/lights", because::mustBeAList);
         if (in["lights"].size() > mostLights)
-            refuseJson("/lights", "holds more than " + std::to_string(mostLights) + " lights");
+            refuseJson("/lights", because::holdsTooManyLights(mostLights));
         for (std::size_t n = 0; n < in["lights"].size(); ++n) {
             const std::string at = "/lights/" + std::to_string(n);
             shading.lights.push_back(lightFromJson(in["lights"][n], at));

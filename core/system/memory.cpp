@@ -98,9 +98,10 @@ std::size_t availableMemoryBytes() {
 void requireMemory(double bytes) {
     const std::size_t available = availableMemoryBytes();
     if (bytes > double(available))
-        throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("needs {:.0f} MB of memory, there are {} MB",
-                                      std::ceil(bytes / 1048576.0), available >> 20));
+        throw task::Error(
+            task::ErrorCode::outOfMemory,
+            task::because::needsMemory(fmt::format("{:.0f}", std::ceil(bytes / 1048576.0)),
+                                       available >> 20));
 }
 
 } // namespace pellucid::system

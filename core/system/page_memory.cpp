@@ -9,8 +9,6 @@
 #define PELLUCID_LARGE_PAGES
 #include <sys/mman.h>
 #endif
-#include <fmt/format.h>
-
 #include "core/task/error.h"
 
 namespace pellucid::system {
@@ -59,11 +57,11 @@ std::shared_ptr<std::byte[]> allocate(std::size_t bytes) {
 
 } // namespace
 
-std::shared_ptr<std::byte[]> allocatePages(std::size_t bytes, const char *what) {
+std::shared_ptr<std::byte[]> allocatePages(std::size_t bytes, task::Because<0> what) {
     auto memory = allocate(bytes);
     if (!memory)
         throw task::Error(task::ErrorCode::outOfMemory,
-                          fmt::format("not enough memory for {} of {} MB", what, bytes >> 20));
+                          task::because::noMemoryForPages(what, bytes >> 20));
     return memory;
 }
 

@@ -7,9 +7,9 @@
 
 namespace pellucid::task {
 
-Error::Error(ErrorCode code, std::string reason, std::filesystem::path path)
-    : std::runtime_error(path.empty() ? reason : path.string() + ": " + reason), m_code(code),
-      m_reason(std::move(reason)), m_path(std::move(path)) {}
+Error::Error(ErrorCode code, Reason reason, std::filesystem::path path)
+    : std::runtime_error(path.empty() ? reason.english() : path.string() + ": " + reason.english()),
+      m_code(code), m_reason(std::move(reason)), m_path(std::move(path)) {}
 
 bool isLackOfMemory(const std::exception &error) {
     if (const auto *const known = dynamic_cast<const std::system_error *>(&error))

@@ -35,11 +35,11 @@ Lattice Lattice::make(GridSize size, PatientPoint origin, const std::array<glm::
     using task::Error;
     using task::ErrorCode;
     if (size.i < 1 || size.j < 1 || size.k < 1)
-        throw Error(ErrorCode::unusable, "the volume has an axis without samples");
+        throw Error(ErrorCode::unusable, task::because::axisWithoutSamples);
     if (double(size.i) * size.j * size.k > double(mostSamples))
-        throw Error(ErrorCode::unusable, "the volume has more samples than any machine holds");
+        throw Error(ErrorCode::unusable, task::because::moreSamplesThanAnyMachineHolds);
     if (!finite(origin.mm) || !finite(steps[0]) || !finite(steps[1]) || !finite(steps[2]))
-        throw Error(ErrorCode::unusable, "the geometry is not made of finite numbers");
+        throw Error(ErrorCode::unusable, task::because::geometryNotFinite);
     const double lengths = glm::length(steps[0]) * glm::length(steps[1]) * glm::length(steps[2]);
     Lattice lattice;
     lattice.m_size = size;
@@ -47,7 +47,7 @@ Lattice Lattice::make(GridSize size, PatientPoint origin, const std::array<glm::
     lattice.m_steps = glm::dmat3(steps[0], steps[1], steps[2]);
     // Steps closer than 1e-6 to a common plane cannot be told from a flat volume.
     if (!(lengths > 0.0) || std::abs(glm::determinant(lattice.m_steps)) < 1e-6 * lengths)
-        throw Error(ErrorCode::unusable, "the voxel steps span no volume");
+        throw Error(ErrorCode::unusable, task::because::stepsSpanNoVolume);
     lattice.m_inverse = glm::inverse(lattice.m_steps);
     return lattice;
 }

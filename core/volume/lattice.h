@@ -17,6 +17,11 @@ inline constexpr std::size_t mostSamples = std::size_t(1) << 36;
 struct GridSize {
     int i = 0, j = 0, k = 0;
     std::size_t count() const { return std::size_t(i) * std::size_t(j) * std::size_t(k); }
+    /// Where a sample is among all of the grid: columns are fastest, then rows, then slices.
+    std::size_t offsetOf(int column, int row, int slice) const {
+        return (std::size_t(slice) * std::size_t(j) + std::size_t(row)) * std::size_t(i) +
+               std::size_t(column);
+    }
     int operator[](int axis) const { return axis == 0 ? i : axis == 1 ? j : k; }
     bool operator==(const GridSize &) const = default;
 };

@@ -53,12 +53,12 @@ Narrowing::Merged Narrowing::merged() const {
     return result;
 }
 
-std::optional<std::string> Narrowing::warning() const {
+std::optional<task::Reason> Narrowing::warning() const {
     constexpr double mostUnsaid = 0.05;
     const Merged of = merged();
     if (of.share <= mostUnsaid)
         return std::nullopt;
-    return fmt::format("values that differ by less than {:.2g} are shown as equal", of.largest);
+    return task::because::valuesAreShownAsEqual(fmt::format("{:.2g}", of.largest));
 }
 
 void Narrowing::requireDistinct() const {
@@ -66,8 +66,7 @@ void Narrowing::requireDistinct() const {
     if (m_lost > mostLost * (m_most - m_least) && merged().share > mostMerged)
         throw task::Error(
             task::ErrorCode::unusable,
-            fmt::format("its values, from {} to {}, differ by less than 24 bits can tell", m_least,
-                        m_most));
+            task::because::valuesAreOne(fmt::format("{}", m_least), fmt::format("{}", m_most)));
 }
 
 } // namespace pellucid::volume

@@ -6,8 +6,9 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "core/task/reason.h"
 
 namespace pellucid::volume {
 
@@ -38,8 +39,9 @@ public:
 
     /// Values that were not finite.
     std::size_t notFinite() const { return m_notFinite; }
-    /// A line for the user where more than 5 % of the differences between the kept values are lost.
-    std::optional<std::string> warning() const;
+    /// What the user is told where more than 5 % of the differences between the kept values are
+    /// lost.
+    std::optional<task::Reason> warning() const;
     /// *Throws* Error{unusable} if more than half of them are, and rounding is more than 1e-4 of
     /// the range of all values.
     void requireDistinct() const;

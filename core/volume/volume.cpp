@@ -26,8 +26,7 @@ std::size_t Volume::bytes() const {
 
 double Volume::value(VoxelIndex n) const {
     assert(m_lattice.contains(n));
-    const GridSize size = m_lattice.size();
-    const std::size_t at = (std::size_t(n.k) * size.j + n.j) * size.i + n.i;
+    const std::size_t at = m_lattice.size().offsetOf(n.i, n.j, n.k);
     return visit([at](auto samples) { return double(samples[at]); });
 }
 
@@ -40,8 +39,7 @@ Volume Volume::cropped(const VoxelBox &box) const {
         auto to = out.begin();
         for (int k = box.lo.k; k < box.hi.k; ++k)
             for (int j = box.lo.j; j < box.hi.j; ++j) {
-                const auto from =
-                    samples.begin() + (std::ptrdiff_t(k) * size.j + j) * size.i + box.lo.i;
+                const auto from = samples.begin() + std::ptrdiff_t(size.offsetOf(box.lo.i, j, k));
                 to = std::copy_n(from, part.i, to);
             }
         return Volume(m_lattice.cropped(box), std::move(out), m_unit, *m_notes);

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/task/reason.h"
 #include "core/volume/lattice.h"
 
 namespace pellucid::volume {
@@ -30,14 +31,14 @@ struct SliceRange {
 
 /// What the source said about a volume, as far as a viewer shows it.
 struct VolumeNotes {
-    std::string title;                 ///< series description or file name
-    std::string modality;              ///< DICOM modality, empty if unknown
-    std::vector<ValueWindow> windows;  ///< the file's own windows
-    std::vector<std::string> warnings; ///< what the reader had to do to the geometry or the values
-    std::vector<SliceRange> filled;    ///< slices between images that are missing, interpolated
-    bool darkIsHigh = false;           ///< MONOCHROME1: shown inverted
-    bool lossy = false;                ///< compressed with loss at some point
-    bool placed = true;                ///< false: images without positions, no volume
+    std::string title;                  ///< series description or file name
+    std::string modality;               ///< DICOM modality, empty if unknown
+    std::vector<ValueWindow> windows;   ///< the file's own windows
+    std::vector<task::Reason> warnings; ///< what the reader had to do to the geometry or the values
+    std::vector<SliceRange> filled;     ///< slices between images that are missing, interpolated
+    bool darkIsHigh = false;            ///< MONOCHROME1: shown inverted
+    bool lossy = false;                 ///< compressed with loss at some point
+    bool placed = true;                 ///< false: images without positions, no volume
     bool hasSpacing = true; ///< false: nothing says how large a pixel is; a "mm" is a pixel
 };
 

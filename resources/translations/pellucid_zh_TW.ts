@@ -38,17 +38,6 @@
     </message>
 </context>
 <context>
-    <name>FailureTexts</name>
-    <message>
-        <source>not enough memory</source>
-        <translation>記憶體不足</translation>
-    </message>
-    <message>
-        <source>a fault of the program; the log says more</source>
-        <translation>程式發生錯誤；記錄檔中有詳情</translation>
-    </message>
-</context>
-<context>
     <name>HelpMenuTexts</name>
     <message>
         <source>manual.html</source>
@@ -124,36 +113,6 @@
     <message>
         <source>Open</source>
         <translation>開啟</translation>
-    </message>
-</context>
-<context>
-    <name>Import</name>
-    <message>
-        <source>copies need %1 MB and there are %2 MB</source>
-        <translation>複製需要 %1 MB，只有 %2 MB 可用</translation>
-    </message>
-</context>
-<context>
-    <name>LibraryTexts</name>
-    <message>
-        <source>; studies are listed for this run only</source>
-        <translation>；檢查僅於本次執行列出</translation>
-    </message>
-    <message>
-        <source>the study library was damaged: %1 series were read, %2 lost; the old file is kept under this name</source>
-        <translation>檢查資料庫已損壞：讀回 %1 個序列，遺失 %2 個；舊檔案以此名稱保留</translation>
-    </message>
-    <message>
-        <source>is damaged, and a new one cannot be written: %1</source>
-        <translation>已損毀，且無法寫入新的清單：%1</translation>
-    </message>
-    <message>
-        <source>the study library was empty; its own copies are listed again</source>
-        <translation>檢查資料庫是空的；其自有的副本將重新列出</translation>
-    </message>
-    <message>
-        <source>the study library was damaged and nothing of it could be read; the old file is kept under this name</source>
-        <translation>檢查資料庫已損毀，且無法讀取任何內容；舊檔以此名稱保留</translation>
     </message>
 </context>
 <context>
@@ -438,37 +397,6 @@
     <message>
         <source>Warnings are left out</source>
         <translation>已略去警告</translation>
-    </message>
-</context>
-<context>
-    <name>PictureExportTexts</name>
-    <message>
-        <source>No study is open</source>
-        <translation>沒有開啟的檢查</translation>
-    </message>
-    <message>
-        <source>The projection is still being made</source>
-        <translation>投影仍在製作中</translation>
-    </message>
-    <message>
-        <source>Values are written of the projection only</source>
-        <translation>只有投影能輸出數值</translation>
-    </message>
-    <message>
-        <source>Only the projection turns</source>
-        <translation>只有投影能旋轉</translation>
-    </message>
-    <message>
-        <source>Videos need the program ffmpeg, which is not installed; frames do not</source>
-        <translation>影片需要 ffmpeg 程式，但未安裝；逐格影像則不需要</translation>
-    </message>
-    <message>
-        <source>A picture in colour has no grey values: write it as it looks, or as NumPy</source>
-        <translation>彩色影像沒有灰階數值：請以所見或 NumPy 格式寫出</translation>
-    </message>
-    <message>
-        <source>Pictures have at most %1 pixels a side</source>
-        <translation>影像每邊最多 %1 像素</translation>
     </message>
 </context>
 <context>
@@ -991,10 +919,6 @@
         <translation>CPU 引擎，%1，%2 執行緒</translation>
     </message>
     <message>
-        <source>the GPU engine needs %1</source>
-        <translation>GPU 引擎需要%1</translation>
-    </message>
-    <message>
         <source>ffmpeg does not start</source>
         <translation>無法啟動 ffmpeg</translation>
     </message>
@@ -1281,18 +1205,6 @@
     <message>
         <source>, </source>
         <translation>、</translation>
-    </message>
-    <message>
-        <source>%1, axial</source>
-        <translation>%1，橫斷面</translation>
-    </message>
-    <message>
-        <source>%1, coronal</source>
-        <translation>%1，冠狀面</translation>
-    </message>
-    <message>
-        <source>%1, sagittal</source>
-        <translation>%1，矢狀面</translation>
     </message>
     <message>
         <source>axial %1</source>
@@ -1666,6 +1578,750 @@
         <source>nothing of the study is visible, so there is no spectrum to show</source>
         <translation>頻譜於頻率 0 為零：沒有可顯示的內容</translation>
     </message>
+    <message>
+        <source>; </source>
+        <translation>；</translation>
+    </message>
+    <message>
+        <source>%1</source>
+        <translation>%1</translation>
+    </message>
+    <message>
+        <source>Operation not permitted</source>
+        <translation>不允許此操作</translation>
+    </message>
+    <message>
+        <source>Disk quota exceeded</source>
+        <translation>超過磁碟配額</translation>
+    </message>
+    <message>
+        <source>Not a directory</source>
+        <translation>不是資料夾</translation>
+    </message>
+    <message>
+        <source>File name too long</source>
+        <translation>檔名過長</translation>
+    </message>
+    <message>
+        <source>Too many open files</source>
+        <translation>開啟的檔案過多</translation>
+    </message>
+    <message>
+        <source>Input/output error</source>
+        <translation>輸入或輸出錯誤</translation>
+    </message>
+    <message>
+        <source>File too large</source>
+        <translation>檔案過大</translation>
+    </message>
+    <message>
+        <source>Too many levels of symbolic links</source>
+        <translation>符號連結層次過多</translation>
+    </message>
+    <message>
+        <source>the system reports: %1</source>
+        <translation>系統回報：%1</translation>
+    </message>
+    <message>
+        <source>is not in a folder</source>
+        <translation>不在資料夾中</translation>
+    </message>
+    <message>
+        <source>the volume has an axis without samples</source>
+        <translation>體積有一軸沒有取樣</translation>
+    </message>
+    <message>
+        <source>the volume has more samples than any machine holds</source>
+        <translation>體積的取樣數超過任何電腦所能容納</translation>
+    </message>
+    <message>
+        <source>the geometry is not made of finite numbers</source>
+        <translation>幾何資料不是有限的數值</translation>
+    </message>
+    <message>
+        <source>the voxel steps span no volume</source>
+        <translation>體素的步距未構成體積</translation>
+    </message>
+    <message>
+        <source>several series are &apos;%1&apos;; by UID: %2</source>
+        <translation>有數個序列為「%1」；依 UID：%2</translation>
+    </message>
+    <message>
+        <source>no series &apos;%1&apos;; there are %2</source>
+        <translation>沒有序列「%1」；現有 %2</translation>
+    </message>
+    <message>
+        <source>no volume %1 in series %2; there is one</source>
+        <translation>序列 %2 中沒有體積 %1；只有一個</translation>
+    </message>
+    <message>
+        <source>no volume %1 in series %2; there are %3</source>
+        <translation>序列 %2 中沒有體積 %1；共有 %3 個</translation>
+    </message>
+    <message>
+        <source>%1; the other slices make no volume</source>
+        <translation>%1；其餘切片不構成體積</translation>
+    </message>
+    <message>
+        <source>file %1</source>
+        <translation>檔案 %1</translation>
+    </message>
+    <message>
+        <source>attribute (%1) cannot be set</source>
+        <translation>無法設定屬性 (%1)</translation>
+    </message>
+    <message>
+        <source>the code of the profile cannot be written</source>
+        <translation>無法寫入規範的代碼</translation>
+    </message>
+    <message>
+        <source>compression failed: %1</source>
+        <translation>壓縮失敗：%1</translation>
+    </message>
+    <message>
+        <source>unknown transfer syntax &apos;%1&apos;; known are %2</source>
+        <translation>未知的傳輸語法「%1」；已知者為 %2</translation>
+    </message>
+    <message>
+        <source>only volumes of whole HU are written as CT</source>
+        <translation>只有數值為整數 HU 的體積能寫成 CT</translation>
+    </message>
+    <message>
+        <source>a fault of the program; the log says more</source>
+        <translation>程式發生錯誤；記錄檔中有詳情</translation>
+    </message>
+    <message>
+        <source>No study is open</source>
+        <translation>沒有開啟的檢查</translation>
+    </message>
+    <message>
+        <source>%1 is a file of an open study</source>
+        <translation>%1 是已開啟檢查的檔案</translation>
+    </message>
+    <message>
+        <source>a look needs a name</source>
+        <translation>外觀需要名稱</translation>
+    </message>
+    <message>
+        <source>there is no projection yet</source>
+        <translation>尚無投影</translation>
+    </message>
+    <message>
+        <source>the fields of the look need %1 MB</source>
+        <translation>此外觀的場需要 %1 MB</translation>
+    </message>
+    <message>
+        <source>no icon %1</source>
+        <translation>沒有圖示 %1</translation>
+    </message>
+    <message>
+        <source>no resource %1</source>
+        <translation>沒有資源 %1</translation>
+    </message>
+    <message>
+        <source>no color for role %1</source>
+        <translation>角色 %1 沒有色彩</translation>
+    </message>
+    <message>
+        <source>not enough memory to copy to the graphics card</source>
+        <translation>記憶體不足，無法複製到顯示卡</translation>
+    </message>
+    <message>
+        <source>the copy to the graphics card was cancelled</source>
+        <translation>已取消複製到顯示卡</translation>
+    </message>
+    <message>
+        <source>a first, coarse picture</source>
+        <translation>第一張粗略影像</translation>
+    </message>
+    <message>
+        <source>not on the graphics card yet</source>
+        <translation>尚未送達顯示卡</translation>
+    </message>
+    <message>
+        <source>the graphics card is being prepared</source>
+        <translation>正在準備顯示卡</translation>
+    </message>
+    <message>
+        <source>the study library is damaged: %1</source>
+        <translation>檢查資料庫已損壞：%1</translation>
+    </message>
+    <message>
+        <source>the study library was damaged: %1 series were read, %2 lost; the old file is kept under this name</source>
+        <translation>檢查資料庫已損壞：讀回 %1 個序列，遺失 %2 個；舊檔案以此名稱保留</translation>
+    </message>
+    <message>
+        <source>the study library was damaged and nothing of it could be read; the old file is kept under this name</source>
+        <translation>檢查資料庫已損毀，且無法讀取任何內容；舊檔以此名稱保留</translation>
+    </message>
+    <message>
+        <source>the study library was empty; its own copies are listed again</source>
+        <translation>檢查資料庫是空的；其自有的副本將重新列出</translation>
+    </message>
+    <message>
+        <source>is damaged, and a new one cannot be written: %1</source>
+        <translation>已損毀，且無法寫入新的清單：%1</translation>
+    </message>
+    <message>
+        <source>the folder of your data cannot be written; studies are listed for this run only, and nothing is kept</source>
+        <translation>您的資料夾無法寫入；檢查僅於本次執行列出，不會保存任何內容</translation>
+    </message>
+    <message>
+        <source>copies need %1 MB and there are %2 MB</source>
+        <translation>複製需要 %1 MB，只有 %2 MB 可用</translation>
+    </message>
+    <message>
+        <source>the files of this volume have changed; import them again</source>
+        <translation>此體積的檔案已變動；請重新匯入</translation>
+    </message>
+    <message>
+        <source>the files of this series are not there any more; the disc or the drive they are on may be away</source>
+        <translation>此序列的檔案已不在；其光碟或磁碟可能已移除</translation>
+    </message>
+    <message>
+        <source>The measurements of this study cannot be read: %1</source>
+        <translation>無法讀取此檢查的測量：%1</translation>
+    </message>
+    <message>
+        <source>The measurements cannot be kept: %1</source>
+        <translation>無法保存測量：%1</translation>
+    </message>
+    <message>
+        <source>The measurements cannot be kept: there is no folder for them</source>
+        <translation>無法保存測量：沒有可用的資料夾</translation>
+    </message>
+    <message>
+        <source>those of before cannot be read</source>
+        <translation>無法讀取先前的測量</translation>
+    </message>
+    <message>
+        <source>The projection is still being made</source>
+        <translation>投影仍在製作中</translation>
+    </message>
+    <message>
+        <source>Values are written of the projection only</source>
+        <translation>只有投影能輸出數值</translation>
+    </message>
+    <message>
+        <source>Only the projection turns</source>
+        <translation>只有投影能旋轉</translation>
+    </message>
+    <message>
+        <source>Videos need the program ffmpeg, which is not installed; frames do not</source>
+        <translation>影片需要 ffmpeg 程式，但未安裝；逐格影像則不需要</translation>
+    </message>
+    <message>
+        <source>A picture in colour has no grey values: write it as it looks, or as NumPy</source>
+        <translation>彩色影像沒有灰階數值：請以所見或 NumPy 格式寫出</translation>
+    </message>
+    <message>
+        <source>Pictures have at most %1 pixels a side</source>
+        <translation>影像每邊最多 %1 像素</translation>
+    </message>
+    <message>
+        <source>ffmpeg: %1</source>
+        <translation>ffmpeg：%1</translation>
+    </message>
+    <message>
+        <source>cannot be written</source>
+        <translation>無法寫入</translation>
+    </message>
+    <message>
+        <source>the decoder is gone</source>
+        <translation>解碼程式已不存在</translation>
+    </message>
+    <message>
+        <source>it does not answer</source>
+        <translation>沒有回應</translation>
+    </message>
+    <message>
+        <source>cannot be mapped: %1</source>
+        <translation>無法對映：%1</translation>
+    </message>
+    <message>
+        <source>is asked for in a way that the decoder does not know</source>
+        <translation>要求的方式為解碼程式所不認識</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>truncated</source>
+        <translation>被截斷</translation>
+    </message>
+    <message>
+        <source>JPEG 2000 encoding failed</source>
+        <translation>JPEG 2000 編碼失敗</translation>
+    </message>
+    <message>
+        <source>is not a NRRD file</source>
+        <translation>不是 NRRD 檔案</translation>
+    </message>
+    <message>
+        <source>the NRRD header has a line without a colon</source>
+        <translation>NRRD 檔頭有一行沒有冒號</translation>
+    </message>
+    <message>
+        <source>NRRD numbers expected: %1</source>
+        <translation>應為 NRRD 數字：%1</translation>
+    </message>
+    <message>
+        <source>NRRD space &apos;%1&apos; is not supported</source>
+        <translation>不支援 NRRD 空間「%1」</translation>
+    </message>
+    <message>
+        <source>NRRD vector without an end: %1</source>
+        <translation>NRRD 向量沒有結尾：%1</translation>
+    </message>
+    <message>
+        <source>three NRRD space directions expected</source>
+        <translation>應有三個 NRRD 空間方向</translation>
+    </message>
+    <message>
+        <source>one NRRD space origin expected</source>
+        <translation>應有一個 NRRD 空間原點</translation>
+    </message>
+    <message>
+        <source>NRRD type &apos;%1&apos; is not supported</source>
+        <translation>不支援 NRRD 型別「%1」</translation>
+    </message>
+    <message>
+        <source>NRRD encoding &apos;%1&apos; is not supported</source>
+        <translation>不支援 NRRD 編碼「%1」</translation>
+    </message>
+    <message>
+        <source>NRRD endian &apos;%1&apos; is not supported</source>
+        <translation>不支援 NRRD 位元組順序「%1」</translation>
+    </message>
+    <message>
+        <source>NRRD &apos;%1&apos; is not supported</source>
+        <translation>不支援 NRRD「%1」</translation>
+    </message>
+    <message>
+        <source>is not a NIfTI file</source>
+        <translation>不是 NIfTI 檔案</translation>
+    </message>
+    <message>
+        <source>must be a number</source>
+        <translation>必須是數字</translation>
+    </message>
+    <message>
+        <source>must be a list of numbers</source>
+        <translation>必須是數字清單</translation>
+    </message>
+    <message>
+        <source>must be two numbers</source>
+        <translation>必須是兩個數字</translation>
+    </message>
+    <message>
+        <source>must be two numbers, the lower first</source>
+        <translation>必須是兩個數字，較小者在前</translation>
+    </message>
+    <message>
+        <source>must be three numbers</source>
+        <translation>必須是三個數字</translation>
+    </message>
+    <message>
+        <source>must be a text</source>
+        <translation>必須是文字</translation>
+    </message>
+    <message>
+        <source>must be a text of 1 to %1 characters on one line</source>
+        <translation>必須是一行 1 至 %1 個字元的文字</translation>
+    </message>
+    <message>
+        <source>must be a list</source>
+        <translation>必須是清單</translation>
+    </message>
+    <message>
+        <source>must be an object</source>
+        <translation>必須是物件</translation>
+    </message>
+    <message>
+        <source>must be an object with a kind</source>
+        <translation>必須是具有 kind 的物件</translation>
+    </message>
+    <message>
+        <source>must be an object with a name and a range</source>
+        <translation>必須是具有名稱與範圍的物件</translation>
+    </message>
+    <message>
+        <source>must be an object with a direction</source>
+        <translation>必須是具有方向的物件</translation>
+    </message>
+    <message>
+        <source>must be value or window</source>
+        <translation>必須是 value 或 window</translation>
+    </message>
+    <message>
+        <source>is out of range</source>
+        <translation>超出範圍</translation>
+    </message>
+    <message>
+        <source>is not %1</source>
+        <translation>不是 %1</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is none of %2</source>
+        <translation>「%1」不在 %2 之中</translation>
+    </message>
+    <message>
+        <source>has no %1</source>
+        <translation>缺少 %1</translation>
+    </message>
+    <message>
+        <source>holds more than %1 classes</source>
+        <translation>含有超過 %1 個類別</translation>
+    </message>
+    <message>
+        <source>holds more than %1 lights</source>
+        <translation>含有超過 %1 個光源</translation>
+    </message>
+    <message>
+        <source>not enough memory for a field of %1 x %2 x %3</source>
+        <translation>記憶體不足以容納 %1 x %2 x %3 的場</translation>
+    </message>
+    <message>
+        <source>not enough memory for a phantom of this size</source>
+        <translation>記憶體不足以容納此大小的假體</translation>
+    </message>
+    <message>
+        <source>not enough memory for the exact reference</source>
+        <translation>記憶體不足以計算精確參考影像</translation>
+    </message>
+    <message>
+        <source>not enough memory for the exact shaded field</source>
+        <translation>記憶體不足以容納精確的明暗場</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a colour #rrggbb</source>
+        <translation>「%1」不是 #rrggbb 形式的色彩</translation>
+    </message>
+    <message>
+        <source>the colour is not within 0 and 1</source>
+        <translation>色彩不在 0 與 1 之間</translation>
+    </message>
+    <message>
+        <source>the weight %1 is not within 0 and %2</source>
+        <translation>權重 %1 不在 0 與 %2 之間</translation>
+    </message>
+    <message>
+        <source>has %1 steps, %2 are allowed</source>
+        <translation>有 %1 個步驟，允許 %2 個</translation>
+    </message>
+    <message>
+        <source>there are %1 classes, %2 are allowed</source>
+        <translation>有 %1 個類別，允許 %2 個</translation>
+    </message>
+    <message>
+        <source>the step &apos;%1&apos; must come before &apos;%2&apos;</source>
+        <translation>步驟「%1」必須在「%2」之前</translation>
+    </message>
+    <message>
+        <source>the steps of the class &apos;%1&apos; cannot be run here</source>
+        <translation>此處無法執行類別「%1」的步驟</translation>
+    </message>
+    <message>
+        <source>%1 of the step &apos;%2&apos; is %3, not within %4 and %5</source>
+        <translation>步驟「%2」的 %1 為 %3，不在 %4 與 %5 之間</translation>
+    </message>
+    <message>
+        <source>%1 of the step &apos;%2&apos; is %3, not a whole number</source>
+        <translation>步驟「%2」的 %1 為 %3，不是整數</translation>
+    </message>
+    <message>
+        <source>low of the step &apos;%1&apos; lies above high</source>
+        <translation>步驟「%1」的 low 高於 high</translation>
+    </message>
+    <message>
+        <source>the step &apos;%1&apos; has no closing bracket</source>
+        <translation>步驟「%1」缺少右括號</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; in the step &apos;%2&apos; is not NAME=NUMBER</source>
+        <translation>步驟「%2」中的「%1」不是 名稱=數字</translation>
+    </message>
+    <message>
+        <source>edges by ITK need four samples along each axis; the fast method does not</source>
+        <translation>以 ITK 求邊緣時，每軸至少需要四個取樣；快速方法則不需要</translation>
+    </message>
+    <message>
+        <source>edges by ITK need a sigma_mm above 0</source>
+        <translation>以 ITK 求邊緣時，sigma_mm 必須大於 0</translation>
+    </message>
+    <message>
+        <source>the crop box needs 0 &lt;= low &lt; high &lt;= 1 on every axis</source>
+        <translation>裁切框的每一軸都必須符合 0 &lt;= 低 &lt; 高 &lt;= 1</translation>
+    </message>
+    <message>
+        <source>there is no preset &apos;%1&apos;; &apos;pellucid-cli preset list&apos; names them</source>
+        <translation>沒有預設集「%1」；以 pellucid-cli preset list 可列出</translation>
+    </message>
+    <message>
+        <source>there is no preset &apos;%1&apos;; there is %2</source>
+        <translation>沒有預設集「%1」；現有 %2</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; comes with the program and stays</source>
+        <translation>「%1」為程式內建，不能移除</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; comes with the program and stays as it is; choose another name</source>
+        <translation>「%1」為程式內建，不能變更；請選擇其他名稱</translation>
+    </message>
+    <message>
+        <source>the file ends before its scalar opacity</source>
+        <translation>檔案在純量不透明度之前結束</translation>
+    </message>
+    <message>
+        <source>the scalar opacity does not begin with the number of its values</source>
+        <translation>純量不透明度並非以數值個數開頭</translation>
+    </message>
+    <message>
+        <source>%1 values are announced, %2 are there</source>
+        <translation>宣告 %1 個數值，只有 %2 個</translation>
+    </message>
+    <message>
+        <source>the value %1 is out of range</source>
+        <translation>數值 %1 超出範圍</translation>
+    </message>
+    <message>
+        <source>the opacity %1 at %2 is not within 0 and 1</source>
+        <translation>%2 處的不透明度 %1 不在 0 與 1 之間</translation>
+    </message>
+    <message>
+        <source>its opacity does not change over any range of values</source>
+        <translation>其不透明度在任何數值範圍內都不變</translation>
+    </message>
+    <message>
+        <source>%1: &apos;%2&apos; is not a number</source>
+        <translation>%1：「%2」不是數字</translation>
+    </message>
+    <message>
+        <source>the depth cue &apos;%1&apos;</source>
+        <translation>深度提示「%1」</translation>
+    </message>
+    <message>
+        <source>the light &apos;%1&apos;</source>
+        <translation>光源「%1」</translation>
+    </message>
+    <message>
+        <source>the depth cue &apos;%1&apos; is none of none, linear:S, sine:S or curve:c0,c1,...</source>
+        <translation>深度提示「%1」不是 none、linear:S、sine:S 或 curve:c0,c1,...</translation>
+    </message>
+    <message>
+        <source>the light &apos;%1&apos; is not u,v,w[:#rrggbb[:S]]</source>
+        <translation>光源「%1」不是 u,v,w[:#rrggbb[:S]]</translation>
+    </message>
+    <message>
+        <source>the strength of the depth cue must be within 0 to 1</source>
+        <translation>深度提示的強度必須在 0 至 1 之間</translation>
+    </message>
+    <message>
+        <source>the curve of the depth cue must have %1 to %2 values</source>
+        <translation>深度提示的曲線必須有 %1 至 %2 個數值</translation>
+    </message>
+    <message>
+        <source>the values of the depth cue&apos;s curve must be within 0 to %1</source>
+        <translation>深度提示曲線的數值必須在 0 至 %1 之間</translation>
+    </message>
+    <message>
+        <source>the ambient light must be within 0 to %1</source>
+        <translation>環境光必須在 0 至 %1 之間</translation>
+    </message>
+    <message>
+        <source>more than %1 lights</source>
+        <translation>超過 %1 個光源</translation>
+    </message>
+    <message>
+        <source>the direction of a light must not be 0, nor beyond all numbers</source>
+        <translation>光源的方向不可為 0，亦不可超出數值範圍</translation>
+    </message>
+    <message>
+        <source>the strength of a light must be within 0 to 1</source>
+        <translation>光源的強度必須在 0 至 1 之間</translation>
+    </message>
+    <message>
+        <source>the colour of a light must be within 0 to 1</source>
+        <translation>光源的色彩必須在 0 至 1 之間</translation>
+    </message>
+    <message>
+        <source>the image size must be 1 to %1 pixels a side</source>
+        <translation>影像每邊必須為 1 至 %1 像素</translation>
+    </message>
+    <message>
+        <source>the pixel must be a positive length</source>
+        <translation>像素必須是正的長度</translation>
+    </message>
+    <message>
+        <source>the pan must be finite</source>
+        <translation>平移必須是有限的數值</translation>
+    </message>
+    <message>
+        <source>the orientation must not be zero</source>
+        <translation>方向不可為零</translation>
+    </message>
+    <message>
+        <source>the roll-off must be within 0 to 1</source>
+        <translation>滾降必須在 0 至 1 之間</translation>
+    </message>
+    <message>
+        <source>the tolerance must be positive</source>
+        <translation>容差必須大於 0</translation>
+    </message>
+    <message>
+        <source>the padding must be within 1 to 4</source>
+        <translation>補零必須在 1 至 4 之間</translation>
+    </message>
+    <message>
+        <source>the window&apos;s low end must lie below its high end</source>
+        <translation>窗的下限必須低於上限</translation>
+    </message>
+    <message>
+        <source>unknown reconstruction &apos;%1&apos; in the scene</source>
+        <translation>場景中有未知的重建「%1」</translation>
+    </message>
+    <message>
+        <source>planned_for is neither picture nor volume in the scene</source>
+        <translation>場景中的 planned_for 既非 picture 也非 volume</translation>
+    </message>
+    <message>
+        <source>the whole volume at its finest step needs an image of more than %1 pixels a side; name a size or a larger pixel</source>
+        <translation>以最細步距顯示整個體積時，影像每邊超過 %1 像素；請指定大小或較大的像素</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a kernel; there are nearest, trilinear, catmull-rom, b-spline, hamming-sinc, ES2 to ES7, KB2 to KB7 and LS2 to LS7</source>
+        <translation>「%1」不是核函數；現有 nearest、trilinear、catmull-rom、b-spline、hamming-sinc、ES2 至 ES7、KB2 至 KB7 與 LS2 至 LS7</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not a storage; there are f16 and f32</source>
+        <translation>「%1」不是儲存格式；現有 f16 與 f32</translation>
+    </message>
+    <message>
+        <source>pixels of %1 mm, %2 mm off the centre, need a slice of more than %3 frequencies a side</source>
+        <translation>像素 %1 mm、偏離中心 %2 mm，需要每邊超過 %3 個頻率的切片</translation>
+    </message>
+    <message>
+        <source>the projection needs more cells than an engine can count</source>
+        <translation>投影所需的格數超過引擎所能計數</translation>
+    </message>
+    <message>
+        <source>there is no libOpenGL on this machine</source>
+        <translation>此電腦沒有 libOpenGL</translation>
+    </message>
+    <message>
+        <source>EGL here makes no OpenGL 3.3 context</source>
+        <translation>此處的 EGL 無法建立 OpenGL 3.3 環境</translation>
+    </message>
+    <message>
+        <source>EGL finds no device here</source>
+        <translation>EGL 在此找不到裝置</translation>
+    </message>
+    <message>
+        <source>there is no graphics card that EGL knows of</source>
+        <translation>沒有 EGL 可用的顯示卡</translation>
+    </message>
+    <message>
+        <source>EGL cannot use its context</source>
+        <translation>EGL 無法使用其環境</translation>
+    </message>
+    <message>
+        <source>OpenGL here is %1.%2 (%3); the GPU engine needs 4.3</source>
+        <translation>此處的 OpenGL 為 %1.%2（%3）；GPU 引擎需要 4.3</translation>
+    </message>
+    <message>
+        <source>OpenGL error %1 with %2</source>
+        <translation>OpenGL 錯誤 %1：%2</translation>
+    </message>
+    <message>
+        <source>no shader file &apos;%1&apos;</source>
+        <translation>沒有著色器檔案「%1」</translation>
+    </message>
+    <message>
+        <source>shader %1: %2</source>
+        <translation>著色器 %1：%2</translation>
+    </message>
+    <message>
+        <source>%1 spectra in %2 textures are more than the graphics card reads at once</source>
+        <translation>%2 個紋理中的 %1 個頻譜，超過顯示卡一次所能讀取</translation>
+    </message>
+    <message>
+        <source>the slice of this image, %1 x %2 cells, needs %3 MB in one piece; the graphics card gives %4 MB (larger pixels need fewer cells)</source>
+        <translation>此影像的切片有 %1 x %2 格，需要連續的 %3 MB；顯示卡提供 %4 MB（像素較大則所需格數較少）</translation>
+    </message>
+    <message>
+        <source>an image of %1 x %2 pixels is larger than the graphics card&apos;s textures, %3 x %3 at most</source>
+        <translation>%1 x %2 像素的影像大於顯示卡的紋理，最大為 %3 x %3</translation>
+    </message>
+    <message>
+        <source>unknown phantom &apos;%1&apos;; known are %2</source>
+        <translation>未知的假體「%1」；已知者為 %2</translation>
+    </message>
+    <message>
+        <source>the tilt must lie within -57 to 57 degrees</source>
+        <translation>傾斜必須在 -57 至 57 度之間</translation>
+    </message>
+    <message>
+        <source>phantom sizes must be 1 to 4096 and spacings positive</source>
+        <translation>假體的大小必須為 1 至 4096，間距必須大於 0</translation>
+    </message>
+    <message>
+        <source>measurement %1: %2</source>
+        <translation>測量 %1：%2</translation>
+    </message>
+    <message>
+        <source>is not a list of measurements (%1)</source>
+        <translation>不是測量清單（%1）</translation>
+    </message>
+    <message>
+        <source>a point or direction must be three numbers</source>
+        <translation>點或方向必須是三個數字</translation>
+    </message>
+    <message>
+        <source>a number is out of range</source>
+        <translation>有數字超出範圍</translation>
+    </message>
+    <message>
+        <source>its kind is unknown</source>
+        <translation>其種類未知</translation>
+    </message>
+    <message>
+        <source>its name must be a text</source>
+        <translation>其名稱必須是文字</translation>
+    </message>
+    <message>
+        <source>it must have %1 points</source>
+        <translation>必須有 %1 個點</translation>
+    </message>
+    <message>
+        <source>its directions are not at right angles</source>
+        <translation>其方向不互相垂直</translation>
+    </message>
+    <message>
+        <source>a row</source>
+        <translation>一列</translation>
+    </message>
+    <message>
+        <source>a transform&apos;s rows</source>
+        <translation>轉換的各列</translation>
+    </message>
+    <message>
+        <source>a transform</source>
+        <translation>轉換</translation>
+    </message>
+    <message>
+        <source>a spectrum</source>
+        <translation>頻譜</translation>
+    </message>
+    <message>
+        <source>an image of this size</source>
+        <translation>此大小的影像</translation>
+    </message>
+    <message>
+        <source>the preset &apos;%1&apos; is made for Hounsfield units, which the values are not known to be</source>
+        <translation>預設集「%1」適用於 Hounsfield 單位，而數值不確定是此單位</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>
@@ -1786,10 +2442,6 @@
 <context>
     <name>StudySourceTexts</name>
     <message>
-        <source>the files of this series are not there any more; the disc or the drive they are on may be away</source>
-        <translation>此序列的檔案已不在；其光碟或磁碟可能已移除</translation>
-    </message>
-    <message>
         <source>Made by Pellucid</source>
         <translation>由 Pellucid 產生</translation>
     </message>
@@ -1801,10 +2453,6 @@
         <source>Chest phantom</source>
         <translation>胸部假體</translation>
     </message>
-    <message>
-        <source>the files of this volume have changed; import them again</source>
-        <translation>此體積的檔案已變動；請重新匯入</translation>
-    </message>
 </context>
 <context>
     <name>overlay</name>
@@ -1815,22 +2463,6 @@
 </context>
 <context>
     <name>pellucid::ui::CardCopier</name>
-    <message>
-        <source>not enough memory to copy to the graphics card</source>
-        <translation>記憶體不足，無法複製到顯示卡</translation>
-    </message>
-    <message>
-        <source>the copy to the graphics card was cancelled</source>
-        <translation>已取消複製到顯示卡</translation>
-    </message>
-    <message>
-        <source>a first, coarse picture</source>
-        <translation>第一張粗略影像</translation>
-    </message>
-    <message>
-        <source>not on the graphics card yet</source>
-        <translation>尚未送達顯示卡</translation>
-    </message>
     <message>
         <source>Copying to the graphics card</source>
         <translation>正在複製到顯示卡</translation>
@@ -1989,13 +2621,6 @@
     <message>
         <source>Weight by depth, far at the left, near at the right; drag its values</source>
         <translation>深度權重：左為遠，右為近；拖曳其數值</translation>
-    </message>
-</context>
-<context>
-    <name>pellucid::ui::Document</name>
-    <message>
-        <source>%1 is a file of an open study</source>
-        <translation>%1 是已開啟檢查的檔案</translation>
     </message>
 </context>
 <context>
@@ -2313,13 +2938,6 @@
     </message>
 </context>
 <context>
-    <name>pellucid::ui::JobRunner</name>
-    <message>
-        <source>not enough memory</source>
-        <translation>記憶體不足</translation>
-    </message>
-</context>
-<context>
     <name>pellucid::ui::JobStrip</name>
     <message>
         <source>Cancel</source>
@@ -2445,10 +3063,6 @@
         <source>Preparing the projection</source>
         <translation>正在準備投影</translation>
     </message>
-    <message>
-        <source>the fields of the look need %1 MB</source>
-        <translation>此外觀的場需要 %1 MB</translation>
-    </message>
 </context>
 <context>
     <name>pellucid::ui::MainWindow</name>
@@ -2551,25 +3165,6 @@
     <message>
         <source>Spectr&amp;um</source>
         <translation>頻譜(&amp;U)</translation>
-    </message>
-</context>
-<context>
-    <name>pellucid::ui::MeasurementStore</name>
-    <message>
-        <source>The measurements of this study cannot be read: %1</source>
-        <translation>無法讀取此檢查的測量：%1</translation>
-    </message>
-    <message>
-        <source>The measurements cannot be kept: there is no folder for them</source>
-        <translation>無法保存測量：沒有可用的資料夾</translation>
-    </message>
-    <message>
-        <source>The measurements cannot be kept: %1</source>
-        <translation>無法保存測量：%1</translation>
-    </message>
-    <message>
-        <source>No study is open</source>
-        <translation>沒有開啟的檢查</translation>
     </message>
 </context>
 <context>
@@ -2789,10 +3384,6 @@
     <message>
         <source>Own look %1</source>
         <translation>自訂外觀 %1</translation>
-    </message>
-    <message>
-        <source>a look needs a name</source>
-        <translation>外觀需要名稱</translation>
     </message>
     <message>
         <source>Import preset</source>
@@ -3145,13 +3736,6 @@
     </message>
 </context>
 <context>
-    <name>pellucid::ui::RenderWorker</name>
-    <message>
-        <source>the graphics card is being prepared</source>
-        <translation>正在準備顯示卡</translation>
-    </message>
-</context>
-<context>
     <name>pellucid::ui::ShadingPanel</name>
     <message>
         <source>Reset</source>
@@ -3431,10 +4015,6 @@
     <message>
         <source>Tidying up the study library</source>
         <translation>正在整理檢查資料庫</translation>
-    </message>
-    <message>
-        <source>the folder of your data cannot be written; studies are listed for this run only, and nothing is kept</source>
-        <translation>您的資料夾無法寫入；檢查僅於本次執行列出，不會保存任何內容</translation>
     </message>
 </context>
 <context>

@@ -1,16 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every text of the sources is translated, and no translation is of a text that is gone.
+# Every text of the sources is translated, and no translation is of a text that is gone. What a reason says in words,
+# the command line alone may say, which speaks English, and what reads the files of earlier programs.
 # Usage: translations.sh SOURCE_ROOT
 set -euo pipefail
 cd "$1"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cp resources/translations/*.ts "$scratch"
-lupdate=/usr/lib/qt6/bin/lupdate
-"$lupdate" -silent -I . -no-obsolete -locations none -source-language en -target-language zh_TW ui -ts "$scratch/pellucid_zh_TW.ts" 2>/dev/null
-"$lupdate" -silent -I . -no-obsolete -locations none -source-language en -target-language en -pluralonly ui -ts "$scratch/pellucid_en.ts" 2>/dev/null
+resources/translations/update.sh "$scratch" -silent 2>"$scratch/said" || { cat "$scratch/said"; exit 1; }
 failed=0
+if grep -rn 'because::inWords' core gpu ui | grep -v '^ui/language/kept_reasons\.cpp:'; then
+    echo 'these say in words what no language but English has: a reason of core/task/reasons.inc says it in all'
+    failed=1
+fi
 for file in "$scratch"/*.ts; do
     # Places for numbers and names are in both.
     python3 - "$file" resources/translations <<'PYTHON' || failed=1

@@ -130,7 +130,7 @@ TEST_F(Faults, AFileThatChangesWhileItIsReadIsAVolumeOrAReason) {
                 << slices;
             ++volumes;
         } catch (const task::Error &error) {
-            EXPECT_FALSE(error.reason().empty());
+            EXPECT_FALSE(error.reason().english().empty());
         }
     }
     isOver = true;
@@ -302,7 +302,7 @@ TEST_F(Faults, ASliceThatIsReplacedAfterTheScanIsNamedAndNotShown) {
     const auto loaded = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
     ASSERT_EQ(loaded.skipped.size(), 1U);
     EXPECT_EQ(loaded.skipped[0].path, in / "IM0011.dcm");
-    EXPECT_EQ(loaded.skipped[0].reason, "changed while it was read");
+    EXPECT_TRUE(loaded.skipped[0].reason.is(task::because::changedWhileRead));
     EXPECT_FALSE(loaded.volume.notes().warnings.empty());
 }
 

@@ -12,6 +12,7 @@
 #include "core/phantom/phantom.h"
 #include "core/presets/preset_library.h"
 #include "core/scene/scene.h"
+#include "core/task/reason.h"
 #include "core/volume/nrrd.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/files.h"
@@ -116,6 +117,8 @@ void writeMessages(const fs::path &folder) {
     nrrd.stepsMm = {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
     nrrd.dataFile = "samples.raw";
     writeText(folder / "nrrd", decoder::pack(nrrd));
+    writeText(folder / "reason",
+              task::because::jpeg2000(task::because::isDamagedBy("text")).encoded());
     writeText(folder / "archive",
               decoder::pack(std::vector<decoder::ArchiveFile>{{"name", 7, false}}));
 }

@@ -53,7 +53,7 @@ template <class F> void refusing(F &&f) {
     try {
         f();
     } catch (const task::Error &error) {
-        check(!error.reason().empty());
+        check(!error.reason().english().empty());
     }
 }
 
@@ -103,7 +103,8 @@ void archive(Bytes bytes) {
         parse::readArchive(bytes, [&](const parse::ArchiveFile &, Bytes part, std::int32_t) {
             total += part.size();
             if (total > (std::size_t(1) << 26)) // the program's own limit is in another place
-                throw task::Error(task::ErrorCode::unusable, "is a bomb");
+                throw task::Error(task::ErrorCode::unusable,
+                                  task::because::unpacksToMoreThanAnnounced);
         });
     });
 }
@@ -116,7 +117,12 @@ void message(Bytes bytes) {
     refusing([&] { decoder::unpackDirectory(bytes); });
     refusing([&] { decoder::unpackArchiveFiles(bytes); });
     refusing([&] { decoder::unpackLayout(bytes); });
-    decoder::unpackReason(bytes);
+    refusing([&] {
+        const task::Reason reason = decoder::unpackReason(bytes);
+        const std::string again = reason.encoded();
+        check(decoder::unpackReason(std::as_bytes(std::span(again))) == reason);
+        (void)reason.english();
+    });
 }
 
 void nrrd(Bytes bytes) {

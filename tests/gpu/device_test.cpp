@@ -17,7 +17,7 @@ namespace {
 class NoContext final : public gpu::Context {
 public:
     void makeCurrent() override {
-        throw task::Error(task::ErrorCode::noSuchDevice, "nothing here");
+        throw task::Error(task::ErrorCode::noSuchDevice, task::because::noEglDevice);
     }
     void doneCurrent() override {}
 };
@@ -39,7 +39,9 @@ TEST(Device, RunsOnItsOwnThreadAndPassesOnWhatIsThrown) {
     device.run([&] { second = std::this_thread::get_id(); });
     EXPECT_EQ(first, second);
     EXPECT_NE(first, std::this_thread::get_id());
-    EXPECT_THROW(device.run([] { throw task::Error(task::ErrorCode::outOfMemory, "too much"); }),
+    EXPECT_THROW(device.run([] {
+        throw task::Error(task::ErrorCode::outOfMemory, task::because::noMemoryForAnImage);
+    }),
                  task::Error);
     bool ran = false;
     device.run([&] { ran = true; }); // and goes on
@@ -76,7 +78,7 @@ TEST(Device, AContextThatFailsIsNamed) {
         FAIL();
     } catch (const task::Error &error) {
         EXPECT_EQ(error.code(), task::ErrorCode::noSuchDevice);
-        EXPECT_EQ(error.reason(), "nothing here");
+        EXPECT_TRUE(error.reason().is(task::because::noEglDevice)) << error.what();
     }
 }
 

@@ -19,23 +19,33 @@
 #include "core/decoder/child.h"
 #include "core/parse/serve.h"
 #include "core/parse/watch.h"
+#include "core/task/reason.h"
 
 namespace {
 
 using namespace pellucid;
+namespace because = task::because;
 using decoder::Mapping;
 using decoder::Message;
 
 constexpr std::size_t mib = std::size_t(1) << 20;
 
-void finish(const std::string &reason) {
+void finishWith(const std::string &body, std::int32_t code = decoder::isUnusable) {
     const Mapping arena(decoder::arenaDescriptor, mib, Mapping::Access::write);
-    std::memcpy(arena.data(), reason.data(), reason.size());
-    decoder::send(decoder::socketDescriptor, {Message::Kind::done, 3, reason.size(), 0});
+    std::memcpy(arena.data(), body.data(), body.size());
+    decoder::send(decoder::socketDescriptor, {Message::Kind::done, code, body.size(), 0});
 }
 
-std::string outcome(long result) {
-    return result >= 0 ? "went through" : std::strerror(errno);
+void finish(const task::Reason &reason, std::int32_t code = decoder::isUnusable) {
+    finishWith(reason.encoded(), code);
+}
+
+task::Reason outcome(bool isDone) {
+    return isDone ? because::inWords("went through") : task::systemReason(errno);
+}
+
+task::Reason byHand() {
+    return because::inWords("decoded by hand");
 }
 
 void act(std::string_view word) {
@@ -54,31 +64,27 @@ void act(std::string_view word) {
     } else if (word == "silence")
         ::_exit(0);
     else if (word == "open-file")
-        finish(outcome(::open("/etc/passwd", O_RDONLY)));
+        finish(outcome(::open("/etc/passwd", O_RDONLY) >= 0));
     else if (word == "new-file")
-        finish(outcome(::open("pwned", O_WRONLY | O_CREAT, 0600)));
+        finish(outcome(::open("pwned", O_WRONLY | O_CREAT, 0600) >= 0));
     else if (word == "unlink")
-        finish(outcome(::unlink("/tmp/anything")));
+        finish(outcome(::unlink("/tmp/anything") >= 0));
     else if (word == "write-arena-size")
-        finish(outcome(::ftruncate(decoder::arenaDescriptor, 16)));
+        finish(outcome(::ftruncate(decoder::arenaDescriptor, 16) >= 0));
     else if (word == "socket")
-        finish(outcome(::socket(AF_INET, SOCK_STREAM, 0)));
+        finish(outcome(::socket(AF_INET, SOCK_STREAM, 0) >= 0));
     else if (word == "process")
-        finish(outcome(::fork()));
+        finish(outcome(::fork() >= 0));
     else if (word == "program")
-        finish(outcome(::execl("/bin/true", "true", nullptr)));
+        finish(outcome(::execl("/bin/true", "true", nullptr) >= 0));
     else if (word == "code")
-        finish(::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) ==
-                       MAP_FAILED
-                   ? std::strerror(errno)
-                   : "went through");
+        finish(outcome(::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1,
+                              0) != MAP_FAILED));
     else if (word == "uncounted")
-        finish(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0) ==
-                       MAP_FAILED
-                   ? std::strerror(errno)
-                   : "went through");
+        finish(outcome(::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1,
+                              0) != MAP_FAILED));
     else if (word == "kill-parent")
-        finish(outcome(::kill(::getppid(), SIGTERM)));
+        finish(outcome(::kill(::getppid(), SIGTERM) >= 0));
     else if (word == "memory") {
         std::vector<char *> taken;
         for (;;) {
@@ -87,7 +93,7 @@ void act(std::string_view word) {
                 break;
             taken.push_back(more);
         }
-        finish("had " + std::to_string(taken.size() / 4) + " GB");
+        finish(because::inWords("had " + std::to_string(taken.size() / 4) + " GB"));
     } else if (word == "ask-for-all")
         decoder::send(decoder::socketDescriptor,
                       {Message::Kind::need, 0, std::uint64_t(1) << 50, 0});
@@ -111,7 +117,24 @@ void act(std::string_view word) {
     else if (word == "empty-header")
         decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});
     else if (word == "no-reason")
-        decoder::send(decoder::socketDescriptor, {Message::Kind::done, 3, 0, 0});
+        finishWith("");
+    else if (word == "plain-reason")
+        finishWith("is damaged");
+    else if (word == "cut-reason")
+        finishWith("isDamagedBy t100:no end");
+    else if (word == "other-reason")
+        finishWith("isOfNoTable;");
+    else if (word == "long-reason")
+        finish(because::inWords(std::string(100000, 'x')));
+    else if (word == "deep-reason") {
+        std::string body;
+        for (int n = 0; n < 100; ++n)
+            body += "inWords r1:";
+        finishWith(body + "isEmpty;" + std::string(100, ';'));
+    } else if (word == "lack")
+        finish(byHand(), decoder::needsMemory);
+    else if (word == "other-code")
+        finish(byHand(), 77);
     else if (word == "samples-twice" || word == "half-the-samples") {
         const bool isTwice = word == "samples-twice";
         decoder::send(decoder::socketDescriptor,
@@ -129,7 +152,7 @@ void act(std::string_view word) {
     else if (word == "fewer-samples")
         decoder::send(decoder::socketDescriptor, {Message::Kind::done, 0, 0, 0});
     else
-        finish("decoded by hand");
+        finish(byHand());
 }
 
 } // namespace
@@ -140,7 +163,8 @@ int main() {
     while (const auto request =
                decoder::receive(decoder::socketDescriptor, decoder::Takes::descriptor)) {
         if (!request->descriptor) { // an answer to what it asked
-            finish(request->message.kind == Message::Kind::refused ? "refused" : "granted");
+            finish(because::inWords(request->message.kind == Message::Kind::refused ? "refused"
+                                                                                    : "granted"));
             continue;
         }
         const Mapping file(request->descriptor.get(), request->message.size, Mapping::Access::read);

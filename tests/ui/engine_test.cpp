@@ -9,6 +9,7 @@
 #include <QProcess>
 #include <QSignalSpy>
 
+#include "app/exit_code.h"
 #include "tests/support/fields.h"
 #include "tests/support/fragile_context.h"
 #include "ui/engine/gl_probe.h"
@@ -113,7 +114,7 @@ private slots:
         program.setProcessEnvironment(environment);
         program.start(PELLUCID_WORKSTATION, {});
         QVERIFY(program.waitForFinished(patienceMs));
-        QCOMPARE(program.exitCode(), int(task::ErrorCode::noSuchDevice));
+        QCOMPARE(program.exitCode(), exitCode(task::ErrorCode::noSuchDevice));
         const QByteArray said = program.readAllStandardError();
         QVERIFY2(said.contains("there is no display") && said.count('\n') == 1, said);
     }
@@ -124,9 +125,9 @@ private slots:
         chooseCard();
         const QImage before = projection()->picture();
         // What failed before the card was chosen again is over.
-        emit projection()->cardFailed("another card was lost", nullptr);
+        emit projection()->cardFailed(task::because::cardWasLost, nullptr);
         QTRY_VERIFY_WITH_TIMEOUT(isOnCard(), patienceMs);
-        emit projection()->cardFailed("the graphics card was lost: its driver was reset",
+        emit projection()->cardFailed(task::because::cardWasReset,
                                       m_window->graphicsCard().passes());
         settle();
         QVERIFY2(engineText().startsWith("CPU engine, "), qPrintable(engineText()));
@@ -166,7 +167,8 @@ private slots:
         };
         // The card compiles for longer than a hand waits: the processor makes the first one.
         auto onCard = next();
-        QVERIFY(onCard && (onCard->onCard || onCard->refusal.contains("being prepared")));
+        QVERIFY(onCard &&
+                (onCard->onCard || onCard->refusal == task::because::cardIsBeingPrepared));
         QVERIFY(onCard->onCard ||
                 QTest::qWaitFor([&] { return frames.back()->onCard != nullptr; }, patienceMs));
         onCard = frames.back();
@@ -178,9 +180,9 @@ private slots:
         QCOMPARE(failures, 1);
         QCOMPARE(after->image.samples.size(), picture.samples.size());
         QVERIFY(relativeL2(picture.samples, after->image.samples) < 3e-4);
-        QVERIFY(after->automaticTone && after->refusal.contains("lost"));
+        QVERIFY(after->automaticTone && after->refusal == task::because::cardWasReset);
         const auto later = next();
-        QVERIFY(later && later->refusal.isEmpty()); // the lost one is not asked again
+        QVERIFY(later && !later->refusal); // the lost one is not asked again
     }
 
     // As when a pane is dragged to a second screen.

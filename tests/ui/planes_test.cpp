@@ -211,7 +211,7 @@ private slots:
         QVERIFY(std::filesystem::exists(path.string() + ".unreadable"));
         const auto &problems = m_window->document().problems();
         QVERIFY(std::any_of(problems.begin(), problems.end(), [](const dicom::Skipped &p) {
-            return p.reason.find("measurements") != std::string::npos;
+            return p.reason.is(task::because::measurementsCannotBeRead);
         }));
     }
 

@@ -8,6 +8,7 @@
 
 #include "ui/engine/graphics_card.h"
 #include "ui/jobs/job_strip.h"
+#include "ui/language/reasons.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/pane_area.h"
 #include "ui/views/projection_view.h"
@@ -39,10 +40,11 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
     connect(&m_opener, &StudyOpener::notProjectable, projection, &ProjectionView::setMessage);
     connect(&m_jobs, &JobRunner::started, projection, &ProjectionView::jobStarted);
     connect(&m_jobs, &JobRunner::finished, projection, &ProjectionView::jobEnded);
-    connect(&m_jobs, &JobRunner::failed, this, [this](const QString &what, const QString &path) {
-        m_viewer.projection->setMessage(what);
-        emit failed(what, path);
-    });
+    connect(&m_jobs, &JobRunner::failed, this,
+            [this](const task::Reason &what, const QString &path) {
+                m_viewer.projection->setMessage(translated(what));
+                emit failed(what, path);
+            });
     connect(&m_document, &Document::volumeChanged, this, [this] {
         if (!m_document.volume() || m_document.isPreview())
             return;

@@ -38,7 +38,7 @@ signals:
     void closeRequested();
     void linkChanged(bool isLinked);
     void readoutChanged(const QString &text);
-    void failed(const QString &what, const QString &path);
+    void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
     Viewer makeViewer();

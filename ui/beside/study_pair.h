@@ -3,6 +3,7 @@
 
 #include <QSplitter>
 
+#include "core/task/reason.h"
 #include "ui/views/tools.h"
 #include "ui/views/viewer.h"
 
@@ -31,7 +32,7 @@ signals:
     void besideChanged(bool isThere);
     void linkChanged(bool isLinked);
     void readoutChanged(const QString &text);
-    void failed(const QString &what, const QString &path);
+    void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
     void makeBeside();

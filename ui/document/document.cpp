@@ -65,9 +65,9 @@ void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
     // The same folder opened again has the same ones.
     std::set<std::pair<std::string, std::string>> known;
     for (const dicom::Skipped &problem : m_problems)
-        known.emplace(problem.path.native(), problem.reason);
+        known.emplace(problem.path.native(), problem.reason.encoded());
     for (const dicom::Skipped &problem : problems)
-        if (known.emplace(problem.path.native(), problem.reason).second)
+        if (known.emplace(problem.path.native(), problem.reason.encoded()).second)
             m_problems.push_back(problem);
     emit problemsChanged();
 }
@@ -79,9 +79,9 @@ void Document::requireOther(const std::vector<std::filesystem::path> &targets) c
     for (const StudySource &source : m_sources)
         for (const QString &file : source.files + source.lasting)
             if (there.find(file.toStdString()))
-                throw task::Error(task::ErrorCode::usage, tr("%1 is a file of an open study")
-                                                              .arg(QFileInfo(file).fileName())
-                                                              .toStdString());
+                throw task::Error(
+                    task::ErrorCode::usage,
+                    task::because::isOfAnOpenStudy(QFileInfo(file).fileName().toStdString()));
 }
 
 void Document::clearProblems() {

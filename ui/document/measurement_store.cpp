@@ -10,12 +10,12 @@
 #include "core/files/user_folders.h"
 #include "core/task/error.h"
 #include "ui/document/document.h"
-#include "ui/language/spoken.h"
 
 namespace pellucid::ui {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 
 constexpr int restMs = 400;
@@ -72,9 +72,8 @@ void MeasurementStore::load() {
             m_untouched = *path;
             kept = path->string();
         }
-        emit failed(
-            tr("The measurements of this study cannot be read: %1").arg(spoken(error.reason())),
-            QString::fromStdString(kept));
+        emit failed(because::measurementsCannotBeRead(error.reason()),
+                    QString::fromStdString(kept));
     }
 }
 
@@ -83,7 +82,7 @@ void MeasurementStore::rememberToWrite() {
     if (m_isLoading || !m_document.volume())
         return;
     if (!path) {
-        emit failed(tr("The measurements cannot be kept: there is no folder for them"), {});
+        emit failed(because::noFolderForMeasurements, {});
         return;
     }
     m_pending =
@@ -99,25 +98,25 @@ void MeasurementStore::writePending() {
     const Pending pending = *std::exchange(m_pending, std::nullopt);
     try {
         if (pending.path == m_untouched)
-            throw task::Error(task::ErrorCode::output, "those of before cannot be read");
+            throw task::Error(task::ErrorCode::output, because::formerMeasurementsUnreadable);
         std::error_code problem;
         if (pending.text.empty())
             fs::remove(pending.path, problem);
         else
             fs::create_directories(pending.path.parent_path(), problem);
         if (problem)
-            throw task::Error(task::ErrorCode::output, problem.message());
+            throw task::Error(task::ErrorCode::output, task::systemReason(problem));
         if (!pending.text.empty())
             write(pending.path, pending.text);
     } catch (const task::Error &error) {
-        emit failed(tr("The measurements cannot be kept: %1").arg(spoken(error.reason())),
+        emit failed(because::measurementsCannotBeKept(error.reason()),
                     QString::fromStdString(pending.path.string()));
     }
 }
 
 void MeasurementStore::exportTable(const QString &path) const {
     if (!m_document.volume())
-        throw task::Error(task::ErrorCode::usage, tr("No study is open").toStdString());
+        throw task::Error(task::ErrorCode::usage, because::noStudyIsOpen);
     write(path.toStdString(), measure::toCsv(m_document.measurements(), *m_document.volume()));
 }
 

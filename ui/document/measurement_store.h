@@ -8,6 +8,8 @@
 #include <QObject>
 #include <QTimer>
 
+#include "core/task/reason.h"
+
 namespace pellucid::ui {
 
 class Document;
@@ -26,7 +28,7 @@ public:
     void exportTable(const QString &path) const;
 
 signals:
-    void failed(const QString &reason, const QString &path);
+    void failed(const pellucid::task::Reason &reason, const QString &path);
 
 private:
     std::optional<std::filesystem::path> file() const;

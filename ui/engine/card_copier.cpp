@@ -8,11 +8,12 @@
 #include "ui/document/document.h"
 #include "ui/engine/graphics_card.h"
 #include "ui/jobs/job_runner.h"
-#include "ui/language/spoken.h"
 
 namespace pellucid::ui {
 
 namespace {
+
+namespace because = task::because;
 
 constexpr std::size_t mostCopies = 2;
 
@@ -26,7 +27,7 @@ bool isHeld(const gpu::GpuEngine &copy, const render::EngineParts &parts) {
 
 struct CardCopier::Copied {
     std::shared_ptr<gpu::GpuEngine> engine;
-    QString refusal; ///< if there is none
+    std::optional<task::Reason> refusal{}; ///< if there is none
     bool isLost = false;
 };
 
@@ -34,11 +35,11 @@ CardCopier::Copied CardCopier::copyTo(const std::shared_ptr<gpu::FramePasses> &p
                                       const render::ProjectionEngine &engine, gpu::Fetch fetch,
                                       const task::Progress &progress) {
     try {
-        return {gpu::copyToCard(passes, engine, fetch, progress), {}};
+        return {gpu::copyToCard(passes, engine, fetch, progress)};
     } catch (const task::Error &error) {
-        return {nullptr, spoken(error.reason()), error.code() == task::ErrorCode::noSuchDevice};
+        return {nullptr, error.reason(), error.code() == task::ErrorCode::noSuchDevice};
     } catch (const std::bad_alloc &) {
-        return {nullptr, tr("not enough memory to copy to the graphics card")};
+        return {nullptr, because::noMemoryToCopyToCard};
     }
 }
 
@@ -55,7 +56,7 @@ CardCopier::CardCopier(Document &document, JobRunner &jobs, GraphicsCard &card, 
             // The copy was not delivered: the next job stopped it, or somebody who wants none.
             if (std::exchange(m_isCopying, false) && !m_jobs.isRunning()) {
                 m_isGivenUp = true;
-                m_reason = tr("the copy to the graphics card was cancelled");
+                m_reason = because::copyWasCancelled;
                 if (m_current)
                     announceAgain();
             }
@@ -115,8 +116,8 @@ void CardCopier::announce(EngineStage stage) {
                                                .predictedError);
     else if (m_card.passes())
         shown.reason = m_isGivenUp                    ? m_reason
-                       : stage == EngineStage::coarse ? tr("a first, coarse picture")
-                                                      : tr("not on the graphics card yet");
+                       : stage == EngineStage::coarse ? task::Reason(because::firstCoarsePicture)
+                                                      : task::Reason(because::notOnCardYet);
     emit engineReady(shown, stage);
 }
 
@@ -142,7 +143,7 @@ void CardCopier::take(const Copied &copied, const std::shared_ptr<render::Projec
                       const std::shared_ptr<gpu::FramePasses> &passes) {
     m_isCopying = false;
     if (copied.isLost)
-        m_card.giveUp(copied.refusal, passes);
+        m_card.giveUp(*copied.refusal, passes);
     if (passes != m_card.passes())
         return;
     if (copied.engine)
@@ -150,7 +151,8 @@ void CardCopier::take(const Copied &copied, const std::shared_ptr<render::Projec
     if (!m_current)
         return;
     m_isGivenUp = !copied.engine && m_current->engine.engine == engine;
-    m_reason = copied.refusal;
+    if (copied.refusal)
+        m_reason = *copied.refusal;
     announceAgain();
 }
 

@@ -57,7 +57,7 @@ private:
     std::vector<std::shared_ptr<gpu::GpuEngine>> m_copies;
     /// A copy is being made; the current engine's was cancelled or did not fit, for this reason.
     bool m_isCopying = false, m_isGivenUp = false;
-    QString m_reason;
+    task::Reason m_reason = task::because::copyWasCancelled;
 };
 
 } // namespace pellucid::ui

@@ -8,17 +8,33 @@
 #include "core/task/error.h"
 #include "ui/engine/gl_probe.h"
 #include "ui/engine/shared_context.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 
 namespace pellucid::ui {
 
 namespace {
+
+namespace because = task::because;
 
 constexpr const char *settingsKey = "engine";
 
 EngineChoice rememberedChoice() {
     const int choice = QSettings().value(settingsKey, 0).toInt();
     return EngineChoice(std::clamp(choice, 0, int(EngineChoice::card)));
+}
+
+// Before one is looked for.
+std::optional<task::Reason> whyNoCard(EngineChoice choice) {
+    if (choice == EngineChoice::processor)
+        return because::processorChosen;
+    const auto &window = windowCapabilities();
+    if (!window)
+        return because::noOpenGl;
+    if (!window->canShowImages())
+        return because::oldOpenGl(window->version / 10, window->version % 10);
+    if (choice == EngineChoice::automatic && window->software)
+        return because::softwareOpenGl;
+    return std::nullopt;
 }
 
 } // namespace
@@ -35,7 +51,8 @@ void GraphicsCard::choose(EngineChoice choice) {
     emit changed();
 }
 
-void GraphicsCard::giveUp(const QString &reason, const std::shared_ptr<gpu::FramePasses> &passes) {
+void GraphicsCard::giveUp(const task::Reason &reason,
+                          const std::shared_ptr<gpu::FramePasses> &passes) {
     // What was chosen meanwhile is another.
     if (!m_passes || m_passes != passes)
         return;
@@ -44,38 +61,23 @@ void GraphicsCard::giveUp(const QString &reason, const std::shared_ptr<gpu::Fram
     emit changed();
 }
 
-// The language may change while the program runs.
-QString GraphicsCard::reason() const {
-    return spoken(m_reason);
-}
-
 QString GraphicsCard::description() const {
-    return m_passes ? tr("Graphics card: %1").arg(reason()) : tr("Processor: %1").arg(reason());
+    return m_passes ? tr("Graphics card: %1").arg(translated(m_reason))
+                    : tr("Processor: %1").arg(translated(m_reason));
 }
 
 void GraphicsCard::open() {
     m_passes.reset();
-    m_reason.clear();
-    const auto &window = windowCapabilities();
-    if (m_choice == EngineChoice::processor)
-        m_reason = "the processor was chosen";
-    else if (!window)
-        m_reason = "no OpenGL here";
-    else if (!window->canShowImages())
-        m_reason = QString("OpenGL here is %1.%2; 3.3 is needed to show pictures with it")
-                       .arg(window->version / 10)
-                       .arg(window->version % 10);
-    else if (m_choice == EngineChoice::automatic && window->software)
-        m_reason = "OpenGL here is a software renderer";
-    if (!m_reason.isEmpty())
+    if (const auto obstacle = whyNoCard(m_choice)) {
+        m_reason = *obstacle;
         return;
+    }
     try {
         m_passes = std::make_shared<gpu::FramePasses>(
             std::make_shared<gpu::Device>(std::make_unique<SharedContext>()));
-        m_reason = m_choice == EngineChoice::card ? "the graphics card was chosen"
-                                                  : "there is a graphics card";
+        m_reason = m_choice == EngineChoice::card ? because::cardChosen : because::cardFound;
     } catch (const task::Error &error) {
-        m_reason = QString::fromStdString(error.reason());
+        m_reason = error.reason();
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <QObject>
 
+#include "core/task/reason.h"
 #include "gpu/frame_passes.h"
 
 namespace pellucid::ui {
@@ -26,13 +27,13 @@ public:
     /// Begins anew, also after the card was given up, and is remembered.
     void choose(EngineChoice choice);
     /// Nothing more is made with these passes, for this reason, until the card is chosen again.
-    void giveUp(const QString &reason, const std::shared_ptr<gpu::FramePasses> &passes);
+    void giveUp(const task::Reason &reason, const std::shared_ptr<gpu::FramePasses> &passes);
 
     /// None: the processor makes the projections.
     const std::shared_ptr<gpu::FramePasses> &passes() const { return m_passes; }
     /// Why it is that one.
-    QString reason() const;
-    /// Both, in a line.
+    const task::Reason &reason() const { return m_reason; }
+    /// Both, in a line in the user's language.
     QString description() const;
 
 signals:
@@ -43,7 +44,7 @@ private:
 
     EngineChoice m_choice;
     std::shared_ptr<gpu::FramePasses> m_passes;
-    QString m_reason; ///< in English
+    task::Reason m_reason = task::because::processorChosen;
 };
 
 } // namespace pellucid::ui

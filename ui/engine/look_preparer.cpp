@@ -338,9 +338,8 @@ LookPreparer::Preparation LookPreparer::preparation(const PreparedFor &wanted, d
             prepare::bytesForLight(scene.shading, volume.lattice().size(),
                                    classify::mixesColors(wanted.look) ? 3 : 1);
         if (needed > system::availableMemoryBytes())
-            throw task::Error(
-                task::ErrorCode::outOfMemory,
-                tr("the fields of the look need %1 MB").arg(needed >> 20).toStdString());
+            throw task::Error(task::ErrorCode::outOfMemory,
+                              task::because::fieldsNeedMemory(needed >> 20));
         const classify::FieldWindow window = windowOf(volume, wanted);
         const bool isShownTwice = coarseFirst && isLarge(volume);
         const shading::ShadingScale scale = shading::shadingScale(volume.lattice());

@@ -8,7 +8,6 @@
 
 #include "core/task/error.h"
 #include "ui/language/failure.h"
-#include "ui/language/spoken.h"
 
 namespace pellucid::ui {
 
@@ -22,6 +21,7 @@ RenderWorker::RenderWorker(QObject *parent)
     : QObject(parent), m_thread([this](const std::stop_token &stop) { run(stop); }) {
     qRegisterMetaType<std::shared_ptr<const RenderedFrame>>();
     qRegisterMetaType<std::shared_ptr<gpu::FramePasses>>();
+    qRegisterMetaType<task::Reason>();
 }
 
 RenderWorker::~RenderWorker() {
@@ -66,7 +66,7 @@ RenderWorker::picture(std::shared_ptr<render::ProjectionEngine> engine, const sc
     const std::lock_guard lock(m_mutex);
     m_pictures.emplace_back([engine = std::move(engine), camera, image, shading] {
         if (!engine)
-            throw task::Error(task::ErrorCode::usage, "there is no projection yet");
+            throw task::Error(task::ErrorCode::usage, task::because::noProjectionYet);
         return engine->render(camera, image, shading);
     });
     m_wake.notify_one();
@@ -155,7 +155,7 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
         frame->times = {times.sliceMs, times.transformMs};
         answer.frame = std::move(frame);
     } catch (const task::Error &error) {
-        answer.refusal = spoken(error.reason());
+        answer.refusal = error.reason();
         // A picture too large for the card is none of its next.
         answer.isLost = error.code() != task::ErrorCode::outOfMemory;
     } catch (...) {
@@ -182,7 +182,7 @@ bool RenderWorker::renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Req
     };
     if (m_card.valid()) {
         if (isBusy()) {
-            frame->refusal = tr("the graphics card is being prepared");
+            frame->refusal = task::because::cardIsBeingPrepared;
             return false;
         }
         // What came late: it may be what is asked for, or say that the card is gone.
@@ -193,7 +193,7 @@ bool RenderWorker::renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Req
     m_cardIsDone = m_cardIsLate = false; // nobody else looks at them now
     m_card = std::async(std::launch::async, [this, request] { return askCard(request); });
     if (m_card.wait_for(cardPatience) != std::future_status::ready && isBusy()) {
-        frame->refusal = tr("the graphics card is being prepared");
+        frame->refusal = task::because::cardIsBeingPrepared;
         return false;
     }
     return take(m_card.get(), frame);
@@ -212,7 +212,7 @@ bool RenderWorker::take(const CardFrame &answer, std::shared_ptr<RenderedFrame> 
         if (m_onCard == answer.onCard)
             m_onCard.reset();
     }
-    emit cardFailed(answer.refusal, answer.onCard->textures().passes());
+    emit cardFailed(*answer.refusal, answer.onCard->textures().passes());
     return false;
 }
 

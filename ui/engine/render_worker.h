@@ -14,6 +14,7 @@
 
 #include "core/picture/compose.h"
 #include "core/prepare/prepared_engine.h"
+#include "core/task/reason.h"
 #include "gpu/gpu_engine.h"
 
 namespace pellucid::ui {
@@ -26,7 +27,7 @@ struct RenderedFrame {
     /// In place of the image, where the graphics card made it.
     std::shared_ptr<const gpu::CardPicture> onCard;
     /// Why the processor made it and not the card, if that was to.
-    QString refusal;
+    std::optional<task::Reason> refusal;
     /// What an automatic tone makes of it, if that was asked for.
     std::optional<picture::ToneRange> automaticTone;
     /// The same view of what it is compared with, if that was asked for.
@@ -78,9 +79,9 @@ public:
 
 signals:
     void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
-    void failed(const QString &reason);
+    void failed(const pellucid::task::Reason &reason);
     /// The card cannot be used any more; the frame was made on the processor instead.
-    void cardFailed(const QString &reason,
+    void cardFailed(const pellucid::task::Reason &reason,
                     const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
 
 private:
@@ -101,7 +102,7 @@ private:
         std::uint64_t number = 0; ///< of the request
         std::shared_ptr<gpu::GpuEngine> onCard;
         std::shared_ptr<RenderedFrame> frame; ///< none: refused
-        QString refusal;
+        std::optional<task::Reason> refusal;
         bool isLost = false;
     };
     void run(const std::stop_token &stop);

@@ -13,8 +13,10 @@ namespace pellucid::ui {
 
 namespace {
 
-[[noreturn]] void refuse(const QString &why) {
-    throw task::Error(task::ErrorCode::noSuchDevice, why.toStdString());
+namespace because = task::because;
+
+[[noreturn]] void refuse(const task::Reason &why) {
+    throw task::Error(task::ErrorCode::noSuchDevice, why);
 }
 
 // Whoever lets go of the device last may be any thread.
@@ -31,7 +33,7 @@ SharedContext::SharedContext()
     : m_surface(std::make_unique<QOffscreenSurface>()),
       m_context(std::make_unique<QOpenGLContext>()) {
     if (QOpenGLContext::globalShareContext() == nullptr)
-        refuse("no OpenGL here");
+        refuse(because::noOpenGl);
     QSurfaceFormat format = QSurfaceFormat::defaultFormat();
     format.setVersion(4, 3);
     m_surface->setFormat(format);
@@ -39,9 +41,9 @@ SharedContext::SharedContext()
     m_context->setFormat(format);
     m_context->setShareContext(QOpenGLContext::globalShareContext());
     if (!m_surface->isValid() || !m_context->create())
-        refuse("OpenGL here gives no second context");
+        refuse(because::noSecondContext);
     if (!QOpenGLContext::areSharing(m_context.get(), QOpenGLContext::globalShareContext()))
-        refuse("OpenGL contexts here do not share what they hold");
+        refuse(because::contextsDoNotShare);
     if (!m_context->format().testOption(QSurfaceFormat::ResetNotification))
         system::log("OpenGL here does not tell when its driver is reset");
     // Without a thread, so that the one that needs it may take it.
@@ -57,7 +59,7 @@ void SharedContext::makeCurrent() {
     if (m_context->thread() == nullptr)
         m_context->moveToThread(QThread::currentThread());
     if (!m_context->makeCurrent(m_surface.get()))
-        refuse("the OpenGL context cannot be used");
+        refuse(because::contextUnusable);
 }
 
 void SharedContext::doneCurrent() {

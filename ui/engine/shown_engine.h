@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QString>
-
 #include "core/prepare/prepared_engine.h"
+#include "core/task/reason.h"
 #include "gpu/gpu_engine.h"
 
 namespace pellucid::ui {
@@ -14,7 +13,7 @@ struct ShownEngine {
     prepare::PreparedEngine prepared;
     std::shared_ptr<gpu::GpuEngine> onCard;
     double predictedError = 0.0; ///< of the one that is used
-    QString reason;              ///< why it is that one
+    task::Reason reason;         ///< why it is that one
 };
 
 } // namespace pellucid::ui

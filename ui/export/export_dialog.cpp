@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/export/export_dialog.h"
 
+#include <utility>
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
@@ -19,7 +21,7 @@
 #include "ui/document/document.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/job_strip.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 #include "ui/opening/recent_paths.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/mpr_view.h"
@@ -98,12 +100,12 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     connect(other, &QPushButton::clicked, this, &ExportDialog::browse);
     connect(buttons, &QDialogButtonBox::accepted, this, &ExportDialog::write);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
-    connect(&jobs, &JobRunner::failed, this, [this](const QString &what) { m_failure = what; });
+    connect(&jobs, &JobRunner::failed, this,
+            [this](const task::Reason &what) { m_failure = what; });
     connect(&jobs, &JobRunner::finished, this, [this] {
         showChosen();
-        if (!m_failure.isEmpty())
-            say(m_failure, "warning");
-        m_failure.clear();
+        if (const auto failure = std::exchange(m_failure, std::nullopt))
+            say(translated(*failure), "warning");
     });
     showChosen();
 }
@@ -128,7 +130,7 @@ void ExportDialog::showChosen() {
     m_deidentified->setEnabled(what.format == PictureFormat::capture);
     const QWidget *const pane = m_panes.of(what.pane);
     const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
-    const QString why = obstacle(what, m_panes, m_document);
+    const auto why = obstacle(what, m_panes, m_document);
     if (m_jobs.isRunning()) // what it writes is decided
         return;
     QString text = tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height());
@@ -138,8 +140,8 @@ void ExportDialog::showChosen() {
                                                 : tr("holds the patient's name and identifier"));
     if (what.format == PictureFormat::frames)
         text += "; " + tr("one file for each frame, numbered");
-    say(why.isEmpty() ? text : why, why.isEmpty() ? "muted" : "warning");
-    m_write->setEnabled(why.isEmpty());
+    say(why ? translated(*why) : text, why ? "warning" : "muted");
+    m_write->setEnabled(!why);
     // The name goes with the format, as long as it is one of ours.
     QString path = m_path->text();
     for (int format = 0; format < m_format->count(); ++format)
@@ -204,7 +206,7 @@ void ExportDialog::write() {
             });
         m_write->setEnabled(false);
     } catch (const task::Error &error) {
-        say(spoken(error.reason()), "warning");
+        say(translated(error.reason()), "warning");
     }
 }
 

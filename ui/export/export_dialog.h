@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <QDialog>
 
 #include "core/dicom/catalogue.h"
+#include "core/task/reason.h"
 #include "ui/export/picture_export.h"
 
 class QCheckBox;
@@ -51,8 +53,8 @@ private:
     QLineEdit *m_path;
     QSpinBox *m_frames;
     QLabel *m_said;
-    QString m_confirmed; ///< a path that was asked about when it was chosen
-    QString m_failure;   ///< of the job that ends
+    QString m_confirmed;                   ///< a path that was asked about when it was chosen
+    std::optional<task::Reason> m_failure; ///< of the job that ends
     QPushButton *m_write = nullptr;
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include <QCoreApplication>
 #include <QImage>
 #include <QPainter>
 #include <QPicture>
@@ -28,13 +27,10 @@ namespace pellucid::ui {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 
 constexpr int framesPerSecond = 25;
-
-struct PictureExportTexts {
-    Q_DECLARE_TR_FUNCTIONS(PictureExportTexts)
-};
 
 // From the lower to the upper end of the window in a straight line: figures, not looks.
 QImage sixteenBits(const picture::ProjectionImage &image, const scene::Tone &tone) {
@@ -259,35 +255,33 @@ QString firstFileOf(const PictureExport &what, const QString &path) {
     return what.format == PictureFormat::frames ? framePath(path, 0) : path;
 }
 
-QString obstacle(const PictureExport &what, const Panes &panes, const Document &document) {
+std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &panes,
+                                     const Document &document) {
     if (!document.volume() || document.currentSource() < 0)
-        return PictureExportTexts::tr("No study is open");
+        return because::noStudyIsOpen;
     const bool isPlane = what.pane != Pane::projection;
     if (!isPlane && !panes.projection->showsWhatIsAskedFor())
-        return PictureExportTexts::tr("The projection is still being made");
+        return because::projectionIsBeingMade;
     if (isPlane && !what.isPicture())
-        return PictureExportTexts::tr("Values are written of the projection only");
+        return because::valuesOfTheProjectionOnly;
     if (isPlane && what.isTurn())
-        return PictureExportTexts::tr("Only the projection turns");
+        return because::onlyTheProjectionTurns;
     if (what.format == PictureFormat::video && !VideoWriter::isAvailable())
-        return PictureExportTexts::tr(
-            "Videos need the program ffmpeg, which is not installed; frames do not");
+        return because::videosNeedFfmpeg;
     const scene::Scene &scene = document.scene();
     const bool isGrey = classify::isGrey(scene.look) && scene.shading.isGrey();
     if (!isGrey && (what.format == PictureFormat::png16 || what.format == PictureFormat::nrrd))
-        return PictureExportTexts::tr(
-            "A picture in colour has no grey values: write it as it looks, or as NumPy");
+        return because::colorsHaveNoGreyValues;
     const scene::Camera &camera = scene.camera;
     if (std::max(camera.width, camera.height) * what.scale > scene::largestImageSize)
-        return PictureExportTexts::tr("Pictures have at most %1 pixels a side")
-            .arg(scene::largestImageSize);
+        return because::picturesHaveAtMost(scene::largestImageSize);
     return {};
 }
 
 PictureWriter pictureWriter(const PictureExport &what, const Panes &panes, const Document &document,
                             const QString &path) {
-    if (const QString why = obstacle(what, panes, document); !why.isEmpty())
-        throw task::Error(task::ErrorCode::usage, why.toStdString());
+    if (const auto why = obstacle(what, panes, document))
+        throw task::Error(task::ErrorCode::usage, *why);
     document.requireOther(targets(what, path));
     return what.pane == Pane::projection ? projectionWriter(what, panes, document, path)
                                          : planeWriter(what, panes, document, path);

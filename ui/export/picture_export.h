@@ -3,10 +3,12 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 
 #include <QString>
 
 #include "core/task/progress.h"
+#include "core/task/reason.h"
 
 class QWidget;
 
@@ -56,8 +58,9 @@ QString suffixOf(PictureFormat format);
 /// The file that is written first: a turn has one for each frame.
 QString firstFileOf(const PictureExport &what, const QString &path);
 
-/// What an export cannot hold or make here; empty if it can be made.
-QString obstacle(const PictureExport &what, const Panes &panes, const Document &document);
+/// What an export cannot hold or make here; none if it can be made.
+std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &panes,
+                                     const Document &document);
 
 /// Writes a picture of a pane as it is now; run it on any thread. The file appears only when
 /// complete; of frames that are cancelled none is left. It *throws* task::Error, task::Cancelled.

@@ -36,7 +36,8 @@ void writePictureFile(const QString &path, const QImage &picture) {
     QByteArray png;
     QBuffer buffer(&png);
     if (!buffer.open(QIODevice::WriteOnly) || !picture.save(&buffer, "PNG"))
-        throw Error(ErrorCode::output, "cannot be encoded: " + buffer.errorString().toStdString(),
+        throw Error(ErrorCode::output,
+                    task::because::cannotBeEncoded(buffer.errorString().toStdString()),
                     path.toStdString());
     files::AtomicFile file(path.toStdString());
     file.write({png.constData(), std::size_t(png.size())});

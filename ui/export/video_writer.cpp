@@ -37,7 +37,8 @@ VideoWriter::VideoWriter(const QString &path, const QSize &size, int framesPerSe
                       "-pix_fmt", "yuv420p", "-metadata", "comment=Not for diagnostic use",
                       "-movflags", "+faststart", m_unfinished});
     if (!m_encoder->waitForStarted())
-        throw task::Error(task::ErrorCode::output, "ffmpeg does not start", path.toStdString());
+        throw task::Error(task::ErrorCode::output, task::because::ffmpegDoesNotStart,
+                          path.toStdString());
 }
 
 VideoWriter::~VideoWriter() {
@@ -51,7 +52,8 @@ void VideoWriter::fail() {
     m_encoder->waitForFinished(waitMs);
     const QString said = QString::fromUtf8(m_encoder->readAllStandardError()).simplified();
     throw task::Error(task::ErrorCode::output,
-                      said.isEmpty() ? "ffmpeg ended early" : "ffmpeg: " + said.toStdString(),
+                      said.isEmpty() ? task::Reason(task::because::ffmpegEndedEarly)
+                                     : task::because::ffmpegReports(said.toStdString()),
                       m_path.toStdString());
 }
 

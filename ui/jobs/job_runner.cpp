@@ -51,7 +51,7 @@ void JobRunner::start(const QString &title, Work work, const QString &about) {
         launch(generation, std::move(work), about);
     } catch (const std::exception &) { // there is no thread for it
         m_running = false;
-        emit failed(tr("not enough memory"), about);
+        emit failed(task::because::notEnoughMemory, about);
         emit finished();
     }
 }
@@ -92,12 +92,13 @@ void JobRunner::say(const std::exception_ptr &failure, const QString &about) {
     if (!failure)
         return;
     try {
-        Failure said;
-        try {
-            std::rethrow_exception(failure);
-        } catch (...) {
-            said = currentFailure();
-        }
+        const Failure said = [&] {
+            try {
+                std::rethrow_exception(failure);
+            } catch (...) {
+                return currentFailure();
+            }
+        }();
         emit failed(said.what, said.path.isEmpty() ? about : said.path);
     } catch (const std::exception &) { // there is no memory for the words either
     }

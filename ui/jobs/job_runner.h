@@ -57,7 +57,7 @@ signals:
     void progressed(double fraction);
     /// The current job is over: done, failed or cancelled.
     void finished();
-    void failed(const QString &what, const QString &path);
+    void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
     friend class Job;

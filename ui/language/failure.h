@@ -3,11 +3,13 @@
 
 #include <QString>
 
+#include "core/task/reason.h"
+
 namespace pellucid::ui {
 
 /// What went wrong, as it is said to the user.
 struct Failure {
-    QString what;
+    task::Reason what;
     QString path; ///< empty if it is about no file
 };
 

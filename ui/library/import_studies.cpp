@@ -8,7 +8,6 @@
 #include <set>
 #include <system_error>
 
-#include <QCoreApplication>
 #include <QCryptographicHash>
 
 #include "core/decoder/read_volume_file.h"
@@ -23,6 +22,7 @@ namespace pellucid::ui {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
@@ -70,7 +70,7 @@ public:
         std::error_code failed;
         fs::copy_file(from, incoming, fs::copy_options::overwrite_existing, failed);
         if (failed)
-            throw Error(ErrorCode::output, "cannot be copied into the library: " + failed.message(),
+            throw Error(ErrorCode::output, because::cannotBeCopied(task::systemReason(failed)),
                         from);
         const std::string volumeSuffix = volume::volumeSuffix(from),
                           suffix = volumeSuffix.empty() ? ".dcm" : volumeSuffix;
@@ -92,7 +92,7 @@ public:
             if (!failed)
                 fs::rename(from, to, failed);
             if (failed)
-                throw Error(ErrorCode::output, failed.message(), to);
+                throw Error(ErrorCode::output, task::systemReason(failed), to);
             if (isNew)
                 m_renamed.push_back(to);
         }
@@ -124,11 +124,7 @@ void checkRoom(const LibraryPlace &place, const std::vector<LibrarySeries> &all)
                 needed += bytes;
     if (const fs::space_info space = fs::space(place.copiesFolder(), unknown);
         !unknown && needed > space.available)
-        throw Error(ErrorCode::output,
-                    QCoreApplication::translate("Import", "copies need %1 MB and there are %2 MB")
-                        .arg(needed >> 20)
-                        .arg(space.available >> 20)
-                        .toStdString(),
+        throw Error(ErrorCode::output, because::copiesNeedRoom(needed >> 20, space.available >> 20),
                     place.folder);
 }
 
@@ -201,7 +197,7 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
         if (catalogue.skipped.size() == 1)
             throw Error(ErrorCode::unusable, catalogue.skipped[0].reason,
                         catalogue.skipped[0].path);
-        throw Error(ErrorCode::unusable, "holds no usable images", import.paths.front());
+        throw Error(ErrorCode::unusable, because::holdsNoUsableImages, import.paths.front());
     }
     if (const auto parts = missingParts(library, catalogue); !parts.empty()) {
         std::vector<fs::path> paths = import.paths;
@@ -222,8 +218,7 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
         copiesAny = copiesAny || std::any_of(series.files.begin(), series.files.end(), isCopied);
     }
     if (copiesAny && place.inMemory)
-        throw Error(ErrorCode::output, "copies need a study library that can be written",
-                    place.folder);
+        throw Error(ErrorCode::output, because::copiesNeedALibrary, place.folder);
     Copies copies(place);
     if (copiesAny)
         checkRoom(place, all);
@@ -247,9 +242,7 @@ ImportResult importStudies(const LibraryPlace &place, const Import &import,
                 decoder::readVolumeFileHeader(file.path, copying).samplesFile != file.path) {
                 const bool isGoing = files::isInSessionFolder(file.path);
                 result.skipped.push_back(
-                    {file.path, isGoing ? "has its samples in another file; not imported"
-                                        : "has its samples in another file; referred to, not "
-                                          "copied"});
+                    {file.path, isGoing ? because::notImported : because::referredNotCopied});
                 return isGoing;
             }
             const std::string instance =

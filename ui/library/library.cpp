@@ -12,6 +12,7 @@
 #include <QVariant>
 
 #include "core/task/error.h"
+#include "ui/language/kept_reasons.h"
 #include "ui/library/list_query.h"
 #include "ui/studies/search_words.h"
 
@@ -23,7 +24,8 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-constexpr int schemaVersion = 1;
+// 1: labels and warnings were English words.
+constexpr int schemaVersion = 2;
 // Another window of the program may be writing.
 constexpr int patienceMs = 5000;
 constexpr int fewMatches = 2000;
@@ -55,6 +57,16 @@ constexpr const char *schema[] = {
 // SQLite takes no empty value for "text without letters" where there is no string at all.
 QVariant said(const QString &text) {
     return text.isNull() ? QString("") : text;
+}
+
+qint64 versionOf(const QSqlDatabase &list) {
+    ListQuery row(list, "PRAGMA user_version");
+    row.run();
+    return row.next() ? row.integer(0) : 0;
+}
+
+void setVersion(const QSqlDatabase &list) {
+    ListQuery(list, QString("PRAGMA user_version = %1").arg(schemaVersion)).run();
 }
 
 // A connection may be taken away only when nobody holds it.
@@ -149,7 +161,7 @@ void putSeries(const QSqlDatabase &list, qint64 study, const LibrarySeries &s) {
                   "slice_mm, tilt_deg, placed, warnings, file, thumbnail) VALUES (?, ?, ?, ?, ?, "
                   "?, ?, ?, ?, ?, ?, ?, ?)")
             .bind(id)
-            .bind(said(v.label))
+            .bind(said(toLines(v.label)))
             .bind(v.size.i)
             .bind(v.size.j)
             .bind(v.size.k)
@@ -158,7 +170,7 @@ void putSeries(const QSqlDatabase &list, qint64 study, const LibrarySeries &s) {
             .bind(v.spacingMm.z)
             .bind(v.tiltDeg)
             .bind(v.placed)
-            .bind(said(v.warnings.join('\n')))
+            .bind(said(toLines(v.warnings)))
             .bind(said(v.file))
             .bind(png(v.thumbnail))
             .run();
@@ -221,24 +233,18 @@ Library::Library(const LibraryPlace &place) : m_place(place) {
     }
     try {
         ListQuery(list, "PRAGMA foreign_keys = ON").run();
-        const auto version = [&] {
-            ListQuery row(list, "PRAGMA user_version");
-            row.run();
-            return row.next() ? row.integer(0) : 0;
-        };
-        if (version() == 0) {
+        if (versionOf(list) == 0) {
             ListTransaction making(list);
             // Another window may have made it while this one waited.
-            if (version() == 0) {
+            if (versionOf(list) == 0) {
                 for (const char *statement : schema)
                     ListQuery(list, statement).run();
-                ListQuery(list, QString("PRAGMA user_version = %1").arg(schemaVersion)).run();
+                setVersion(list);
             }
             making.commit();
         }
-        if (version() > schemaVersion)
-            throw Error(ErrorCode::output, "is a study library of a newer version",
-                        place.listFile());
+        if (versionOf(list) > schemaVersion)
+            throw Error(ErrorCode::output, task::because::isANewerLibrary, place.listFile());
     } catch (const Error &) {
         close(std::move(list), m_connection);
         throw;
@@ -334,6 +340,9 @@ void Library::put(const std::vector<LibrarySeries> &series) {
     }
     for (const qint64 study : touched)
         describeStudy(list, study);
+    // Till now an earlier program could read it all. The rows that it wrote stay as they are.
+    if (versionOf(list) < schemaVersion)
+        setVersion(list);
     putting.commit();
 }
 

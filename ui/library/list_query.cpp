@@ -4,13 +4,20 @@
 #include <QSqlError>
 
 #include "core/task/error.h"
+#include "ui/language/kept_reasons.h"
 
 namespace pellucid::ui {
 
 void failOnList(const QSqlError &error, const std::filesystem::path &path) {
-    const QString reason = error.driverText() + " " + error.databaseText();
-    throw task::Error(task::ErrorCode::output,
-                      "the study library: " + reason.simplified().toStdString(), path);
+    const std::string said =
+        (error.driverText() + " " + error.databaseText()).simplified().toStdString();
+    // SQLite's "not a database" and "corrupt", and what is finer than that.
+    constexpr int notAList = 26, corrupt = 11, plain = 0xff;
+    const int code = error.nativeErrorCode().toInt() & plain;
+    const bool isDamaged = code == notAList || code == corrupt;
+    throw task::Error(
+        task::ErrorCode::output,
+        isDamaged ? task::because::libraryIsDamaged(said) : task::because::ofLibrary(said), path);
 }
 
 ListQuery::ListQuery(const QSqlDatabase &list, const QString &text) : m_query(list), m_list(list) {
@@ -84,12 +91,12 @@ VolumeFacts seriesOf(const ListQuery &row) {
 
 void readVolume(const ListQuery &row, VolumeFacts &v) {
     v.libraryId = row.integer(0);
-    v.label = row.text(2);
+    v.label = labelFromLines(row.text(2));
     v.size = {int(row.integer(3)), int(row.integer(4)), int(row.integer(5))};
     v.spacingMm = {row.number(6), row.number(7), row.number(8)};
     v.tiltDeg = row.number(9);
     v.placed = row.integer(10) != 0;
-    v.warnings = row.text(11).split('\n', Qt::SkipEmptyParts);
+    v.warnings = reasonsFromLines(row.text(11));
     v.file = row.text(12);
     if (!v.file.isEmpty())
         v.seriesUid.clear(); // there it stands for the file

@@ -6,7 +6,6 @@
 #include <set>
 #include <system_error>
 
-#include <QCoreApplication>
 #include <QDate>
 #include <QRegularExpression>
 
@@ -22,12 +21,9 @@ namespace pellucid::ui {
 
 namespace {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using task::Error;
-
-struct LibraryTexts {
-    Q_DECLARE_TR_FUNCTIONS(LibraryTexts)
-};
 
 // Whether a row is what a scan wrote and not the noise of a disk. Not all that scans find is by the
 // letter of the standard, but it can be printed.
@@ -124,14 +120,14 @@ fs::path freeName(const LibraryPlace &place) {
 
 struct Found {
     enum class State { sound, damaged, unusable } state;
-    std::string reason; ///< of one that is unusable
-    std::vector<LibrarySeries> saved;
+    std::optional<task::Reason> reason{}; ///< of one that is unusable
+    std::vector<LibrarySeries> saved{};
     int lost = 0;        ///< of those that are still in the list
     bool isRead = false; ///< false: how many there were is not known
 };
 
 Found lookAt(const LibraryPlace &place) {
-    Found found{Found::State::damaged, {}, {}, 0, false};
+    Found found{Found::State::damaged};
     bool isOpen = false;
     try {
         const Library library(place);
@@ -147,8 +143,7 @@ Found lookAt(const LibraryPlace &place) {
         // Not a list at all is damage; a folder or a version that forbids writing is not.
         std::error_code unknown;
         const bool isThere = fs::exists(place.listFile(), unknown);
-        const bool isList = error.reason().find("not a database") == std::string::npos &&
-                            error.reason().find("malformed") == std::string::npos;
+        const bool isList = !error.reason().is(because::libraryIsDamaged);
         if (!isOpen && (!isThere || isList)) {
             found.state = Found::State::unusable;
             found.reason = error.reason();
@@ -176,7 +171,7 @@ fs::path replaceList(const LibraryPlace &place, const std::vector<LibrarySeries>
         mark.commit();
         files::rename(rebuilt.listFile(), list);
     } catch (const fs::filesystem_error &error) {
-        throw Error(task::ErrorCode::output, error.code().message(), list);
+        throw Error(task::ErrorCode::output, task::systemReason(error.code()), list);
     }
     return kept;
 }
@@ -194,11 +189,9 @@ bool isLost(const LibraryPlace &place) {
     return false;
 }
 
-OpenedLibrary forThisRun(OpenedLibrary opened, const std::string &reason) {
+OpenedLibrary forThisRun(OpenedLibrary opened, const task::Reason &reason) {
     opened.place.inMemory = true;
-    opened.notices.push_back(
-        {opened.place.listFile(),
-         reason + LibraryTexts::tr("; studies are listed for this run only").toStdString()});
+    opened.notices.push_back({opened.place.listFile(), because::listedForThisRun(reason)});
     return opened;
 }
 
@@ -225,35 +218,23 @@ OpenedLibrary openLibrary(const fs::path &folder) {
         found = lookAt(opened.place);
     }
     if (found.state == Found::State::unusable)
-        return forThisRun(std::move(opened), found.reason);
+        return forThisRun(std::move(opened), *found.reason);
     if (found.state == Found::State::damaged) {
         opened.wasDamaged = true;
         try {
             const fs::path kept = replaceList(opened.place, found.saved);
-            const QString said =
-                found.isRead
-                    ? LibraryTexts::tr("the study library was damaged: %1 series were read, %2 "
-                                       "lost; the old file is kept under this name")
-                          .arg(found.saved.size())
-                          .arg(found.lost)
-                    : LibraryTexts::tr("the study library was damaged and nothing of it could be "
-                                       "read; the old file is kept under this name");
-            opened.notices.push_back({kept, said.toStdString()});
+            opened.notices.push_back(
+                {kept, found.isRead ? because::libraryWasRebuilt(found.saved.size(), found.lost)
+                                    : task::Reason(because::libraryWasNotReadable)});
             system::log("the study library was damaged and has been rebuilt");
         } catch (const Error &error) {
             system::log("the study library is damaged and cannot be rebuilt");
             opened.readable = std::move(found.saved);
-            return forThisRun(std::move(opened),
-                              LibraryTexts::tr("is damaged, and a new one cannot be written: %1")
-                                  .arg(QString::fromStdString(error.reason()))
-                                  .toStdString());
+            return forThisRun(std::move(opened), because::cannotBeRebuilt(error.reason()));
         }
     }
     if (wasLost)
-        opened.notices.push_back(
-            {opened.place.listFile(),
-             LibraryTexts::tr("the study library was empty; its own copies are listed again")
-                 .toStdString()});
+        opened.notices.push_back({opened.place.listFile(), because::libraryWasEmpty});
     opened.mayLackCopies = wasLost || fs::exists(opened.place.rebuiltMark(), failed);
     return opened;
 }

@@ -5,7 +5,6 @@
 #include "core/system/log.h"
 #include "core/task/error.h"
 #include "ui/language/failure.h"
-#include "ui/language/spoken.h"
 
 namespace pellucid::ui {
 
@@ -27,11 +26,7 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
         opened = openLibrary(*data / "library");
     } else {
         opened.place.inMemory = true;
-        opened.notices.push_back(
-            {{},
-             tr("the folder of your data cannot be written; studies are listed for this run only, "
-                "and nothing is kept")
-                 .toStdString()});
+        opened.notices.push_back({{}, task::because::noDataFolder});
     }
     m_notices = opened.notices;
     try {
@@ -64,7 +59,7 @@ StudyLibrary::~StudyLibrary() {
             if (!work.isOptional)
                 work.run(Job());
         } catch (...) {
-            system::log("the study library: " + currentFailure().what.toStdString());
+            system::log("the study library: " + currentFailure().what.english());
         }
 }
 
@@ -103,7 +98,7 @@ template <class F> auto StudyLibrary::attempt(F &&f) -> decltype(f(std::declval<
         openIfReplaced();
         return f(*m_library);
     } catch (const task::Error &error) {
-        emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));
+        emit failed(error.reason(), QString::fromStdString(error.path().string()));
         return {};
     }
 }

@@ -8,6 +8,7 @@
 #include <QObject>
 
 #include "core/files/file_ids.h"
+#include "core/task/reason.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/library/import_studies.h"
 #include "ui/library/library.h"
@@ -39,7 +40,7 @@ public:
 signals:
     void changed();
     void imported(const pellucid::ui::ImportResult &result);
-    void failed(const QString &what, const QString &path);
+    void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
     void open(const LibraryPlace &place);

@@ -6,7 +6,7 @@
 
 #include "ui/document/document.h"
 #include "ui/jobs/job_runner.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 #include "ui/opening/study_opener.h"
 
 namespace pellucid::ui {
@@ -58,7 +58,8 @@ int Phases::current() const {
 }
 
 QString Phases::label(int phase) const {
-    return spoken(m_document.sources()[std::size_t(m_sources.at(std::size_t(phase)))].volume.label);
+    return translated(
+        m_document.sources()[std::size_t(m_sources.at(std::size_t(phase)))].volume.label);
 }
 
 void Phases::show(int phase) {

@@ -23,7 +23,7 @@ std::vector<dicom::Skipped> leftOutOf(const StudySource &source,
     std::vector<dicom::Skipped> left;
     for (const dicom::Skipped &problem : problems)
         if (folders.contains(problem.path.parent_path()) && !opened.contains(problem.path) &&
-            problem.reason != "is not a DICOM file" && left.size() < most)
+            !problem.reason.is(task::because::isNotDicom) && left.size() < most)
             left.push_back(problem);
     return left;
 }

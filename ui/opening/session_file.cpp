@@ -19,6 +19,7 @@
 #include "core/phantom/phantom.h"
 #include "core/system/log.h"
 #include "core/task/error.h"
+#include "ui/language/kept_reasons.h"
 
 namespace pellucid::ui {
 
@@ -95,7 +96,7 @@ QJsonObject objectOf(const Session &s) {
     QJsonArray leftOut;
     for (const dicom::Skipped &skipped : s.leftOut)
         leftOut << QJsonObject{{"path", QString::fromStdString(skipped.path.string())},
-                               {"reason", QString::fromStdString(skipped.reason)}};
+                               {"reason", toLine(skipped.reason)}};
     QJsonArray brightness;
     if (s.shown.brightness)
         brightness = {s.shown.brightness->low, s.shown.brightness->high};
@@ -120,13 +121,13 @@ QJsonObject objectOf(const Session &s) {
 
 Session fromJson(const QJsonObject &in) {
     if (in["schema"].toString() != schema)
-        throw task::Error(task::ErrorCode::unusable, "is not a session");
+        throw task::Error(task::ErrorCode::unusable, task::because::isNoSession);
     Session s;
     for (const QJsonValue file : in["files"].toArray())
         s.files << file.toString();
     for (const QJsonValue skipped : in["left_out"].toArray())
-        s.leftOut.push_back(
-            {skipped["path"].toString().toStdString(), skipped["reason"].toString().toStdString()});
+        s.leftOut.push_back({skipped["path"].toString().toStdString(),
+                             reasonFromLine(skipped["reason"].toString())});
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
     s.hasEnded = in["ended"].toBool(true); // an earlier program wrote at its end only
@@ -223,7 +224,8 @@ void SessionFile::write(const std::stop_token &stop) {
         } catch (const std::exception &error) {
             // Without the path: it may be the patient's.
             const auto *const known = dynamic_cast<const task::Error *>(&error);
-            system::log("the session is not kept: " + (known ? known->reason() : error.what()));
+            system::log("the session is not kept: " +
+                        (known ? known->reason().english() : error.what()));
         }
         lock.lock();
         m_isWriting = false;

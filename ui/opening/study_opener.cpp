@@ -9,7 +9,7 @@
 #include "ui/document/document.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/jobs/job_runner.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 #include "ui/studies/study_source.h"
 #include "ui/studies/window_presets.h"
 
@@ -118,7 +118,7 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
                     emit hugeFound(paths, huge);
                 if (catalogue->empty()) {
                     if (catalogue->skipped.empty())
-                        m_document.addProblems({{files.front(), "holds no images"}});
+                        m_document.addProblems({{files.front(), task::because::holdsNoImages}});
                     endScan();
                     return;
                 }
@@ -130,8 +130,7 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
                 if (!m_resumption) // what the user named was remembered then
                     emit pathsOpened(paths);
                 else if (!resumed)
-                    m_document.addProblems(
-                        {{files.front(), "is not the study that was open here"}});
+                    m_document.addProblems({{files.front(), task::because::isAnotherStudy}});
                 m_preparer.setHeld(false); // another volume comes, or the open one goes on
                 openSource(resumed.value_or(indices[defaultSource(*catalogue)]));
             });
@@ -288,7 +287,7 @@ void StudyOpener::openSource(int index) {
                 job.deliver([this, volume] {
                     const auto &warnings = volume.notes().warnings;
                     emit notProjectable(warnings.empty() ? tr("images only")
-                                                         : spoken(warnings.back()));
+                                                         : translated(warnings.back()));
                 });
                 return;
             }

@@ -17,7 +17,7 @@
 
 #include "core/task/error.h"
 #include "ui/document/document.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 
 namespace pellucid::ui {
 
@@ -152,7 +152,7 @@ void ClassDialog::accept() {
         typed(m_tissue);
         QDialog::accept();
     } catch (const task::Error &error) {
-        m_said->setText(spoken(error.reason()));
+        m_said->setText(translated(error.reason()));
     }
 }
 
@@ -163,7 +163,7 @@ void ClassDialog::addStep() {
         m_step->clear();
         m_said->clear();
     } catch (const task::Error &error) {
-        m_said->setText(spoken(error.reason()));
+        m_said->setText(translated(error.reason()));
     }
 }
 

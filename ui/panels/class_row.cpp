@@ -8,7 +8,7 @@
 #include <QStyle>
 #include <QToolButton>
 
-#include "ui/language/spoken.h"
+#include "ui/language/names.h"
 #include "ui/panels/value_slider.h"
 
 namespace pellucid::ui {
@@ -76,7 +76,7 @@ ClassRow::ClassRow(int index, QWidget *parent)
 }
 
 void ClassRow::show(const classify::TissueClass &tissue, bool isSelected) {
-    const QString name = spokenName(tissue.name);
+    const QString name = translatedName(tissue.name);
     m_dot->setIcon(dotIcon(colorOf(tissue.color), tissue.weight > 0.0));
     m_dot->setAccessibleName(tr("Show %1").arg(name));
     m_weight->setNames(tr("Weight of %1").arg(name), tr("Weight; double-click sets it to 1"));

@@ -12,7 +12,7 @@
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
-#include "ui/language/spoken.h"
+#include "ui/language/names.h"
 #include "ui/panels/class_dialog.h"
 #include "ui/panels/class_row.h"
 
@@ -131,7 +131,7 @@ void ClassesPanel::toggle(int index) {
     if (tissue.weight > 0.0)
         m_hiddenWeight[name] = tissue.weight;
     const double weight = tissue.weight > 0.0 ? 0.0 : m_hiddenWeight.value(name, 1.0);
-    const QString said = spokenName(tissue.name);
+    const QString said = translatedName(tissue.name);
     changeClass(index, tissue.weight > 0.0 ? tr("Hide %1").arg(said) : tr("Show %1").arg(said),
                 [&](classify::TissueClass &shown) { shown.weight = weight; });
 }
@@ -150,7 +150,7 @@ void ClassesPanel::showAddMenu() {
     if (volume->unit() == volume::ValueUnit::hounsfield) {
         for (classify::TissueClass tissue : classify::standardClasses()) {
             tissue.name = capitalised(tissue.name).toStdString();
-            menu.addAction(spokenName(tissue.name), this, [this, tissue] { add(tissue); });
+            menu.addAction(translatedName(tissue.name), this, [this, tissue] { add(tissue); });
         }
         menu.addSeparator();
     }

@@ -19,7 +19,8 @@
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
 #include "ui/engine/look_previewer.h"
-#include "ui/language/spoken.h"
+#include "ui/language/names.h"
+#include "ui/language/reasons.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/theme/theme.h"
 
@@ -115,15 +116,15 @@ template <class F> void PresetsPanel::attempt(const F &what) {
     try {
         what();
     } catch (const task::Error &error) {
-        m_said->setText(spoken(error.reason()));
+        m_said->setText(translated(error.reason()));
         m_said->show();
-        emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));
+        emit failed(error.reason(), QString::fromStdString(error.path().string()));
     }
 }
 
 bool PresetsPanel::suits(const presets::Preset &preset) const {
     const auto &volume = m_document.volume();
-    return !volume || presets::mismatch(preset, *volume).empty();
+    return !volume || !presets::mismatch(preset, *volume);
 }
 
 void PresetsPanel::list() {
@@ -134,7 +135,7 @@ void PresetsPanel::list() {
             continue;
         listed.push_back(entry.preset);
         const QString name = QString::fromStdString(entry.preset.name);
-        auto *item = new QListWidgetItem(emptyIcon(), spokenName(entry.preset.name));
+        auto *item = new QListWidgetItem(emptyIcon(), translatedName(entry.preset.name));
         item->setData(nameRole, name);
         item->setToolTip(entry.preset.notes.empty()
                              ? name
@@ -144,9 +145,9 @@ void PresetsPanel::list() {
     showCurrent();
     if (!m_library.skipped().empty()) {
         const auto &first = m_library.skipped().front();
-        m_said->setText(
-            tr("%1 is no preset: %2")
-                .arg(QString::fromStdString(first.path.filename().string()), spoken(first.reason)));
+        m_said->setText(tr("%1 is no preset: %2")
+                            .arg(QString::fromStdString(first.path.filename().string()),
+                                 translated(first.reason)));
         m_said->show();
     }
     if (m_document.volume()) // without presets there is still a histogram
@@ -187,7 +188,7 @@ void PresetsPanel::showCurrent() {
             !(presets::lookFor(entry.preset, window) == scene.look) ||
             !(entry.preset.shading == scene.shading))
             continue;
-        current = spokenName(entry.preset.name);
+        current = translatedName(entry.preset.name);
         if (QListWidgetItem *const item = itemOf(QString::fromStdString(entry.preset.name)))
             m_gallery->setCurrentItem(item);
         break;
@@ -230,7 +231,7 @@ void PresetsPanel::saveLook() {
     attempt([&] {
         const QString name = m_name->text().trimmed();
         if (name.isEmpty())
-            throw task::Error(task::ErrorCode::usage, tr("a look needs a name").toStdString());
+            throw task::Error(task::ErrorCode::usage, task::because::lookNeedsAName);
         m_library.save(presets::presetOf(name.toStdString(), m_document.scene().look,
                                          m_document.scene().shading, m_document.fieldWindow(),
                                          *m_document.volume()));

@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "core/presets/preset_library.h"
+#include "core/task/reason.h"
 
 class QLabel;
 class QLineEdit;
@@ -36,7 +37,7 @@ signals:
     void presetsListed(const std::vector<pellucid::presets::Preset> &presets);
     /// The name of the preset that is shown, or that it is one's own.
     void lookNamed(const QString &name);
-    void failed(const QString &what, const QString &path);
+    void failed(const pellucid::task::Reason &what, const QString &path);
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override;

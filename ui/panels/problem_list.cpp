@@ -11,20 +11,23 @@
 #include <QVBoxLayout>
 
 #include "ui/document/document.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 
 namespace pellucid::ui {
 
 namespace {
+
+namespace because = task::because;
 
 // So many files of one reason still have a row each; so many paths a tip names.
 constexpr std::size_t mostRows = 3, mostInTip = 20;
 constexpr int mostHeight = 170;
 
 // Files that are no images at all are no errors.
-bool isNoImage(const QString &reason) {
-    return reason.startsWith("is not a DICOM") || reason.startsWith("has no pixels") ||
-           reason.startsWith("is an index") || reason.startsWith("is an archive");
+bool isNoImage(const task::Reason &reason) {
+    return reason.is(because::isNotDicom) || reason.is(because::hasNoPixels) ||
+           reason.is(because::hasNoPixelsBut) || reason.is(because::isAnIndex) ||
+           reason.is(because::isAnArchive);
 }
 
 } // namespace
@@ -61,22 +64,22 @@ void ProblemList::showProblems() {
     m_list->clear();
     const auto &problems = m_document.problems();
     std::map<std::string, std::vector<const dicom::Skipped *>> byReason;
-    std::vector<const std::string *> order;
+    std::vector<const task::Reason *> order;
     for (const dicom::Skipped &problem : problems) {
-        auto &same = byReason[problem.reason];
+        auto &same = byReason[problem.reason.encoded()];
         if (same.empty())
             order.push_back(&problem.reason);
         same.push_back(&problem);
     }
-    const auto add = [this](const QString &text, const QString &tip, const QString &reason) {
+    const auto add = [this](const QString &text, const QString &tip, const task::Reason &reason) {
         auto *item = new QListWidgetItem(text, m_list);
         item->setToolTip(tip);
         if (isNoImage(reason))
             item->setForeground(m_theme.color("muted"));
     };
-    for (const std::string *key : order) {
-        const auto &same = byReason[*key];
-        const QString reason = QString::fromStdString(*key);
+    for (const task::Reason *reason : order) {
+        const auto &same = byReason[reason->encoded()];
+        const QString why = translated(*reason);
         QStringList paths;
         for (const dicom::Skipped *problem : same)
             paths << QString::fromStdString(problem->path.string());
@@ -84,13 +87,12 @@ void ProblemList::showProblems() {
             QString tip = paths.mid(0, mostInTip).join("\n");
             if (same.size() > mostInTip)
                 tip += "\n" + tr("and %n more", "", int(same.size() - mostInTip));
-            add(tr("%n files: %1", "", int(same.size())).arg(spoken(reason)), tip, reason);
+            add(tr("%n files: %1", "", int(same.size())).arg(why), tip, *reason);
             continue;
         }
         for (std::size_t n = 0; n < same.size(); ++n) {
             const QString name = QString::fromStdString(same[n]->path.filename().string());
-            add(name.isEmpty() ? spoken(reason) : name + ": " + spoken(reason), paths[int(n)],
-                reason);
+            add(name.isEmpty() ? why : name + ": " + why, paths[int(n)], *reason);
         }
     }
     fitHeight();

@@ -14,7 +14,7 @@
 
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 #include "ui/views/overlay.h"
 
 namespace pellucid::ui {
@@ -303,7 +303,7 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
         {int(parts.spectra.fields.size()), shown.prepared.of, !render::areGrey(parts.shares)},
         !parts.spectra.gradients.empty()};
     showModel();
-    const QString reason = spoken(plan.reason);
+    const QString reason = translated(plan.reason);
     const bool isSum = shown.prepared.of == plan::SpectrumOf::layer;
     say(isSum ? tr("The parts of the look, summed while they change")
         : coarse || stage == EngineStage::live ? tr("A first, coarse picture; the full one follows")

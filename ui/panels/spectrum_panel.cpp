@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QVBoxLayout>
 
+#include "ui/language/reasons.h"
 #include "ui/panels/spectrum_plot.h"
 
 namespace pellucid::ui {
@@ -37,13 +38,13 @@ void SpectrumPanel::showSlice(const render::SpectrumSlice &slice) {
     m_readout->show();
 }
 
-void SpectrumPanel::clear(const QString &reason) {
+void SpectrumPanel::clear(const std::optional<task::Reason> &reason) {
     m_plot->setSlice({});
     m_readout->clear();
     m_plot->hide();
     m_readout->hide();
-    m_hint->setText(reason.isEmpty() ? tr("The spectrum of the view that the projection shows.")
-                                     : reason);
+    m_hint->setText(reason ? translated(*reason)
+                           : tr("The spectrum of the view that the projection shows."));
     m_hint->show();
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include <QWidget>
 
 #include "core/render/spectrum_slice.h"
+#include "core/task/reason.h"
 #include "ui/theme/theme.h"
 
 class QLabel;
@@ -19,8 +22,8 @@ public:
     explicit SpectrumPanel(const Theme &theme, QWidget *parent = nullptr);
 
     void showSlice(const render::SpectrumSlice &slice);
-    /// `reason`: why there is none; empty: nothing is open.
-    void clear(const QString &reason);
+    /// `reason`: why there is none; none: nothing is open.
+    void clear(const std::optional<task::Reason> &reason);
 
 signals:
     /// Whether it is on the screen.

@@ -143,7 +143,7 @@ void StudyRowPainter::paintVolume(QPainter &painter, const QStyleOptionViewItem 
         texts.translate(0, line);
     };
     // What tells phases and stacks apart stands at the end.
-    draw(seriesText(volume), "text", volume.label.isEmpty() ? Qt::ElideRight : Qt::ElideMiddle);
+    draw(seriesText(volume), "text", volume.label.empty() ? Qt::ElideRight : Qt::ElideMiddle);
     for (const QString &text : sizeText(volume).split('\n'))
         draw(text, "muted");
     for (const QString &text :

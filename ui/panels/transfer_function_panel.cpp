@@ -14,7 +14,8 @@
 
 #include "core/task/error.h"
 #include "ui/document/document.h"
-#include "ui/language/spoken.h"
+#include "ui/language/names.h"
+#include "ui/language/reasons.h"
 #include "ui/panels/curve_editor.h"
 
 namespace pellucid::ui {
@@ -155,7 +156,7 @@ void TransferFunctionPanel::paste() {
         classify::validate(pasted);
         change(pasted, tr("Paste a curve"));
     } catch (const task::Error &error) {
-        m_subject->setText(spoken(error.reason()));
+        m_subject->setText(translated(error.reason()));
     }
 }
 
@@ -190,7 +191,7 @@ void TransferFunctionPanel::showScene() {
     const int selected = m_document.selectedClass();
     m_subject->setText(
         selected < 0 ? tr("Whole volume")
-                     : spokenName(m_document.scene().look.classes[std::size_t(selected)].name));
+                     : translatedName(m_document.scene().look.classes[std::size_t(selected)].name));
     m_editor->setFunction(function());
     const auto &volume = m_document.volume();
     m_editor->setWindow(m_document.fieldWindow(),

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/studies/study_facts.h"
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
 #include <QCoreApplication>
 
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 
 namespace pellucid::ui {
 
 namespace {
+
+namespace because = task::because;
 
 struct StudyFactsTexts {
     Q_DECLARE_TR_FUNCTIONS(StudyFactsTexts)
@@ -19,12 +25,14 @@ QString text(const std::string &utf8) {
 
 // What tells stacks of a series apart that are no phases of each other: other directions, spaces or
 // kinds of values. The scan puts it last in the label.
-QString stackOf(const QString &label) {
-    const QString last = label.mid(label.lastIndexOf(", ") + 1).trimmed();
-    for (const char *direction : {"axial", "coronal", "sagittal", "images"})
-        if (last.startsWith(QLatin1String(direction)))
-            return last;
-    return {};
+std::optional<task::Reason> stackOf(const std::vector<task::Reason> &label) {
+    constexpr std::array stacks{because::axial.id,    because::axialNumber.id,
+                                because::coronal.id,  because::coronalNumber.id,
+                                because::sagittal.id, because::sagittalNumber.id,
+                                because::images.id,   because::imagesNumber.id};
+    const bool isStack = !label.empty() &&
+                         std::find(stacks.begin(), stacks.end(), label.back().id()) != stacks.end();
+    return isStack ? std::optional(label.back()) : std::nullopt;
 }
 
 } // namespace
@@ -34,7 +42,8 @@ bool StudyFacts::hasPatient() const {
 }
 
 QString VolumeFacts::key() const {
-    return seriesUid + "\n" + label + "\n" +
+    // The same in every language, and as earlier programs had it: files are named by it.
+    return seriesUid + "\n" + text(dicom::labelText(label)) + "\n" +
            QString("%1 %2 %3 %4 %5 %6")
                .arg(size.i)
                .arg(size.j)
@@ -70,7 +79,7 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
     facts.modality = text(s.series->modality);
     facts.bodyPart = text(s.series->bodyPart);
     facts.description = text(s.series->description);
-    facts.label = text(s.volume->label);
+    facts.label = s.volume->label;
     facts.seriesNumber = s.series->number;
     facts.size = lattice.size();
     if (s.volume->notes.hasSpacing)
@@ -78,8 +87,7 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
                            s.volume->placed ? lattice.sliceDistanceMm() : 0.0};
     facts.tiltDeg = lattice.shearRad() * 180.0 / 3.14159265358979323846;
     facts.placed = s.volume->placed;
-    for (const std::string &warning : s.volume->notes.warnings)
-        facts.warnings << text(warning);
+    facts.warnings = s.volume->notes.warnings;
     facts.file = text(s.volume->volumeFile.string());
     facts.files = int(s.series->files.size());
     return facts;
@@ -117,8 +125,8 @@ QString seriesText(const VolumeFacts &volume) {
                        .arg(volume.description.isEmpty() ? volume.modality : volume.description);
     if (volume.phases > 1)
         said += ", " + StudyFactsTexts::tr("%n phases", "", volume.phases);
-    else if (!volume.label.isEmpty())
-        said += ", " + spoken(volume.label);
+    else if (!volume.label.empty())
+        said += ", " + translated(volume.label);
     return said;
 }
 
@@ -135,8 +143,8 @@ QString sizeText(const VolumeFacts &v) {
 
 QStringList warningTexts(const VolumeFacts &volume) {
     QStringList texts;
-    for (const QString &warning : volume.warnings)
-        texts << spoken(warning);
+    for (const task::Reason &warning : volume.warnings)
+        texts << translated(warning);
     return texts;
 }
 

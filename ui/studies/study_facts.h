@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include <QImage>
 #include <QString>
 #include <QStringList>
@@ -8,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/dicom/catalogue.h"
+#include "core/task/reason.h"
 
 namespace pellucid::ui {
 
@@ -29,13 +32,14 @@ struct StudyFacts {
 
 /// What a list of studies says of a volume.
 struct VolumeFacts {
-    QString seriesUid, modality, bodyPart, description, label;
+    QString seriesUid, modality, bodyPart, description;
+    std::vector<task::Reason> label; ///< what tells it from the other volumes of its series
     int seriesNumber = 0;
     volume::GridSize size{};
     glm::dvec3 spacingMm{0.0}; ///< of columns, rows and slices; 0: unknown
     double tiltDeg = 0.0;
     bool placed = true; ///< false: images only
-    QStringList warnings;
+    std::vector<task::Reason> warnings;
     QString file; ///< of a volume that is one file
     int files = 0;
     /// In the library; 0: only open.

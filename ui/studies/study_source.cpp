@@ -15,6 +15,7 @@ namespace pellucid::ui {
 namespace {
 
 namespace fs = std::filesystem;
+namespace because = task::because;
 
 struct StudySourceTexts {
     Q_DECLARE_TR_FUNCTIONS(StudySourceTexts)
@@ -31,15 +32,12 @@ const dicom::VolumeEntry &meant(const dicom::Catalogue &catalogue, const VolumeF
         const VolumeFacts facts = volumeFacts(s);
         if (facts.key() == volume.key())
             return *s.volume;
-        if (facts.label == volume.label)
+        if (dicom::labelText(facts.label) == dicom::labelText(volume.label))
             alike.push_back(s.volume);
     }
     if (alike.size() == 1)
         return *alike.front();
-    throw task::Error(
-        task::ErrorCode::unusable,
-        StudySourceTexts::tr("the files of this volume have changed; import them again")
-            .toStdString());
+    throw task::Error(task::ErrorCode::unusable, because::volumeHasChanged);
 }
 
 dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
@@ -53,15 +51,11 @@ dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
         if (fs::is_regular_file(file.path, ignored))
             there.push_back(file.path);
         else
-            skipped.push_back({file.path, "is not there any more"});
+            skipped.push_back({file.path, because::isGone});
     }
     if (there.empty())
-        throw task::Error(
-            task::ErrorCode::unusable,
-            StudySourceTexts::tr("the files of this series are not there any more; the disc or the "
-                                 "drive they are on may be away")
-                .toStdString(),
-            skipped.empty() ? fs::path() : skipped.front().path.parent_path());
+        throw task::Error(task::ErrorCode::unusable, because::seriesIsGone,
+                          skipped.empty() ? fs::path() : skipped.front().path.parent_path());
     const dicom::Catalogue catalogue =
         dicom::scan(there, progress.part(0.0, 0.2), {.takesHuge = true}); // it is kept
     skipped.insert(skipped.end(), catalogue.skipped.begin(), catalogue.skipped.end());

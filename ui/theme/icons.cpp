@@ -47,7 +47,7 @@ private:
 QIcon themedIcon(const QString &name, const Theme &theme) {
     QFile file(":/pellucid/icons/" + name + ".svg");
     if (!file.open(QIODevice::ReadOnly))
-        throw task::Error(task::ErrorCode::internal, "no icon " + name.toStdString());
+        throw task::Error(task::ErrorCode::internal, task::because::noIcon(name.toStdString()));
     return QIcon(new ThemedIcon(file.readAll(), theme));
 }
 

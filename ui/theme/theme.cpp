@@ -24,7 +24,7 @@ namespace {
 QByteArray resource(const QString &path) {
     QFile file(path);
     if (!file.open(QIODevice::ReadOnly))
-        throw task::Error(task::ErrorCode::internal, "no resource " + path.toStdString());
+        throw task::Error(task::ErrorCode::internal, task::because::noResource(path.toStdString()));
     return file.readAll();
 }
 
@@ -44,7 +44,7 @@ Theme Theme::named(const QString &name) {
 QColor Theme::color(const QString &role) const {
     const auto it = m_colors.find(role);
     if (it == m_colors.end())
-        throw task::Error(task::ErrorCode::internal, "no color for role " + role.toStdString());
+        throw task::Error(task::ErrorCode::internal, task::because::noColor(role.toStdString()));
     return *it;
 }
 

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/scene/camera.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 #include "ui/theme/theme.h"
 
 namespace pellucid::ui {
@@ -30,7 +30,7 @@ QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::siz
         return {OverlayTexts::tr("Warnings are left out")};
     QStringList lines;
     for (std::size_t n = 0; n < std::min(most, notes.warnings.size()); ++n)
-        lines << spoken(notes.warnings[n]);
+        lines << translated(notes.warnings[n]);
     return lines;
 }
 

@@ -12,7 +12,7 @@
 
 #include "core/task/error.h"
 #include "ui/document/document.h"
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 #include "ui/views/camera_moves.h"
 #include "ui/views/overlay.h"
 #include "ui/views/projection_overlay.h"
@@ -56,9 +56,9 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] { requestFrame(false); });
     connect(&m_worker, &RenderWorker::frameReady, this, &ProjectionView::takeFrame);
-    connect(&m_worker, &RenderWorker::failed, this, [this](const QString &reason) {
+    connect(&m_worker, &RenderWorker::failed, this, [this](const task::Reason &reason) {
         m_pending = false;
-        setMessage(reason);
+        setMessage(translated(reason));
     });
     connect(&m_worker, &RenderWorker::cardFailed, this, &ProjectionView::cardFailed);
     connect(&document, &Document::volumeChanged, this, [this] {
@@ -258,7 +258,7 @@ void ProjectionView::showComparison() {
         m_overlay->setComparison(besideEachOther(then.scaled(now.size()), now), before.name);
     } catch (const task::Error &error) { // the card went with the picture
         setComparing(false);
-        setMessage(spoken(error.reason()));
+        setMessage(translated(error.reason()));
     }
 }
 
@@ -308,10 +308,10 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     updateTone();
     showTexts();
     emit frameShown(frame->times, frame->draft);
-    const std::string engine =
+    const task::Reason engine =
         frame->onCard && m_onCard ? m_onCard->description() : m_prepared->engine->description();
-    emit engineDescribed(tr("%1: %2").arg(
-        spoken(engine), frame->refusal.isEmpty() ? m_engineReason : frame->refusal));
+    emit engineDescribed(
+        tr("%1: %2").arg(translated(engine), translated(frame->refusal.value_or(m_engineReason))));
     if (showsFinalImage()) {
         if (m_planState == PlanState::holds) {
             m_document.setBrightness(m_tone.range());

@@ -9,6 +9,7 @@
 #include <QWidget>
 
 #include "core/picture/automatic_tone.h"
+#include "core/task/reason.h"
 #include "ui/document/commands.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/engine/render_worker.h"
@@ -91,7 +92,7 @@ signals:
     void engineDescribed(const QString &text);
     void finalImageShown();
     /// The graphics card failed; the processor goes on.
-    void cardFailed(const QString &reason,
+    void cardFailed(const pellucid::task::Reason &reason,
                     const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
     /// A frame is on the screen; what it took to make.
     void frameShown(const pellucid::picture::FrameTimes &times, bool draft);
@@ -132,7 +133,7 @@ private:
     QTimer m_rest;
     std::optional<prepare::PreparedEngine> m_prepared;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
-    QString m_engineReason;
+    task::Reason m_engineReason = task::because::processorChosen; ///< of the shown engine
     /// What is shown, and what made it: a new engine has to make its first picture yet.
     std::shared_ptr<const RenderedFrame> m_frame;
     std::optional<double> m_frameError; ///< against the study, if anyone knows

@@ -23,7 +23,8 @@ SpectrumSampler::SpectrumSampler(Document &document, QObject *parent)
     m_pause.setInterval(pauseMs);
     connect(&m_pause, &QTimer::timeout, this, &SpectrumSampler::sampleNext);
     connect(&m_jobs, &JobRunner::finished, this, &SpectrumSampler::sampleNext);
-    connect(&m_jobs, &JobRunner::failed, this, &SpectrumSampler::cleared);
+    connect(&m_jobs, &JobRunner::failed, this,
+            [this](const task::Reason &reason) { emit cleared(reason); });
     connect(&document, &Document::cameraChanged, this, &SpectrumSampler::follow);
     connect(&document, &Document::volumeChanged, this, [this] {
         if (m_document.volume() && m_document.isPreview())

@@ -34,7 +34,7 @@ public:
 signals:
     void sampled(const pellucid::render::SpectrumSlice &slice);
     /// There is no slice, and why, if that is not because nothing is open.
-    void cleared(const QString &reason);
+    void cleared(const std::optional<pellucid::task::Reason> &reason);
 
 private:
     void follow();

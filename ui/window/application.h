@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include <QApplication>
 #include <QElapsedTimer>
+
+#include "core/task/reason.h"
 
 namespace pellucid::ui {
 
@@ -15,10 +19,11 @@ public:
     bool notify(QObject *receiver, QEvent *event) override;
 
 signals:
-    void failed(const QString &what, const QString &path);
+    void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
-    QString m_lastFailure; ///< what fails at every repaint is not said each time
+    /// What fails at every repaint is not said each time.
+    std::optional<task::Reason> m_lastFailure;
     QElapsedTimer m_sinceFailure;
 };
 

@@ -10,7 +10,6 @@
 #include "ui/document/commands.h"
 #include "ui/export/export_dialog.h"
 #include "ui/export/scene_files.h"
-#include "ui/language/spoken.h"
 #include "ui/settings/file_dialogs.h"
 #include "ui/views/projection_view.h"
 #include "ui/window/import_dialog.h"
@@ -58,7 +57,7 @@ void FileMenu::attempt(const std::function<void()> &what) {
     try {
         what();
     } catch (const task::Error &error) {
-        emit failed(spoken(error.reason()), QString::fromStdString(error.path().string()));
+        emit failed(error.reason(), QString::fromStdString(error.path().string()));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <QObject>
 #include <QStringList>
 
+#include "core/task/reason.h"
 #include "ui/export/picture_export.h"
 
 class QMenu;
@@ -34,7 +35,7 @@ signals:
     void preferencesRequested();
     void quitRequested();
     void said(const QString &text);
-    void failed(const QString &what, const QString &path);
+    void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
     void savePicture();

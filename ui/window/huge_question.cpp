@@ -5,7 +5,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 
-#include "ui/language/spoken.h"
+#include "ui/language/reasons.h"
 
 namespace pellucid::ui {
 
@@ -21,7 +21,7 @@ void askForHuge(QWidget *window, const std::vector<dicom::Skipped> &huge,
                 const std::function<void()> &open) {
     QString what = HugeQuestionTexts::tr("%1 %2.", "file name, then what is odd about it")
                        .arg(QString::fromStdString(huge.front().path.filename().string()),
-                            spoken(huge.front().reason));
+                            translated(huge.front().reason));
     if (huge.size() > 1)
         what += " " + HugeQuestionTexts::tr("So are %n others.", "", int(huge.size()) - 1);
     what += "\n\n" + HugeQuestionTexts::tr("Opening may take all memory and a long time.");

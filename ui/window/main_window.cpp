@@ -24,6 +24,7 @@
 #include "ui/beside/study_pair.h"
 #include "ui/document/add_command.h"
 #include "ui/jobs/job_strip.h"
+#include "ui/language/reasons.h"
 #include "ui/panels/measurements_panel.h"
 #include "ui/panels/phase_bar.h"
 #include "ui/panels/presets_panel.h"
@@ -396,18 +397,18 @@ void MainWindow::openPhantom(const QString &kind) {
     m_bench.opener.openPhantom(kind);
 }
 
-void MainWindow::report(const QString &what, const QString &path) {
-    m_bench.document.addProblems({{path.toStdString(), what.toStdString()}});
-    statusBar()->showMessage(what, 8000);
+void MainWindow::report(const task::Reason &what, const QString &path) {
+    m_bench.document.addProblems({{path.toStdString(), what}});
+    statusBar()->showMessage(translated(what), 8000);
 }
 
-void MainWindow::reportLoad(const QString &what, const QString &path) {
+void MainWindow::reportLoad(const task::Reason &what, const QString &path) {
     report(what, path);
     // The window stays usable: what was open stays, or the start page is there again.
     if (!m_bench.document.volume())
         m_bench.document.setCurrentSource(-1);
     else
-        m_projection->setMessage(what);
+        m_projection->setMessage(translated(what));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent *event) {

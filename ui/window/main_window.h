@@ -6,6 +6,7 @@
 
 #include <QMainWindow>
 
+#include "core/task/reason.h"
 #include "ui/settings/preferences.h"
 #include "ui/theme/theme.h"
 #include "ui/window/workbench.h"
@@ -78,9 +79,9 @@ private:
     void showVolumeState();
     void compareLooks(bool isComparing);
     void showTitle();
-    void report(const QString &what, const QString &path);
+    void report(const task::Reason &what, const QString &path);
     /// Of what should have been shown.
-    void reportLoad(const QString &what, const QString &path);
+    void reportLoad(const task::Reason &what, const QString &path);
     QAction *command(QMenu &menu, const QString &text, const char *name, const QKeySequence &key,
                      const std::function<void()> &run);
 

@@ -8,7 +8,7 @@
 
 #include "ui/document/commands.h"
 #include "ui/document/document.h"
-#include "ui/language/spoken.h"
+#include "ui/language/names.h"
 #include "ui/studies/window_presets.h"
 
 namespace pellucid::ui {
@@ -17,7 +17,7 @@ namespace {
 
 QString windowLabel(const volume::ValueWindow &w) {
     return QString("%1  %2 / %3")
-        .arg(spokenName(w.name.empty() ? "Custom" : w.name))
+        .arg(translatedName(w.name.empty() ? "Custom" : w.name))
         .arg(w.width, 0, 'g', 5)
         .arg(w.center, 0, 'g', 5);
 }
@@ -48,7 +48,7 @@ void WindowChooser::add(const volume::ValueWindow &window, const QKeySequence &k
 
 // What it is takes a look at all values, when it is wanted.
 void WindowChooser::addAutomatic() {
-    const QAction *const action = m_menu.addAction(spokenName("Auto"));
+    const QAction *const action = m_menu.addAction(translatedName("Auto"));
     connect(action, &QAction::triggered, this, [this] {
         if (!m_document.volume())
             return;

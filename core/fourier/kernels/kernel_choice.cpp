@@ -61,10 +61,7 @@ KernelChoice kernelFromName(const std::string &name) {
             return {known.family, lower[2] - '0'};
         }
     }
-    throw task::Error(task::ErrorCode::usage,
-                      "'" + name +
-                          "' is not a kernel; there are nearest, trilinear, catmull-rom, b-spline, "
-                          "hamming-sinc, ES2 to ES7, KB2 to KB7 and LS2 to LS7");
+    throw task::Error(task::ErrorCode::usage, task::because::isNoKernel(name));
 }
 
 std::string kernelName(const KernelChoice &choice) {

@@ -168,9 +168,9 @@ struct ForwardTransform1d::Plan {
 };
 
 ForwardTransform1d::ForwardTransform1d(int length) : m_plan(new Plan{}) {
-    const auto in = system::allocatePages(std::size_t(length) * sizeof(float), "a row");
-    const auto out =
-        system::allocatePages((std::size_t(length) / 2 + 1) * 2 * sizeof(float), "a row");
+    const auto in = system::allocatePages(std::size_t(length) * sizeof(float), task::because::aRow);
+    const auto out = system::allocatePages((std::size_t(length) / 2 + 1) * 2 * sizeof(float),
+                                           task::because::aRow);
     const std::lock_guard lock(plannerMutex());
     Fftw<float>::useThreads(1);
     const auto plan = [&](unsigned how) {

@@ -61,7 +61,7 @@ protected:
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::unusable);
             EXPECT_EQ(error.path(), archive);
-            return error.reason();
+            return error.reason().english();
         }
         return "unpacked";
     }
@@ -98,7 +98,7 @@ TEST_F(Archive, noNameLeadsOutAndNoLinkIsMade) {
         add(w, "./same", "2");
     });
     EXPECT_EQ(unpackArchive(Decoder::ofProgram(), path, m_out.path()),
-              (std::vector<LeftOutFile>{{"link", "is a link in an archive"}}));
+              (std::vector<LeftOutFile>{{"link", task::because::isALinkInAnArchive}}));
     EXPECT_EQ(read("evil"), "up");
     EXPECT_EQ(read("etc/evil"), "root");
     EXPECT_EQ(read("a/b"), "winding");
@@ -179,7 +179,9 @@ TEST_F(Archive, aDamagedFileCostsItself) {
     ASSERT_EQ(leftOut.size(), 2U);
     for (const std::size_t n : {0U, 1U}) {
         EXPECT_EQ(leftOut[n].name, n == 0 ? "f1" : "f3");
-        EXPECT_THAT(leftOut[n].reason, testing::StartsWith("is damaged in the archive: ZIP"));
+        EXPECT_TRUE(leftOut[n].reason.is(task::because::isDamagedInTheArchive));
+        EXPECT_THAT(leftOut[n].reason.english(),
+                    testing::StartsWith("is damaged in the archive: ZIP"));
     }
     for (const int n : {0, 2, 4})
         EXPECT_EQ(read(("f" + std::to_string(n)).c_str()), content(n));

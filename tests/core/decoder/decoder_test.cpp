@@ -49,7 +49,7 @@ protected:
             m_decoder.header(file(word));
         } catch (const task::Error &error) {
             EXPECT_EQ(error.path(), m_folder / word);
-            return error.reason();
+            return error.reason().english();
         }
         return "a header";
     }
@@ -100,7 +100,7 @@ TEST(Decoder, aFileThatIsWrittenIntoWhileItIsReadIsRefused) {
         Decoder::ofProgram().image(path);
         FAIL();
     } catch (const task::Error &error) {
-        EXPECT_EQ(error.reason(), "changed while it was read");
+        EXPECT_EQ(error.reason(), task::because::changedWhileRead);
         EXPECT_EQ(error.path(), path);
     }
 }
@@ -131,11 +131,27 @@ TEST_F(TakenOver, itsEndCostsOneFile) {
 }
 
 TEST_F(TakenOver, nothingItSaysIsBelieved) {
-    for (const char *const word : {"large-body", "large-data", "other-kind", "short-message",
-                                   "empty-header", "no-reason", "flood", "descriptors"})
+    for (const char *const word :
+         {"large-body", "large-data", "other-kind", "short-message", "empty-header", "no-reason",
+          "plain-reason", "cut-reason", "other-reason", "long-reason", "deep-reason", "flood",
+          "descriptors"})
         EXPECT_EQ(said(word), "was decoded to nonsense") << word;
     EXPECT_EQ(said("ask-for-all"), "refused");
     EXPECT_EQ(said("well"), "decoded by hand");
+}
+
+TEST_F(TakenOver, aRefusalIsOfTwoKinds) {
+    const std::map<std::string, task::ErrorCode> words{{"well", task::ErrorCode::unusable},
+                                                       {"lack", task::ErrorCode::outOfMemory},
+                                                       {"other-code", task::ErrorCode::unusable}};
+    for (const auto &[word, code] : words)
+        try {
+            m_decoder.header(file(word));
+            ADD_FAILURE() << word;
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), code) << word;
+            EXPECT_EQ(error.reason().english(), "decoded by hand") << word;
+        }
 }
 
 TEST_F(TakenOver, itsSamplesAreCounted) {
@@ -150,7 +166,7 @@ TEST_F(TakenOver, itsSamplesAreCounted) {
                               [&](std::span<const std::byte> part) { taken += part.size(); });
             ADD_FAILURE() << word;
         } catch (const task::Error &error) {
-            EXPECT_EQ(error.reason(), "was decoded to nonsense") << word;
+            EXPECT_EQ(error.reason(), task::because::decodedToNonsense) << word;
             EXPECT_EQ(error.path(), m_folder / word);
         }
         EXPECT_EQ(taken, believed) << word;
@@ -196,7 +212,7 @@ TEST_F(TakenOver, whatHangsEndsByTheClock) {
                     m_decoder.header(path);
                     ADD_FAILURE() << path << " was read";
                 } catch (const task::Error &error) {
-                    EXPECT_EQ(error.reason(), "takes too long to read");
+                    EXPECT_EQ(error.reason(), task::because::takesTooLong);
                 }
                 seconds[n] = secondsSince(start);
             });
@@ -227,7 +243,7 @@ TEST_F(TakenOver, aSeriesLosesOneSlice) {
     const auto catalogue = dicom::scan({m_folder / "series"});
     ASSERT_EQ(catalogue.skipped.size(), 1U);
     EXPECT_EQ(catalogue.skipped[0].path, m_folder / "series/deep.dcm");
-    EXPECT_THAT(catalogue.skipped[0].reason, HasSubstr("nested too deeply"));
+    EXPECT_EQ(catalogue.skipped[0].reason, task::because::isNestedTooDeeply);
     EXPECT_EQ(dicom::defaultSelection(catalogue).volume->geometry.lattice.size().k, 20);
 }
 

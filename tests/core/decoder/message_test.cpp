@@ -12,6 +12,8 @@ namespace pellucid::decoder {
 
 namespace {
 
+namespace because = task::because;
+
 InstanceHeader someHeader() {
     InstanceHeader h;
     h.patientName = "Zhang^Wei=\xE5\xBC\xA0";
@@ -113,9 +115,33 @@ TEST(Message, layoutsOfNrrdComeThroughOrAreRefused) {
     refused([](VolumeLayout &l) { l.stepsMm[1].y = std::numeric_limits<double>::quiet_NaN(); });
 }
 
-TEST(Message, reasonsAreOneLine) {
-    EXPECT_EQ(unpackReason(bytesOf("broken\n\x1B[2Jhere")), "broken  [2Jhere");
-    EXPECT_LE(unpackReason(bytesOf(std::string(100000, 'x'))).size(), 400U);
+TEST(Message, reasonsComeThroughOnOneLine) {
+    const auto got = [](const task::Reason &sent) { return unpackReason(bytesOf(sent.encoded())); };
+    const auto nested = because::jpeg2000(because::damagedHeader);
+    EXPECT_EQ(got(because::isEmpty), because::isEmpty);
+    EXPECT_EQ(got(nested), nested);
+    EXPECT_EQ(got(because::isDamagedBy("broken\n\x1B[2Jhere")),
+              because::isDamagedBy("broken  [2Jhere"));
+    // The longest that a text of a header makes.
+    const auto longest = because::isAColorImage(std::string(1024, 'x'));
+    EXPECT_EQ(got(longest), longest);
+}
+
+TEST(Message, whatIsNoReasonIsRefused) {
+    const std::string good = because::jpeg2000(because::isDamagedBy("text")).encoded();
+    std::vector<std::string> all{good + "x", "is damaged",
+                                 because::isDamagedBy(std::string(100000, 'x')).encoded(),
+                                 std::string(100000, 'x'), std::string("isDamaged\0;", 11)};
+    for (std::size_t size = 0; size < good.size(); ++size)
+        all.push_back(good.substr(0, size));
+    for (const std::string &text : all)
+        try {
+            unpackReason(bytesOf(text));
+            ADD_FAILURE() << text;
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.code(), task::ErrorCode::unusable);
+            EXPECT_EQ(error.reason(), because::decodedToNonsense);
+        }
 }
 
 } // namespace pellucid::decoder

@@ -93,8 +93,8 @@ TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
     constexpr float none = std::numeric_limits<float>::quiet_NaN(),
                     endless = std::numeric_limits<float>::infinity();
     const auto three = bytesOf<float>({1.0F, none, -endless}), four = three + bytesOf<float>({2});
-    const std::vector<std::string> odd{"samples that are no finite numbers: 2"};
-    std::vector<std::string> both{"holds more samples than its header says", odd[0]};
+    const std::vector<task::Reason> odd{task::because::samplesNotFinite(2)};
+    const std::vector<task::Reason> both{task::because::holdsMoreSamplesThanSaid, odd[0]};
     const auto warnings = [&](const std::string &name) {
         return readVolumeFile(folder / name).notes().warnings;
     };
@@ -249,7 +249,7 @@ TEST_F(Nrrd, NamesFilesBesideItOnly) {
         try {
             readVolumeFile(path);
         } catch (const task::Error &error) {
-            return error.reason();
+            return error.reason().english();
         }
         return "read";
     };

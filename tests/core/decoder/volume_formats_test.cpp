@@ -224,7 +224,7 @@ TEST_F(VolumeFormats, VolumesOfAFourthAxisArePhases) {
     const auto all = dicom::selections(catalogue);
     ASSERT_EQ(all.size(), 2U);
     EXPECT_EQ(all[0].series, all[1].series);
-    EXPECT_EQ(all[1].volume->label, "temporal position 2");
+    EXPECT_EQ(dicom::labelText(all[1].volume->label), "temporal position 2");
     EXPECT_EQ(dicom::loadVolume(*all[1].volume).volume.value({0, 0, 0}), 12.0);
 }
 
@@ -235,7 +235,7 @@ TEST_F(VolumeFormats, WhatIsNotSupportedSaysSo) {
             readVolumeFile(folder / name);
         } catch (const task::Error &error) {
             EXPECT_EQ(error.path(), folder / name);
-            return error.reason();
+            return error.reason().english();
         }
         return "read";
     };
@@ -278,11 +278,12 @@ TEST_F(VolumeFormats, ValuesThatFloatsCannotTellApartAreNamed) {
         test::writeText(folder / "d.nrrd", bytes);
         try {
             const volume::VolumeNotes notes = readVolumeFile(folder / "d.nrrd").notes();
-            for (const std::string &warning : notes.warnings)
-                if (warning.find("shown as equal") != std::string::npos)
+            for (const task::Reason &warning : notes.warnings)
+                if (warning.is(task::because::valuesAreShownAsEqual))
                     return "equal";
         } catch (const task::Error &error) {
-            return error.reason().find("24 bits") != std::string::npos ? "refused" : error.reason();
+            return error.reason().is(task::because::valuesAreOne) ? "refused"
+                                                                  : error.reason().english();
         }
         return "read";
     };

@@ -37,10 +37,10 @@ TEST(GroupSeries, EveryVolumeOfASeriesHasALabelOfItsOwn) {
     add(glm::normalize(x + 0.2 * y), glm::normalize(y - 0.2 * x));
     const auto entries = group(files);
     ASSERT_EQ(entries.size(), 4U);
-    EXPECT_EQ(entries[0].label, "axial 1");
-    EXPECT_EQ(entries[1].label, "coronal");
-    EXPECT_EQ(entries[2].label, "sagittal");
-    EXPECT_EQ(entries[3].label, "axial 2");
+    EXPECT_EQ(dicom::labelText(entries[0].label), "axial 1");
+    EXPECT_EQ(dicom::labelText(entries[1].label), "coronal");
+    EXPECT_EQ(dicom::labelText(entries[2].label), "sagittal");
+    EXPECT_EQ(dicom::labelText(entries[3].label), "axial 2");
 }
 
 // Phases of one stack share its name; a stack of another space is none of them.
@@ -52,7 +52,7 @@ TEST(GroupSeries, PhasesOfOneStackSayThatTheyAre) {
     }
     std::vector<std::string> labels;
     for (const dicom::VolumeEntry &entry : group(files))
-        labels.push_back(entry.label);
+        labels.push_back(dicom::labelText(entry.label));
     std::sort(labels.begin(), labels.end());
     EXPECT_EQ(labels, (std::vector<std::string>{"axial 2", "temporal position 1, axial 1",
                                                 "temporal position 2, axial 1"}));
@@ -76,8 +76,8 @@ TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
             const auto entries = group(files);
             fastest = std::min(fastest, double(std::clock() - start));
             EXPECT_EQ(entries.size(), std::size_t(sets));
-            EXPECT_EQ(entries.front().label, "set 1");
-            EXPECT_EQ(entries.back().label, "set " + std::to_string(sets));
+            EXPECT_EQ(dicom::labelText(entries.front().label), "set 1");
+            EXPECT_EQ(dicom::labelText(entries.back().label), "set " + std::to_string(sets));
             for (const auto &entry : entries)
                 EXPECT_EQ(entry.frames.size(), std::size_t(places));
         }
@@ -179,9 +179,9 @@ TEST(GroupSeries, ValuesOfWhichNobodySaysWhetherTheyAreSignedAreRefused) {
     header.highBit = 15;
     for (const int representation : {0, 1, 2, 7, -1}) {
         header.pixelRepresentation = representation;
-        EXPECT_EQ(decoder::whyUnusable(header).has_value(),
-                  representation != 0 && representation != 1)
-            << representation << decoder::whyUnusable(header).value_or("");
+        const auto reason = decoder::whyUnusable(header);
+        EXPECT_EQ(reason.has_value(), representation != 0 && representation != 1)
+            << representation << (reason ? reason->english() : "");
     }
 }
 
@@ -209,7 +209,7 @@ TEST(GroupSeries, RepeatedPlacesAreSplitByWhatTellsThemApart) {
         files[n].header.frames[0].dimensions["temporal position"] = n < 3 ? "1" : "2";
     auto entries = group(files);
     ASSERT_EQ(entries.size(), 2U);
-    EXPECT_EQ(entries[0].label, "temporal position 1");
+    EXPECT_EQ(dicom::labelText(entries[0].label), "temporal position 1");
     EXPECT_EQ(entries[1].frames[0].path, "f3");
     // Without any attribute the order of the instances decides.
     files = stack({0, 2, 4, 0, 2, 4});

@@ -19,8 +19,9 @@ namespace pellucid::test {
 namespace fs = std::filesystem;
 
 // The reason without what differs from file to file.
-inline std::string kindOf(const std::string &reason) {
-    std::string kind = reason.substr(0, reason.find(" ("));
+inline std::string kindOf(const task::Reason &reason) {
+    std::string kind = reason.english();
+    kind = kind.substr(0, kind.find(" ("));
     kind = kind.substr(0, kind.find(": "));
     std::string out;
     for (const char c : kind)

@@ -102,8 +102,8 @@ TEST(Load, ATruncatedSliceIsNamedAndTheRestIsResampledAcrossTheHole) {
     // Seven slices again: the hole is interpolated, and the volume says so.
     EXPECT_EQ(loaded.volume.lattice().size().k, 7);
     bool told = false;
-    for (const std::string &warning : loaded.volume.notes().warnings)
-        told = told || warning.find("missing slices") != std::string::npos;
+    for (const task::Reason &warning : loaded.volume.notes().warnings)
+        told = told || warning.is(task::because::missingSlices);
     EXPECT_TRUE(told);
 }
 
@@ -128,7 +128,7 @@ TEST(Decode, SizesThatTheFileCannotHoldAreRefusedBeforeMemoryIsAskedFor) {
             parse::decodeImage(bytes);
             ADD_FAILURE() << int(syntax);
         } catch (const task::Error &error) {
-            EXPECT_EQ(error.reason(), "the pixels are truncated") << int(syntax);
+            EXPECT_EQ(error.reason().english(), "the pixels are truncated") << int(syntax);
         }
     }
 }
@@ -172,7 +172,7 @@ TEST(Scan, ListsEveryFileThatIsNotUsed) {
     std::vector<std::string> names;
     for (const auto &s : catalogue.skipped) {
         names.push_back(s.path.filename().string());
-        EXPECT_FALSE(s.reason.empty());
+        EXPECT_FALSE(s.reason.english().empty());
     }
     std::sort(names.begin(), names.end());
     EXPECT_EQ(names,
@@ -241,13 +241,14 @@ TEST(Load, ARescaleThatIsNoNumberCostsItsSlice) {
     const auto catalogue = dicom::scan({folder.path()});
     ASSERT_EQ(catalogue.skipped.size(), changes.size());
     for (const auto &skipped : catalogue.skipped)
-        EXPECT_EQ(skipped.reason, "has a rescale slope or intercept that gives no values");
+        EXPECT_EQ(skipped.reason.english(),
+                  "has a rescale slope or intercept that gives no values");
     // Blanks are no value; some write a slope of 0 and mean nothing by it, which is said.
     ASSERT_EQ(modified("IM0005.dcm", "RescaleIntercept=  "), 0);
     ASSERT_EQ(modified("IM0007.dcm", "RescaleSlope=0"), 0);
     const auto loaded = loadDefault(folder.path()).volume;
     EXPECT_EQ(loaded.lattice().size().k, 3);
-    EXPECT_THAT(loaded.notes().warnings, testing::Contains("rescale slopes of 0, taken for 1: 1"));
+    EXPECT_THAT(loaded.notes().warnings, testing::Contains(task::because::zeroSlopes(1)));
 }
 
 // Codes that a rescale makes one number in 24 bits are refused; those that it makes nearly so are
@@ -263,12 +264,13 @@ TEST(Load, ARescaleThatLeavesNoDifferencesIsNamed) {
         EXPECT_TRUE(modify(rescale, files));
         try {
             const dicom::LoadedVolume loaded = loadDefault(folder.path());
-            for (const std::string &warning : loaded.volume.notes().warnings)
-                if (warning.find("shown as equal") != std::string::npos)
+            for (const task::Reason &warning : loaded.volume.notes().warnings)
+                if (warning.is(task::because::valuesAreShownAsEqual))
                     return "equal";
             return "shown";
         } catch (const task::Error &error) {
-            return error.reason().find("24 bits") != std::string::npos ? "refused" : error.reason();
+            return error.reason().is(task::because::valuesAreOne) ? "refused"
+                                                                  : error.reason().english();
         }
     };
     EXPECT_EQ(outcome("-m RescaleIntercept=1e7 -m RescaleSlope=.001"), "refused");
@@ -333,7 +335,8 @@ TEST(Scan, WhetherValuesAreSignedIsNotGuessed) {
         ASSERT_TRUE(modify(change, {folder / "IM0003.dcm"}));
         const auto catalogue = dicom::scan({folder.path()});
         ASSERT_EQ(catalogue.skipped.size(), 1U) << change;
-        EXPECT_EQ(catalogue.skipped[0].reason, "does not say whether its values are signed");
+        EXPECT_EQ(catalogue.skipped[0].reason.english(),
+                  "does not say whether its values are signed");
     }
 }
 
@@ -404,14 +407,18 @@ TEST(Scan, ADirectoryLeadsNowhereElse) {
     fs::create_symlink(folder / "secret", folder / "disc/D/IM3");
     const auto catalogue = dicom::scan({index});
     ASSERT_EQ(catalogue.skipped.size(), 1U);
-    EXPECT_EQ(catalogue.skipped[0].reason, "lists a file outside its folder");
+    EXPECT_EQ(catalogue.skipped[0].reason.english(), "lists a file outside its folder");
 }
 
 TEST(Load, MorePixelsThanTheHeaderSaysAreMentioned) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
     const auto warnings = [&] {
-        return dicom::defaultSelection(dicom::scan({folder.path()})).volume->notes.warnings;
+        std::vector<std::string> texts;
+        const auto catalogue = dicom::scan({folder.path()});
+        for (const auto &warning : dicom::defaultSelection(catalogue).volume->notes.warnings)
+            texts.push_back(warning.english());
+        return texts;
     };
     const auto before = warnings();
     // Pixel Data (7FE0,0010), OW, is the last element: a row more.

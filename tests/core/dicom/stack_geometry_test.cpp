@@ -32,8 +32,9 @@ TEST(GroupSeries, UnevenStacksGoOntoTheGridOfTheirLongestRunAndNameTheChange) {
     EXPECT_NEAR(entries[0].geometry.lattice.sliceDistanceMm(), 4.0, 1e-12);
     EXPECT_EQ(entries[0].geometry.lattice.size().k, 7); // 0, 4, ... 24: the last slice is inside
     ASSERT_EQ(entries[0].notes.warnings.size(), 1U);
-    EXPECT_NE(entries[0].notes.warnings[0].find("f2"), std::string::npos);
-    EXPECT_NE(entries[0].notes.warnings[0].find("f3"), std::string::npos);
+    EXPECT_EQ(entries[0].notes.warnings[0].english(),
+              "uneven slice distances, resampled onto 4.000 mm; they change at f2 (4 then 1 mm); "
+              "f3 (1 then 7 mm)");
 }
 
 double rounded(double value, double to) {
@@ -104,16 +105,20 @@ TEST(GroupSeries, MissingSlicesOfARoundedStackStayOnItsGrid) {
     EXPECT_EQ(framesKept(entries[0]), 118);
     EXPECT_EQ(entries[0].notes.filled, (std::vector<volume::SliceRange>{{20, 20}, {60, 60}}));
     ASSERT_EQ(entries[0].notes.warnings.size(), 1U);
-    EXPECT_TRUE(entries[0].notes.warnings[0].starts_with("missing slices"))
-        << entries[0].notes.warnings[0];
+    EXPECT_TRUE(entries[0].notes.warnings[0].is(task::because::missingSlices))
+        << entries[0].notes.warnings[0].english();
 }
 
 TEST(GroupSeries, AHoleOfSeveralSlicesLeavesItsRunsAndTheWholeWithItFilled) {
     const auto entries = group(stack({0, 2, 4, 6, 11.5, 13.5}));
     ASSERT_EQ(entries.size(), 3U);
-    EXPECT_EQ(entries[0].label, "slices 1 to 4, axial 1");
+    EXPECT_EQ(dicom::labelText(entries[0].label), "slices 1 to 4, axial 1");
     EXPECT_EQ(entries[0].geometry.lattice.size().k, 4);
-    EXPECT_EQ(entries[1].label, "slices 5 to 6, axial 2");
+    EXPECT_EQ(dicom::labelText(entries[1].label), "slices 5 to 6, axial 2");
+    EXPECT_EQ(entries[0].notes.warnings.back().english(),
+              "slices 1 to 4 of 6: a gap of 5.5 mm between f3 and f4");
+    EXPECT_EQ(entries[2].notes.warnings.back().english(),
+              "missing slices, interpolated: 5.5 mm between f3 and f4");
     EXPECT_TRUE(entries[2].fillsHoles);
     EXPECT_EQ(entries[2].frames.size(), 6U);
     EXPECT_EQ(entries[2].geometry.lattice.size().k, 8); // 0 to 14
@@ -121,8 +126,8 @@ TEST(GroupSeries, AHoleOfSeveralSlicesLeavesItsRunsAndTheWholeWithItFilled) {
     for (const auto &entry : entries) {
         EXPECT_TRUE(entry.placed);
         std::string all;
-        for (const std::string &warning : entry.notes.warnings)
-            all += warning;
+        for (const task::Reason &warning : entry.notes.warnings)
+            all += warning.english();
         EXPECT_NE(all.find("f3"), std::string::npos) << all;
         EXPECT_NE(all.find("f4"), std::string::npos) << all;
     }
@@ -139,7 +144,7 @@ TEST(GroupSeries, RunsOfPhasesAreTheirPhases) {
         files[n].header.frames[0].dimensions["temporal position"] = n < 6 ? "1" : "2";
     std::vector<std::string> labels;
     for (const auto &entry : group(files))
-        labels.push_back(entry.label);
+        labels.push_back(dicom::labelText(entry.label));
     EXPECT_EQ(labels, (std::vector<std::string>{"temporal position 1, slices 1 to 3, axial 1",
                                                 "temporal position 2, slices 1 to 3, axial 1",
                                                 "temporal position 1, slices 4 to 6, axial 2",
@@ -173,7 +178,8 @@ TEST(GroupSeries, ASliceBesideTheLineIsRefused) {
     files[2].header.frames[0].positionMm->x = 3.0;
     const auto entries = group(files);
     EXPECT_FALSE(entries[0].placed);
-    EXPECT_NE(entries[0].notPlacedReason.find("f2"), std::string::npos);
+    ASSERT_TRUE(entries[0].notPlacedReason);
+    EXPECT_NE(entries[0].notPlacedReason->english().find("f2"), std::string::npos);
     files[2].header.frames[0].positionMm->x = 0.19; // two pixels of 1 mm, fitted: 0.13 mm
     EXPECT_TRUE(group(files)[0].placed);
 }
@@ -212,7 +218,7 @@ TEST(GroupSeries, WithoutPositionsThereAreImagesButNoVolume) {
     ASSERT_EQ(entries.size(), 1U);
     EXPECT_FALSE(entries[0].placed);
     EXPECT_EQ(entries[0].frames.size(), 2U);
-    EXPECT_FALSE(entries[0].notPlacedReason.empty());
+    EXPECT_EQ(entries[0].notPlacedReason, task::Reason(task::because::noPosition));
 }
 
 TEST(GroupSeries, AFlippedColumnAxisKeepsARightHandedLattice) {

@@ -132,7 +132,7 @@ TEST(Measurement, BadFilesAreRefusedWithAReason) {
             measure::measurementsFromJson(text);
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::unusable);
-            return error.reason();
+            return error.reason().english();
         }
         return std::string("accepted");
     };

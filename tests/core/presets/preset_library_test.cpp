@@ -70,6 +70,20 @@ TEST(PresetLibrary, BuiltInOnesStay) {
     EXPECT_THROW(library.save(named("")), task::Error);
 }
 
+TEST(PresetLibrary, WhatIsNotWellFormedIsNotKept) {
+    test::TemporaryFolder folder;
+    PresetLibrary library(folder / "presets");
+    try {
+        library.save(named("two\nlines"));
+        FAIL();
+    } catch (const task::Error &error) {
+        EXPECT_EQ(error.code(), task::ErrorCode::usage);
+        EXPECT_EQ(error.reason().english(),
+                  "the preset cannot be kept: /name: must be a text of 1 to 80 characters on one "
+                  "line");
+    }
+}
+
 TEST(PresetLibrary, ABadFileIsPassedOverWithItsReason) {
     test::TemporaryFolder folder;
     std::filesystem::create_directories(folder / "presets");
@@ -80,7 +94,9 @@ TEST(PresetLibrary, ABadFileIsPassedOverWithItsReason) {
     library.save(named("Mine"));
     ASSERT_EQ(library.skipped().size(), 1U);
     EXPECT_EQ(library.skipped()[0].path.filename(), "broken.json");
-    EXPECT_EQ(library.skipped()[0].reason.rfind("line 2: ", 0), 0U) << library.skipped()[0].reason;
+    const task::Reason &reason = library.skipped()[0].reason;
+    ASSERT_TRUE(reason.is(task::because::atLine)) << reason.english();
+    EXPECT_EQ(reason.arguments()[0].text, "2");
     EXPECT_NE(library.find("Mine"), nullptr);
     // Nor is it overwritten by a preset of its name.
     library.save(named("broken"));

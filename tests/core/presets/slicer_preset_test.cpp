@@ -23,7 +23,7 @@ protected:
             return "accepted";
         } catch (const task::Error &error) {
             EXPECT_EQ(error.path(), path);
-            return error.reason();
+            return error.reason().english();
         }
     }
     test::TemporaryFolder folder;

@@ -208,6 +208,7 @@ TEST(SpectrumSlice, OfNothingIsRefusedAndCanBeCancelled) {
             FAIL();
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::unusable);
+            EXPECT_TRUE(error.reason().is(task::because::nothingVisible)) << error.what();
         }
     std::stop_source stop;
     stop.request_stop();

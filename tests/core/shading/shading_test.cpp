@@ -138,7 +138,8 @@ TEST(Shading, BadJsonIsRefusedWithItsPlace) {
             shading::shadingFromJson(text);
             ADD_FAILURE() << text;
         } catch (const task::Error &error) {
-            EXPECT_EQ(error.reason().rfind(reason, 0), 0U) << error.reason();
+            const std::string found = error.reason().english();
+            EXPECT_EQ(found.rfind(reason, 0), 0U) << found;
         }
     };
     refuse("[]", ": must be an object");

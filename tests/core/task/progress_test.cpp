@@ -28,9 +28,9 @@ TEST(Progress, StopsWhenAsked) {
 }
 
 TEST(Error, NamesThePath) {
-    const task::Error error(task::ErrorCode::unusable, "is empty", "/a/b");
+    const task::Error error(task::ErrorCode::unusable, task::because::isEmpty, "/a/b");
     EXPECT_STREQ(error.what(), "/a/b: is empty");
-    EXPECT_EQ(error.reason(), "is empty");
+    EXPECT_EQ(error.reason(), task::because::isEmpty);
 }
 
 } // namespace

@@ -54,6 +54,18 @@ TEST(Lattice, AcceptsHugeAndTinySpacings) {
     EXPECT_NO_THROW(Lattice::centred({2, 2, 2}, {1e6, 1e6, 1e6}));
 }
 
+TEST(GridSize, SamplesAreOrderedColumnsFirst) {
+    const volume::GridSize size{3, 4, 5};
+    std::size_t next = 0;
+    for (int k = 0; k < size.k; ++k)
+        for (int j = 0; j < size.j; ++j)
+            for (int i = 0; i < size.i; ++i)
+                EXPECT_EQ(size.offsetOf(i, j, k), next++);
+    EXPECT_EQ(next, size.count());
+    // Offsets need more than 32 bits.
+    EXPECT_EQ((volume::GridSize{4096, 4096, 4096}.offsetOf(1, 2, 4000)), 67108872193U);
+}
+
 TEST(Lattice, CroppingKeepsPositions) {
     const Lattice lattice = test::tiltedLattice({10, 20, 30}, {0.5, 0.7, 3.0}, 18.5);
     const Lattice part = lattice.cropped({{2, 3, 4}, {5, 7, 9}});

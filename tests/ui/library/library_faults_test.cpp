@@ -195,7 +195,7 @@ private slots:
         fs::remove(folder / "IM0001.dcm"); // the end of the stack
         const auto loaded = librarySource(study, v, files).load({}, {});
         QCOMPARE(loaded.volume.lattice().size().k, 19);
-        QCOMPARE(loaded.skipped.at(0).reason, std::string("is not there any more"));
+        QVERIFY(loaded.skipped.at(0).reason.is(task::because::isGone));
         fs::remove_all(folder);
         try {
             librarySource(study, v, files).load({}, {});
@@ -246,7 +246,8 @@ private slots:
         const auto written = fs::last_write_time(at.listFile());
         const OpenedLibrary opened = openLibrary(at.folder);
         QVERIFY(opened.place.inMemory);
-        QVERIFY(QString::fromStdString(opened.notices.at(0).reason).contains("newer version"));
+        QVERIFY(opened.notices.at(0).reason ==
+                task::because::listedForThisRun(task::because::isANewerLibrary));
         Library memory(opened.place);
         memory.put({librarySeries(2, "Roe^Richard", "Knee", 1)});
         QCOMPARE(count(Library(opened.place), "richard"), 1); // shared between connections
@@ -398,7 +399,7 @@ private slots:
             const OpenedLibrary read = openLibrary(broken.folder);
             QVERIFY(read.place.inMemory && read.wasDamaged);
             QVERIFY(read.readable.size() > 100);
-            const QString said = QString::fromStdString(read.notices.at(0).reason);
+            const QString said = QString::fromStdString(read.notices.at(0).reason.english());
             QVERIFY2(said.contains("cannot be written") && said.contains("this run only"),
                      qPrintable(said));
         }
@@ -413,7 +414,7 @@ private slots:
         // One that could not be made is for this run.
         const OpenedLibrary run = openLibrary(empty.folder);
         QVERIFY(run.place.inMemory);
-        QVERIFY(QString::fromStdString(run.notices.at(0).reason).contains("this run only"));
+        QVERIFY(run.notices.at(0).reason.is(task::because::listedForThisRun));
     }
 };
 

@@ -33,7 +33,7 @@ inline ui::LibrarySeries librarySeries(int number, const QString &name, const QS
     v.seriesNumber = 3;
     v.size = {512, 512, files};
     v.spacingMm = {0.5, 0.5, 1.0};
-    v.warnings = {"slice 4 is missing"};
+    v.warnings = {task::because::without("IM 4\n.dcm", task::because::isTruncated)};
     s.volumes = {v};
     for (int n = 0; n < files; ++n)
         s.files.push_back({"/archive/" + std::to_string(number) + "/" + std::to_string(n) + ".dcm",

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The study library without a window: what is put in is found, and as it was.
+#include <QSqlDatabase>
+#include <QSqlQuery>
 #include <QtTest>
 
 #include "core/task/error.h"
@@ -11,6 +13,7 @@
 
 namespace pellucid {
 
+namespace because = task::because;
 namespace fs = std::filesystem;
 using namespace test;
 using namespace ui;
@@ -68,7 +71,7 @@ private slots:
         const VolumeFacts v = library.volumes(study).at(0);
         QCOMPARE(v.key(), s.volumes[0].key());
         QCOMPARE(v.tiltDeg, 18.5);
-        QCOMPARE(v.warnings, s.volumes[0].warnings);
+        QVERIFY(v.warnings == s.volumes[0].warnings);
         QCOMPARE(v.thumbnail.size(), QSize(96, 60));
         QCOMPARE(qGray(v.thumbnail.pixel(5, 5)), 77);
         QCOMPARE(v.files, 3);
@@ -81,6 +84,51 @@ private slots:
         QCOMPARE(library.volumes(study)[0].files, 2);
         finish(removeStudy(library, study), library);
         QCOMPARE(count(library), 0);
+    }
+
+    // Of a program that wrote English words.
+    void whatAnEarlierProgramListedIsShownAndFound() {
+        const LibraryPlace at = place("earlier");
+        LibrarySeries s = librarySeries(1, "Doe^Jane", "Thorax", 3);
+        s.volumes.push_back(s.volumes[0]);
+        s.volumes[0].label = {because::slicesTo(1, 5), because::axialNumber(2)};
+        s.volumes[1].label = {because::set(2), because::coronal};
+        const auto change = [&](const QString &statement, const QVariant &value = {}) {
+            const Library library(at);
+            QSqlQuery query(QSqlDatabase::database(library.connection()));
+            if (!query.prepare(statement))
+                return false;
+            if (value.isValid())
+                query.addBindValue(value);
+            return query.exec();
+        };
+        const auto version = [&] {
+            const Library library(at);
+            QSqlQuery query(QSqlDatabase::database(library.connection()));
+            return query.exec("PRAGMA user_version") && query.next() ? query.value(0).toInt() : -1;
+        };
+        Library(at).put({s});
+        const int present = version();
+        QVERIFY(
+            change("UPDATE volumes SET warnings = ?", "without a, b.dcm: is truncated\n1 more"));
+        QVERIFY(change("UPDATE volumes SET label = ? WHERE id = 1", "slices 1 to 5, axial 2"));
+        QVERIFY(change("UPDATE volumes SET label = ? WHERE id = 2", "set 2, coronal"));
+        QVERIFY(change("PRAGMA user_version = 1"));
+        QVERIFY(openLibrary(at.folder).notices.empty());
+        const auto volumes = Library(at).volumes(s.study);
+        QCOMPARE(volumes.size(), std::size_t(2));
+        QCOMPARE(volumes[0].key(), s.volumes[0].key());
+        QCOMPARE(volumes[1].key(), s.volumes[1].key());
+        QVERIFY(!arePhases(volumes[0], volumes[1]));
+        QVERIFY(arePhases(volumes[0], s.volumes[0]));
+        QVERIFY(seriesText(volumes[0]).endsWith("slices 1 to 5, axial 2"));
+        QCOMPARE(warningTexts(volumes[0]),
+                 QStringList({"without a, b.dcm: is truncated", "1 more"}));
+        // It can go on with the list until another program adds to it.
+        QCOMPARE(version(), 1);
+        Library(at).put({librarySeries(2, "Roe^Richard", "Knee", 1)});
+        QCOMPARE(version(), present);
+        QCOMPARE(Library(at).volumes(s.study)[1].key(), s.volumes[1].key());
     }
 
     void aHundredThousandInstancesStaySearchable_data() {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/task/error.h"
+
+namespace pellucid {
+
+/// What a program ends with that cannot do what it was asked for. Scripts rely on it.
+constexpr int exitCode(task::ErrorCode code) {
+    switch (code) {
+    case task::ErrorCode::internal:
+    case task::ErrorCode::output:
+        return 1;
+    case task::ErrorCode::usage:
+        return 2;
+    case task::ErrorCode::unusable:
+        return 3;
+    case task::ErrorCode::outOfMemory:
+        return 4;
+    case task::ErrorCode::noSuchDevice:
+        return 5;
+    }
+    return 1;
+}
+
+} // namespace pellucid

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/volume/volume.h"
+
+namespace pellucid::plan {
+
+/// The sum of the squared second differences of a field along all three axes, from which
+/// `EnergySpread::roughness` follows. Beyond the box the field is zero.
+double squaredSecondDifferences(const volume::Volume &field, const volume::VoxelBox &box);
+
+} // namespace pellucid::plan

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/task/reason.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+namespace pellucid::task {
+
+namespace {
+
+struct Sentence {
+    std::string_view name, english;
+};
+constexpr std::array sentences{
+#define PELLUCID_REASON(name, english) Sentence{#name, english},
+#include "core/task/reasons.inc"
+#undef PELLUCID_REASON
+};
+static_assert(sentences.size() == std::size_t(Reason::Id::count));
+
+const Sentence &sentenceOf(Reason::Id id) {
+    return sentences[std::size_t(id)];
+}
+
+std::string english(const Argument &argument) {
+    std::string all = argument.text;
+    for (const Reason &reason : argument.reasons)
+        all += (all.empty() ? "" : "; ") + reason.english();
+    return all;
+}
+
+} // namespace
+
+std::string_view englishTemplate(Reason::Id id) {
+    return sentenceOf(id).english;
+}
+
+Reason::Reason(Id id, std::vector<Argument> arguments)
+    : m_id(id), m_arguments(std::move(arguments)) {}
+
+bool operator==(const Reason &a, const Reason &b) {
+    return a.m_id == b.m_id && a.m_arguments == b.m_arguments;
+}
+
+std::string Reason::english() const {
+    const std::string_view form = englishTemplate(m_id);
+    std::string filled;
+    for (std::size_t n = 0; n < form.size(); ++n) {
+        const std::size_t place =
+            form[n] == '%' && n + 1 < form.size() ? std::size_t(form[n + 1]) - '1' : 9;
+        if (place < m_arguments.size()) {
+            filled += task::english(m_arguments[place]);
+            ++n;
+        } else {
+            filled += form[n];
+        }
+    }
+    return filled;
+}
+
+// name, then for each argument t<bytes>:text or r<count>:reasons, then a semicolon.
+std::string Reason::encoded() const {
+    std::string out(sentenceOf(m_id).name);
+    for (const Argument &a : m_arguments) {
+        if (a.reasons.empty()) {
+            out += " t" + std::to_string(a.text.size()) + ":" + a.text;
+            continue;
+        }
+        out += " r" + std::to_string(a.reasons.size()) + ":";
+        for (const Reason &reason : a.reasons)
+            out += reason.encoded();
+    }
+    return out + ";";
+}
+
+// The text may come from a process that read untrusted bytes.
+class ReasonReader {
+public:
+    explicit ReasonReader(std::string_view text) : m_rest(text) {}
+
+    std::optional<Reason> reason(int depth = 0) {
+        constexpr int deepest = 4;
+        if (depth > deepest)
+            return std::nullopt;
+        const std::string_view name = m_rest.substr(0, m_rest.find_first_of(" ;"));
+        const auto known = std::find_if(sentences.begin(), sentences.end(),
+                                        [&](const Sentence &s) { return s.name == name; });
+        if (known == sentences.end())
+            return std::nullopt;
+        m_rest.remove_prefix(name.size());
+        std::vector<Argument> arguments;
+        for (int left = placesIn(known->english); left > 0; --left) {
+            auto argument = this->argument(depth);
+            if (!argument)
+                return std::nullopt;
+            arguments.push_back(std::move(*argument));
+        }
+        if (!take(";"))
+            return std::nullopt;
+        return Reason(Reason::Id(known - sentences.begin()), std::move(arguments));
+    }
+    bool isAtEnd() const { return m_rest.empty(); }
+
+private:
+    bool take(std::string_view word) {
+        if (!m_rest.starts_with(word))
+            return false;
+        m_rest.remove_prefix(word.size());
+        return true;
+    }
+
+    std::optional<std::size_t> count() {
+        std::size_t value = 0;
+        const auto [end, error] =
+            std::from_chars(m_rest.data(), m_rest.data() + m_rest.size(), value);
+        if (error != std::errc())
+            return std::nullopt;
+        m_rest.remove_prefix(std::size_t(end - m_rest.data()));
+        return take(":") ? std::optional(value) : std::nullopt;
+    }
+
+    std::optional<Argument> argument(int depth) {
+        if (take(" t")) {
+            const auto bytes = count();
+            if (!bytes || *bytes > m_rest.size())
+                return std::nullopt;
+            Argument text(m_rest.substr(0, *bytes));
+            m_rest.remove_prefix(*bytes);
+            return text;
+        }
+        const auto reasons = take(" r") ? count() : std::nullopt;
+        if (!reasons || *reasons > m_rest.size())
+            return std::nullopt;
+        std::vector<Reason> all;
+        for (std::size_t n = 0; n < *reasons; ++n) {
+            auto one = reason(depth + 1);
+            if (!one)
+                return std::nullopt;
+            all.push_back(std::move(*one));
+        }
+        return Argument(std::move(all));
+    }
+
+    std::string_view m_rest;
+};
+
+std::optional<Reason> Reason::decoded(std::string_view text) {
+    ReasonReader reader(text);
+    auto reason = reader.reason();
+    return reader.isAtEnd() ? reason : std::nullopt;
+}
+
+Reason systemReason(int error) {
+    switch (error) {
+    case ENOENT:
+        return because::noSuchFile;
+    case EACCES:
+        return because::permissionDenied;
+    case EPERM:
+        return because::notPermitted;
+    case ENOSPC:
+        return because::noSpaceLeft;
+    case EDQUOT:
+        return because::quotaExceeded;
+    case EROFS:
+        return because::readOnlyFileSystem;
+    case EISDIR:
+        return because::isADirectory;
+    case ENOTDIR:
+        return because::isNotADirectory;
+    case ENAMETOOLONG:
+        return because::nameTooLong;
+    case EMFILE:
+    case ENFILE:
+        return because::tooManyOpenFiles;
+    case EIO:
+        return because::ioError;
+    case ENOMEM:
+        return because::notEnoughMemory;
+    case EFBIG:
+        return because::fileTooLarge;
+    case ELOOP:
+        return because::tooManyLinks;
+    default:
+        return because::systemReports(std::strerror(error));
+    }
+}
+
+Reason systemReason(const std::error_code &error) {
+    if (error.category() == std::generic_category() || error.category() == std::system_category())
+        return systemReason(error.value());
+    return because::systemReports(error.message());
+}
+
+} // namespace pellucid::task

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/task/reason.h"
+
+#include <cerrno>
+#include <cstring>
+#include <future>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace pellucid::task {
+
+namespace {
+
+struct Sentence {
+    Reason::Id id;
+    std::string name;
+};
+const std::vector<Sentence> sentences{
+#define PELLUCID_REASON(name, english) Sentence{Reason::Id::name, #name},
+#include "core/task/reasons.inc"
+#undef PELLUCID_REASON
+};
+
+// What an encoding or a template could take for its own.
+const std::string awkward = "a; %2 b: 3:\n t1:c %1";
+
+int placesOf(Reason::Id id) {
+    return placesIn(englishTemplate(id));
+}
+
+std::string encodedText(const std::string &text) {
+    return " t" + std::to_string(text.size()) + ":" + text;
+}
+
+// An encoded reason of any sentence, of which one place holds a reason, the others a text.
+std::string encodedOf(const Sentence &sentence, const std::string &text, int nested) {
+    std::string encoded = sentence.name;
+    for (int n = 0; n < placesOf(sentence.id); ++n)
+        encoded += n == nested ? " r1:isDamagedBy" + encodedText(text) + ";" : encodedText(text);
+    return encoded + ";";
+}
+
+int countOf(const std::string &part, const std::string &text) {
+    int count = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
+        ++count;
+    return count;
+}
+
+// As many as its template has places, and so on within it.
+bool hasItsArguments(const Reason &reason) {
+    if (reason.id() >= Reason::Id::count || int(reason.arguments().size()) != placesOf(reason.id()))
+        return false;
+    for (const Argument &argument : reason.arguments())
+        for (const Reason &within : argument.reasons)
+            if (!hasItsArguments(within))
+                return false;
+    return !englishTemplate(reason.id()).empty() && !reason.english().empty();
+}
+
+Reason wrapped(int times) {
+    Reason reason = because::isEmpty;
+    for (int n = 0; n < times; ++n)
+        reason = because::imagesOnly(reason);
+    return reason;
+}
+
+} // namespace
+
+TEST(Reason, everySentenceComesThrough) {
+    for (const Sentence &sentence : sentences) {
+        const int places = placesOf(sentence.id);
+        for (int nested = 0; nested <= places; ++nested) { // the last time none
+            const std::string encoded = encodedOf(sentence, awkward, nested);
+            const auto reason = Reason::decoded(encoded);
+            ASSERT_TRUE(reason) << encoded;
+            EXPECT_EQ(reason->id(), sentence.id) << encoded;
+            ASSERT_EQ(int(reason->arguments().size()), places) << encoded;
+            for (int n = 0; n < places; ++n)
+                EXPECT_EQ(reason->arguments()[std::size_t(n)],
+                          n == nested ? Argument(because::isDamagedBy(awkward)) : Argument(awkward))
+                    << encoded;
+            EXPECT_EQ(reason->encoded(), encoded);
+            EXPECT_EQ(Reason::decoded(reason->encoded()), reason) << encoded;
+        }
+    }
+}
+
+TEST(Reason, everySentenceIsFilled) {
+    for (const Sentence &sentence : sentences) {
+        const std::string form(englishTemplate(sentence.id));
+        const int places = placesOf(sentence.id);
+        ASSERT_LE(places, 9) << form;
+        int mentioned = 0;
+        for (int n = 0; n < places; ++n) {
+            const int times = countOf("%" + std::to_string(n + 1), form);
+            EXPECT_GT(times, 0) << form; // no place is left out
+            mentioned += times;
+        }
+        for (int nested = 0; nested <= places; ++nested) {
+            const auto plain = Reason::decoded(encodedOf(sentence, "text", nested));
+            ASSERT_TRUE(plain) << form;
+            EXPECT_EQ(placesIn(plain->english()), 0) << plain->english();
+            // What fills a place is not filled again.
+            const auto odd = Reason::decoded(encodedOf(sentence, awkward, nested));
+            ASSERT_TRUE(odd) << form;
+            EXPECT_EQ(countOf(awkward, odd->english()), mentioned) << odd->english();
+        }
+    }
+}
+
+TEST(Reason, whatIsDamagedIsRefusedOrAReason) {
+    for (const Sentence &sentence : sentences) {
+        const std::string good = encodedOf(sentence, awkward, 0);
+        for (std::size_t size = 0; size < good.size(); ++size)
+            EXPECT_FALSE(Reason::decoded(std::string_view(good).substr(0, size)))
+                << good.substr(0, size);
+        EXPECT_FALSE(Reason::decoded(good + ";")) << good;
+        EXPECT_FALSE(Reason::decoded(" " + good)) << good;
+        for (std::size_t at = 0; at < good.size(); ++at)
+            for (const int byte : {0, 0xFF, int(' '), int(';'), int(':'), int('0'), int('9'),
+                                   int('r'), int('t'), good[at] ^ 1, good[at] ^ 0x20}) {
+                std::string bad = good;
+                bad[at] = char(byte);
+                const auto reason = Reason::decoded(bad);
+                EXPECT_TRUE(!reason || hasItsArguments(*reason)) << bad;
+            }
+    }
+    for (const char *const text : {"",
+                                   ";",
+                                   " ",
+                                   "is damaged",
+                                   "isDamaged",
+                                   "isDamaged ;",
+                                   "isdamaged;",
+                                   "isDamaged;isDamaged;",
+                                   "isDamaged t1:x;",
+                                   "isDamagedBy;",
+                                   "isDamagedBy t;",
+                                   "isDamagedBy t:;",
+                                   "isDamagedBy t2:x;",
+                                   "isDamagedBy t-1:x;",
+                                   "isDamagedBy t+1:x;",
+                                   "isDamagedBy t 1:x;",
+                                   "isDamagedBy t18446744073709551615:x;",
+                                   "isDamagedBy t99999999999999999999:x;",
+                                   "isDamagedBy r18446744073709551615:isDamaged;",
+                                   "isDamagedBy r2:isDamaged;;",
+                                   "isDamagedBy r1:;",
+                                   "isDamagedBy t1:x t1:x;",
+                                   "count;"})
+        EXPECT_FALSE(Reason::decoded(text)) << text;
+}
+
+TEST(Reason, nestingEnds) {
+    for (const int times : {0, 1, 4}) {
+        const Reason reason = wrapped(times);
+        EXPECT_EQ(Reason::decoded(reason.encoded()), reason) << times;
+    }
+    for (const int times : {5, 6, 1000})
+        EXPECT_FALSE(Reason::decoded(wrapped(times).encoded())) << times;
+    std::string deep; // of which not even the end is there
+    for (int n = 0; n < 1'000'000; ++n)
+        deep += "imagesOnly r1:";
+    EXPECT_FALSE(Reason::decoded(deep));
+}
+
+TEST(Reason, reasonsWithinAreJoined) {
+    const std::vector<Reason> both{because::gapBetween("2.5", "a", 7), because::more(3)};
+    const Reason reason = because::missingSlices(both);
+    EXPECT_EQ(reason.english(), "missing slices, interpolated: 2.5 mm between a and 7; 3 more");
+    EXPECT_EQ(Reason::decoded(reason.encoded()), reason);
+    EXPECT_TRUE(reason.is(because::missingSlices));
+    EXPECT_FALSE(reason.is(because::more));
+    EXPECT_NE(reason, because::missingSlices(std::vector{both[1], both[0]}));
+}
+
+TEST(Reason, theSystemsReasonsAreKnown) {
+    EXPECT_TRUE(systemReason(ENOSPC).is(because::noSpaceLeft));
+    EXPECT_TRUE(
+        systemReason(std::make_error_code(std::errc::no_space_on_device)).is(because::noSpaceLeft));
+    EXPECT_TRUE(
+        systemReason(std::error_code(ENOENT, std::system_category())).is(because::noSuchFile));
+    EXPECT_TRUE(systemReason(ENOMEM).is(because::notEnoughMemory));
+    // In the system's own words.
+    for (const int error : {ENOENT, EACCES, EPERM, ENOSPC, EDQUOT, EROFS, EISDIR, ENOTDIR,
+                            ENAMETOOLONG, EMFILE, EIO, EFBIG, ELOOP})
+        EXPECT_EQ(systemReason(error).english(), std::strerror(error));
+    constexpr int unknown = 99999;
+    const Reason other = systemReason(unknown);
+    EXPECT_TRUE(other.is(because::systemReports));
+    EXPECT_EQ(other.english(), std::string("the system reports: ") + std::strerror(unknown));
+    // Numbers of others are not the system's.
+    EXPECT_TRUE(
+        systemReason(std::error_code(int(std::future_errc::no_state), std::future_category()))
+            .is(because::systemReports));
+}
+
+} // namespace pellucid::task

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the core gives as reasons, in the user's language and in the files that keep it.
+#include <array>
+
+#include <QTranslator>
+#include <QtTest>
+
+#include "core/dicom/catalogue.h"
+#include "ui/language/kept_reasons.h"
+#include "ui/language/names.h"
+#include "ui/language/reasons.h"
+#include "ui/opening/session.h"
+
+namespace pellucid {
+
+namespace because = task::because;
+using namespace ui;
+
+namespace {
+
+constexpr std::array names{
+#define PELLUCID_REASON(name, english) #name,
+#include "core/task/reasons.inc"
+#undef PELLUCID_REASON
+};
+
+// What fills a place; no sentence has such a number of its own.
+std::string argument(int place) {
+    return "700" + std::to_string(place);
+}
+
+// Every place is filled.
+task::Reason reasonOf(task::Reason::Id id) {
+    std::string text = names.at(std::size_t(id));
+    for (int n = 1; n <= task::placesIn(task::englishTemplate(id)); ++n)
+        text += " t" + std::to_string(argument(n).size()) + ":" + argument(n);
+    return task::Reason::decoded(text + ";").value();
+}
+
+class Chinese {
+public:
+    Chinese() {
+        if (m_texts.load(":/i18n/pellucid_zh_TW.qm"))
+            QCoreApplication::installTranslator(&m_texts);
+    }
+    ~Chinese() { QCoreApplication::removeTranslator(&m_texts); }
+    bool isThere() const { return !m_texts.isEmpty(); }
+
+private:
+    QTranslator m_texts;
+};
+
+} // namespace
+
+class LanguageTest : public QObject {
+    Q_OBJECT
+private slots:
+    void withoutATranslationAReasonIsEnglish() {
+        const task::Reason reason = because::missingSlices(
+            std::vector<task::Reason>{because::gapBetween("8.0", "a", "b"), because::more(2)});
+        QCOMPARE(translated(reason), QString::fromStdString(reason.english()));
+        const std::vector<task::Reason> label{because::slicesTo(1, 5), because::axial};
+        QCOMPARE(translated(label), QString::fromStdString(dicom::labelText(label)));
+    }
+
+    void everyReasonIsSaidInChinese() {
+        const Chinese chinese;
+        QVERIFY(chinese.isThere());
+        for (int n = 0; n < int(task::Reason::Id::count); ++n) {
+            const auto id = task::Reason::Id(n);
+            // What the command line says, or a former program said, in words.
+            const bool isSameInAll = id == because::inWords.id;
+            const task::Reason reason = reasonOf(id);
+            const QString english = QString::fromStdString(reason.english()),
+                          said = translated(reason);
+            QVERIFY2((said == english) == isSameInAll, qPrintable(english));
+            for (int place = 1; place <= task::placesIn(task::englishTemplate(id)); ++place) {
+                const QString filled = QString::fromStdString(argument(place));
+                QVERIFY2(said.count(filled) == english.count(filled), qPrintable(said));
+            }
+        }
+    }
+
+    void reasonsInReasonsAreSaidInChinese() {
+        const Chinese chinese;
+        // Names of files stay as they are.
+        QCOMPARE(translated(because::missingSlices(std::vector<task::Reason>{
+                     because::gapBetween("8.0", "a.dcm", "b.dcm"),
+                     because::gapBetween("6.0", "c, d.dcm", "e; f.dcm"), because::more(2)})),
+                 QString::fromUtf8("缺少切片，已內插補上：a.dcm 與 b.dcm 之間 8.0 mm；c, d.dcm 與 "
+                                   "e; f.dcm 之間 6.0 mm；另有 2 處"));
+        QCOMPARE(translated(because::without("IM1", because::isNotReadable(because::isEmpty))),
+                 QString::fromUtf8("缺少 IM1：無法讀取：是空的"));
+        QCOMPARE(translated({because::slicesTo(1, 5), because::axial}),
+                 QString::fromUtf8("第 1 至 5 張、橫斷面"));
+        QCOMPARE(translatedName("Lung"), QString::fromUtf8("肺"));
+        // A name that looks like a place is a name.
+        QCOMPARE(translated(because::gapBetween("8.0", "%3", "b%1")),
+                 QString::fromUtf8("%3 與 b%1 之間 8.0 mm"));
+    }
+
+    void aLineKeepsAReason() {
+        const std::vector<task::Reason> reasons{
+            because::isTruncated, because::without("a\nb;%41 \xff\xe9.dcm", because::isEmpty),
+            because::missingSlices(std::vector<task::Reason>{because::more(2), because::more(3)})};
+        for (const task::Reason &reason : reasons) {
+            QVERIFY(!toLine(reason).contains('\n'));
+            QVERIFY(reasonFromLine(toLine(reason)) == reason);
+        }
+        QVERIFY(reasonsFromLines(toLines(reasons)) == reasons);
+        QVERIFY(labelFromLines(toLines(reasons)) == reasons);
+        QVERIFY(reasonsFromLines(toLines({})).empty() && labelFromLines({}).empty());
+    }
+
+    void theWordsOfAnEarlierProgramStay() {
+        const std::string said = "pixel spacings differ by up to 3 %; the mean is used";
+        const task::Reason reason = reasonFromLine(QString::fromStdString(said));
+        QCOMPARE(reason.english(), said);
+        QVERIFY(reasonFromLine(toLine(reason)) == reason);
+        QCOMPARE(reasonsFromLines("one\ntwo").size(), std::size_t(2));
+        // What tells a stack from others is more than words.
+        const auto label = labelFromLines("slices 1 to 5, coronal 2");
+        QCOMPARE(dicom::labelText(label), std::string("slices 1 to 5, coronal 2"));
+        QVERIFY(label.back() == because::coronalNumber(2));
+        QVERIFY(labelFromLines("images").back().is(because::images));
+        QVERIFY(!labelFromLines("axial twice").back().is(because::axial));
+    }
+
+    void aSessionKeepsReasons() {
+        Session session;
+        session.leftOut = {{"/a", because::isNotReadable(because::permissionDenied)}};
+        std::string text = toJson(session);
+        QVERIFY(sessionFromJson(text).leftOut.at(0).reason == session.leftOut[0].reason);
+        const std::string line = toLine(session.leftOut[0].reason).toStdString();
+        text.replace(text.find(line), line.size(), "is not readable: Permission denied");
+        const task::Reason former = sessionFromJson(text).leftOut.at(0).reason;
+        QVERIFY(former != session.leftOut[0].reason);
+        QCOMPARE(former.english(), session.leftOut[0].reason.english());
+    }
+};
+
+} // namespace pellucid
+
+QTEST_GUILESS_MAIN(pellucid::LanguageTest)
+
+#include "language_test.moc"

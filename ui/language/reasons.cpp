@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/language/reasons.h"
+
+#include <string>
+
+#include <QCoreApplication>
+#include <QStringList>
+
+namespace pellucid::ui {
+
+namespace {
+
+// The sentences themselves are those of core/task/reasons.inc.
+constexpr const char *betweenLabels = QT_TRANSLATE_NOOP("Reasons", ", ");
+constexpr const char *betweenReasons = QT_TRANSLATE_NOOP("Reasons", "; ");
+
+QString joined(const std::vector<task::Reason> &reasons, const char *separator) {
+    QStringList all;
+    for (const task::Reason &reason : reasons)
+        all << translated(reason);
+    return all.join(QCoreApplication::translate("Reasons", separator));
+}
+
+QString translated(const task::Argument &argument) {
+    return argument.reasons.empty() ? QString::fromStdString(argument.text)
+                                    : joined(argument.reasons, betweenReasons);
+}
+
+} // namespace
+
+QString translated(const task::Reason &reason) {
+    const std::string english(task::englishTemplate(reason.id()));
+    const QString form = QCoreApplication::translate("Reasons", english.c_str());
+    // All at once: what is filled in may hold a place of its own.
+    QString filled;
+    for (qsizetype n = 0; n < form.size(); ++n) {
+        const int place = form[n] == '%' && n + 1 < form.size() ? form[n + 1].unicode() - '1' : -1;
+        if (place >= 0 && place < int(reason.arguments().size())) {
+            filled += translated(reason.arguments()[std::size_t(place)]);
+            ++n;
+        } else {
+            filled += form[n];
+        }
+    }
+    return filled;
+}
+
+QString translated(const std::vector<task::Reason> &label) {
+    return joined(label, betweenLabels);
+}
+
+} // namespace pellucid::ui
