@@ -28,7 +28,7 @@ std::size_t residentBytes() {
 
 TEST(PageMemory, IsAlignedAndWritable) {
     for (const std::size_t bytes : {std::size_t(1), megabyte, 2 * megabyte, 5 * megabyte + 3}) {
-        const auto memory = system::allocatePages(bytes, "a test");
+        const auto memory = system::allocatePages(bytes, task::because::aSpectrum);
         EXPECT_EQ(std::uintptr_t(memory.get()) % (bytes >= 2 * megabyte ? 2 * megabyte : 64), 0U);
         std::memset(memory.get(), 1, bytes);
     }
@@ -43,7 +43,7 @@ TEST(PageMemory, ThatCannotBeHadIsAnError) {
 #endif
     for (const std::size_t bytes : sizes)
         try {
-            system::allocatePages(bytes, "a test");
+            system::allocatePages(bytes, task::because::aSpectrum);
             ADD_FAILURE() << bytes;
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::outOfMemory);
@@ -61,7 +61,7 @@ TEST(PageMemory, GoesBackToTheSystem) {
     {
         std::vector<std::shared_ptr<std::byte[]>> large;
         for (int n = 0; n < 4; ++n) {
-            large.push_back(system::allocatePages(12 * megabyte, "a test"));
+            large.push_back(system::allocatePages(12 * megabyte, task::because::aSpectrum));
             std::memset(large.back().get(), 1, 12 * megabyte);
             small.push_back(std::malloc(2000));
         }

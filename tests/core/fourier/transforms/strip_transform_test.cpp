@@ -23,8 +23,8 @@ TEST(StripTransform, IsTheSumForEveryRadix) {
     std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
     for (const int length : {1, 2, 3, 4, 5, 6, 7, 8, 12, 15, 16, 30, 35, 48, 84, 96, 210, 384}) {
         const auto bytes = std::size_t(length) * stripFloats * sizeof(float);
-        const auto a = system::allocatePages(bytes, "a test"),
-                   b = system::allocatePages(bytes, "a test");
+        const auto a = system::allocatePages(bytes, task::because::aSpectrum),
+                   b = system::allocatePages(bytes, task::because::aSpectrum);
         auto *data = reinterpret_cast<float *>(a.get());
         for (int n = 0; n < length * stripFloats; ++n)
             data[n] = uniform(random);
