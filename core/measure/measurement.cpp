@@ -141,7 +141,7 @@ std::string figure(const std::optional<double> &value) {
     return value ? fmt::format("{:.6g}", *value) : std::string();
 }
 
-std::string quoted(const std::string &text) {
+std::string csvField(const std::string &text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"')
@@ -203,7 +203,7 @@ std::string toCsv(const std::vector<Measurement> &measurements, const volume::Vo
                 fmt::format("{}{:.3f} {:.3f} {:.3f}", points.empty() ? "" : "; ", p.x, p.y, p.z);
         const bool hounsfield = volume.unit() == volume::ValueUnit::hounsfield;
         out += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{},{}\r\n", quoted(m.name), kindName(m.kind),
+            "{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csvField(m.name), kindName(m.kind),
             figure(r.lengthMm), figure(r.angleDegrees), figure(r.areaMm2),
             figure(value(&RegionValues::mean)), figure(value(&RegionValues::standardDeviation)),
             figure(value(&RegionValues::minimum)), figure(value(&RegionValues::maximum)),
@@ -211,7 +211,7 @@ std::string toCsv(const std::vector<Measurement> &measurements, const volume::Vo
             r.values ? fmt::format("{}{}", r.values->count,
                                    r.values->areSamples ? " samples" : " interpolated")
                      : std::string(),
-            quoted(points));
+            csvField(points));
     }
     return out;
 }

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"lit", lit({}, {1.0, 1.0, 1.0})},
                     Case{"litInColour", lit({}, {1.0, 0.6, 0.2})},
                     Case{"cuedAndLit", lit(cued(shading::CueKind::linear), {1.0, 1.0, 1.0})}),
-    [](const auto &info) { return std::string(info.param.name); });
+    [](const auto &tested) { return std::string(tested.param.name); });
 
 // Float cells keep no rounding, so there is nothing to tell.
 TEST(CentralRoundingOfFloats, IsNotKnownOfFloatCells) {

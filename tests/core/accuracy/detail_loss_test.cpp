@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Subjects, DetailLoss,
                                          Case{"metal", phantom::Kind::metal, {54, 54, 54}, 0.0},
                                          Case{"bars", phantom::Kind::bars, {60, 44, 48}, 0.0},
                                          Case{"cut", phantom::Kind::head, {90, 90, 94}, 0.0, true}),
-                         [](const auto &info) { return std::string(info.param.name); });
+                         [](const auto &tested) { return std::string(tested.param.name); });
 
 // The inner products of two layers give what their sum loses, whatever its weights.
 TEST(DetailLossOfLayers, FollowsTheWeights) {
