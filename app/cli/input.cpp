@@ -105,7 +105,7 @@ void requireAllRead(const std::vector<dicom::Skipped> &skipped, const std::files
     if (lacking > 0)
         throw Error(ErrorCode::outOfMemory,
                     because::inWords(
-                        fmt::format("{} of its files need more memory than there is", lacking)),
+                        fmt::format("{} of its files need more memory than is available", lacking)),
                     path);
 }
 
@@ -148,7 +148,7 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
     if (catalogue.skipped.empty())
         throw Error(ErrorCode::unusable, because::holdsNoUsableImages, path);
     throw Error(ErrorCode::unusable,
-                because::inWords(fmt::format("holds no usable images in {} files; {}: {}",
+                because::inWords(fmt::format("contains no usable images in {} files; {}: {}",
                                              catalogue.skipped.size(),
                                              catalogue.skipped[0].path.filename().string(),
                                              catalogue.skipped[0].reason.english())),
@@ -212,7 +212,7 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
     if (!selection.volume->placed) {
         requireAllRead(catalogue.skipped, path);
         throw Error(ErrorCode::unusable,
-                    because::inWords("holds images but no volume: " +
+                    because::inWords("contains images but no volume: " +
                                      selection.volume->notPlacedReason->english()),
                     path);
     }
@@ -225,7 +225,7 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
     if (!input.loaded.volume.notes().placed) {
         requireAllRead(input.loaded.skipped, path);
         throw Error(ErrorCode::unusable,
-                    because::inWords("holds images but no volume: " +
+                    because::inWords("contains images but no volume: " +
                                      input.loaded.volume.notes().warnings.back().english()),
                     path);
     }
@@ -267,7 +267,7 @@ classify::FieldWindow parseWindow(const std::string &text) {
     const auto values = parseNumbers("--window", text, ',', 2);
     if (!(values[0] < values[1]))
         throw Error(ErrorCode::usage,
-                    because::inWords("--window: the low end must lie below the high end"));
+                    because::inWords("--window: the low end must be below the high end"));
     return {values[0], values[1]};
 }
 

@@ -54,7 +54,8 @@ const classify::TissueClass &classNamed(const std::string &name) {
             return tissue;
         names += (names.empty() ? "" : ", ") + tissue.name;
     }
-    throw Error(ErrorCode::usage, because::inWords("--class: '" + name + "' is none of " + names));
+    throw Error(ErrorCode::usage,
+                because::inWords("--class: unknown class '" + name + "': use one of " + names));
 }
 
 std::optional<presets::Preset> presetFor(const SceneOptions &options) {
@@ -105,8 +106,9 @@ shading::Shading shadingFor(const SceneOptions &o, const CLI::App &command,
     for (const std::string &text : o.lights)
         shading.lights.push_back(read("--light", text, shading::lightFromText));
     if (shading.lights.size() > shading::mostLights)
-        throw Error(ErrorCode::usage, because::inWords(fmt::format("--light: more than {} lights",
-                                                                   shading::mostLights)));
+        throw Error(ErrorCode::usage,
+                    because::inWords(fmt::format("--light: at most {} lights are allowed",
+                                                 shading::mostLights)));
     return shading;
 }
 

@@ -76,7 +76,7 @@ int run(int argc, char **argv) {
     };
     if (argc > 1 && !known(argv[1]))
         return report(std::string("unknown command '") + argv[1] +
-                          "'; there are info, render, volume, preset and phantom",
+                          "': use info, render, volume, preset or phantom",
                       exitCode(task::ErrorCode::usage));
     try {
         app.parse(argc, argv);

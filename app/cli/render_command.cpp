@@ -111,10 +111,11 @@ private:
         m_held = volume().bytes() + classify::peakBytes(m_scene.look, samples) + forLight +
                  (m_scene.crop.isWhole() ? 0 : samples * sizeof(float));
         if (isMemoryGiven() && m_options.memory < m_held)
-            throw Error(ErrorCode::outOfMemory,
-                        because::inWords(fmt::format("the volume needs {} MB, {} MB are allowed",
-                                                     (m_held >> 20) + 1, m_options.memory >> 20)),
-                        m_options.input.path);
+            throw Error(
+                ErrorCode::outOfMemory,
+                because::inWords(fmt::format("the volume needs {} MB, but only {} MB are allowed",
+                                             (m_held >> 20) + 1, m_options.memory >> 20)),
+                m_options.input.path);
         m_fields = fieldsFor(m_scene, volume(), m_context);
         // Asking for more than there is would end in the system killing the program.
         m_budget.bytes = system::availableMemoryBytes();

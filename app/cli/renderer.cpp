@@ -19,7 +19,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char *whyExact = "no engine keeps the tolerance: the exact reference does";
+constexpr const char *whyExact = "no engine meets the tolerance: the exact reference does";
 
 // The error for a user who requires the card: the card is too small, or we cannot use one.
 task::Error cardRefused(const task::Error &error) {
@@ -64,9 +64,9 @@ CardChoice chooseCard(const std::string &engine, int frames) {
             choice.passes = std::make_shared<gpu::FramePasses>(std::make_shared<gpu::Device>(
                 std::make_unique<gpu::SurfacelessContext>(choice.isAsked)));
             if (!choice.isAsked)
-                choice.reason = "there is a graphics card";
+                choice.reason = "a graphics card was found";
             if (!choice.isAsked && choice.passes->device().capabilities().software) {
-                choice.reason = "OpenGL here is a software renderer";
+                choice.reason = "OpenGL runs on a software renderer";
                 choice.passes.reset();
             }
         } catch (const task::Error &error) {

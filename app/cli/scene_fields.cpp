@@ -46,7 +46,7 @@ std::vector<std::string> lookWarnings(const CLI::App &command,
             "what is shown is --class or --bezier; of the preset its window and light are left");
     if (isGiven("--class") && volume.unit() != volume::ValueUnit::hounsfield)
         warnings.emplace_back(
-            "the ranges of --class are Hounsfield units, which the values are not known to be");
+            "the ranges of --class are in Hounsfield units, but the values may not be in HU");
     if (preset)
         if (const auto why = presets::mismatch(*preset, volume))
             warnings.push_back(why->english());

@@ -135,7 +135,7 @@ void addQualityOptions(CLI::App &command, SceneOptions &options) {
         ->check(positive())
         ->excludes(quality);
     command.add_option("--kernel", options.kernel,
-                       "Interpolation kernel; default: the cheapest that keeps the tolerance");
+                       "Interpolation kernel; default: the cheapest that meets the tolerance");
     command
         .add_option("--padding", options.padding, "Padded size over field size, default as needed")
         ->check(CLI::Range(1.0, 4.0));

@@ -13,7 +13,7 @@ say() { echo "install.sh: $*" >&2; }
 refuse() { say "$*"; exit 1; }
 tab=$(printf '\t')
 from=$(cd "$(dirname "$0")" && pwd)
-[ -d "${HOME:-}" ] || refuse "HOME is no folder: '${HOME:-}'"
+[ -d "${HOME:-}" ] || refuse "HOME is not a folder: '${HOME:-}'"
 if [ "$(id -u)" = 0 ]; then
     prefix=/opt/pellucid bin=/usr/local/bin data=/usr/local/share
 else
@@ -52,7 +52,7 @@ record=share/pellucid/installation
 is_ours() { [ -f "$1/$record" ]; }
 # Somebody's folder, or program, that is no installation is not replaced.
 if [ -e "$prefix" ] && ! is_ours "$prefix" && [ -n "$(ls -A "$prefix" 2>/dev/null || echo a file)" ]; then
-    refuse "$prefix is there already and is not Pellucid"
+    refuse "$prefix already exists and is not Pellucid"
 fi
 for program in pellucid pellucid-cli pellucid-uninstall; do
     link=$bin/$program
@@ -63,7 +63,7 @@ for program in pellucid pellucid-cli pellucid-uninstall; do
     if [ -L "$link" ] && is_ours "$other"; then
         refuse "Pellucid is installed in $other; remove it by $other/uninstall.sh first"
     fi
-    [ -L "$link" ] && [ ! -e "$link" ] || refuse "$link is there already and is not Pellucid's"
+    [ -L "$link" ] && [ ! -e "$link" ] || refuse "$link already exists and is not Pellucid's"
 done
 
 # One at a time: a lock on a folder that is there anyway leaves nothing behind.

@@ -562,23 +562,23 @@
 <context>
     <name>Reasons</name>
     <message>
-        <source>a spectrum of %1 x %2 x %3 cells is larger than the graphics card&apos;s textures, %4 a side</source>
+        <source>a spectrum of %1 x %2 x %3 cells is larger than the graphics card&apos;s largest texture, %4 a side</source>
         <translation>%1 x %2 x %3 格的頻譜大於顯示卡的紋理，每邊 %4</translation>
     </message>
     <message>
-        <source>the image reaches further than the graphics card&apos;s slice can count</source>
-        <translation>影像超出顯示卡切片的計數範圍</translation>
+        <source>the image covers more cells than the graphics card can count</source>
+        <translation>影像涵蓋的格數超過顯示卡所能計數</translation>
     </message>
     <message>
-        <source>means, %1 x %2 x %3 in place of %4 x %5 x %6: more does not fit the memory</source>
-        <translation>平均值，以 %1 x %2 x %3 取代 %4 x %5 x %6：記憶體容納不下更多</translation>
+        <source>averaged to %1 x %2 x %3: the full %4 x %5 x %6 does not fit in memory</source>
+        <translation>平均為 %1 x %2 x %3：記憶體容納不下完整的 %4 x %5 x %6</translation>
     </message>
     <message>
-        <source>uneven slice distances, resampled onto %1 mm; they change at %2</source>
+        <source>uneven slice spacing, resampled to %1 mm; it changes at %2</source>
         <translation>切片間距不均，重新取樣為 %1 mm；變化處：%2</translation>
     </message>
     <message>
-        <source>has its samples in another file; referred to, not copied</source>
+        <source>has its samples in another file; imported by reference, not copied</source>
         <translation>取樣資料在另一個檔案；已參照，未複製</translation>
     </message>
     <message>
@@ -586,27 +586,27 @@
         <translation>記憶體不足以保留各層的投影</translation>
     </message>
     <message>
-        <source>the most accurate that fits the memory with the chosen %1</source>
+        <source>the most accurate that fits in memory with the chosen %1</source>
         <translation>在所選的%1下，記憶體所能容納的最準確做法</translation>
     </message>
     <message>
-        <source>the weight %1 of a transfer function is not within 0 and %2</source>
+        <source>the weight %1 of a transfer function is not between 0 and %2</source>
         <translation>轉換函數的權重 %1 不在 0 與 %2 之間</translation>
     </message>
     <message>
-        <source>the cheapest that keeps the tolerance with the chosen %1</source>
+        <source>the cheapest that meets the tolerance with the chosen %1</source>
         <translation>在所選的%1下，符合容差的最省做法</translation>
     </message>
     <message>
-        <source>the spectra need %1 MB, the graphics card has %2 MB free</source>
+        <source>the spectra need %1 MB, but the graphics card has only %2 MB free</source>
         <translation>頻譜需要 %1 MB，顯示卡有 %2 MB 可用</translation>
     </message>
     <message>
-        <source>a fragment of the compressed pixels is not readable</source>
+        <source>a fragment of the compressed pixel data cannot be read</source>
         <translation>無法讀取壓縮像素的片段</translation>
     </message>
     <message>
-        <source>an image of %1 x %2 pixels needs %3 MB, %4 MB are allowed</source>
+        <source>an image of %1 x %2 pixels needs %3 MB, but only %4 MB are allowed</source>
         <translation>%1 x %2 像素的影像需要 %3 MB，允許 %4 MB</translation>
     </message>
     <message>
@@ -614,15 +614,15 @@
         <translation>僅支援三維 NRRD 體積</translation>
     </message>
     <message>
-        <source>is an archive; archives are opened by themselves</source>
+        <source>is an archive; open it separately</source>
         <translation>為壓縮檔；壓縮檔須單獨開啟</translation>
     </message>
     <message>
-        <source>the compressed image is not what the header says</source>
+        <source>the compressed image does not match the header</source>
         <translation>壓縮影像與檔頭不符</translation>
     </message>
     <message>
-        <source>slice distances from %1 to %2 mm have no common step</source>
+        <source>slice spacings from %1 to %2 mm have no common step</source>
         <translation>切片間距由 %1 至 %2 mm，沒有共同的步距</translation>
     </message>
     <message>
@@ -638,15 +638,15 @@
         <translation>記憶體不足以容納場的梯度</translation>
     </message>
     <message>
-        <source>announces %1 frames, more than the file can hold</source>
+        <source>declares %1 frames, more than the file can hold</source>
         <translation>宣告 %1 個影格，超過檔案所能容納</translation>
     </message>
     <message>
-        <source>tilted by %1 degrees; shown from its own lattice</source>
+        <source>tilted by %1 degrees; shown on its own slanted grid</source>
         <translation>傾斜 %1 度；依其自身格點顯示</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is no parameter of the step &apos;%2&apos;, which has %3</source>
+        <source>the step &apos;%2&apos; has no parameter &apos;%1&apos;; it has %3</source>
         <translation>「%1」不是步驟「%2」的參數，其參數為 %3</translation>
     </message>
     <message>
@@ -654,15 +654,15 @@
         <translation>每個取樣 %1 位元；支援 8 與 16 位元</translation>
     </message>
     <message>
-        <source>the graphics card has not enough memory for %1</source>
+        <source>the graphics card does not have enough memory for %1</source>
         <translation>顯示卡的記憶體不足以容納%1</translation>
     </message>
     <message>
-        <source>the compressed data are damaged or truncated</source>
+        <source>the compressed data is damaged or truncated</source>
         <translation>壓縮資料損壞或被截斷</translation>
     </message>
     <message>
-        <source>unpacks to more than the %1 there is room for</source>
+        <source>unpacks to more than the %1 available</source>
         <translation>解壓縮後大於可用的 %1</translation>
     </message>
     <message>
@@ -670,23 +670,23 @@
         <translation>記憶體不足以容納此大小的影像</translation>
     </message>
     <message>
-        <source>the most accurate there is with the chosen %1</source>
+        <source>the most accurate with the chosen %1</source>
         <translation>在所選的%1下最準確的做法</translation>
     </message>
     <message>
-        <source>the graphics card does not answer any more</source>
+        <source>the graphics card no longer responds</source>
         <translation>顯示卡不再回應</translation>
     </message>
     <message>
-        <source>a transfer function has %1 to %2 weights, not %3</source>
+        <source>a transfer function must have %1 to %2 weights, not %3</source>
         <translation>轉換函數有 %1 至 %2 個權重，而非 %3 個</translation>
     </message>
     <message>
-        <source>says that %1 of %2 bits are stored up to bit %3</source>
-        <translation>宣告 %2 位元中的 %1 位元存至第 %3 位元</translation>
+        <source>has contradictory attributes: Bits Stored %1, Bits Allocated %2, High Bit %3</source>
+        <translation>屬性互相矛盾：Bits Stored %1、Bits Allocated %2、High Bit %3</translation>
     </message>
     <message>
-        <source>the projection needs %1 MB, %2 MB are allowed</source>
+        <source>the projection needs %1 MB, but only %2 MB are allowed</source>
         <translation>投影需要 %1 MB，允許 %2 MB</translation>
     </message>
     <message>
@@ -694,7 +694,7 @@
         <translation>沒有使用者預設集的資料夾</translation>
     </message>
     <message>
-        <source>holds %1 compressed frames, %2 are announced</source>
+        <source>contains %1 compressed frames, but declares %2</source>
         <translation>含有 %1 個壓縮影格，但宣告 %2 個</translation>
     </message>
     <message>
@@ -702,7 +702,7 @@
         <translation>記憶體不足以容納 %1 x %2 x %3 的體積</translation>
     </message>
     <message>
-        <source>floating-point pixels are not supported</source>
+        <source>has floating-point pixels, which are not supported</source>
         <translation>不支援浮點像素</translation>
     </message>
     <message>
@@ -710,15 +710,15 @@
         <translation>記憶體不足以容納裁切後的場</translation>
     </message>
     <message>
-        <source>%1; studies are listed for this run only</source>
-        <translation>%1；檢查僅於本次執行列出</translation>
+        <source>%1; studies are listed only until the program closes</source>
+        <translation>%1；檢查僅列出至程式關閉為止</translation>
     </message>
     <message>
-        <source>the compressed pixels are not readable</source>
+        <source>the compressed pixel data cannot be read</source>
         <translation>無法讀取壓縮的像素</translation>
     </message>
     <message>
-        <source>the pixels are truncated: %1 of %2 samples</source>
+        <source>the pixel data is truncated: %1 of %2 samples</source>
         <translation>像素被截斷：%2 個取樣中的 %1 個</translation>
     </message>
     <message>
@@ -726,7 +726,7 @@
         <translation>記憶體不足以容納類別的場</translation>
     </message>
     <message>
-        <source>the most accurate that fits the memory</source>
+        <source>the most accurate that fits in memory</source>
         <translation>記憶體所能容納的最準確做法</translation>
     </message>
     <message>
@@ -734,11 +734,11 @@
         <translation>沒有暫存檔案的資料夾</translation>
     </message>
     <message>
-        <source>is a study library of a newer version</source>
+        <source>is a study library from a newer version of the program</source>
         <translation>為較新版本的檢查資料庫</translation>
     </message>
     <message>
-        <source>the image is not what the header says</source>
+        <source>the image does not match the header</source>
         <translation>影像與檔頭不符</translation>
     </message>
     <message>
@@ -750,7 +750,7 @@
         <translation>列於 DICOMDIR 但已遺失</translation>
     </message>
     <message>
-        <source>the cheapest that keeps the tolerance</source>
+        <source>the cheapest that meets the tolerance</source>
         <translation>符合容差的最省做法</translation>
     </message>
     <message>
@@ -762,7 +762,7 @@
         <translation>預設集「%1」適用於 %2，不適用於 %3</translation>
     </message>
     <message>
-        <source>is no volume property of 3D Slicer: %1</source>
+        <source>is not a 3D Slicer volume property: %1</source>
         <translation>不是 3D Slicer 的體積屬性：%1</translation>
     </message>
     <message>
@@ -782,7 +782,7 @@
         <translation>是檔案索引，不是影像</translation>
     </message>
     <message>
-        <source>unpacks to more than it announces</source>
+        <source>unpacks to more than its stated size</source>
         <translation>解壓縮後大於其宣告的大小</translation>
     </message>
     <message>
@@ -802,11 +802,11 @@
         <translation>已有名為「%1」的預設集</translation>
     </message>
     <message>
-        <source>lists a file outside its folder</source>
+        <source>refers to a file outside its folder</source>
         <translation>列出了資料夾之外的檔案</translation>
     </message>
     <message>
-        <source>needs more memory than there is</source>
+        <source>needs more memory than is available</source>
         <translation>需要的記憶體超過可用量</translation>
     </message>
     <message>
@@ -826,7 +826,7 @@
         <translation>柔和度必須大於或等於 0</translation>
     </message>
     <message>
-        <source>not enough memory for %1 of %2 MB</source>
+        <source>not enough memory for %1 (%2 MB)</source>
         <translation>記憶體不足以容納 %2 MB 的%1</translation>
     </message>
     <message>
@@ -838,7 +838,7 @@
         <translation>無法設定解碼器</translation>
     </message>
     <message>
-        <source>the preset cannot be kept: %1</source>
+        <source>the preset cannot be saved: %1</source>
         <translation>無法保存預設集：%1</translation>
     </message>
     <message>
@@ -846,7 +846,7 @@
         <translation>影像沒有位置</translation>
     </message>
     <message>
-        <source>segmentations are not shown</source>
+        <source>is a segmentation, which cannot be shown</source>
         <translation>不顯示分割結果</translation>
     </message>
     <message>
@@ -854,7 +854,7 @@
         <translation>其不透明度處處為 0</translation>
     </message>
     <message>
-        <source>the most accurate there is</source>
+        <source>the most accurate available</source>
         <translation>最準確的做法</translation>
     </message>
     <message>
@@ -870,15 +870,15 @@
         <translation>NRRD 檔頭沒有結尾</translation>
     </message>
     <message>
-        <source>changed while it was read</source>
+        <source>changed while it was being read</source>
         <translation>讀取期間有變動</translation>
     </message>
     <message>
-        <source>cannot be read to its end</source>
+        <source>cannot be read to the end</source>
         <translation>無法讀到結尾</translation>
     </message>
     <message>
-        <source>has an image without size</source>
+        <source>has an image without rows or columns</source>
         <translation>影像沒有大小</translation>
     </message>
     <message>
@@ -890,11 +890,11 @@
         <translation>沒有此檔案或資料夾</translation>
     </message>
     <message>
-        <source>the pixels are truncated</source>
+        <source>the pixel data is truncated</source>
         <translation>像素被截斷</translation>
     </message>
     <message>
-        <source>has the instance UID of %1</source>
+        <source>has the same instance UID as %1</source>
         <translation>與 %1 的實例 UID 相同</translation>
     </message>
     <message>
@@ -906,7 +906,7 @@
         <translation>範圍 %1 至 %2 是空的</translation>
     </message>
     <message>
-        <source>the step &apos;%1&apos; is none of %2</source>
+        <source>unknown step &apos;%1&apos;: use one of %2</source>
         <translation>步驟「%1」不在 %2 之中</translation>
     </message>
     <message>
@@ -918,11 +918,11 @@
         <translation>為損壞的壓縮檔：%1</translation>
     </message>
     <message>
-        <source>holds more than %1 files</source>
+        <source>contains more than %1 files</source>
         <translation>含有超過 %1 個檔案</translation>
     </message>
     <message>
-        <source>holds no usable images</source>
+        <source>contains no usable images</source>
         <translation>沒有可用的影像</translation>
     </message>
     <message>
@@ -934,11 +934,7 @@
         <translation>是資料夾的連結</translation>
     </message>
     <message>
-        <source>is not a regular file</source>
-        <translation>不是一般檔案</translation>
-    </message>
-    <message>
-        <source>is not there any more</source>
+        <source>no longer exists</source>
         <translation>已不存在</translation>
     </message>
     <message>
@@ -950,7 +946,7 @@
         <translation>精確參考，雙精度</translation>
     </message>
     <message>
-        <source>ffmpeg does not start</source>
+        <source>ffmpeg cannot be started</source>
         <translation>無法啟動 ffmpeg</translation>
     </message>
     <message>
@@ -998,7 +994,7 @@
         <translation>類別沒有名稱</translation>
     </message>
     <message>
-        <source>is no regular file</source>
+        <source>is not a regular file</source>
         <translation>不是一般檔案</translation>
     </message>
     <message>
@@ -1010,7 +1006,7 @@
         <translation>ffmpeg 提前結束</translation>
     </message>
     <message>
-        <source>is not readable: %1</source>
+        <source>cannot be read: %1</source>
         <translation>無法讀取：%1</translation>
     </message>
     <message>
@@ -1026,11 +1022,11 @@
         <translation>記憶體不足</translation>
     </message>
     <message>
-        <source>cannot be made: %1</source>
+        <source>cannot be created: %1</source>
         <translation>無法建立：%1</translation>
     </message>
     <message>
-        <source>has no pixels (%1)</source>
+        <source>has no pixel data (%1)</source>
         <translation>沒有像素 (%1)</translation>
     </message>
     <message>
@@ -1038,7 +1034,7 @@
         <translation>是失效的連結</translation>
     </message>
     <message>
-        <source>holds no images</source>
+        <source>contains no images</source>
         <translation>沒有影像</translation>
     </message>
     <message>
@@ -1062,11 +1058,11 @@
         <translation>僅有影像：%1</translation>
     </message>
     <message>
-        <source>holds no data</source>
+        <source>contains no data</source>
         <translation>沒有資料</translation>
     </message>
     <message>
-        <source>has no pixels</source>
+        <source>has no pixel data</source>
         <translation>沒有像素</translation>
     </message>
     <message>
@@ -1102,7 +1098,7 @@
         <translation>JPEG 2000：%1</translation>
     </message>
     <message>
-        <source>without %1: %2</source>
+        <source>%1 is not used: %2</source>
         <translation>缺少 %1：%2</translation>
     </message>
     <message>
@@ -1138,23 +1134,23 @@
         <translation>組 %1</translation>
     </message>
     <message>
-        <source>OpenGL here is %1.%2; 3.3 is needed to show pictures with it</source>
+        <source>OpenGL %1.%2 is too old; showing images needs 3.3</source>
         <translation>此處的 OpenGL 為 %1.%2；顯示影像需要 3.3</translation>
     </message>
     <message>
-        <source>OpenGL contexts here do not share what they hold</source>
+        <source>OpenGL contexts cannot share their objects</source>
         <translation>此處的 OpenGL 環境無法共用內容</translation>
     </message>
     <message>
-        <source>OpenGL here gives no second context</source>
+        <source>a second OpenGL context cannot be created</source>
         <translation>此處的 OpenGL 無法提供第二個環境</translation>
     </message>
     <message>
-        <source>OpenGL here is a software renderer</source>
+        <source>OpenGL runs on a software renderer</source>
         <translation>此處的 OpenGL 為軟體繪圖</translation>
     </message>
     <message>
-        <source>there is no libEGL on this machine</source>
+        <source>libEGL is not installed</source>
         <translation>此電腦沒有 libEGL</translation>
     </message>
     <message>
@@ -1170,15 +1166,15 @@
         <translation>已選擇處理器</translation>
     </message>
     <message>
-        <source>there is a graphics card</source>
-        <translation>有顯示卡可用</translation>
+        <source>a graphics card was found</source>
+        <translation>找到顯示卡</translation>
     </message>
     <message>
-        <source>no OpenGL here</source>
+        <source>OpenGL is not available</source>
         <translation>此處沒有 OpenGL</translation>
     </message>
     <message>
-        <source>copies need a study library that can be written</source>
+        <source>copying needs a study library that can be written to</source>
         <translation>複製需要可寫入的檢查資料庫</translation>
     </message>
     <message>
@@ -1186,19 +1182,19 @@
         <translation>取樣資料在另一個檔案；未匯入</translation>
     </message>
     <message>
-        <source>planes are not at right angles</source>
+        <source>the planes are not at right angles</source>
         <translation>各平面不互相垂直</translation>
     </message>
     <message>
-        <source>was decoded to nonsense</source>
-        <translation>解碼結果沒有意義</translation>
+        <source>was decoded to implausible data</source>
+        <translation>解碼出的資料不合理</translation>
     </message>
     <message>
         <source>takes too long to read</source>
         <translation>讀取時間過長</translation>
     </message>
     <message>
-        <source>needs %1 MB of memory, there are %2 MB</source>
+        <source>needs %1 MB of memory, but only %2 MB are available</source>
         <translation>需要 %1 MB 記憶體，目前只有 %2 MB</translation>
     </message>
     <message>
@@ -1210,7 +1206,7 @@
         <translation>序列巢狀層次過深</translation>
     </message>
     <message>
-        <source>holds more files than it announces</source>
+        <source>contains more files than it lists</source>
         <translation>內含的檔案多於其所宣告</translation>
     </message>
     <message>
@@ -1218,11 +1214,11 @@
         <translation>損壞嚴重，解碼程式因此當掉</translation>
     </message>
     <message>
-        <source>made the decoder try what no image needs</source>
-        <translation>使解碼程式嘗試影像不需要的動作</translation>
+        <source>made the decoder attempt a forbidden system call</source>
+        <translation>使解碼程式嘗試被禁止的系統呼叫</translation>
     </message>
     <message>
-        <source>its samples are missing: %1</source>
+        <source>its sample file is missing: %1</source>
         <translation>缺少取樣檔：%1</translation>
     </message>
     <message>
@@ -1278,19 +1274,19 @@
         <translation>已損壞</translation>
     </message>
     <message>
-        <source>is larger than such files are (%1 MB)</source>
+        <source>is larger than the %1 MB limit for this kind of file</source>
         <translation>大於此類檔案的大小上限（%1 MB）</translation>
     </message>
     <message>
-        <source>has a rescale slope or intercept that gives no values</source>
+        <source>has an unusable rescale slope or intercept</source>
         <translation>重新調整斜率或截距無法得出數值</translation>
     </message>
     <message>
-        <source>holds more samples than its header says</source>
+        <source>the file contains more samples than its header says</source>
         <translation>樣本數多於標頭所述</translation>
     </message>
     <message>
-        <source>samples that are no finite numbers: %1</source>
+        <source>samples that are not finite numbers: %1</source>
         <translation>非有限數值的樣本：%1</translation>
     </message>
     <message>
@@ -1302,27 +1298,27 @@
         <translation>NRRD 標頭中「%1」出現兩次</translation>
     </message>
     <message>
-        <source>has more elements than any image</source>
+        <source>has too many data elements for an image</source>
         <translation>元素數量超過任何影像</translation>
     </message>
     <message>
-        <source>its decoder was killed, for want of memory perhaps</source>
+        <source>its decoder was killed, perhaps because memory ran out</source>
         <translation>其解碼程式被終止，可能是記憶體不足</translation>
     </message>
     <message>
-        <source>is no folder</source>
+        <source>is not a folder</source>
         <translation>不是資料夾</translation>
     </message>
     <message>
-        <source>an empty path leads nowhere</source>
-        <translation>空的路徑沒有指向任何位置</translation>
+        <source>the path is empty</source>
+        <translation>路徑是空的</translation>
     </message>
     <message>
-        <source>rescale slopes of 0, taken for 1: %1</source>
-        <translation>重新調整斜率為 0、視為 1：%1</translation>
+        <source>files with a rescale slope of 0, taken as 1: %1</source>
+        <translation>重新調整斜率為 0、視為 1 的檔案：%1</translation>
     </message>
     <message>
-        <source>the compressed pixels are damaged: %1</source>
+        <source>the compressed pixel data is damaged: %1</source>
         <translation>壓縮的像素已損壞：%1</translation>
     </message>
     <message>
@@ -1334,19 +1330,19 @@
         <translation>是壓縮檔中的連結</translation>
     </message>
     <message>
-        <source>is there already</source>
+        <source>already exists</source>
         <translation>已經存在</translation>
     </message>
     <message>
-        <source>is not a session</source>
-        <translation>不是工作階段</translation>
+        <source>is not a session file</source>
+        <translation>不是工作階段檔案</translation>
     </message>
     <message>
         <source>does not say whether its values are signed</source>
         <translation>未說明數值是否帶正負號</translation>
     </message>
     <message>
-        <source>names no space of the patient; taken for left-posterior-superior</source>
+        <source>the file names no patient space; left-posterior-superior is assumed</source>
         <translation>未指明病人座標空間；視為左－後－上</translation>
     </message>
     <message>
@@ -1354,7 +1350,7 @@
         <translation>不支援 NRRD 單位「%1」</translation>
     </message>
     <message>
-        <source>files whose compressed pixels are damaged: %1</source>
+        <source>files whose compressed pixel data is damaged: %1</source>
         <translation>壓縮像素損壞的檔案：%1</translation>
     </message>
     <message>
@@ -1366,7 +1362,7 @@
         <translation>不是先前在此開啟的檢查</translation>
     </message>
     <message>
-        <source>not enough memory for a decoder</source>
+        <source>not enough memory to start the decoder</source>
         <translation>記憶體不足以啟動解碼程式</translation>
     </message>
     <message>
@@ -1390,7 +1386,7 @@
         <translation>像素間距最多相差 %1 %；採用平均值</translation>
     </message>
     <message>
-        <source>hardly any images share a frame of reference; treated as one</source>
+        <source>almost every image has its own frame of reference; treated as one</source>
         <translation>幾乎每張影像各有自己的參考座標系；視為同一個</translation>
     </message>
     <message>
@@ -1398,7 +1394,7 @@
         <translation>不同影像具有相同的物件 UID：%1 張</translation>
     </message>
     <message>
-        <source>images of one series name %1 studies; shown in the first</source>
+        <source>the images of this series belong to %1 studies; shown in the first</source>
         <translation>同一系列的影像標示了 %1 個檢查；顯示於第一個</translation>
     </message>
     <message>
@@ -1410,15 +1406,15 @@
         <translation>第 %1 張，共 %2 張：%4 與 %5 之間有 %3 mm 的空隙</translation>
     </message>
     <message>
-        <source>files coded implicitly that say they are explicit: %1</source>
+        <source>files labelled explicit VR but encoded as implicit VR: %1</source>
         <translation>標示為顯式、實際為隱式編碼的檔案：%1</translation>
     </message>
     <message>
-        <source>files of a compressed syntax with pixels of defined length: %1</source>
+        <source>files with a compressed transfer syntax but pixel data of defined length: %1</source>
         <translation>壓縮語法卻具有固定長度像素的檔案：%1</translation>
     </message>
     <message>
-        <source>files whose compressed pixels have no end: %1</source>
+        <source>files whose compressed pixel data is not terminated: %1</source>
         <translation>壓縮像素沒有結尾的檔案：%1</translation>
     </message>
     <message>
@@ -1426,7 +1422,7 @@
         <translation>像素位元數多於標頭所述的檔案：%1</translation>
     </message>
     <message>
-        <source>mosaics that could not be taken apart, shown flat: %1</source>
+        <source>mosaics that could not be split into slices, shown as single images: %1</source>
         <translation>無法拆開而以平面顯示的拼接影像：%1</translation>
     </message>
     <message>
@@ -1434,7 +1430,7 @@
         <translation>異常龐大：%4 MB 的檔案內有 %1 x %2 x %3 像素</translation>
     </message>
     <message>
-        <source>transfer syntax not supported: %1</source>
+        <source>has an unsupported transfer syntax: %1</source>
         <translation>不支援的傳輸語法：%1</translation>
     </message>
     <message>
@@ -1442,7 +1438,7 @@
         <translation>每像素有 %1 個取樣；單色影像只有一個</translation>
     </message>
     <message>
-        <source>the pixels are not readable</source>
+        <source>the pixel data cannot be read</source>
         <translation>無法讀取像素</translation>
     </message>
     <message>
@@ -1450,23 +1446,23 @@
         <translation>壓縮影格沒有標頭</translation>
     </message>
     <message>
-        <source>a compressed frame has %1 x %2 pixels, the header says %3 x %4</source>
+        <source>a compressed frame has %1 x %2 pixels, but the header says %3 x %4</source>
         <translation>壓縮影格有 %1 x %2 像素，標頭則為 %3 x %4</translation>
     </message>
     <message>
-        <source>a compressed frame has %1 colours</source>
-        <translation>壓縮影格有 %1 種色彩</translation>
+        <source>a compressed frame has %1 colour components</source>
+        <translation>壓縮影格有 %1 個色彩分量</translation>
     </message>
     <message>
-        <source>a compressed frame has %1 bits per sample, the header says %2</source>
+        <source>a compressed frame has %1 bits per sample, but the header says %2</source>
         <translation>壓縮影格每取樣 %1 位元，標頭則為 %2</translation>
     </message>
     <message>
-        <source>a compressed frame is coded otherwise (marker %1) than its transfer syntax says: %2</source>
+        <source>a compressed frame does not match its transfer syntax (marker %1): %2</source>
         <translation>壓縮影格的編碼（標記 %1）與其傳輸語法不符：%2</translation>
     </message>
     <message>
-        <source>compressed pixels without fragments: %1</source>
+        <source>the compressed pixel data has no fragments: %1</source>
         <translation>壓縮像素沒有分段：%1</translation>
     </message>
     <message>
@@ -1478,15 +1474,15 @@
         <translation>遊程編碼影格的位移有誤</translation>
     </message>
     <message>
-        <source>a run-length frame has %1 segments, %2 expected</source>
+        <source>a run-length frame has %1 segments instead of %2</source>
         <translation>遊程編碼影格有 %1 個區段，應為 %2 個</translation>
     </message>
     <message>
-        <source>a run-length segment gives %1 bytes, %2 expected</source>
+        <source>a run-length segment decodes to %1 bytes instead of %2</source>
         <translation>遊程編碼區段解出 %1 位元組，應為 %2</translation>
     </message>
     <message>
-        <source>a run-length segment has %1 bytes more than its image</source>
+        <source>a run-length segment has %1 bytes more than its image needs</source>
         <translation>遊程編碼區段比影像多出 %1 位元組</translation>
     </message>
     <message>
@@ -1494,7 +1490,7 @@
         <translation>JPEG XL：%1</translation>
     </message>
     <message>
-        <source>holds no image</source>
+        <source>contains no image</source>
         <translation>不含影像</translation>
     </message>
     <message>
@@ -1526,27 +1522,27 @@
         <translation>體積過大</translation>
     </message>
     <message>
-        <source>the origin is farther away than a kilometre</source>
+        <source>the origin is more than a kilometre away</source>
         <translation>原點距離超過一公里</translation>
     </message>
     <message>
-        <source>the samples are closer than a nanometre or farther apart than ten metres</source>
+        <source>the sample spacing is less than a nanometre or more than ten metres</source>
         <translation>取樣間距小於一奈米或大於十公尺</translation>
     </message>
     <message>
-        <source>holds colours; volumes of one value a voxel are supported</source>
+        <source>contains colours; only one value per voxel is supported</source>
         <translation>含有色彩；僅支援每體素一個值的體積</translation>
     </message>
     <message>
-        <source>holds several values a voxel; volumes of one are supported</source>
+        <source>has several values per voxel; only one is supported</source>
         <translation>每體素含有多個值；僅支援單一值的體積</translation>
     </message>
     <message>
-        <source>holds more volumes than any series</source>
-        <translation>所含體積多於任何系列</translation>
+        <source>contains too many volumes</source>
+        <translation>所含體積過多</translation>
     </message>
     <message>
-        <source>holds fewer volumes than before</source>
+        <source>contains fewer volumes than before</source>
         <translation>所含體積比先前少</translation>
     </message>
     <message>
@@ -1554,16 +1550,16 @@
         <translation>不支援 NIfTI 資料型別 %1</translation>
     </message>
     <message>
-        <source>the NIfTI header has no dimensions</source>
+        <source>the NIfTI header has no valid dimensions</source>
         <translation>NIfTI 標頭沒有維度</translation>
     </message>
     <message>
-        <source>the NIfTI header says no place of the samples</source>
+        <source>the NIfTI header does not say where the samples are</source>
         <translation>NIfTI 標頭未說明取樣的位置</translation>
     </message>
     <message>
-        <source>has its samples in another file; .nii files hold both</source>
-        <translation>取樣在另一個檔案中；.nii 檔案兩者皆含</translation>
+        <source>has its samples in another file; only single-file NIfTI (.nii) is supported</source>
+        <translation>取樣在另一個檔案中；僅支援單一檔案的 NIfTI (.nii)</translation>
     </message>
     <message>
         <source>the MetaImage header has a line without &apos;=&apos;</source>
@@ -1574,8 +1570,8 @@
         <translation>MetaImage 標頭沒有「%1」</translation>
     </message>
     <message>
-        <source>MetaImage numbers expected: %1</source>
-        <translation>應為 MetaImage 數字：%1</translation>
+        <source>the MetaImage header has &apos;%1&apos; where numbers are expected</source>
+        <translation>MetaImage 標頭中應為數字之處是「%1」</translation>
     </message>
     <message>
         <source>MetaImage type &apos;%1&apos; is not supported</source>
@@ -1594,20 +1590,20 @@
         <translation>不支援分散於多個檔案的 MetaImage 取樣</translation>
     </message>
     <message>
-        <source>MetaImage header sizes counted from the end are not supported</source>
-        <translation>不支援由檔尾計算的 MetaImage 標頭大小</translation>
+        <source>a negative MetaImage HeaderSize is not supported</source>
+        <translation>不支援負的 MetaImage HeaderSize</translation>
     </message>
     <message>
-        <source>its values, from %1 to %2, differ by less than 24 bits can tell</source>
-        <translation>其值自 %1 至 %2，差異小於 24 位元所能分辨</translation>
+        <source>its values, from %1 to %2, are too close together for single precision</source>
+        <translation>其值自 %1 至 %2，彼此過於接近，單精度無法分辨</translation>
     </message>
     <message>
         <source>values that differ by less than %1 are shown as equal</source>
         <translation>差異小於 %1 的數值顯示為相等</translation>
     </message>
     <message>
-        <source>nothing of the study is visible, so there is no spectrum to show</source>
-        <translation>頻譜於頻率 0 為零：沒有可顯示的內容</translation>
+        <source>nothing is visible, so there is no spectrum to show</source>
+        <translation>沒有可見的內容，因此沒有頻譜可顯示</translation>
     </message>
     <message>
         <source>; </source>
@@ -1658,39 +1654,39 @@
         <translation>不在資料夾中</translation>
     </message>
     <message>
-        <source>the volume has an axis without samples</source>
+        <source>the volume has no samples along one axis</source>
         <translation>體積有一軸沒有取樣</translation>
     </message>
     <message>
-        <source>the volume has more samples than any machine holds</source>
+        <source>the volume has more samples than any machine can hold</source>
         <translation>體積的取樣數超過任何電腦所能容納</translation>
     </message>
     <message>
-        <source>the geometry is not made of finite numbers</source>
+        <source>the geometry has numbers that are not finite</source>
         <translation>幾何資料不是有限的數值</translation>
     </message>
     <message>
-        <source>the voxel steps span no volume</source>
+        <source>the voxel axes do not span a volume</source>
         <translation>體素的步距未構成體積</translation>
     </message>
     <message>
-        <source>several series are &apos;%1&apos;; by UID: %2</source>
-        <translation>有數個序列為「%1」；依 UID：%2</translation>
+        <source>several series have the number &apos;%1&apos;; choose one by UID: %2</source>
+        <translation>有數個序列的編號為「%1」；請以 UID 選擇：%2</translation>
     </message>
     <message>
-        <source>no series &apos;%1&apos;; there are %2</source>
+        <source>there is no series &apos;%1&apos;; available: %2</source>
         <translation>沒有序列「%1」；現有 %2</translation>
     </message>
     <message>
-        <source>no volume %1 in series %2; there is one</source>
+        <source>series %2 has no volume %1; it has only one</source>
         <translation>序列 %2 中沒有體積 %1；只有一個</translation>
     </message>
     <message>
-        <source>no volume %1 in series %2; there are %3</source>
+        <source>series %2 has no volume %1; it has %3</source>
         <translation>序列 %2 中沒有體積 %1；共有 %3 個</translation>
     </message>
     <message>
-        <source>%1; the other slices make no volume</source>
+        <source>%1; the other slices do not form a volume</source>
         <translation>%1；其餘切片不構成體積</translation>
     </message>
     <message>
@@ -1702,23 +1698,23 @@
         <translation>無法設定屬性 (%1)</translation>
     </message>
     <message>
-        <source>the code of the profile cannot be written</source>
-        <translation>無法寫入規範的代碼</translation>
+        <source>the code of the confidentiality profile cannot be written</source>
+        <translation>無法寫入保密規範的代碼</translation>
     </message>
     <message>
         <source>compression failed: %1</source>
         <translation>壓縮失敗：%1</translation>
     </message>
     <message>
-        <source>unknown transfer syntax &apos;%1&apos;; known are %2</source>
+        <source>unknown transfer syntax &apos;%1&apos;: use one of %2</source>
         <translation>未知的傳輸語法「%1」；已知者為 %2</translation>
     </message>
     <message>
-        <source>only volumes of whole HU are written as CT</source>
+        <source>only volumes with whole HU values can be written as CT</source>
         <translation>只有數值為整數 HU 的體積能寫成 CT</translation>
     </message>
     <message>
-        <source>a fault of the program; the log says more</source>
+        <source>an internal error occurred; the log has the details</source>
         <translation>程式發生錯誤；記錄檔中有詳情</translation>
     </message>
     <message>
@@ -1726,8 +1722,8 @@
         <translation>沒有開啟的檢查</translation>
     </message>
     <message>
-        <source>%1 is a file of an open study</source>
-        <translation>%1 是已開啟檢查的檔案</translation>
+        <source>%1 belongs to an open study; choose another name</source>
+        <translation>%1 是已開啟檢查的檔案；請選擇其他名稱</translation>
     </message>
     <message>
         <source>a look needs a name</source>
@@ -1738,19 +1734,19 @@
         <translation>尚無投影</translation>
     </message>
     <message>
-        <source>the fields of the look need %1 MB</source>
-        <translation>此外觀的場需要 %1 MB</translation>
+        <source>the look needs %1 MB of memory, more than is available</source>
+        <translation>此外觀需要 %1 MB 記憶體，超過可用量</translation>
     </message>
     <message>
-        <source>no icon %1</source>
+        <source>the icon %1 is missing</source>
         <translation>沒有圖示 %1</translation>
     </message>
     <message>
-        <source>no resource %1</source>
+        <source>the resource %1 is missing</source>
         <translation>沒有資源 %1</translation>
     </message>
     <message>
-        <source>no color for role %1</source>
+        <source>the role %1 has no colour</source>
         <translation>角色 %1 沒有色彩</translation>
     </message>
     <message>
@@ -1778,15 +1774,15 @@
         <translation>檢查資料庫已損壞：%1</translation>
     </message>
     <message>
-        <source>the study library was damaged: %1 series were read, %2 lost; the old file is kept under this name</source>
+        <source>the study library was damaged: %1 series were recovered, %2 were lost; the old file is kept under this name</source>
         <translation>檢查資料庫已損壞：讀回 %1 個序列，遺失 %2 個；舊檔案以此名稱保留</translation>
     </message>
     <message>
-        <source>the study library was damaged and nothing of it could be read; the old file is kept under this name</source>
+        <source>the study library was damaged and nothing could be recovered; the old file is kept under this name</source>
         <translation>檢查資料庫已損毀，且無法讀取任何內容；舊檔以此名稱保留</translation>
     </message>
     <message>
-        <source>the study library was empty; its own copies are listed again</source>
+        <source>the study library was empty; its copied studies are listed again</source>
         <translation>檢查資料庫是空的；其自有的副本將重新列出</translation>
     </message>
     <message>
@@ -1794,11 +1790,11 @@
         <translation>已損毀，且無法寫入新的清單：%1</translation>
     </message>
     <message>
-        <source>the folder of your data cannot be written; studies are listed for this run only, and nothing is kept</source>
-        <translation>您的資料夾無法寫入；檢查僅於本次執行列出，不會保存任何內容</translation>
+        <source>your data folder cannot be written to; nothing is saved, and studies are listed only until the program closes</source>
+        <translation>您的資料夾無法寫入；不會保存任何內容，檢查僅列出至程式關閉為止</translation>
     </message>
     <message>
-        <source>copies need %1 MB and there are %2 MB</source>
+        <source>the copies need %1 MB, but only %2 MB are free</source>
         <translation>複製需要 %1 MB，只有 %2 MB 可用</translation>
     </message>
     <message>
@@ -1806,47 +1802,47 @@
         <translation>此體積的檔案已變動；請重新匯入</translation>
     </message>
     <message>
-        <source>the files of this series are not there any more; the disc or the drive they are on may be away</source>
-        <translation>此序列的檔案已不在；其光碟或磁碟可能已移除</translation>
+        <source>the files of this series cannot be found; the disc or drive they are on may be disconnected</source>
+        <translation>找不到此序列的檔案；其光碟或磁碟可能已移除</translation>
     </message>
     <message>
         <source>The measurements of this study cannot be read: %1</source>
         <translation>無法讀取此檢查的測量：%1</translation>
     </message>
     <message>
-        <source>The measurements cannot be kept: %1</source>
+        <source>The measurements cannot be saved: %1</source>
         <translation>無法保存測量：%1</translation>
     </message>
     <message>
-        <source>The measurements cannot be kept: there is no folder for them</source>
+        <source>The measurements cannot be saved: there is no folder for them</source>
         <translation>無法保存測量：沒有可用的資料夾</translation>
     </message>
     <message>
-        <source>those of before cannot be read</source>
-        <translation>無法讀取先前的測量</translation>
+        <source>the earlier ones cannot be read and would be lost</source>
+        <translation>無法讀取先前的測量，儲存會使其遺失</translation>
     </message>
     <message>
-        <source>The projection is still being made</source>
+        <source>The projection is still being computed</source>
         <translation>投影仍在製作中</translation>
     </message>
     <message>
-        <source>Values are written of the projection only</source>
+        <source>Only the projection can be exported as values</source>
         <translation>只有投影能輸出數值</translation>
     </message>
     <message>
-        <source>Only the projection turns</source>
-        <translation>只有投影能旋轉</translation>
+        <source>Only the projection can be exported as a turntable</source>
+        <translation>只有投影能匯出為環繞一周</translation>
     </message>
     <message>
-        <source>Videos need the program ffmpeg, which is not installed; frames do not</source>
-        <translation>影片需要 ffmpeg 程式，但未安裝；逐格影像則不需要</translation>
+        <source>Videos need ffmpeg, which is not installed; export frames instead</source>
+        <translation>影片需要 ffmpeg，但未安裝；請改為匯出逐格影像</translation>
     </message>
     <message>
-        <source>A picture in colour has no grey values: write it as it looks, or as NumPy</source>
+        <source>A picture in colour has no grey values: export it as it looks, or as NumPy values</source>
         <translation>彩色影像沒有灰階數值：請以所見或 NumPy 格式寫出</translation>
     </message>
     <message>
-        <source>Pictures have at most %1 pixels a side</source>
+        <source>Pictures can have at most %1 pixels a side</source>
         <translation>影像每邊最多 %1 像素</translation>
     </message>
     <message>
@@ -1858,11 +1854,11 @@
         <translation>無法寫入</translation>
     </message>
     <message>
-        <source>the decoder is gone</source>
+        <source>the decoder has exited</source>
         <translation>解碼程式已不存在</translation>
     </message>
     <message>
-        <source>it does not answer</source>
+        <source>it does not respond</source>
         <translation>沒有回應</translation>
     </message>
     <message>
@@ -1870,7 +1866,7 @@
         <translation>無法對映：%1</translation>
     </message>
     <message>
-        <source>is asked for in a way that the decoder does not know</source>
+        <source>was requested in a way that the decoder does not support</source>
         <translation>要求的方式為解碼程式所不認識</translation>
     </message>
     <message>
@@ -1894,23 +1890,23 @@
         <translation>NRRD 檔頭有一行沒有冒號</translation>
     </message>
     <message>
-        <source>NRRD numbers expected: %1</source>
-        <translation>應為 NRRD 數字：%1</translation>
+        <source>the NRRD header has &apos;%1&apos; where numbers are expected</source>
+        <translation>NRRD 檔頭中應為數字之處是「%1」</translation>
     </message>
     <message>
         <source>NRRD space &apos;%1&apos; is not supported</source>
         <translation>不支援 NRRD 空間「%1」</translation>
     </message>
     <message>
-        <source>NRRD vector without an end: %1</source>
+        <source>the NRRD vector has no closing bracket: %1</source>
         <translation>NRRD 向量沒有結尾：%1</translation>
     </message>
     <message>
-        <source>three NRRD space directions expected</source>
+        <source>the NRRD header must have three space directions</source>
         <translation>應有三個 NRRD 空間方向</translation>
     </message>
     <message>
-        <source>one NRRD space origin expected</source>
+        <source>the NRRD header must have one space origin</source>
         <translation>應有一個 NRRD 空間原點</translation>
     </message>
     <message>
@@ -1926,7 +1922,7 @@
         <translation>不支援 NRRD 位元組順序「%1」</translation>
     </message>
     <message>
-        <source>NRRD &apos;%1&apos; is not supported</source>
+        <source>the NRRD field &apos;%1&apos; is not supported</source>
         <translation>不支援 NRRD「%1」</translation>
     </message>
     <message>
@@ -1954,11 +1950,11 @@
         <translation>必須是三個數字</translation>
     </message>
     <message>
-        <source>must be a text</source>
+        <source>must be text</source>
         <translation>必須是文字</translation>
     </message>
     <message>
-        <source>must be a text of 1 to %1 characters on one line</source>
+        <source>must be one line of 1 to %1 characters</source>
         <translation>必須是一行 1 至 %1 個字元的文字</translation>
     </message>
     <message>
@@ -1994,7 +1990,7 @@
         <translation>不是 %1</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is none of %2</source>
+        <source>unknown value &apos;%1&apos;: use one of %2</source>
         <translation>「%1」不在 %2 之中</translation>
     </message>
     <message>
@@ -2002,11 +1998,11 @@
         <translation>缺少 %1</translation>
     </message>
     <message>
-        <source>holds more than %1 classes</source>
+        <source>has more than %1 classes</source>
         <translation>含有超過 %1 個類別</translation>
     </message>
     <message>
-        <source>holds more than %1 lights</source>
+        <source>has more than %1 lights</source>
         <translation>含有超過 %1 個光源</translation>
     </message>
     <message>
@@ -2026,23 +2022,23 @@
         <translation>記憶體不足以容納精確的明暗場</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is not a colour #rrggbb</source>
+        <source>&apos;%1&apos; is not a colour of the form #rrggbb</source>
         <translation>「%1」不是 #rrggbb 形式的色彩</translation>
     </message>
     <message>
-        <source>the colour is not within 0 and 1</source>
+        <source>the colour components must be between 0 and 1</source>
         <translation>色彩不在 0 與 1 之間</translation>
     </message>
     <message>
-        <source>the weight %1 is not within 0 and %2</source>
+        <source>the weight %1 is not between 0 and %2</source>
         <translation>權重 %1 不在 0 與 %2 之間</translation>
     </message>
     <message>
-        <source>has %1 steps, %2 are allowed</source>
+        <source>has %1 steps; at most %2 are allowed</source>
         <translation>有 %1 個步驟，允許 %2 個</translation>
     </message>
     <message>
-        <source>there are %1 classes, %2 are allowed</source>
+        <source>there are %1 classes; at most %2 are allowed</source>
         <translation>有 %1 個類別，允許 %2 個</translation>
     </message>
     <message>
@@ -2054,7 +2050,7 @@
         <translation>此處無法執行類別「%1」的步驟</translation>
     </message>
     <message>
-        <source>%1 of the step &apos;%2&apos; is %3, not within %4 and %5</source>
+        <source>%1 of the step &apos;%2&apos; is %3, not between %4 and %5</source>
         <translation>步驟「%2」的 %1 為 %3，不在 %4 與 %5 之間</translation>
     </message>
     <message>
@@ -2062,7 +2058,7 @@
         <translation>步驟「%2」的 %1 為 %3，不是整數</translation>
     </message>
     <message>
-        <source>low of the step &apos;%1&apos; lies above high</source>
+        <source>low is above high in the step &apos;%1&apos;</source>
         <translation>步驟「%1」的 low 高於 high</translation>
     </message>
     <message>
@@ -2074,7 +2070,7 @@
         <translation>步驟「%2」中的「%1」不是 名稱=數字</translation>
     </message>
     <message>
-        <source>edges by ITK need four samples along each axis; the fast method does not</source>
+        <source>edges by ITK need at least four samples along each axis; the fast method does not</source>
         <translation>以 ITK 求邊緣時，每軸至少需要四個取樣；快速方法則不需要</translation>
     </message>
     <message>
@@ -2086,19 +2082,19 @@
         <translation>裁切框的每一軸都必須符合 0 &lt;= 低 &lt; 高 &lt;= 1</translation>
     </message>
     <message>
-        <source>there is no preset &apos;%1&apos;; &apos;pellucid-cli preset list&apos; names them</source>
+        <source>there is no preset &apos;%1&apos;; &apos;pellucid-cli preset list&apos; lists the presets</source>
         <translation>沒有預設集「%1」；以 pellucid-cli preset list 可列出</translation>
     </message>
     <message>
-        <source>there is no preset &apos;%1&apos;; there is %2</source>
-        <translation>沒有預設集「%1」；現有 %2</translation>
+        <source>there is no preset &apos;%1&apos;; similar names: %2</source>
+        <translation>沒有預設集「%1」；名稱相近的有 %2</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; comes with the program and stays</source>
+        <source>&apos;%1&apos; is built in and cannot be removed</source>
         <translation>「%1」為程式內建，不能移除</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; comes with the program and stays as it is; choose another name</source>
+        <source>&apos;%1&apos; is built in and cannot be replaced; choose another name</source>
         <translation>「%1」為程式內建，不能變更；請選擇其他名稱</translation>
     </message>
     <message>
@@ -2110,7 +2106,7 @@
         <translation>純量不透明度並非以數值個數開頭</translation>
     </message>
     <message>
-        <source>%1 values are announced, %2 are there</source>
+        <source>%1 values are declared, but only %2 are present</source>
         <translation>宣告 %1 個數值，只有 %2 個</translation>
     </message>
     <message>
@@ -2118,7 +2114,7 @@
         <translation>數值 %1 超出範圍</translation>
     </message>
     <message>
-        <source>the opacity %1 at %2 is not within 0 and 1</source>
+        <source>the opacity %1 at %2 is not between 0 and 1</source>
         <translation>%2 處的不透明度 %1 不在 0 與 1 之間</translation>
     </message>
     <message>
@@ -2138,15 +2134,15 @@
         <translation>光源「%1」</translation>
     </message>
     <message>
-        <source>the depth cue &apos;%1&apos; is none of none, linear:S, sine:S or curve:c0,c1,...</source>
+        <source>unknown depth cue &apos;%1&apos;: use none, linear:S, sine:S or curve:c0,c1,...</source>
         <translation>深度提示「%1」不是 none、linear:S、sine:S 或 curve:c0,c1,...</translation>
     </message>
     <message>
-        <source>the light &apos;%1&apos; is not u,v,w[:#rrggbb[:S]]</source>
+        <source>the light &apos;%1&apos; is not of the form u,v,w[:#rrggbb[:S]]</source>
         <translation>光源「%1」不是 u,v,w[:#rrggbb[:S]]</translation>
     </message>
     <message>
-        <source>the strength of the depth cue must be within 0 to 1</source>
+        <source>the strength of the depth cue must be between 0 and 1</source>
         <translation>深度提示的強度必須在 0 至 1 之間</translation>
     </message>
     <message>
@@ -2154,27 +2150,27 @@
         <translation>深度提示的曲線必須有 %1 至 %2 個數值</translation>
     </message>
     <message>
-        <source>the values of the depth cue&apos;s curve must be within 0 to %1</source>
+        <source>the values of the depth cue&apos;s curve must be between 0 and %1</source>
         <translation>深度提示曲線的數值必須在 0 至 %1 之間</translation>
     </message>
     <message>
-        <source>the ambient light must be within 0 to %1</source>
+        <source>the ambient light must be between 0 and %1</source>
         <translation>環境光必須在 0 至 %1 之間</translation>
     </message>
     <message>
-        <source>more than %1 lights</source>
-        <translation>超過 %1 個光源</translation>
+        <source>at most %1 lights are allowed</source>
+        <translation>最多允許 %1 個光源</translation>
     </message>
     <message>
-        <source>the direction of a light must not be 0, nor beyond all numbers</source>
+        <source>the direction of a light must be finite and not zero</source>
         <translation>光源的方向不可為 0，亦不可超出數值範圍</translation>
     </message>
     <message>
-        <source>the strength of a light must be within 0 to 1</source>
+        <source>the strength of a light must be between 0 and 1</source>
         <translation>光源的強度必須在 0 至 1 之間</translation>
     </message>
     <message>
-        <source>the colour of a light must be within 0 to 1</source>
+        <source>the colour components of a light must be between 0 and 1</source>
         <translation>光源的色彩必須在 0 至 1 之間</translation>
     </message>
     <message>
@@ -2182,7 +2178,7 @@
         <translation>影像每邊必須為 1 至 %1 像素</translation>
     </message>
     <message>
-        <source>the pixel must be a positive length</source>
+        <source>the pixel size must be positive</source>
         <translation>像素必須是正的長度</translation>
     </message>
     <message>
@@ -2194,7 +2190,7 @@
         <translation>方向不可為零</translation>
     </message>
     <message>
-        <source>the roll-off must be within 0 to 1</source>
+        <source>the roll-off must be between 0 and 1</source>
         <translation>滾降必須在 0 至 1 之間</translation>
     </message>
     <message>
@@ -2202,11 +2198,11 @@
         <translation>容差必須大於 0</translation>
     </message>
     <message>
-        <source>the padding must be within 1 to 4</source>
+        <source>the padding must be between 1 and 4</source>
         <translation>補零必須在 1 至 4 之間</translation>
     </message>
     <message>
-        <source>the window&apos;s low end must lie below its high end</source>
+        <source>the window&apos;s low end must be below its high end</source>
         <translation>窗的下限必須低於上限</translation>
     </message>
     <message>
@@ -2214,23 +2210,23 @@
         <translation>場景中有未知的重建「%1」</translation>
     </message>
     <message>
-        <source>planned_for is neither picture nor volume in the scene</source>
+        <source>planned_for in the scene must be picture or volume</source>
         <translation>場景中的 planned_for 既非 picture 也非 volume</translation>
     </message>
     <message>
-        <source>the whole volume at its finest step needs an image of more than %1 pixels a side; name a size or a larger pixel</source>
+        <source>the whole volume at its finest step needs an image of more than %1 pixels a side; choose a size or a larger pixel</source>
         <translation>以最細步距顯示整個體積時，影像每邊超過 %1 像素；請指定大小或較大的像素</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is not a kernel; there are nearest, trilinear, catmull-rom, b-spline, hamming-sinc, ES2 to ES7, KB2 to KB7 and LS2 to LS7</source>
+        <source>unknown kernel &apos;%1&apos;: use nearest, trilinear, catmull-rom, b-spline, hamming-sinc, ES2 to ES7, KB2 to KB7 or LS2 to LS7</source>
         <translation>「%1」不是核函數；現有 nearest、trilinear、catmull-rom、b-spline、hamming-sinc、ES2 至 ES7、KB2 至 KB7 與 LS2 至 LS7</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is not a storage; there are f16 and f32</source>
+        <source>unknown storage &apos;%1&apos;: use f16 or f32</source>
         <translation>「%1」不是儲存格式；現有 f16 與 f32</translation>
     </message>
     <message>
-        <source>pixels of %1 mm, %2 mm off the centre, need a slice of more than %3 frequencies a side</source>
+        <source>pixels of %1 mm at a pan of %2 mm need a slice of more than %3 frequencies a side</source>
         <translation>像素 %1 mm、偏離中心 %2 mm，需要每邊超過 %3 個頻率的切片</translation>
     </message>
     <message>
@@ -2238,35 +2234,35 @@
         <translation>投影所需的格數超過引擎所能計數</translation>
     </message>
     <message>
-        <source>there is no libOpenGL on this machine</source>
+        <source>libOpenGL is not installed</source>
         <translation>此電腦沒有 libOpenGL</translation>
     </message>
     <message>
-        <source>EGL here makes no OpenGL 3.3 context</source>
+        <source>EGL cannot create an OpenGL 3.3 context</source>
         <translation>此處的 EGL 無法建立 OpenGL 3.3 環境</translation>
     </message>
     <message>
-        <source>EGL finds no device here</source>
+        <source>EGL finds no device</source>
         <translation>EGL 在此找不到裝置</translation>
     </message>
     <message>
-        <source>there is no graphics card that EGL knows of</source>
+        <source>EGL finds no graphics card</source>
         <translation>沒有 EGL 可用的顯示卡</translation>
     </message>
     <message>
-        <source>EGL cannot use its context</source>
+        <source>the EGL context cannot be used</source>
         <translation>EGL 無法使用其環境</translation>
     </message>
     <message>
-        <source>OpenGL here is %1.%2 (%3); the GPU engine needs 4.3</source>
+        <source>OpenGL %1.%2 (%3) is too old; the GPU engine needs 4.3</source>
         <translation>此處的 OpenGL 為 %1.%2（%3）；GPU 引擎需要 4.3</translation>
     </message>
     <message>
-        <source>OpenGL error %1 with %2</source>
+        <source>OpenGL error %1 (%2)</source>
         <translation>OpenGL 錯誤 %1：%2</translation>
     </message>
     <message>
-        <source>no shader file &apos;%1&apos;</source>
+        <source>the shader file &apos;%1&apos; is missing</source>
         <translation>沒有著色器檔案「%1」</translation>
     </message>
     <message>
@@ -2274,23 +2270,23 @@
         <translation>著色器 %1：%2</translation>
     </message>
     <message>
-        <source>%1 spectra in %2 textures are more than the graphics card reads at once</source>
+        <source>%1 spectra in %2 textures are more than the graphics card can read at once</source>
         <translation>%2 個紋理中的 %1 個頻譜，超過顯示卡一次所能讀取</translation>
     </message>
     <message>
-        <source>the slice of this image, %1 x %2 cells, needs %3 MB in one piece; the graphics card gives %4 MB (larger pixels need fewer cells)</source>
+        <source>the slice of this image, %1 x %2 cells, needs %3 MB in one piece; the graphics card allows %4 MB (larger pixels need fewer cells)</source>
         <translation>此影像的切片有 %1 x %2 格，需要連續的 %3 MB；顯示卡提供 %4 MB（像素較大則所需格數較少）</translation>
     </message>
     <message>
-        <source>an image of %1 x %2 pixels is larger than the graphics card&apos;s textures, %3 x %3 at most</source>
+        <source>an image of %1 x %2 pixels is larger than the graphics card&apos;s largest texture, %3 x %3</source>
         <translation>%1 x %2 像素的影像大於顯示卡的紋理，最大為 %3 x %3</translation>
     </message>
     <message>
-        <source>unknown phantom &apos;%1&apos;; known are %2</source>
+        <source>unknown phantom &apos;%1&apos;: use one of %2</source>
         <translation>未知的假體「%1」；已知者為 %2</translation>
     </message>
     <message>
-        <source>the tilt must lie within -57 to 57 degrees</source>
+        <source>the tilt must be between -57 and 57 degrees</source>
         <translation>傾斜必須在 -57 至 57 度之間</translation>
     </message>
     <message>
@@ -2334,7 +2330,7 @@
         <translation>此大小的影像</translation>
     </message>
     <message>
-        <source>the preset &apos;%1&apos; is made for Hounsfield units, which the values are not known to be</source>
+        <source>the preset &apos;%1&apos; is made for Hounsfield units, but the values may not be in HU</source>
         <translation>預設集「%1」適用於 Hounsfield 單位，而數值不確定是此單位</translation>
     </message>
 </context>

@@ -245,7 +245,7 @@ TEST_F(Cli, TheVolumeThatIsNumberedIsTheOneThatIsRead) {
               std::string::npos);
     const auto beyond = cli("volume " + path + " --volume 4" + out);
     EXPECT_EQ(beyond.exitCode, 3);
-    EXPECT_NE(beyond.error.find("no volume 4 in series"), std::string::npos) << beyond.error;
+    EXPECT_NE(beyond.error.find("has no volume 4"), std::string::npos) << beyond.error;
     EXPECT_EQ(cli("volume " + path + " --volume 0" + out).exitCode, 2);
     EXPECT_EQ(cli("volume " + path + " --volume 1 --fill-gaps" + out).exitCode, 2);
 }
@@ -351,7 +351,7 @@ TEST_F(Cli, WithoutACardTheProcessorGoesOnOrSaysWhy) {
     const std::string command = "render " + quoted(series) + " -o " + quoted(out);
     const std::string old =
         "MESA_GL_VERSION_OVERRIDE=3.3 MESA_EXTENSION_OVERRIDE=-GL_ARB_compute_shader";
-    expectOneLine(cli(command + " --engine gpu", old), 5, "OpenGL here is 3.3");
+    expectOneLine(cli(command + " --engine gpu", old), 5, "OpenGL 3.3");
     EXPECT_FALSE(fs::exists(out));
     EXPECT_EQ(cli(command, old).exitCode, 0);
     // The reference is no engine's.
@@ -390,7 +390,7 @@ TEST_F(Cli, APhantomReplacesNothing) {
     const std::string command = "phantom " + quoted(folder / "p") + " --kind cube --size 8x8x";
     fs::create_directory(folder / "p");
     std::ofstream(folder / "p/IM0003.dcm") << "of somebody";
-    expectOneLine(cli(command + "4"), 1, "IM0003.dcm: is there already");
+    expectOneLine(cli(command + "4"), 1, "IM0003.dcm: already exists");
     EXPECT_FALSE(fs::exists(folder / "p/IM0001.dcm"));
     EXPECT_EQ(test::readText(folder / "p/IM0003.dcm"), "of somebody");
     EXPECT_EQ(cli(command + "2").exitCode, 0);

@@ -254,15 +254,15 @@ TEST_F(Cli, BadCuesAndLightsAreOneLine) {
         expectOneLine(r, code, part);
         EXPECT_FALSE(fs::exists(folder / "x.png"));
     };
-    refuse("--depth-cue linear", 2, "--depth-cue: the depth cue 'linear' is none of");
-    refuse("--depth-cue linear:2", 2, "within 0 to 1");
+    refuse("--depth-cue linear", 2, "--depth-cue: unknown depth cue 'linear': use none");
+    refuse("--depth-cue linear:2", 2, "between 0 and 1");
     refuse("--depth-cue sine:x", 2, "'x' is not a number");
     refuse("--depth-cue curve:1", 2, "2 to 8 values");
-    refuse("--depth-cue curve:1,3", 2, "within 0 to 2");
-    refuse("--light 1,0", 2, "is not u,v,w");
-    refuse("--light 0,0,0", 2, "must not be 0");
+    refuse("--depth-cue curve:1,3", 2, "between 0 and 2");
+    refuse("--light 1,0", 2, "is not of the form u,v,w");
+    refuse("--light 0,0,0", 2, "must be finite and not zero");
     refuse("--light 1,0,0:red", 2, "--light:");
-    refuse("--light 1,0,0:#ff0000:7", 2, "within 0 to 1");
+    refuse("--light 1,0,0:#ff0000:7", 2, "between 0 and 1");
     refuse("--light nan,0,0", 2, "is not a number");
     refuse("--ambient 3", 2, "--ambient");
     refuse("--light-frame patient", 2, "--light-frame says how a --light is meant");
@@ -270,7 +270,7 @@ TEST_F(Cli, BadCuesAndLightsAreOneLine) {
                                         "\"lights\": [{\"direction\": [1, 0, 0]},\n"
                                         "{\"direction\": [0, 0, 0]}]}";
     refuse("--preset " + quoted(folder / "p.json"), 3,
-           "p.json: line 3: /lights/1: the direction of a light must not be 0");
+           "p.json: line 3: /lights/1: the direction of a light must be finite and not zero");
     // A picture of colours needs a kind of file that holds them.
     const auto grey = cli("render " + quoted(series) + " -o " + quoted(folder / "x.nrrd") +
                           " --light 1,0,0:#ff0000");

@@ -44,7 +44,7 @@ private slots:
         if (qEnvironmentVariable("PELLUCID_ENGINE") == "card")
             find<QAction>("cardEngineAction")->trigger();
         const QString reason =
-            qEnvironmentVariable("PELLUCID_EXPECTED_REASON", "OpenGL here is a software renderer");
+            qEnvironmentVariable("PELLUCID_EXPECTED_REASON", "OpenGL runs on a software renderer");
         QVERIFY2(engineText().contains(reason), qPrintable(engineText()));
         open(headPath());
         QVERIFY2(engineText().startsWith("CPU engine, "), qPrintable(engineText()));

@@ -71,7 +71,7 @@ private slots:
         find<QComboBox>("exportPaneBox")->setCurrentText("Coronal");
         find<QComboBox>("exportFormatBox")->setCurrentIndex(2);
         QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
-        QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("projection only"));
+        QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("Only the projection"));
         find<QComboBox>("exportFormatBox")->setCurrentIndex(0);
         find<QLineEdit>("exportPathEdit")->setText("/nowhere/at/all/x.png");
         find<QPushButton>("exportWriteButton")->click();
@@ -160,7 +160,7 @@ private slots:
             answerWith(QMessageBox::Yes);
             find<QPushButton>("exportWriteButton")->click();
             QCOMPARE(find<QLabel>("exportSaidLabel")->text(),
-                     QString("IM0003.dcm is a file of an open study"));
+                     QString("IM0003.dcm belongs to an open study; choose another name"));
             QVERIFY(readText(slice) == before);
             find<QDialog>("exportDialog")->close();
             QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);

@@ -132,7 +132,7 @@ private slots:
         std::string text = toJson(session);
         QVERIFY(sessionFromJson(text).leftOut.at(0).reason == session.leftOut[0].reason);
         const std::string line = toLine(session.leftOut[0].reason).toStdString();
-        text.replace(text.find(line), line.size(), "is not readable: Permission denied");
+        text.replace(text.find(line), line.size(), "cannot be read: Permission denied");
         const task::Reason former = sessionFromJson(text).leftOut.at(0).reason;
         QVERIFY(former != session.leftOut[0].reason);
         QCOMPARE(former.english(), session.leftOut[0].reason.english());

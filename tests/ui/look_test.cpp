@@ -202,7 +202,7 @@ private slots:
         name->setText("X-ray");
         QTest::keyClick(name, Qt::Key_Return);
         QVERIFY(find<QLabel>("presetSaid")->isVisible());
-        QVERIFY(find<QLabel>("presetSaid")->text().contains("comes with the program"));
+        QVERIFY(find<QLabel>("presetSaid")->text().contains("is built in"));
         QVERIFY(name->isVisible()); // still there, to be given another name
         QTest::keyClick(name, Qt::Key_Escape);
         QVERIFY(!name->isVisible());

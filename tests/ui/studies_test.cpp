@@ -126,7 +126,7 @@ private slots:
         import(disc, false);
         fs::remove_all(disc);
         click(volumeRow("Secret Name"));
-        QTRY_VERIFY_WITH_TIMEOUT(problems().contains("not there any more"), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(problems().contains("cannot be found"), patienceMs);
         QVERIFY(!m_window->jobs().isRunning());
         QVERIFY(find<QWidget>("startPage")->isVisible());
     }
@@ -169,7 +169,7 @@ private slots:
     void anImportThatFindsNothingSaysWhy() {
         fs::create_directories(m_folder / "empty");
         import(m_folder / "empty", false);
-        QTRY_VERIFY(problems().contains("holds no usable images"));
+        QTRY_VERIFY(problems().contains("contains no usable images"));
         QCOMPARE(rows(), QStringList());
     }
 

@@ -74,7 +74,7 @@ TEST(Step, GoesThroughTextAndJson) {
 
 TEST(Step, WhatIsNoStepIsRefusedWithTheReason) {
     EXPECT_EQ(reasonOf("median( radius_mm=2)"),
-              "' radius_mm' is no parameter of the step 'median', which has radius_mm");
+              "the step 'median' has no parameter ' radius_mm'; it has radius_mm");
     EXPECT_EQ(reasonOf("edges("), "the step 'edges(' has no closing bracket");
     for (const char *item : {"low", "low=", "low=x", "low=1,5", "low= 1", "low=1e999", "low=0x1"}) {
         const std::string text = "edges(" + std::string(item) + ")";
@@ -84,13 +84,13 @@ TEST(Step, WhatIsNoStepIsRefusedWithTheReason) {
     }
     // Infinity is a number, but of no range.
     EXPECT_EQ(reasonOf("gaussian(sigma_mm=inf)"),
-              "sigma_mm of the step 'gaussian' is inf, not within 0.1 and 20");
+              "sigma_mm of the step 'gaussian' is inf, not between 0.1 and 20");
     EXPECT_EQ(reasonOf("gaussian(sigma_mm=nan)"),
-              "sigma_mm of the step 'gaussian' is nan, not within 0.1 and 20");
+              "sigma_mm of the step 'gaussian' is nan, not between 0.1 and 20");
     EXPECT_EQ(reasonOf("diffusion(iterations=2.5)"),
               "iterations of the step 'diffusion' is 2.5, not a whole number");
     EXPECT_EQ(reasonOf("blur"),
-              "the step 'blur' is none of gaussian, median, diffusion, gradient, "
+              "unknown step 'blur': use one of gaussian, median, diffusion, gradient, "
               "threshold, edges, binarise, opening, closing, largest, body, skin");
 }
 

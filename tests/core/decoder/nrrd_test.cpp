@@ -258,7 +258,7 @@ TEST_F(Nrrd, NamesFilesBesideItOnly) {
     for (const std::string &name :
          {std::string("../secret.raw"), (folder / "secret.raw").string(), std::string("link.raw"),
           std::string("below/../../secret.raw"), std::string("/dev/zero")})
-        EXPECT_EQ(reasonFor(name), "lists a file outside its folder") << name;
+        EXPECT_EQ(reasonFor(name), "refers to a file outside its folder") << name;
     EXPECT_EQ(reasonFor("below"), "is not a regular file");
 }
 

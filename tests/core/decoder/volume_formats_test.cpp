@@ -245,12 +245,12 @@ TEST_F(VolumeFormats, WhatIsNotSupportedSaysSo) {
     NiftiBytes colours(false);
     colours.number<std::int16_t, std::int16_t>(70, 12, 128);
     EXPECT_EQ(reason("colours.nii", colours.file()),
-              "holds colours; volumes of one value a voxel are supported");
+              "contains colours; only one value per voxel is supported");
     NiftiBytes tensors(false);
     tensors.number<std::int16_t, std::int64_t>(40, 16, 5);
     tensors.number<std::int16_t, std::int64_t>(50, 56, 6);
     EXPECT_EQ(reason("tensors.nii", tensors.file()),
-              "holds several values a voxel; volumes of one are supported");
+              "has several values per voxel; only one is supported");
     EXPECT_EQ(reason("nothing.nii", "nothing at all"), "is not a NRRD, NIfTI or MetaImage file");
     const std::string meta = "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\n";
     EXPECT_EQ(
@@ -259,7 +259,7 @@ TEST_F(VolumeFormats, WhatIsNotSupportedSaysSo) {
     EXPECT_EQ(reason("list.mhd", meta + "ElementType = MET_UCHAR\nElementDataFile = LIST\na\nb\n"),
               "MetaImage samples in a list of files are not supported");
     EXPECT_EQ(reason("out.mhd", meta + "ElementType = MET_UCHAR\nElementDataFile = ../a.raw\n"),
-              "lists a file outside its folder");
+              "refers to a file outside its folder");
     EXPECT_EQ(reason("end.mha", meta), "the MetaImage header has no 'ElementDataFile'");
     EXPECT_EQ(reason("few.mha", meta + "ElementType = MET_SHORT\nElementDataFile = LOCAL\n123"),
               "is truncated");

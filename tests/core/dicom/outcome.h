@@ -29,7 +29,7 @@ inline std::string kindOf(const task::Reason &reason) {
             out += c;
         else if (out.empty() || out.back() != '#')
             out += '#';
-    return out.substr(0, out.find("has the instance UID of") == 0 ? 23 : std::string::npos);
+    return out.substr(0, out.find("has the same instance UID as") == 0 ? 28 : std::string::npos);
 }
 
 // "| folder | volumes | images | not used |", with sizes of volumes and counts of reasons.

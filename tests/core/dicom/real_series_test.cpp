@@ -291,9 +291,9 @@ TEST(Nasty, EveryOtherFileIsRefusedWithAReasonAndNeverCrashes) {
     const auto catalogue =
         dicom::scan({test::testData() / "nasty_pydicom", test::testData() / "nasty_misc_cs3d"});
     const std::pair<const char *, const char *> expected[] = {
-        {"rtstruct.dcm", "no pixels"},
-        {"test-SR.dcm", "no pixels"},
-        {"no-pixel-data.dcm", "no pixels"},
+        {"rtstruct.dcm", "no pixel data"},
+        {"test-SR.dcm", "no pixel data"},
+        {"no-pixel-data.dcm", "no pixel data"},
         {"liver_1frame.dcm", "segmentation"},
         {"rtdose.dcm", "32 bits"},
         {"badVR.dcm", "32 bits"},

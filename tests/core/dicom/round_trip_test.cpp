@@ -82,7 +82,7 @@ TEST(Decode, SizesThatTheFileCannotHoldAreRefusedBeforeMemoryIsAskedFor) {
             parse::decodeImage(bytes);
             ADD_FAILURE() << int(syntax);
         } catch (const task::Error &error) {
-            EXPECT_EQ(error.reason().english(), "the pixels are truncated") << int(syntax);
+            EXPECT_EQ(error.reason().english(), "the pixel data is truncated") << int(syntax);
         }
     }
 }

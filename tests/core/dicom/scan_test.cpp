@@ -178,7 +178,7 @@ TEST(Scan, ADirectoryLeadsNowhereElse) {
     fs::create_symlink(folder / "secret", folder / "disc/D/IM3");
     const auto catalogue = dicom::scan({index});
     ASSERT_EQ(catalogue.skipped.size(), 1U);
-    EXPECT_EQ(catalogue.skipped[0].reason.english(), "lists a file outside its folder");
+    EXPECT_EQ(catalogue.skipped[0].reason.english(), "refers to a file outside its folder");
 }
 
 // How much of the files of a folder is in memory; read or not, without reading it.

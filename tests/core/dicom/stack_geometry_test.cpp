@@ -33,7 +33,7 @@ TEST(GroupSeries, UnevenStacksGoOntoTheGridOfTheirLongestRunAndNameTheChange) {
     EXPECT_EQ(entries[0].geometry.lattice.size().k, 7); // 0, 4, ... 24: the last slice is inside
     ASSERT_EQ(entries[0].notes.warnings.size(), 1U);
     EXPECT_EQ(entries[0].notes.warnings[0].english(),
-              "uneven slice distances, resampled onto 4.000 mm; they change at f2 (4 then 1 mm); "
+              "uneven slice spacing, resampled to 4.000 mm; it changes at f2 (4 then 1 mm); "
               "f3 (1 then 7 mm)");
 }
 

@@ -143,10 +143,10 @@ TEST(Measurement, BadFilesAreRefusedWithAReason) {
         EXPECT_NE(reason(text).find("is not a list of measurements"), std::string::npos) << text;
     EXPECT_EQ(reason(one("3")), "measurement 1: must be an object");
     EXPECT_EQ(reason(one(R"({"kind": "volume"})")),
-              "measurement 1: /kind: 'volume' is none of distance, angle, ellipse, rectangle, "
+              "measurement 1: /kind: unknown value 'volume': use one of distance, angle, ellipse, "
+              "rectangle, "
               "projected distance");
-    EXPECT_EQ(reason(one(R"({"kind": "angle", "name": 3})")),
-              "measurement 1: /name: must be a text");
+    EXPECT_EQ(reason(one(R"({"kind": "angle", "name": 3})")), "measurement 1: /name: must be text");
     EXPECT_EQ(reason(one(R"({"kind": "angle", "points_mm": [[0,0,0],[1,1,1]]})")),
               "measurement 1: it must have 3 points");
     EXPECT_EQ(reason(one(R"({"kind": "distance", "points_mm": [[0,0,0],[1,1,1e300]]})")),

@@ -79,8 +79,7 @@ TEST(PresetLibrary, WhatIsNotWellFormedIsNotKept) {
     } catch (const task::Error &error) {
         EXPECT_EQ(error.code(), task::ErrorCode::usage);
         EXPECT_EQ(error.reason().english(),
-                  "the preset cannot be kept: /name: must be a text of 1 to 80 characters on one "
-                  "line");
+                  "the preset cannot be saved: /name: must be one line of 1 to 80 characters");
     }
 }
 

@@ -89,8 +89,8 @@ TEST(Preset, RefusesWithLineAndReason) {
         reasonOf(with("\"kind\": \"largest\"", "\"kind\": \"biggest\"")).rfind("line 17: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("\"radius_mm\": 1.5", "\"radius_mm\": -1")).rfind("line 16: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("\"radius_mm\": 1.5", "\"method\": \"ITK\"")),
-              "line 16: /classes/0/steps/0: 'method' is no parameter of the step 'median', which "
-              "has radius_mm");
+              "line 16: /classes/0/steps/0: the step 'median' has no parameter 'method'; "
+              "it has radius_mm");
     EXPECT_EQ(reasonOf(with("preset/1", "preset/9")), "line 2: /schema: is not pellucid-preset/1");
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"\"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "[2000, -900]")).rfind("line 5: /window: ", 0), 0U);
@@ -99,9 +99,9 @@ TEST(Preset, RefusesWithLineAndReason) {
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "[-900, \"x\"]")),
               "line 5: /window/1: must be a number");
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "3")), "line 5: /window: must be two numbers");
-    EXPECT_EQ(reasonOf(with("\"#fff0d0\"", "7")), "line 13: /classes/0/color: must be a text");
+    EXPECT_EQ(reasonOf(with("\"#fff0d0\"", "7")), "line 13: /classes/0/color: must be text");
     EXPECT_EQ(reasonOf(with("\"#fff0d0\"", "\"red\"")),
-              "line 13: /classes/0/color: 'red' is not a colour #rrggbb");
+              "line 13: /classes/0/color: 'red' is not a colour of the form #rrggbb");
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"   \"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf("[]"), "line 1: must be an object");
     EXPECT_EQ(reasonOf("").rfind("line 1: ", 0), 0U);

@@ -76,18 +76,20 @@ TEST_F(SlicerPreset, JsonAndTextAgreeAndTheErrorIsTheFits) {
 TEST_F(SlicerPreset, WhatIsNoneIsRefusedWithTheReason) {
     EXPECT_EQ(reasonOf(write("a.vp", "1\n1\n")), "line 3: the file ends before its scalar opacity");
     EXPECT_EQ(reasonOf(write("b.vp", std::string(head) + "8 0 0 1\n")),
-              "line 7: 8 values are announced, 2 are there");
+              "line 7: 8 values are declared, but only 2 are present");
     EXPECT_EQ(reasonOf(write("c.vp", std::string(head) + "999999999 0 0\n")).rfind("line 7: ", 0),
               0U);
-    EXPECT_NE(reasonOf(write("d.vp", std::string(head) + "4 0 0 1 1e308\n")).find("not within"),
+    EXPECT_NE(reasonOf(write("d.vp", std::string(head) + "4 0 0 1 1e308\n")).find("not between"),
               std::string::npos);
     EXPECT_NE(reasonOf(write("e.vp", std::string(head) + "4 0 0 9 0\n")).find("0 everywhere"),
               std::string::npos);
-    EXPECT_NE(reasonOf(write("f.vp.json", "{}")).find("no volume property"), std::string::npos);
-    EXPECT_NE(reasonOf(write("g.vp.json", "[[[")).find("no volume property"), std::string::npos);
+    EXPECT_NE(reasonOf(write("f.vp.json", "{}")).find("not a 3D Slicer volume property"),
+              std::string::npos);
+    EXPECT_NE(reasonOf(write("g.vp.json", "[[[")).find("not a 3D Slicer volume property"),
+              std::string::npos);
     EXPECT_NE(reasonOf(write("h.vp.json", R"({"volumeProperties": [{"components": [
         {"scalarOpacity": {"points": [{"x": "a", "y": 0}]}}]}]})"))
-                  .find("no volume property"),
+                  .find("not a 3D Slicer volume property"),
               std::string::npos);
     EXPECT_NE(reasonOf(write("i.vp", std::string(std::size_t(10) << 20, '1'))).find("larger"),
               std::string::npos);

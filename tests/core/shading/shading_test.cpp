@@ -154,7 +154,7 @@ TEST(Shading, BadJsonIsRefusedWithItsPlace) {
     };
     refuse("[]", "must be an object");
     refuse(R"({"cue": "linear"})", "/cue: must be an object with a kind");
-    refuse(R"({"cue": {"kind": "cubic"}})", "/cue/kind: 'cubic' is none of");
+    refuse(R"({"cue": {"kind": "cubic"}})", "/cue/kind: unknown value 'cubic': use one of");
     refuse(R"({"cue": {"kind": "linear", "strength": 2}})", "/cue: the strength");
     refuse(R"({"cue": {"kind": "curve", "curve": [1]}})", "/cue: the curve");
     refuse(R"({"ambient": -1})", "/ambient: the ambient light");

@@ -223,7 +223,8 @@ private slots:
             QVERIFY(read.place.inMemory && read.wasDamaged);
             QVERIFY(read.readable.size() > 100);
             const QString said = QString::fromStdString(read.notices.at(0).reason.english());
-            QVERIFY2(said.contains("cannot be written") && said.contains("this run only"),
+            QVERIFY2(said.contains("cannot be written") &&
+                         said.contains("only until the program closes"),
                      qPrintable(said));
         }
         // Copies whose list is gone are no reason not to begin.
