@@ -14,7 +14,7 @@ ShadingScale shadingScale(const volume::Lattice &lattice) {
 }
 
 bool SliceShading::isPlain() const {
-    return terms.size() == 1 && slope == 0.0 &&
+    return terms.size() == 1 && terms.front().weight == 1.0 && slope == 0.0 &&
            std::all_of(channels.begin(), channels.end(),
                        [](const Channel &channel) { return channel == Channel(); });
 }

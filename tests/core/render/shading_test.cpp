@@ -210,6 +210,12 @@ TEST(Shading, CuesFromBothSidesAddUpToTwiceThePlainImage) {
     }
 }
 
+// Such a curve is one wave of frequency 0, whose weight was once taken for 1.
+TEST(Shading, ACurveWithoutSlopeDims) {
+    Subject subject(headField(), {.cue = {CueKind::curve, 1.0, {0.5, 0.5}}});
+    EXPECT_LT(subject.worstError(), 1.1e-3);
+}
+
 TEST(Shading, OppositeLightsLeaveNoGradient) {
     const Light opposite{-oblique.direction};
     Subject subject(headField(), {.ambient = 0.5, .lights = {oblique, opposite}});
