@@ -44,7 +44,11 @@ JobRunner::JobRunner(QObject *parent) : QObject(parent) {}
 
 JobRunner::~JobRunner() {
     blockSignals(true); // observers may be half destroyed
-    join();
+    try {
+        join();
+    } catch (...) { // whoever learns of the end may find no memory
+        m_threads.clear();
+    }
 }
 
 void JobRunner::post(quint64 generation, std::function<void()> onUiThread) {
@@ -68,7 +72,13 @@ void JobRunner::start(const QString &title, Work work, OnEnd onEnd, const QStrin
             onEnd({Outcome::Kind::cancelled});
         return;
     }
-    makeWay();
+    try {
+        makeWay();
+    } catch (...) { // the end of the former job could not be dealt with
+        if (onEnd)
+            onEnd({Outcome::Kind::failed, task::because::notEnoughMemory, about});
+        throw;
+    }
     joinFinished();
     const quint64 generation = ++m_generation;
     m_title = title;

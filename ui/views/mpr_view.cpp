@@ -230,7 +230,10 @@ void MprView::showReadout(const QPointF &position) {
 }
 
 void MprView::mouseReleaseEvent(QMouseEvent *event) {
-    m_tools.release(event->button(), event->position());
+    if (showsVolume())
+        m_tools.release(event->button(), event->position());
+    else
+        m_tools.cancel();
     update();
 }
 
