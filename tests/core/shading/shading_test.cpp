@@ -165,7 +165,8 @@ TEST(Shading, BadJsonIsRefusedWithItsPlace) {
     refuse(R"({"lights": [{"direction": [1, 2, 1e31]}]})", "/lights/0/direction/2: is out of");
     refuse(R"({"lights": [{"direction": [0, 0, 0]}]})", "/lights/0: the direction");
     refuse(R"({"lights": [{"direction": [1, 0, 0], "color": "red"}]})", "/lights/0/color: ");
-    refuse(R"({"lights": [{"direction": [1, 0, 0], "follows": "me"}]})", "/lights/0/follows: unknown value 'me'");
+    refuse(R"({"lights": [{"direction": [1, 0, 0], "follows": "me"}]})",
+           "/lights/0/follows: unknown value 'me'");
 }
 
 } // namespace
