@@ -62,12 +62,15 @@ void act(State &state, Occasion occasion) {
                 ASSERT_FALSE(state.have.givenUp == wanted)
                     << "what was given up is not started again";
         }
-        if (step == Step::showFull || step == Step::dropLight)
+        if (step == Step::showFull || step == Step::dropLight) {
             ASSERT_TRUE(state.have.full);
-        if (step == Step::showLayers)
+        }
+        if (step == Step::showLayers) {
             ASSERT_TRUE(state.have.layers && state.have.layers->hasLayersOf(wanted));
-        if (step == Step::stopJob)
+        }
+        if (step == Step::stopJob) {
             ASSERT_TRUE(state.have.underway);
+        }
         state.have = afterStep(step, wanted, state.have);
         if (step == Step::hold)
             state.restRuns = false;
