@@ -18,8 +18,8 @@ using classify::StepKind;
 using task::Error;
 using task::ErrorCode;
 
-// Which thresholds are carried over: those given, or the defaults of edges too, which mean value
-// units.
+// Which thresholds are carried over: those given, or also the defaults of edges and binarise, which
+// mean value units.
 enum class Thresholds { given, all };
 
 // Ranges and thresholds with `offset` and `scale` applied to values, and `scale` to slopes.
@@ -35,6 +35,9 @@ Look mapped(Look look, double offset, double scale, Thresholds thresholds) {
                 if (step.kind == StepKind::threshold && isGiven)
                     step.parameters[name] = value(step.at(name));
             }
+            if (step.kind == StepKind::binarise &&
+                (step.parameters.contains("from") || thresholds == Thresholds::all))
+                step.parameters["from"] = value(step.at("from"));
             isSlope = isSlope || step.kind == StepKind::gradient;
         }
         tissue.low = value(tissue.low);

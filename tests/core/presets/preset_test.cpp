@@ -131,7 +131,8 @@ TEST(Preset, SharesOfTheWindowBecomeValuesAndBack) {
         "units": "window", "classes": [
         {"name": "Brain", "range": [0.25, 0.75], "softness": 0.1},
         {"name": "Edges", "range": [0, 1], "steps": [{"kind": "edges", "low": 0.01, "high": 0.04}]},
-        {"name": "Slope", "range": [0.1, 0.2], "steps": [{"kind": "gradient"}]}]})");
+        {"name": "Slope", "range": [0.1, 0.2], "steps": [{"kind": "gradient"}]},
+        {"name": "Above", "range": [0, 1], "steps": [{"kind": "binarise", "from": 0.5}]}]})");
     const classify::FieldWindow window{100.0, 500.0};
     const auto look = presets::lookFor(preset, window);
     EXPECT_EQ(look.classes[0].low, 200.0);
@@ -140,6 +141,7 @@ TEST(Preset, SharesOfTheWindowBecomeValuesAndBack) {
     EXPECT_EQ(look.classes[1].steps[0].at("low"), 4.0); // a slope has no offset
     EXPECT_EQ(look.classes[1].steps[0].at("high"), 16.0);
     EXPECT_EQ(look.classes[2].low, 40.0);
+    EXPECT_EQ(look.classes[3].steps[0].at("from"), 300.0);
     // Kept from a volume without a scale it is in shares again, and the same.
     const volume::Volume volume(volume::Lattice(), std::vector<float>{0.0F},
                                 volume::ValueUnit::none);
@@ -147,6 +149,7 @@ TEST(Preset, SharesOfTheWindowBecomeValuesAndBack) {
     EXPECT_EQ(kept.unit, presets::RangeUnit::window);
     EXPECT_FALSE(kept.window);
     const auto again = presets::lookFor(kept, window);
+    EXPECT_NEAR(again.classes[3].steps[0].at("from"), 300.0, 1e-9);
     for (std::size_t n = 0; n < 3; ++n) {
         EXPECT_NEAR(again.classes[n].low, look.classes[n].low, 1e-9);
         EXPECT_NEAR(again.classes[n].high, look.classes[n].high, 1e-9);
