@@ -72,6 +72,16 @@ void cropPicture(Genes &genes, scene::Camera &camera) {
     camera.height = height;
 }
 
+// Now and then the same at every depth, which is a wave of frequency 0 alone.
+std::vector<double> curveOf(Genes &genes) {
+    const bool isEven = genes.next() < 0.2;
+    std::vector<double> curve(std::size_t(2 + genes.choice(4)), genes.between(0.1, 2.0));
+    for (double &value : curve)
+        if (!isEven)
+            value = genes.between(0.0, 2.0);
+    return curve;
+}
+
 shading::Shading shadingOf(Genes &genes) {
     using shading::CueKind;
     constexpr std::array cues{CueKind::linear, CueKind::sine, CueKind::curve};
@@ -79,8 +89,9 @@ shading::Shading shadingOf(Genes &genes) {
     const bool isCued = genes.next() < 0.6, isLit = !isCued || genes.next() < 0.4;
     if (isCued)
         result.cue = {cues[std::size_t(genes.choice(int(cues.size())))],
-                      std::min(1.0, genes.between(0.1, 1.3)), // often in full
-                      {0.2, 1.0, 0.4}};
+                      std::min(1.0, genes.between(0.1, 1.3))}; // often in full
+    if (result.cue.kind == CueKind::curve)
+        result.cue.curve = curveOf(genes);
     if (isLit) {
         result.ambient = genes.between(0.1, 0.8);
         result.lights.push_back({genes.direction()});
@@ -114,7 +125,7 @@ Trial trialOf(const Candidate &candidate, Asked asked) {
     trial.field = classify::densityField(
         volume::Volume(lattice, samplesOf(kind, shape, genes, size), volume::ValueUnit::none),
         {0.0, 1.0});
-    // The zoom changes the pixel size; the picture still holds the whole field.
+    // Zooming changes the pixel size and the image size; the whole field stays in the picture.
     scene::Camera &camera = trial.scene.camera;
     camera.pixelMm *= zoom;
     camera.width = camera.height = 2 * int(std::ceil(0.5 * camera.width / zoom));

@@ -20,7 +20,7 @@ public:
     double between(double low, double high) { return low + (high - low) * next(); }
     /// One of 0 .. count - 1.
     int choice(int count) { return std::min(count - 1, int(next() * count)); }
-    /// Of length 1, each as likely as another.
+    /// A unit vector, uniform over the sphere.
     glm::dvec3 direction() {
         const double z = between(-1.0, 1.0), angle = between(0.0, 2.0 * std::numbers::pi);
         const double r = std::sqrt(std::max(0.0, 1.0 - z * z));

@@ -66,7 +66,7 @@ struct Options {
     std::string volume, json, csv, reportFolder;
 };
 
-// What a suite is given. The subject is null if no volume was named.
+// The arguments of a suite. `subject` is null if no volume was named.
 using RunSuite = std::function<void(const pellucid::bench::Report &,
                                     const pellucid::bench::Subject *, const Options &)>;
 

@@ -95,7 +95,7 @@ private:
     int extent(int size, double perSlice) const {
         return size + int(std::ceil(std::abs(perSlice) * (m_slices.depth - 1))) + 1;
     }
-    // Of the first slice, so that no shift is negative.
+    // The first slice starts here, so that no shift is negative.
     double firstShift(double perSlice) const {
         return perSlice < 0.0 ? -perSlice * (m_slices.depth - 1) : 0.0;
     }
