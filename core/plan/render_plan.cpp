@@ -66,20 +66,20 @@ std::vector<T> choices(const std::optional<T> &fixed, std::initializer_list<T> p
 
 task::Reason reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool overBudget) {
     const bool meets = plan.predictedError <= scene.tolerance;
-    std::string fixed;
+    std::optional<task::Reason> fixed;
     const scene::Interpolation &wanted = scene.interpolation;
-    for (const auto &[given, what] : {std::pair(wanted.kernel.has_value(), "kernel"),
-                                      std::pair(wanted.padding.has_value(), "padding"),
-                                      std::pair(wanted.storage.has_value(), "storage")})
+    for (const auto &[given, what] : {std::pair(wanted.kernel.has_value(), because::kernel),
+                                      std::pair(wanted.padding.has_value(), because::padding),
+                                      std::pair(wanted.storage.has_value(), because::storage)})
         if (given)
-            fixed += (fixed.empty() ? "" : ", ") + std::string(what);
-    if (fixed.empty())
+            fixed = fixed ? because::both(*fixed, what) : what;
+    if (!fixed)
         return meets        ? because::cheapest
                : overBudget ? because::mostAccurateThatFits
                             : because::mostAccurate;
-    return meets        ? because::cheapestWith(fixed)
-           : overBudget ? because::mostAccurateThatFitsWith(fixed)
-                        : because::mostAccurateWith(fixed);
+    return meets        ? because::cheapestWith(*fixed)
+           : overBudget ? because::mostAccurateThatFitsWith(*fixed)
+                        : because::mostAccurateWith(*fixed);
 }
 
 // The search for the best plan: kernels, storages, paddings and slice grids, each tried in turn.

@@ -874,10 +874,6 @@
         <translation>讀取期間有變動</translation>
     </message>
     <message>
-        <source>cannot be read to the end</source>
-        <translation>無法讀到結尾</translation>
-    </message>
-    <message>
         <source>has an image without rows or columns</source>
         <translation>影像沒有大小</translation>
     </message>
@@ -1040,10 +1036,6 @@
     <message>
         <source>damaged header</source>
         <translation>檔頭損壞</translation>
-    </message>
-    <message>
-        <source>cannot be read</source>
-        <translation>無法讀取</translation>
     </message>
     <message>
         <source>does not exist</source>
@@ -2332,6 +2324,22 @@
     <message>
         <source>the preset &apos;%1&apos; is made for Hounsfield units, but the values may not be in HU</source>
         <translation>預設集「%1」適用於 Hounsfield 單位，而數值不確定是此單位</translation>
+    </message>
+    <message>
+        <source>kernel</source>
+        <translation>核函數</translation>
+    </message>
+    <message>
+        <source>padding</source>
+        <translation>補零</translation>
+    </message>
+    <message>
+        <source>storage</source>
+        <translation>儲存</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1、%2</translation>
     </message>
 </context>
 <context>
