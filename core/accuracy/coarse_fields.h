@@ -14,7 +14,7 @@ namespace pellucid::accuracy {
 /// The fields of a plan as coarse blocks, and the aliases ("ghosts") that the plan's kernels make
 /// of each block.
 struct CoarseFields {
-    struct Block {
+    struct Block { ///< a place, whichever fields have a part of it
         glm::dvec3 fromCentreMm{0.0};
         std::array<float, 6> ghosts{}; ///< amplitudes along each axis, of the periods -1 and 1
         float inverse = 1.0F;          ///< 1/h^2 of all axes

@@ -46,6 +46,7 @@ struct StepDescription {
 
 /// Of every kind, in the order that they are offered in.
 const std::vector<StepDescription> &stepDescriptions();
+/// That of one kind.
 const StepDescription &describe(StepKind kind);
 /// *Throws* Error{usage} with the names there are.
 StepKind stepKindNamed(const std::string &name);

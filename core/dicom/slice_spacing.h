@@ -19,6 +19,7 @@ double evennessToleranceMm(double spacingMm);
 /// From each depth to the next. *Shape*: one entry less.
 std::vector<double> gapsOf(const std::vector<double> &depths);
 
+/// The upper of two in the middle. *Shape*: not empty.
 double median(std::vector<double> values);
 
 /// depth = start + index * step, by least squares.
@@ -28,6 +29,7 @@ struct SliceLine {
     bool isEven() const { return worstMm <= evennessToleranceMm(stepMm); }
 };
 
+/// A line on which every frame has a place of its own.
 struct EvenGrid {
     SliceLine line;
     std::vector<long> indices; ///< of the frames

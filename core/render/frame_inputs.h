@@ -21,6 +21,7 @@ struct FrameInputs {
 
     /// Whether nothing is shown: the picture is zero.
     bool isEmpty() const { return mixing.sources.empty(); }
+    /// 1 for a grey picture, else 3.
     int pictureChannels() const { return mixing.grey ? 1 : 3; }
     /// What the sums are multiplied by; a single grey image has its share at once.
     double unit() const;

@@ -133,7 +133,11 @@ void LookPreparer::take(Step step, const PreparedFor &look) {
     case Step::showLayers:
         showLayers();
         break;
-    default:
+    case Step::nothing:
+    case Step::awaitRest:
+    case Step::startLayers: // these start jobs, above
+    case Step::startFull:
+    case Step::startCoarseFirst:
         break;
     }
 }

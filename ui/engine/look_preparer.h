@@ -63,6 +63,7 @@ public:
     /// Announces that another's job, which runs or is about to start, uses `preparation` to make
     /// this engine. Its `onEnd` has to call `jobEnded`.
     void expect(const PreparedFor &wanted);
+    /// A job that was expected has ended: what it did not deliver counts as given up.
     void jobEnded(const Outcome &outcome);
 
 signals:

@@ -17,7 +17,9 @@ struct EngineSource {
     std::shared_ptr<preprocess::StepCache> steps; ///< earlier results of the classes' steps
 };
 
+/// Receives an engine, coarse or full, on the job's thread.
 using TakeEngine = std::function<void(const prepare::PreparedEngine &, prepare::Detail)>;
+/// The same for layers.
 using TakeLayers = std::function<void(const std::shared_ptr<prepare::LayerSet> &, prepare::Detail)>;
 
 /// Makes the engine of a look and hands it over. With `first` coarse, a large volume gets a coarse

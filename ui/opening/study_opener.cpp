@@ -208,7 +208,7 @@ Continuity StudyOpener::leavePhase(int next) {
 
 void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
     if (!m_document.volume() || m_document.isPreview()) {
-        openSource(index);
+        openSource(index, std::move(onEnd));
         return;
     }
     m_jobs.cancel();
@@ -250,7 +250,7 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
         source.place());
 }
 
-void StudyOpener::openSource(int index) {
+void StudyOpener::openSource(int index, JobRunner::OnEnd onEnd) {
     // What is shown or on its way already need not come again.
     if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning())) {
         if (m_document.volume())
@@ -274,11 +274,13 @@ void StudyOpener::openSource(int index) {
     m_preparer.expect(wanted);
     m_jobs.start(
         tr("Loading %1").arg(seriesText(source.volume)), loading(source, wanted),
-        [this](const Outcome &outcome) {
+        [this, onEnd = std::move(onEnd)](const Outcome &outcome) {
             m_preparer.jobEnded(outcome);
             // A load that ended before its volume came leaves nothing selected.
             if (!m_document.volume())
                 m_document.setCurrentSource(-1);
+            if (onEnd)
+                onEnd(outcome);
         },
         source.place());
 }

@@ -41,7 +41,8 @@ public:
     void openPaths(const QStringList &paths, const std::optional<Resumption> &resumption = {},
                    const dicom::ScanOptions &options = {});
     void openPhantom(const QString &kind, const std::optional<Resumption> &resumption = {});
-    void openSource(int index);
+    /// `onEnd` is called if the volume has to be loaded.
+    void openSource(int index, JobRunner::OnEnd onEnd = {});
     /// Another volume of the same series: look, view, window, crosshair and planes stay. `onEnd` is
     /// called if the volume has to be loaded; the former one stays until it is there.
     void openPhase(int index, JobRunner::OnEnd onEnd = {});

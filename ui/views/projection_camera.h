@@ -25,6 +25,7 @@ public:
     void fitWhole();
     /// From the front, whole and in the middle.
     void reset();
+    /// Above 1: the picture becomes larger.
     void zoomBy(double factor);
     /// Looks the way another camera does, as far as the pane allows; `pivotMm`: of that camera's
     /// volume, this one's own if there is none.

@@ -160,7 +160,8 @@ void MainWindow::connectBench() {
 
 void MainWindow::connectStudyDocks() {
     StudyPanel *studies = &m_docks->studies();
-    connect(studies, &StudyPanel::sourceActivated, &m_bench.opener, &StudyOpener::openSource);
+    connect(studies, &StudyPanel::sourceActivated, &m_bench.opener,
+            [this](int source) { m_bench.opener.openSource(source); });
     connect(studies, &StudyPanel::closeRequested, &m_bench.opener, &StudyOpener::closeSource);
     connect(studies, &StudyPanel::besideRequested, m_pair, &StudyPair::openBeside);
     connect(studies, &StudyPanel::libraryVolumeActivated, m_reopening, &Reopening::openFromLibrary);

@@ -20,6 +20,7 @@ void moveGrip(measure::Measurement &measurement, int grip, const glm::dvec3 &toM
 /// The outline on a pane, closed for regions. *Units*: logical pixels.
 QPolygonF outlineOf(const measure::Measurement &measurement, const PaneMapping &mapping);
 
+/// From a point to the nearest one between two others. *Units*: those of the points.
 double distanceToSegment(const QPointF &point, const QPointF &from, const QPointF &to);
 
 } // namespace pellucid::ui

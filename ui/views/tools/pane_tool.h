@@ -51,6 +51,7 @@ public:
     virtual bool press(const QPointF &at) = 0;
     /// False: the drag is over though the button is down, as after `cancel`.
     virtual bool move(const HandMove &hand) = 0;
+    /// Ends the drag and keeps what it made.
     virtual void release(const QPointF & /*at*/) {}
 
     /// Something is half done that `cancel` ends.

@@ -21,6 +21,7 @@ public:
     virtual double reachMm() const = 0;
     /// The picture follows the hand. *Units*: logical pixels.
     virtual void panBy(const QPoint &delta) = 0;
+    /// Above 1: the picture becomes larger about the middle of the pane.
     virtual void zoomBy(double factor) = 0;
 
 protected:
