@@ -20,14 +20,14 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
     render::EngineParts parts = engine.parts();
     return std::make_shared<GpuEngine>(
         SpectrumTextures::upload(std::move(passes), std::move(parts.spectra), progress),
-        std::move(parts.shares), parts.room, fetch);
+        std::move(parts.shares), parts.fieldOfView, fetch);
 }
 
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
-                     std::vector<render::ChannelShares> shares, const plan::SliceRoom &room,
-                     Fetch fetch)
+                     std::vector<render::ChannelShares> shares,
+                     const plan::FieldOfView &fieldOfView, Fetch fetch)
     : m_textures(std::move(textures)), m_shares(std::move(shares)), m_fetch(fetch),
-      m_setup(std::make_shared<render::FrameSetup>(room)) {}
+      m_setup(std::make_shared<render::FrameSetup>(fieldOfView)) {}
 
 std::shared_ptr<GpuEngine> GpuEngine::withShares(std::vector<render::ChannelShares> shares) const {
     auto engine = std::make_shared<GpuEngine>(*this);
@@ -42,7 +42,7 @@ std::shared_ptr<GpuEngine> GpuEngine::withoutLight() const {
 }
 
 render::EngineParts GpuEngine::parts() const {
-    return {m_textures->spectra(), m_shares, m_setup->room()};
+    return {m_textures->spectra(), m_shares, m_setup->fieldOfView()};
 }
 
 task::Reason GpuEngine::description() const {

@@ -36,7 +36,7 @@ class GpuEngine final : public render::ProjectionEngine {
 public:
     /// *Shape*: shares as of CpuEngine::setShares.
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
-              std::vector<render::ChannelShares> shares, const plan::SliceRoom &room,
+              std::vector<render::ChannelShares> shares, const plan::FieldOfView &fieldOfView,
               Fetch fetch = Fetch::exact);
 
     const SpectrumTextures &textures() const { return *m_textures; }

@@ -53,9 +53,9 @@ SpectrumTextures::SpectrumTextures(std::shared_ptr<FramePasses> passes,
     const fourier::Spectrum &first = *m_spectra.fields.front();
     const fourier::SpectrumLayout &layout = first.layout();
     const fourier::CellLayout &cells = first.cellLayout();
-    const int planes = layout.padded.k + 1 + 2 * cells.apron; // without the unused ones at the end
+    const int planes = layout.padded.k + 1 + 2 * cells.halo; // without the unused ones at the end
     m_layout.firstCell = {cells.firstX, cells.firstY, cells.firstZ};
-    m_layout.columns = layout.padded.i / 2 + 1 + 2 * cells.apron;
+    m_layout.columns = layout.padded.i / 2 + 1 + 2 * cells.halo;
     m_layout.rows = cells.rows;
     m_layout.planes = planes;
     if (std::max(m_layout.columns, m_layout.rows) > card.largest3dTexture)

@@ -10,7 +10,7 @@
 namespace pellucid::gpu {
 
 /// The spectra of an engine on the card, beside those on the processor: what the card holds can be
-/// lost. They are 3D textures with the apron of the processor's, cell for cell and bit for bit, so
+/// lost. They are 3D textures with the halo of the processor's, cell for cell and bit for bit, so
 /// that both engines read the same: spectra on top of each other, so that layers need no more
 /// textures than one, or one in several where it would be larger than the card takes.
 class SpectrumTextures {

@@ -112,7 +112,7 @@ void TransformPasses::transformRows(const FrameBlock &block, int images, const L
         lines.buffer->bindStorage(bindings::lines);
         dispatch(rows, images, 1);
     } else {
-        setStrides(m_device.program("untangle.comp"));
+        setStrides(m_device.program("unpack_real.comp"));
         const Buffer *const to = &other(*lines.buffer);
         lines.buffer->bindStorage(bindings::slice);
         to->bindStorage(bindings::lines);

@@ -30,7 +30,7 @@ void main() {
     for (int k = thread; k < halfColumns; k += THREADS) {
         // The Nyquist column lies beyond the disc.
         vec2 mirrored = k == 0 ? vec2(0.0) : lineAt(image, row, halfColumns - k);
-        line[k] = untangled(lineAt(image, row, k), mirrored, rotations[frame.unpackRotations + k]);
+        line[k] = unpackReal(lineAt(image, row, k), mirrored, rotations[frame.unpackRotations + k]);
     }
     int result = transformLine(halfColumns, 1, frame.rowRotations);
     for (int x = thread; x < frame.pictureColumns; x += THREADS) {

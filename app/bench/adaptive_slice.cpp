@@ -29,23 +29,23 @@ double energyOf(const AdaptiveSlice::Slice &slice) {
 } // namespace
 
 AdaptiveSlice::AdaptiveSlice(const fourier::Spectrum &spectrum)
-    : m_spectrum(spectrum), m_apron(spectrum.cellLayout().apron),
-      m_columns(spectrum.layout().padded.i / 2 + 1 + 2 * m_apron),
-      m_rows(spectrum.layout().padded.j + 2 * m_apron),
-      m_planes(spectrum.layout().padded.k + 2 * m_apron) {
+    : m_spectrum(spectrum), m_halo(spectrum.cellLayout().halo),
+      m_columns(spectrum.layout().padded.i / 2 + 1 + 2 * m_halo),
+      m_rows(spectrum.layout().padded.j + 2 * m_halo),
+      m_planes(spectrum.layout().padded.k + 2 * m_halo) {
     m_cells.resize(std::size_t(m_columns) * m_rows * m_planes);
     const volume::GridSize padded = spectrum.layout().padded;
-    for (int r = -padded.k / 2 - m_apron; r < padded.k / 2 + m_apron; ++r)
-        for (int q = -padded.j / 2 - m_apron; q < padded.j / 2 + m_apron; ++q)
-            for (int p = -m_apron; p <= padded.i / 2 + m_apron; ++p)
+    for (int r = -padded.k / 2 - m_halo; r < padded.k / 2 + m_halo; ++r)
+        for (int q = -padded.j / 2 - m_halo; q < padded.j / 2 + m_halo; ++q)
+            for (int p = -m_halo; p <= padded.i / 2 + m_halo; ++p)
                 m_cells[at(p, q, r)] = std::complex<float>(spectrum.value(p, q, r));
 }
 
 std::size_t AdaptiveSlice::at(int p, int q, int r) const {
     const volume::GridSize padded = m_spectrum.layout().padded;
-    return (std::size_t(r + padded.k / 2 + m_apron) * m_rows + (q + padded.j / 2 + m_apron)) *
+    return (std::size_t(r + padded.k / 2 + m_halo) * m_rows + (q + padded.j / 2 + m_halo)) *
                m_columns +
-           (p + m_apron);
+           (p + m_halo);
 }
 
 // A cell is marked if it and every cell within the kernel's reach and one more are weak: then the

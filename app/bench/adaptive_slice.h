@@ -39,7 +39,7 @@ private:
     std::complex<float> wideSample(const std::array<double, 3> &g) const;
 
     const fourier::Spectrum &m_spectrum;
-    int m_apron, m_columns, m_rows, m_planes;
+    int m_halo, m_columns, m_rows, m_planes;
     std::vector<std::complex<float>> m_cells;
     std::vector<std::uint8_t> m_weak;
     float m_threshold = -1.0F;

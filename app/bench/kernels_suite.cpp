@@ -31,9 +31,9 @@ void measureKernels(const Report &report, const Subject &subject, int views) {
     for (const std::string &name : kernelNames()) {
         how.scene.interpolation.kernel = fourier::kernelFromName(name);
         for (const double padding : {1.0, 1.25, 1.5, 2.0}) {
-            // Least ghosts are sought for a field that leaves room.
+            // Least aliases are sought for a field that leaves room.
             if (padding == 1.0 &&
-                how.scene.interpolation.kernel->family == fourier::KernelFamily::leastGhosts)
+                how.scene.interpolation.kernel->family == fourier::KernelFamily::leastAliasing)
                 continue;
             how.scene.interpolation.padding = padding;
             for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {

@@ -216,7 +216,7 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
     if (how.transform)
         row.fft3dMs = transformMs(plan.spectrum);
     row.bytes = double(spectrum->bytes());
-    render::CpuEngine engine(spectrum, how.room.value_or(plan.room), how.threads);
+    render::CpuEngine engine(spectrum, how.fieldOfView.value_or(plan.fieldOfView), how.threads);
     fillTimes(row, engine, how.scene, how.views);
 
     ImageError worst{0.0, 0.0, 1e9};

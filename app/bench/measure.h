@@ -65,7 +65,7 @@ private:
 struct Measurement {
     scene::Scene scene; ///< its camera is what all views share but the orientation
     /// In place of the plan's, which keeps copies of the projection out of the image.
-    std::optional<plan::SliceRoom> room = std::nullopt;
+    std::optional<plan::FieldOfView> fieldOfView = std::nullopt;
     int views = 64;
     int threads = 0;       ///< 0: all
     bool transform = true; ///< time FFTW's own transform of the padded size too

@@ -103,7 +103,7 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
     const auto plan = plan::planRender(how.scene, plan::summarise(subject.field));
     const auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(subject.field.values, plan.spectrum));
-    render::CpuEngine engine(spectrum, plan.room), alone(spectrum, plan.room, 1);
+    render::CpuEngine engine(spectrum, plan.fieldOfView), alone(spectrum, plan.fieldOfView, 1);
     const SpatialVolume inSpace(subject.field.values);
     const double step = lattice.shortestStepMm();
     const auto views = randomViews(rounds * viewsARound);

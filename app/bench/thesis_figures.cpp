@@ -20,15 +20,15 @@ namespace {
 // The room that makes the slice of a square image as fine as the image, and so as a spectrum
 // without padding: the thesis's. The engine's own is finer, so that no copy of the projection
 // reaches the image, and its samples lie between the cells even in a view along an axis.
-plan::SliceRoom roomOfImage(const scene::Camera &camera, const volume::Lattice &lattice) {
+plan::FieldOfView fieldOfViewOfImage(const scene::Camera &camera, const volume::Lattice &lattice) {
     plan::EnergySpread spread = plan::evenSpread(lattice, lattice.bounds());
     // A quarter of a pixel less: rounding must not make it one more.
     spread.radiusMm = (0.5 * camera.width - 0.25) * camera.pixelMm -
                       scene::reconstructionReach({}) * lattice.longestStepMm();
-    plan::SliceRoom room{{std::make_shared<const plan::EnergySpread>(spread)}, 1e9};
-    assert(plan::sliceGrid(camera, room, lattice, {}) ==
+    plan::FieldOfView fieldOfView{{std::make_shared<const plan::EnergySpread>(spread)}, 1e9};
+    assert(plan::sliceGrid(camera, fieldOfView, lattice, {}) ==
            (plan::SliceGrid{camera.width, camera.height}));
-    return room;
+    return fieldOfView;
 }
 
 // The thesis's cubic filter: at each frequency the Catmull-Rom value half way between trilinear
@@ -98,7 +98,7 @@ struct HeadAndTruth {
 // which adds this level to every pixel.
 double levelOf(const fourier::Spectrum &spectrum, const scene::Camera &camera) {
     const double sideMm = camera.width * camera.pixelMm; // of the period: the grid is the image's
-    return (spectrum.value(0, 0, 0).real() - spectrum.mass()) / (sideMm * sideMm);
+    return (spectrum.value(0, 0, 0).real() - spectrum.dc()) / (sideMm * sideMm);
 }
 
 double norm(const std::vector<double> &values) {
@@ -144,7 +144,7 @@ void measureFigure(const Report &report, const Figure &figure, HeadAndTruth &sub
     Row row = plannedRow("thesis", figure.name, field.lattice().size(), plan, how.scene, 0);
     render::CpuEngine engine(
         std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field, plan.spectrum)),
-        how.room);
+        how.fieldOfView);
     fillTimes(row, engine, how.scene, how.views);
     const reference::WideKernel reference(field, darkened.field.support);
     ImageError worst;
@@ -193,7 +193,7 @@ Measurement thesisMeasurement(const Subject &head, const char *kernel) {
     Measurement how;
     how.scene.camera = squareCamera(lattice, lattice.size().i);
     how.scene.interpolation = {fourier::kernelFromName(kernel), 1.0, fourier::Storage::float32};
-    how.room = roomOfImage(how.scene.camera, lattice);
+    how.fieldOfView = fieldOfViewOfImage(how.scene.camera, lattice);
     how.transform = false;
     return how;
 }

@@ -148,9 +148,10 @@ Card findCard() {
 // transforms; in a grey frame the first half of the transform is part of the slice's pass.
 double cardTransformMs(const Card &card, const scene::Scene &scene,
                        const std::shared_ptr<const fourier::Spectrum> &spectrum,
-                       const plan::SliceRoom &room) {
+                       const plan::FieldOfView &fieldOfView) {
     render::CpuEngine engine(
-        {{spectrum, spectrum, spectrum}, {}, shading::shadingScale(spectrum->lattice())}, room);
+        {{spectrum, spectrum, spectrum}, {}, shading::shadingScale(spectrum->lattice())},
+        fieldOfView);
     engine.setShares({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
     const auto onCard = gpu::copyToCard(card.passes, engine);
     std::vector<double> times;
@@ -178,7 +179,7 @@ Row cardRow(const Card &card, const Row &ours, const Measurement &how, const Sub
     const auto plan = plan::planRender(how.scene, plan::summarise(head.field));
     const auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(head.field.values, plan.spectrum));
-    row.transformMs = cardTransformMs(card, how.scene, spectrum, *how.room);
+    row.transformMs = cardTransformMs(card, how.scene, spectrum, *how.fieldOfView);
     row.note = "by the card's clock, a third of three images'; whole frames: --suite gpu";
     return row;
 }

@@ -189,7 +189,7 @@ private:
     }
 
     int sliceSize(const plan::RenderPlan &plan) const {
-        return plan::sliceGrid(m_scene.camera, plan.room, m_subject.field.values.lattice(),
+        return plan::sliceGrid(m_scene.camera, plan.fieldOfView, m_subject.field.values.lattice(),
                                m_scene.image)
             .columns;
     }

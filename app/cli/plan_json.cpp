@@ -36,7 +36,8 @@ json modelJson(const plan::FrameModel &model) {
 json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
               const plan::FrameFields &fields, const volume::Lattice &lattice) {
     const fourier::SpectrumLayout &layout = plan.spectrum;
-    const plan::SliceGrid grid = plan::sliceGrid(scene.camera, plan.room, lattice, scene.image);
+    const plan::SliceGrid grid =
+        plan::sliceGrid(scene.camera, plan.fieldOfView, lattice, scene.image);
     const int w = layout.width();
     return {{"model", modelJson(plan::modelFrame(plan, scene, fields, lattice))},
             {"kernel", layout.kernels[0].name()},

@@ -53,8 +53,8 @@ void endOnSignals(QObject &application) {
     // The second one ends a program that does not listen.
     action.sa_flags = SA_RESTART | SA_RESETHAND;
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
-        struct sigaction usual {};
-        if (::sigaction(signal, nullptr, &usual) == 0 && usual.sa_handler != SIG_IGN)
+        struct sigaction previous {};
+        if (::sigaction(signal, nullptr, &previous) == 0 && previous.sa_handler != SIG_IGN)
             ::sigaction(signal, &action, nullptr);
     }
 }

@@ -286,10 +286,10 @@ CentralEnergies centralEnergies(const render::EngineParts &engine, const scene::
             engine.shares.begin(), engine.shares.end(),
             [](const render::ChannelShares &share) { return share == render::ChannelShares{}; }))
         return {}; // nothing is shown
-    shading::Shading shone = shading;
+    shading::Shading activeShading = shading;
     if (engine.spectra.gradients.empty())
-        shone.lights.clear();
-    return CentralSlices(engine, camera, grid, shone).energies(camera, grid);
+        activeShading.lights.clear();
+    return CentralSlices(engine, camera, grid, activeShading).energies(camera, grid);
 }
 
 } // namespace pellucid::accuracy

@@ -22,9 +22,9 @@ namespace {
 // random pictures of the bench's suite `pictures` (seeds 604, 911, 1201 to 1204, 1301 to 1304, 1401
 // to 1403, 1501, 1701), which can therefore no longer test them; those of coarse pixels and points
 // also to counterexamples.
-constexpr double coherentMargin = 2.7, ///< ghosts, block by block
-    detailMargin = 2.4,                ///< ghosts of what blocks do not show
-    coarsePixelMargin = 2.5,           ///< ghosts in pixels larger than the blocks
+constexpr double coherentMargin = 2.7, ///< aliases, block by block
+    detailMargin = 2.4,                ///< aliases of what blocks do not show
+    coarsePixelMargin = 2.5,           ///< aliases in pixels larger than the blocks
     restMargin = 1.1,                  ///< rounding of other cells than the central ones
     aloneMargin = 7.1,                 ///< rounding where no cell's is known
     centralMargin = 4.0,               ///< the known rounding of the central cells
@@ -36,7 +36,7 @@ constexpr double coherentMargin = 2.7, ///< ghosts, block by block
     pointBesideMargin = 15.0;          ///< the same of a few samples
 // The part of the plan's bound that every picture is charged with, for what no term describes.
 constexpr double unseenShare = 0.094;
-// Similar errors add up to point-like ghosts; this share of their energy may fall in any part of
+// Similar errors add up to point-like aliases; this share of their energy may fall in any part of
 // the picture.
 constexpr double pointShare = 0.69;
 // The energy of rounding over its mean where no cell's is known.
@@ -69,7 +69,7 @@ public:
         const Beside beside = besidePicture();
         const double whole = m_imageEnergy + beside.energy;
         const Rounding rounding = roundingErrors(whole);
-        energies.error = coherentGhosts() + detailMargin * detailGhosts(beside) + rounding.few +
+        energies.error = coherentAliases() + detailMargin * detailAliases(beside) + rounding.few +
                          rounding.others + centralMargin * m_centralError +
                          foldedTails(beside, whole) + momentError(whole) +
                          std::pow(unseenShare * bound, 2) * m_imageEnergy;
@@ -77,16 +77,16 @@ public:
     }
 
 private:
-    // The energies of blocks and ghosts as they are seen.
+    // The energies of blocks and aliases as they are seen.
     struct BlockSums {
-        // Each block or ghost by itself.
+        // Each block or alias by itself.
         double all = 0.0, inPicture = 0.0;
-        double ghosts = 0.0;                       ///< in the picture
+        double aliases = 0.0;                      ///< in the picture
         double inverse = 0.0;                      ///< of blocks without the cue, times 1/h^2
         double tailsAcross = 0.0, tailsDown = 0.0; ///< what their tails leave in the picture
         // Their projections.
         double projection = 0.0, projectionInPicture = 0.0;
-        double ghostsInPicture = 0.0;
+        double aliasesInPicture = 0.0;
     };
     // What lies beside the picture.
     struct Beside {
@@ -127,7 +127,7 @@ private:
         const glm::dvec2 pan = m_camera.panMm;
         const double rollOff = m_context.image.rollOff;
         const plan::SliceGrid &grid = m_context.grid;
-        CoarsePlane plain(m_periodMm, m_coarseMm), ghosts(m_periodMm, m_coarseMm);
+        CoarsePlane plain(m_periodMm, m_coarseMm), aliases(m_periodMm, m_coarseMm);
         for (std::size_t n = 0; n < m_energy.size(); ++n) {
             if (m_energy[n] == 0.0)
                 continue;
@@ -154,15 +154,15 @@ private:
             m_blocks.inverse += double(block.inverse) * m_energy[n];
             for (std::size_t d = 0; d < 3; ++d) {
                 const glm::dvec3 &period = m_fields.periodsMm[d];
-                m_blocks.ghosts +=
-                    add(ghosts, block.fromCentreMm - period, double(block.ghosts[2 * d]));
-                m_blocks.ghosts +=
-                    add(ghosts, block.fromCentreMm + period, double(block.ghosts[2 * d + 1]));
+                m_blocks.aliases +=
+                    add(aliases, block.fromCentreMm - period, double(block.aliases[2 * d]));
+                m_blocks.aliases +=
+                    add(aliases, block.fromCentreMm + period, double(block.aliases[2 * d + 1]));
             }
         }
         m_blocks.projection = plain.energyIn({0.0, 0.0}, m_periodMm);
         m_blocks.projectionInPicture = plain.energyIn({0.0, 0.0}, m_windowMm);
-        m_blocks.ghostsInPicture = ghosts.energyIn({0.0, 0.0}, m_windowMm);
+        m_blocks.aliasesInPicture = aliases.energyIn({0.0, 0.0}, m_windowMm);
     }
 
     bool isWhole() const { return m_blocks.all - m_blocks.inPicture <= 1e-9 * m_blocks.all; }
@@ -180,16 +180,16 @@ private:
     }
 
     // Coarse pixels that are larger than the blocks spread each of them over several.
-    double coherentGhosts() const {
+    double coherentAliases() const {
         const double ofCoarse = m_coarseMm > 2.0 * m_fields.blockMm ? coarsePixelMargin : 1.0;
-        return ofCoarse * coherentMargin * m_blocks.ghostsInPicture;
+        return ofCoarse * coherentMargin * m_blocks.aliasesInPicture;
     }
 
-    // What blocks do not show, edges and noise, has ghosts as its energy lies.
-    double detailGhosts(const Beside &beside) const {
+    // What blocks do not show, edges and noise, has aliases as its energy lies.
+    double detailAliases(const Beside &beside) const {
         const double unseen =
             std::max(0.05 * m_imageEnergy, m_imageEnergy - m_blocks.projectionInPicture);
-        return m_blocks.ghosts * (unseen + beside.blocks * beside.lengthMm) / m_blocks.all;
+        return m_blocks.aliases * (unseen + beside.blocks * beside.lengthMm) / m_blocks.all;
     }
 
     // 1 for fields of a few samples, near 0 for those whose energy is spread out.

@@ -31,7 +31,7 @@ struct ChannelEnergies {
     bool isWhole = true; ///< nothing of the fields lies beside the picture
 };
 
-/// Predicts the energy of the error in one channel of a picture: ghosts, rounding, tails of the
+/// Predicts the energy of the error in one channel of a picture: aliases, rounding, tails of the
 /// roll-off, and what the moment kernels of a linear cue leave. *Shape*: one weight for each of the
 /// fields; `bound`: the plan's bound of the relative error.
 ChannelEnergies channelEnergies(const CoarseFields &fields, double bound,

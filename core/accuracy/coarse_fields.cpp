@@ -17,7 +17,7 @@ constexpr int fewSamples = 10;
 // A block along one axis.
 struct AxisBlock {
     double middle;        ///< index of its middle in the lattice
-    double before, after; ///< amplitudes of the ghosts of the periods below and above
+    double before, after; ///< amplitudes of the aliases of the periods below and above
     double inverse;       ///< 1/h^2
 };
 
@@ -103,8 +103,8 @@ CoarseFields::Block blockAt(const std::array<std::uint8_t, 3> &at, const AxisBlo
     CoarseFields::Block block;
     block.fromCentreMm = lattice.patient(volume::VoxelPoint{{i.middle, j.middle, k.middle}}).mm -
                          lattice.center().mm;
-    block.ghosts = {float(i.before), float(i.after),  float(j.before),
-                    float(j.after),  float(k.before), float(k.after)};
+    block.aliases = {float(i.before), float(i.after),  float(j.before),
+                     float(j.after),  float(k.before), float(k.after)};
     block.inverse = float(i.inverse * j.inverse * k.inverse);
     return block;
 }

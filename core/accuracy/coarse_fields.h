@@ -11,13 +11,13 @@
 
 namespace pellucid::accuracy {
 
-/// The fields of a plan as coarse blocks, and the aliases ("ghosts") that the plan's kernels make
+/// The fields of a plan as coarse blocks, and the aliases that the plan's kernels make
 /// of each block.
 struct CoarseFields {
     struct Block { ///< a place, whichever fields have a part of it
         glm::dvec3 fromCentreMm{0.0};
-        std::array<float, 6> ghosts{}; ///< amplitudes along each axis, of the periods -1 and 1
-        float inverse = 1.0F;          ///< 1/h^2 of all axes
+        std::array<float, 6> aliases{}; ///< amplitudes along each axis, of the periods -1 and 1
+        float inverse = 1.0F;           ///< 1/h^2 of all axes
     };
     struct Part { ///< of a field in a block
         std::uint32_t block = 0;
@@ -25,7 +25,7 @@ struct CoarseFields {
     };
 
     volume::Lattice lattice;
-    std::array<glm::dvec3, 3> periodsMm{}; ///< of the ghosts
+    std::array<glm::dvec3, 3> periodsMm{}; ///< of the aliases
     /// What the moment kernels of a linear cue leave, see plan::AxisError::moment.
     std::array<double, 3> moments{};
     std::vector<Block> blocks;             ///< of all fields, each once

@@ -52,7 +52,8 @@ double relativeError(double energy, double error) {
 
 ViewErrorModel::ViewErrorModel(const plan::RenderPlan &plan,
                                std::span<const plan::FieldSummary> fields)
-    : m_fields(coarseFields(plan, fields)), m_room(plan.room), m_bound(plan.predictedError) {}
+    : m_fields(coarseFields(plan, fields)), m_fieldOfView(plan.fieldOfView),
+      m_bound(plan.predictedError) {}
 
 PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
                                      const scene::Camera &camera,
@@ -64,7 +65,7 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     const std::vector<render::ChannelShares> &shares = engine.shares;
     // Without light the weights are the same; R and the step do not matter to them.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
-    const plan::SliceGrid grid = plan::sliceGrid(camera, m_room, m_fields.lattice, image);
+    const plan::SliceGrid grid = plan::sliceGrid(camera, m_fieldOfView, m_fields.lattice, image);
     const PictureContext context{picture, camera, image,
                                  shading, grid,   centralEnergies(engine, camera, grid, shading)};
     double energy = 0.0, error = 0.0;

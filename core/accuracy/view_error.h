@@ -25,7 +25,7 @@ public:
     ViewErrorModel(const plan::RenderPlan &plan, std::span<const plan::FieldSummary> fields);
 
     /// The error of a picture that an engine of the plan made, with cue and light, with the
-    /// energies and the ghosts as they are seen from there, in the window that it has. For a whole
+    /// energies and the aliases as they are seen from there, in the window that it has. For a whole
     /// picture of one field a channel it is never more than the plan's bound, which is for whole
     /// pictures only.
     PictureError errorOf(const picture::ProjectionImage &picture, const scene::Camera &camera,
@@ -34,7 +34,7 @@ public:
 
 private:
     CoarseFields m_fields;
-    plan::SliceRoom m_room;
+    plan::FieldOfView m_fieldOfView;
     double m_bound;
 };
 

@@ -122,7 +122,7 @@ Decoder::Decoder(fs::path program) : m_program(std::move(program)) {}
 
 Decoder::~Decoder() = default;
 
-Decoder &Decoder::ofProgram() {
+Decoder &Decoder::shared() {
     static Decoder decoder(findProgram());
     return decoder;
 }
@@ -321,7 +321,7 @@ bool Decoder::samples(const fs::path &path, const SampleRange &samples,
                 if (isDone)
                     return;
                 left -= bytes;
-                hasMore = (answer.message.code & goesOn) != 0;
+                hasMore = (answer.message.code & moreFollows) != 0;
                 take(answer.data);
                 child->askForNext();
             });

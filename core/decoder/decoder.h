@@ -58,7 +58,7 @@ public:
 
     /// The one of this program: `pellucid-decode` beside it or where packages keep it, or what
     /// PELLUCID_DECODER names.
-    static Decoder &ofProgram();
+    static Decoder &shared();
 
     /// All *throw* Error{unusable} with path and reason, Error{outOfMemory}, Error{internal} if
     /// there is no decoder, Cancelled.

@@ -53,7 +53,7 @@ enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2 };
 enum ArchiveFlag : std::int32_t { announcement = 1, firstPart = 2, lastPart = 4, damagedPart = 8 };
 
 /// A bit of `Message::code` of the last `part` of samples: the file holds more of them.
-inline constexpr std::int32_t goesOn = 8;
+inline constexpr std::int32_t moreFollows = 8;
 
 /// Bits of `Message::code` of `samples`, beside the size of a sample.
 enum SampleFlag : std::int32_t { deflated = 16, swapped = 32 };

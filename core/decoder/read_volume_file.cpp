@@ -50,7 +50,7 @@ struct OpenVolume {
 };
 
 OpenVolume open(const fs::path &path, const task::Progress &progress) {
-    OpenVolume file{Decoder::ofProgram().layout(path, progress), {}};
+    OpenVolume file{Decoder::shared().layout(path, progress), {}};
     const VolumeLayout &layout = file.layout;
     try {
         file.header.lattice = Lattice::make(layout.size, {layout.originMm}, layout.stepsMm);
@@ -174,7 +174,7 @@ Volume taken(const OpenVolume &file, int which, Taken values, const task::Progre
     const SampleRange samples = rangeOf(file, which);
     checkSize(file.header.samplesFile, samples);
     std::uint64_t done = 0;
-    const bool hasMore = Decoder::ofProgram().samples(
+    const bool hasMore = Decoder::shared().samples(
         file.header.samplesFile, samples,
         [&](std::span<const std::byte> part) {
             values.add(part);

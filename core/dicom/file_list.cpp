@@ -85,7 +85,7 @@ void FileList::addFile(const fs::path &path) {
 void FileList::addArchive(const fs::path &path) {
     auto folder = std::make_shared<files::SessionFolder>();
     for (const auto &file :
-         decoder::unpackArchive(decoder::Decoder::ofProgram(), path, folder->path(), m_progress))
+         decoder::unpackArchive(decoder::Decoder::shared(), path, folder->path(), m_progress))
         skipped.push_back({path / fs::path(file.name).relative_path(), file.reason});
     addFolder(folder->path());
     unpacked.push_back({std::move(folder), path});
@@ -94,7 +94,7 @@ void FileList::addArchive(const fs::path &path) {
 // What is no DICOM file at all is said when it is read.
 decoder::DirectoryFile FileList::directoryAt(const fs::path &path) const {
     return volume::isVolumeFile(path) ? decoder::DirectoryFile()
-                                      : decoder::Decoder::ofProgram().directory(path, m_progress);
+                                      : decoder::Decoder::shared().directory(path, m_progress);
 }
 
 void FileList::addDirectory(const fs::path &path, const decoder::DirectoryFile &directory) {

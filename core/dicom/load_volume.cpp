@@ -82,7 +82,7 @@ public:
 private:
     decoder::DecodedFile decoded(const std::filesystem::path &path) {
         try {
-            decoder::DecodedFile image = decoder::Decoder::ofProgram().image(path, m_progress);
+            decoder::DecodedFile image = decoder::Decoder::shared().image(path, m_progress);
             if (image.header.columns != m_size.i || image.header.rows != m_size.j)
                 throw Error(ErrorCode::unusable, because::changedWhileRead, path);
             return image;

@@ -55,7 +55,7 @@ public:
 
 private:
     void keep(const EntryFile &meant, const task::Progress &progress) {
-        SeriesFile file{meant.path, decoder::Decoder::ofProgram().header(meant.path, progress)};
+        SeriesFile file{meant.path, decoder::Decoder::shared().header(meant.path, progress)};
         if (!std::all_of(meant.frames.begin(), meant.frames.end(), [&](std::size_t frame) {
                 return isStillThere(m_entry.frames[frame], file.header);
             })) {

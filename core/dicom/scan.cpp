@@ -196,7 +196,7 @@ class HeaderReader {
 public:
     HeaderReader(const ScanOptions &options, const task::Progress &progress)
         : m_options(options), m_progress(progress),
-          m_held(std::max(system::availableMemoryBytes() / 2, ofUsualSeries)) {}
+          m_held(std::max(system::availableMemoryBytes() / 2, bytesOfTypicalSeries)) {}
 
     std::vector<FileContents> read(const std::vector<fs::path> &paths) {
         std::vector<FileContents> contents(paths.size());
@@ -213,7 +213,7 @@ public:
 
 private:
     // A small file may announce very many frames: all of them are held until they are grouped.
-    static constexpr std::size_t ofUsualSeries = std::size_t(32) << 20;
+    static constexpr std::size_t bytesOfTypicalSeries = std::size_t(32) << 20;
 
     void readOne(const fs::path &path, FileContents &contents) {
         try {
@@ -233,7 +233,7 @@ private:
     }
 
     void readInstance(const fs::path &path, FileContents &contents) {
-        InstanceHeader header = decoder::Decoder::ofProgram().header(path, m_progress);
+        InstanceHeader header = decoder::Decoder::shared().header(path, m_progress);
         std::error_code unknown;
         const auto bytes = fs::file_size(path, unknown);
         contents.reason = decoder::whyUnusable(header);
@@ -334,7 +334,7 @@ Series seriesOf(const std::vector<SeriesFile> &files, std::vector<Skipped> &skip
 
 Catalogue scan(const std::vector<fs::path> &paths, const task::Progress &progress,
                const ScanOptions &options) {
-    decoder::Decoder::ofProgram().beginOpening();
+    decoder::Decoder::shared().beginOpening();
     FileList list = listFiles(paths, progress);
     std::vector<FileContents> contents = HeaderReader(options, progress).read(list.found);
     Catalogue catalogue;

@@ -7,9 +7,9 @@
 
 namespace pellucid::files {
 
-FileLock::FileLock(const std::filesystem::path &file, Others others)
+FileLock::FileLock(const std::filesystem::path &file, Mode mode)
     : m_file(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
-    const int how = others == Others::areLetBe ? LOCK_EX | LOCK_NB : LOCK_EX;
+    const int how = mode == Mode::tryLock ? LOCK_EX | LOCK_NB : LOCK_EX;
     int result = 0;
     while (m_file && (result = ::flock(m_file.get(), how)) != 0 && errno == EINTR) {
     }

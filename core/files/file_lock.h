@@ -12,8 +12,8 @@ namespace pellucid::files {
 /// nobody is kept out.
 class FileLock {
 public:
-    enum class Others { areWaitedFor, areLetBe };
-    explicit FileLock(const std::filesystem::path &file, Others others = Others::areWaitedFor);
+    enum class Mode { wait, tryLock };
+    explicit FileLock(const std::filesystem::path &file, Mode mode = Mode::wait);
     /// False: another one holds it.
     bool isHeld() const { return m_isHeld; }
 

@@ -13,11 +13,11 @@
 namespace pellucid::fourier {
 
 CellLayout::CellLayout(const SpectrumLayout &layout)
-    : apron(layout.width() / 2 + 1), step(columnCells + 1 - layout.width()),
-      columns((layout.padded.i / 2 + 1 + 2 * apron - layout.width()) / step + 1),
-      rows(layout.padded.j + 1 + 2 * apron),
-      planes((layout.padded.k + 2 * apron + planesTogether) / planesTogether * planesTogether),
-      firstX(-apron), firstY(-layout.padded.j / 2 - apron), firstZ(-layout.padded.k / 2 - apron) {}
+    : halo(layout.width() / 2 + 1), step(columnCells + 1 - layout.width()),
+      columns((layout.padded.i / 2 + 1 + 2 * halo - layout.width()) / step + 1),
+      rows(layout.padded.j + 1 + 2 * halo),
+      planes((layout.padded.k + 2 * halo + planesTogether) / planesTogether * planesTogether),
+      firstX(-halo), firstY(-layout.padded.j / 2 - halo), firstZ(-layout.padded.k / 2 - halo) {}
 
 bool SpectrumLayout::addressable() const {
     return CellLayout(*this).lines() < (std::size_t(1) << 32) / CellLayout::columnCells;
@@ -49,7 +49,7 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
     auto *const intermediate = reinterpret_cast<float *>(memory.get());
     const FieldSums sums = transformPlanes(field, layout, intermediate, progress);
     progress.report(0.5);
-    spectrum.m_mass = sums.mass;
+    spectrum.m_dc = sums.dc;
     spectrum.m_moments = sums.moments;
     CellOutput out{spectrum.m_cells.get()};
     if (layout.storage == Storage::binary16) {

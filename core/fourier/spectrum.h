@@ -35,14 +35,14 @@ struct SpectrumLayout {
 /// of `width` neighbours lies inside one column: with binary16 storage inside one 64-byte cache
 /// line. A page of 4 KiB is a block of about 13 x 8 x 8 cells, so an oblique slice touches half as
 /// many pages as with whole planes one after the other, where a page is 13 x 64 x 1. Beyond the
-/// half, and around the period, an apron of cells is repeated, so that interpolation needs neither
+/// half, and around the period, a halo of cells is repeated, so that interpolation needs neither
 /// wrap nor branch. Indices y and z run from -padded/2.
 struct CellLayout {
     static constexpr int columnCells = 16;
     static constexpr int planesTogether = 8;
 
     explicit CellLayout(const SpectrumLayout &layout);
-    int apron;                  ///< cells around the stored half
+    int halo;                   ///< cells around the stored half
     int step;                   ///< cells between the beginnings of columns
     int columns;                ///< *Shape*: columns x planes x rows lines of columnCells cells
     int rows, planes;           ///< planes: whole groups of planesTogether
@@ -78,11 +78,11 @@ public:
     /// What a stored cell is to be multiplied by; a power of two.
     double unit() const { return m_unit; }
     /// dV * sum f: the value at frequency 0 before any rounding or interpolation.
-    double mass() const { return m_mass; }
+    double dc() const { return m_dc; }
     /// dV * sum f (n - n_w): what the field times the distance from the wrap voxel is at frequency
     /// 0, by axis. *Units*: of the mass, times samples.
     const std::array<double, 3> &moments() const { return m_moments; }
-    /// The value at a grid index: p in -apron..padded/2 + apron, q and r within apron of
+    /// The value at a grid index: p in -halo..padded/2 + halo, q and r within halo of
     /// +-padded/2.
     std::complex<double> value(int p, int q, int r) const;
     /// The rounding error of the stored value at a grid index: stored minus exact. Most fields have
@@ -103,7 +103,7 @@ private:
     CellLayout m_cellLayout;
     volume::PatientPoint m_wrapPoint;
     std::shared_ptr<std::byte[]> m_cells;
-    double m_unit = 1.0, m_mass = 0.0;
+    double m_unit = 1.0, m_dc = 0.0;
     std::array<double, 3> m_moments{};
     /// [q][r][p], q and r from -roundingReach, p from 0, in stored units; none with float cells.
     std::vector<std::complex<float>> m_rounding;

@@ -106,7 +106,7 @@ public:
         FieldSums sums;
         for (int k = 0; k < m_size.k; ++k) {
             const PlaneSums &plane = m_planeSums[std::size_t(k)];
-            sums.mass += m_cellMm3 * plane.all;
+            sums.dc += m_cellMm3 * plane.all;
             sums.moments[0] += m_cellMm3 * plane.alongI;
             sums.moments[1] += m_cellMm3 * plane.alongJ;
             sums.moments[2] += m_cellMm3 * plane.all * (k - m_size.k / 2);
@@ -208,7 +208,7 @@ public:
         : m_layout(layout), m_cells(cells), m_transform(layout.padded.k),
           m_intermediate(intermediate), m_out(out),
           m_rowCells(std::size_t(cells.step) * (cells.columns - 1) + 2 * CellLayout::columnCells +
-                     std::size_t(cells.apron)),
+                     std::size_t(cells.halo)),
           m_strips(2 * std::size_t(layout.padded.k) * stripFloats),
           m_rows(2 * std::size_t(layout.padded.k) * m_rowCells) {}
 
@@ -220,9 +220,9 @@ public:
         transformRow(y, first);
         if (second != first)
             transformRow(mirrored, second);
-        addApron(first, second);
+        addHalo(first, second);
         if (second != first)
-            addApron(second, first);
+            addHalo(second, first);
         writeLines(y, first);
         if (second != first)
             writeLines(mirrored, second);
@@ -238,7 +238,7 @@ private:
             placeStrips(m_intermediate + (std::size_t(y) * blocks + block) * depth * stripFloats,
                         depth, strips, padded);
             const float *const result = m_transform.run(strips, scratch);
-            storeExchanged(result, padded, m_out.scale, rows + m_cells.apron + block * stripLanes,
+            storeExchanged(result, padded, m_out.scale, rows + m_cells.halo + block * stripLanes,
                            m_rowCells);
             if (block == 0)
                 keepRounding(y, result, rows);
@@ -256,7 +256,7 @@ private:
             for (int p = 0; p <= reach; ++p) {
                 const float *const of = exact + std::size_t(z) * stripFloats + p;
                 const std::complex<float> stored =
-                    asComplex(rows[std::size_t(z) * m_rowCells + m_cells.apron + p]);
+                    asComplex(rows[std::size_t(z) * m_rowCells + m_cells.halo + p]);
                 m_out.rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
                     stored -
                     m_out.scale * std::complex<float>(of[stripLanes], of[0]); // they are exchanged
@@ -265,17 +265,17 @@ private:
     }
 
     // F(-s) = conj F(s) gives the cells left of the half and right of it.
-    void addApron(Cell *rows, const Cell *mirrored) const {
-        const int half = m_layout.padded.i / 2, depth = m_layout.padded.k, apron = m_cells.apron;
+    void addHalo(Cell *rows, const Cell *mirrored) const {
+        const int half = m_layout.padded.i / 2, depth = m_layout.padded.k, halo = m_cells.halo;
         for (int z = 0; z < depth; ++z) {
-            Cell *const row = rows + std::size_t(z) * m_rowCells + apron;
+            Cell *const row = rows + std::size_t(z) * m_rowCells + halo;
             const Cell *const other =
-                mirrored + std::size_t((depth - z) % depth) * m_rowCells + apron;
-            for (int m = 1; m <= apron; ++m) {
+                mirrored + std::size_t((depth - z) % depth) * m_rowCells + halo;
+            for (int m = 1; m <= halo; ++m) {
                 row[-m] = conjugate(other[m]);
                 row[half + m] = conjugate(other[half - m]);
             }
-            std::fill(row + half + apron + 1, row - apron + m_rowCells, Cell());
+            std::fill(row + half + halo + 1, row - halo + m_rowCells, Cell());
         }
     }
 

@@ -18,7 +18,7 @@ std::size_t intermediateBytes(const SpectrumLayout &layout);
 
 /// What is summed while a field is transformed.
 struct FieldSums {
-    double mass = 0.0;
+    double dc = 0.0;
     std::array<double, 3> moments{}; ///< first moments about the wrap voxel, by axis
     double magnitudes = 0.0;         ///< of what is transformed: no cell exceeds their sum
 };

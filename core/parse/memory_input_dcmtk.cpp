@@ -19,10 +19,10 @@ namespace {
 
 // Half of the stack of this thread, if it is the first one; others have as much by default.
 std::size_t stackToUse() {
-    constexpr std::size_t usual = std::size_t(8) << 20;
+    constexpr std::size_t typical = std::size_t(8) << 20;
     rlimit limit{};
     const bool isKnown = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-    return std::min<std::size_t>(usual, isKnown ? limit.rlim_cur : usual) / 2;
+    return std::min<std::size_t>(typical, isKnown ? limit.rlim_cur : typical) / 2;
 }
 
 // An element takes about five reads and some 250 bytes of DCMTK's: four million elements, 10 000

@@ -39,7 +39,7 @@ VolumeLayout parseVolumeLayout(std::span<const std::byte> file);
 /// left, and says whether the file goes on behind it. *Throws* Error{unusable} if there are fewer,
 /// or what is deflated is damaged.
 void readSamples(std::span<const std::byte> file, const SampleRange &samples,
-                 const std::function<void(std::span<const std::byte>, bool goesOn)> &take);
+                 const std::function<void(std::span<const std::byte>, bool hasMore)> &take);
 
 /// A part of the data of a file in an archive; `flags`: of decoder::ArchiveFlag.
 using TakeData = std::function<void(const ArchiveFile &file, std::span<const std::byte> data,

@@ -76,8 +76,8 @@ private:
             break;
         case Message::Kind::samples:
             readSamples(file.bytes(), samplesOf(request.message),
-                        [&](std::span<const std::byte> data, bool goesOn) {
-                            part(goesOn ? decoder::goesOn : 0, {}, data);
+                        [&](std::span<const std::byte> data, bool hasMore) {
+                            part(hasMore ? decoder::moreFollows : 0, {}, data);
                         });
             finish(0, {}, {});
             break;
@@ -119,7 +119,7 @@ private:
         const auto reply = decoder::receive(m_socket, decoder::Takes::descriptor);
         if (!reply)
             throw Gone();
-        m_watch.goOn();
+        m_watch.resume();
         return reply->message;
     }
 

@@ -69,7 +69,7 @@ public:
 
     // All that was wanted is there: what follows is read as far as the sum of a gzip member, which
     // tells whether its bytes are those that were deflated. True if there is more instead.
-    bool goesOn() {
+    bool hasMore() {
         std::byte beyond{};
         m_stream.next_out = reinterpret_cast<Bytef *>(&beyond);
         m_stream.avail_out = 1;
@@ -116,7 +116,7 @@ std::vector<std::byte> inflatedStart(std::span<const std::byte> deflated, std::s
 }
 
 void readSamples(std::span<const std::byte> file, const SampleRange &samples,
-                 const std::function<void(std::span<const std::byte>, bool goesOn)> &take) {
+                 const std::function<void(std::span<const std::byte>, bool hasMore)> &take) {
     if (samples.bytesEach < 1 || samples.bytesEach > 8 ||
         partBytes % std::size_t(samples.bytesEach) != 0 ||
         samples.bytes % std::uint64_t(samples.bytesEach) != 0)
@@ -140,7 +140,7 @@ void readSamples(std::span<const std::byte> file, const SampleRange &samples,
         if (samples.isSwapped)
             swapEach(buffer, samples.bytesEach);
         const bool isLast = done + buffer.size() == samples.bytes;
-        take(buffer, isLast && (inflated ? inflated->goesOn()
+        take(buffer, isLast && (inflated ? inflated->hasMore()
                                          : stored.size() >=
                                                samples.bytes + std::uint64_t(samples.bytesEach)));
     }

@@ -40,10 +40,10 @@ Watch::Watch() {
 void Watch::allow(double seconds) {
     constexpr double years = 1e8; // a file of holes has any size
     m_seconds = int(std::ceil(std::min(seconds, years)));
-    goOn();
+    resume();
 }
 
-void Watch::goOn() {
+void Watch::resume() {
     secondsLeft = m_seconds;
     tick(1);
 }

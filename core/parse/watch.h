@@ -11,7 +11,7 @@ public:
     /// For a request that begins. *Units*: seconds.
     void allow(double seconds);
     /// The same time again, for its next part.
-    void goOn();
+    void resume();
     /// Whoever waits sees the other end go.
     void rest();
 

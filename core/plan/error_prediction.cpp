@@ -59,7 +59,7 @@ template <class Any> std::complex<double> onGrid(const Any &kernel, double x) {
 }
 
 // The kernels' transforms fall at least as 1/m beyond.
-constexpr std::array<int, 6> ghostPeriods{-3, -2, -1, 1, 2, 3};
+constexpr std::array<int, 6> aliasPeriods{-3, -2, -1, 1, 2, 3};
 
 } // namespace
 
@@ -68,15 +68,15 @@ namespace {
 BlockAmplitudes amplitudesAt(const fourier::Kernel &kernel, double x) {
     const double h = kernel.apodisation(x);
     BlockAmplitudes of;
-    for (const int m : ghostPeriods) {
+    for (const int m : aliasPeriods) {
         const double r = kernel.apodisation(x + m) / h;
-        of.ghosts += r * r;
+        of.aliases += r * r;
     }
     const auto at = [&](double t) { return std::norm(offGrid(kernel, x, t) / h - 1.0); };
     // Steps in common with the grid: every frequency on it, every second, every third.
     const double whole = at(0.0);
     of.inPhase =
-        std::max({of.ghosts, whole, 0.5 * (whole + at(0.5)), (whole + 2.0 * at(1.0 / 3.0)) / 3.0});
+        std::max({of.aliases, whole, 0.5 * (whole + at(0.5)), (whole + 2.0 * at(1.0 / 3.0)) / 3.0});
     of.inverse = 1.0 / (h * h);
     return of;
 }
@@ -134,13 +134,13 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
         for (const int n : {range.first, range.last}) {
             const BlockAmplitudes at =
                 amplitudesAt(kernel, double(n - samples / 2) / padded); // NOLINT: whole
-            worst.ghosts = std::max(worst.ghosts, at.ghosts);
+            worst.aliases = std::max(worst.aliases, at.aliases);
             worst.inPhase = std::max(worst.inPhase, at.inPhase);
             worst.inverse = std::max(worst.inverse, at.inverse);
         }
         if (mostEnergy > 0.0)
             error.brightest =
-                std::max(error.brightest, std::sqrt(worst.ghosts * brightest / mostEnergy));
+                std::max(error.brightest, std::sqrt(worst.aliases * brightest / mostEnergy));
         error.blocks.push_back(worst);
     }
     error.kernelEnergy = kernel.energy();
@@ -174,7 +174,7 @@ double filterError(const fourier::Kernel &kernel, int padded, const std::vector<
 
 void addMomentError(AxisError &error, const fourier::Kernel &kernel,
                     const fourier::MomentKernel &moment, int padded, const SlabProducts &slabs) {
-    // Beyond the second ghost the responses fall fast.
+    // Beyond the second alias the responses fall fast.
     constexpr std::array<int, 5> periods{0, -1, 1, -2, 2};
     const auto count = std::size_t(slabs.slabs);
     std::array<std::vector<double>, periods.size()> apart;
@@ -196,10 +196,10 @@ void addMomentError(AxisError &error, const fourier::Kernel &kernel,
         imaginary[n] = left.imag();
         error.brightestMoment = std::max(error.brightestMoment, std::sqrt(squares));
     }
-    double ghosts = 0.0;
+    double aliases = 0.0;
     for (const auto &weights : apart)
-        ghosts += slabs.energy(weights);
-    error.moment = std::max(ghosts, slabs.energy(real) + slabs.energy(imaginary));
+        aliases += slabs.energy(weights);
+    error.moment = std::max(aliases, slabs.energy(real) + slabs.energy(imaginary));
 }
 
 double cueRms(const shading::DepthCue &cue) {
@@ -287,7 +287,7 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
         for (const double t : {-offset / radiusMm, offset / radiusMm}) // both are monotonic
             least = std::min(least, value(t));
     least = std::max(darkest, least);
-    weight.ghosts = cueRms(cue) / least;
+    weight.aliases = cueRms(cue) / least;
     if (cue.kind == shading::CueKind::linear)
         for (int d = 0; d < 3; ++d)
             weight.moments[std::size_t(d)] =
@@ -315,20 +315,20 @@ static double roundingNoise(const std::array<AxisError, 3> &axes, const EnergyMa
 
 double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                       const EnergyMarginals &field, const CueWeight &cue) {
-    double ghosts = 0.0, moment = 0.0;
+    double aliases = 0.0, moment = 0.0;
     for (std::size_t d = 0; d < axes.size(); ++d) {
-        ghosts += axes[d].brightest;
+        aliases += axes[d].brightest;
         moment = std::max(moment, cue.moments[d] * axes[d].brightestMoment);
     }
     const double rounding = relativeRounding(storage);
-    return cue.ghosts *
-               (ghosts + 4.5 * std::sqrt(0.2 * rounding * rounding * roundingNoise(axes, field))) +
+    return cue.aliases *
+               (aliases + 4.5 * std::sqrt(0.2 * rounding * rounding * roundingNoise(axes, field))) +
            moment;
 }
 
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                             const EnergyMarginals &field, double share, const CueWeight &cue) {
-    const double ghosts = LargestMean(field).of([&](const auto &at) {
+    const double aliases = LargestMean(field).of([&](const auto &at) {
         double sum = 0.0;
         for (std::size_t d = 0; d < axes.size(); ++d)
             sum += std::sqrt(axes[d].blocks[at[d]].inPhase);
@@ -339,10 +339,10 @@ double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Stora
         // Depth is along one direction, so that one axis's moment stands for all.
         moment = std::max(moment, cue.moments[d] * cue.moments[d] * axes[d].moment);
     }
-    const double weight = cue.ghosts * cue.ghosts;
+    const double weight = cue.aliases * cue.aliases;
     const double rounding = relativeRounding(storage);
     // Rounding is spread as h^2 is, nearly all of it where the field is.
-    return std::sqrt((weight * ghosts + viewMargin * moment) / share +
+    return std::sqrt((weight * aliases + viewMargin * moment) / share +
                      weight * roundingMargin(*field.spread) * rounding * rounding *
                          roundingNoise(axes, field));
 }

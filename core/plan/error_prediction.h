@@ -15,10 +15,10 @@ namespace pellucid::plan {
 /// What the taps of an axis make of the samples of a block of it, at most. They make a(x, t) of a
 /// sample at x (in periods from the wrap voxel) where a frequency lies t off the grid.
 struct BlockAmplitudes {
-    /// sum_m r^2, r = h(x + m)/h(x) the amplitude of the ghost of x in period m: the mean of
+    /// sum_m r^2, r = h(x + m)/h(x) the amplitude of the alias of x in period m: the mean of
     /// |a - 1|^2 over all t.
-    double ghosts = 0.0;
-    /// Where the ghosts add up in phase: |a - 1|^2 over the few t that the frequencies of a view
+    double aliases = 0.0;
+    /// Where the aliases add up in phase: |a - 1|^2 over the few t that the frequencies of a view
     /// along an axis may have, when the slice's steps and the grid's have a common one.
     double inPhase = 0.0;
     double inverse = 0.0; ///< 1/h(x)^2
@@ -27,7 +27,7 @@ struct BlockAmplitudes {
 /// What one axis of a layout leaves.
 struct AxisError {
     std::vector<BlockAmplitudes> blocks; ///< see `blockRanges`
-    /// The brightest ghost: the largest amplitude r, times the square root of e relative to the
+    /// The brightest alias: the largest amplitude r, times the square root of e relative to the
     /// brightest part of the axis.
     double brightest = 0.0;
     double kernelEnergy = 1.0; ///< integral H^2
@@ -53,15 +53,16 @@ void addMomentError(AxisError &error, const fourier::Kernel &kernel,
 double filterError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy);
 
 /// The root mean square of a cue over all depths, including those far beyond the volume, where
-/// ghosts lie. For a linear cue, whose own ghosts are counted apart, over the depths of the volume.
+/// aliases lie. For a linear cue, whose own aliases are counted apart, over the depths of the
+/// volume.
 double cueRms(const shading::DepthCue &cue);
 
 /// How a depth cue weighs the errors against the image.
 struct CueWeight {
-    /// Of ghosts: the root mean square of the cue where they lie, over the least that the cue can
+    /// Of aliases: the root mean square of the cue where they lie, over the least that the cue can
     /// leave of the image, seen from any side: its value at the middle of the field's energy, or,
     /// of a curve, its root mean square over the depths of the energy.
-    double ghosts = 1.0;
+    double aliases = 1.0;
     /// Of the moments along each axis: how much depth a period is, times the cue's slope.
     std::array<double, 3> moments{};
 };
@@ -75,16 +76,16 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
 ///   |P(f w)|^2 <= sum_b max_b(w)^2 <P f_b, P f>, since <P f_a, P f_b> >= 0,
 /// and each <P f_b, P f> / |P f|^2 is at most `EnergySpread::peakedness` times the part's share of
 /// the mass: the worst parts have as much as they can have. Of a field with negative samples, which
-/// can cancel, it is what is expected, and a margin. Ghosts of several axes add up in amplitude, as
-/// where they fall onto each other or onto the projection: for any slice grid there are views close
-/// to it. `share`: how much of the projection's energy the image holds. Rounding to binary16
+/// can cancel, it is what is expected, and a margin. Aliases of several axes add up in amplitude,
+/// as where they fall onto each other or onto the projection: for any slice grid there are views
+/// close to it. `share`: how much of the projection's energy the image holds. Rounding to binary16
 /// leaves 2.1e-4 of each cell, spread evenly over the period; rounding to float and summing 3e-7.
 double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                             const EnergyMarginals &field, double share, const CueWeight &cue = {});
 
-/// The largest error of a pixel relative to the largest pixel, roughly: the brightest ghosts of the
-/// axes, and the rounding at 4.5 standard deviations of an image whose mean square is a fifth of
-/// its peak's. Beside metal it says what the relative L2 error hides.
+/// The largest error of a pixel relative to the largest pixel, roughly: the brightest aliases of
+/// the axes, and the rounding at 4.5 standard deviations of an image whose mean square is a fifth
+/// of its peak's. Beside metal it says what the relative L2 error hides.
 double predictMaximum(const std::array<AxisError, 3> &axes, fourier::Storage storage,
                       const EnergyMarginals &field, const CueWeight &cue = {});
 

@@ -12,7 +12,7 @@ FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const F
                       const volume::Lattice &lattice) {
     const shading::Shading &shading = scene.shading;
     const fourier::SpectrumLayout &layout = plan.spectrum;
-    const SliceGrid grid = sliceGrid(scene.camera, plan.room, lattice, scene.image);
+    const SliceGrid grid = sliceGrid(scene.camera, plan.fieldOfView, lattice, scene.image);
     FrameModel model;
     model.spectra.push_back({fields.of, fields.count});
     if (shading.isLit())

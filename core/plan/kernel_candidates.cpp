@@ -27,7 +27,7 @@ const KernelCandidate &KernelCandidates::at(const fourier::KernelChoice &choice,
 
 KernelCandidate KernelCandidates::made(const fourier::KernelChoice &choice, double padding) const {
     const int padded = fourier::paddedSize(m_samples, padding);
-    // Small axes are padded to more than they need: the kernel may know. Least ghosts are sought
+    // Small axes are padded to more than they need: the kernel may know. Least aliases are sought
     // for a field that leaves some room.
     const double actual = std::clamp(double(padded) / m_samples, 1.05, std::max(2.5, padding));
     auto kernel = fourier::makeKernel(choice, actual, m_folded);

@@ -24,7 +24,7 @@ namespace because = task::because;
 // A slice grid and what the tails that fold back into it leave.
 struct PlannedGrid {
     SliceGrid grid;
-    SliceRoom room;
+    FieldOfView fieldOfView;
     double folded = 0.0;
     double cells() const { return double(grid.columns) * grid.rows; }
 };
@@ -33,20 +33,20 @@ struct PlannedGrid {
 std::vector<PlannedGrid> planGrids(const scene::Scene &scene,
                                    std::span<const FieldSummary> fields) {
     const scene::Camera &camera = scene.camera;
-    SliceRoom room;
+    FieldOfView fieldOfView;
     for (const FieldSummary &field : fields)
-        room.spreads.push_back(field.energy.spread);
+        fieldOfView.spreads.push_back(field.energy.spread);
     std::vector<PlannedGrid> grids;
     for (const double share : {0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
-        room.foldedTails = share * scene.tolerance;
-        const SliceGrid grid = sliceGrid(camera, room, fields.front().lattice, scene.image);
+        fieldOfView.aliasingLimit = share * scene.tolerance;
+        const SliceGrid grid = sliceGrid(camera, fieldOfView, fields.front().lattice, scene.image);
         if (!grids.empty() && grid == grids.back().grid)
             continue;
         double folded = 0.0;
-        for (const auto &spread : room.spreads)
+        for (const auto &spread : fieldOfView.spreads)
             folded = std::max(
                 folded, predictFoldedTails(scene.image, camera, grid.columns, grid.rows, *spread));
-        grids.push_back({grid, room, folded});
+        grids.push_back({grid, fieldOfView, folded});
     }
     return grids;
 }
@@ -88,11 +88,12 @@ public:
     Planner(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
             const Budget &budget)
         : m_scene(scene), m_fields(fields), m_channels(channels), m_budget(budget),
-          m_kernels(choices<fourier::KernelChoice>(scene.interpolation.kernel, {{leastGhosts, 3},
-                                                                                {leastGhosts, 4},
-                                                                                {leastGhosts, 5},
-                                                                                {leastGhosts, 6},
-                                                                                {leastGhosts, 7}})),
+          m_kernels(
+              choices<fourier::KernelChoice>(scene.interpolation.kernel, {{leastAliasing, 3},
+                                                                          {leastAliasing, 4},
+                                                                          {leastAliasing, 5},
+                                                                          {leastAliasing, 6},
+                                                                          {leastAliasing, 7}})),
           // Below 1.2 the seam of a full lattice shows.
           m_paddings(choices(scene.interpolation.padding, {1.25, 1.375, 1.5, 1.625, 1.75, 2.0})),
           m_storages(choices(scene.interpolation.storage,
@@ -120,7 +121,7 @@ public:
     }
 
 private:
-    static constexpr auto leastGhosts = fourier::KernelFamily::leastGhosts;
+    static constexpr auto leastAliasing = fourier::KernelFamily::leastAliasing;
     using Levels = std::array<std::size_t, 3>; // of padding, by axis
 
     struct Layout {
@@ -153,7 +154,7 @@ private:
             const CueWeight weight = cueWeight(
                 m_scene.shading.cue, field.lattice,
                 field.depthRadiusMm.value_or(field.lattice.radiusMm()), layout, field.energy);
-            worst.ghosts = std::max(worst.ghosts, weight.ghosts);
+            worst.aliases = std::max(worst.aliases, weight.aliases);
             for (std::size_t d = 0; d < worst.moments.size(); ++d)
                 worst.moments[d] = std::max(worst.moments[d], weight.moments[d]);
         }
@@ -214,7 +215,7 @@ private:
         }
     }
 
-    // More padding where the ghosts are strongest. Returns false where all axes have the most.
+    // More padding where the aliases are strongest. Returns false where all axes have the most.
     bool addPadding(const std::array<AxisError, 3> &errors, Levels &level) const {
         int worst = -1;
         for (int d = 0; d < 3; ++d)
@@ -226,11 +227,11 @@ private:
         ++level[std::size_t(worst)];
         return true;
     }
-    // Of an axis's ghosts where they are strongest.
+    // Of an axis's aliases where they are strongest.
     static double strength(const AxisError &error) {
         double most = 0.0;
         for (const BlockAmplitudes &block : error.blocks)
-            most = std::max(most, block.ghosts);
+            most = std::max(most, block.aliases);
         return most;
     }
 
@@ -238,7 +239,7 @@ private:
     // or meets the tolerance with the smallest grid already.
     bool considerGrids(const Layout &layout) {
         bool fits = false;
-        const double ofGhosts = relativeError(layout);
+        const double ofAliases = relativeError(layout);
         for (const PlannedGrid &planned : m_grids) {
             const std::size_t bytes = bytesOf(layout.spectrum, planned.grid);
             m_leastBytes = std::min(m_leastBytes, bytes);
@@ -247,7 +248,7 @@ private:
                 break; // wider grids take more
             }
             fits = true;
-            if (considerPlan(layout, ofGhosts, planned, bytes))
+            if (considerPlan(layout, ofAliases, planned, bytes))
                 return &planned != &m_grids.front(); // wider grids take longer
         }
         return fits;
@@ -266,15 +267,15 @@ private:
 
     // Keeps the plan if it is the best so far: the fastest within the tolerance, or, until there is
     // one, the most accurate. Returns whether it is within the tolerance.
-    bool considerPlan(const Layout &layout, double ofGhosts, const PlannedGrid &planned,
+    bool considerPlan(const Layout &layout, double ofAliases, const PlannedGrid &planned,
                       std::size_t bytes) {
-        const double predicted = std::hypot(ofGhosts, planned.folded);
+        const double predicted = std::hypot(ofAliases, planned.folded);
         const double time =
             frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
         const bool meets = predicted <= m_scene.tolerance, unmet = std::isinf(m_bestTime);
         if (meets ? time < m_bestTime : unmet && (!m_best || predicted < m_best->predictedError)) {
             m_best = RenderPlan{layout.spectrum,
-                                planned.room,
+                                planned.fieldOfView,
                                 predicted,
                                 maximumError(layout) + planned.folded,
                                 0.0,

@@ -23,7 +23,7 @@ struct Budget {
 /// will be. Pure: made and tested without rendering.
 struct RenderPlan {
     fourier::SpectrumLayout spectrum;
-    SliceRoom room;
+    FieldOfView fieldOfView;
     /// Relative L2 error of the image, predicted from the field.
     double predictedError = 0.0;
     /// Largest error of a pixel over the largest pixel, predicted, see predictMaximum.

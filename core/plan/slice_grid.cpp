@@ -18,10 +18,10 @@ namespace {
 constexpr int largestSliceGrid = 65536;
 
 // How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
-double reachPixels(const scene::Camera &camera, const SliceRoom &room,
+double reachPixels(const scene::Camera &camera, const FieldOfView &fieldOfView,
                    const volume::Lattice &lattice, const scene::ImageDefinition &image) {
     double radiusMm = 0.0;
-    for (const auto &spread : room.spreads)
+    for (const auto &spread : fieldOfView.spreads)
         radiusMm = std::max(radiusMm, spread->radiusMm);
     return (radiusMm + scene::reconstructionReach(image) * lattice.longestStepMm()) /
            camera.pixelMm;
@@ -34,13 +34,13 @@ std::size_t frameBytes(const SliceGrid &grid, const scene::Camera &camera) {
            sizeof(float);
 }
 
-SliceRoom roomOfBox(const volume::Lattice &lattice, const volume::VoxelBox &box) {
+FieldOfView fieldOfViewOf(const volume::Lattice &lattice, const volume::VoxelBox &box) {
     return {{std::make_shared<const EnergySpread>(evenSpread(lattice, box))}};
 }
 
-SliceGrid sliceGrid(const scene::Camera &camera, const SliceRoom &room,
+SliceGrid sliceGrid(const scene::Camera &camera, const FieldOfView &fieldOfView,
                     const volume::Lattice &lattice, const scene::ImageDefinition &image) {
-    const double projection = reachPixels(camera, room, lattice, image);
+    const double projection = reachPixels(camera, fieldOfView, lattice, image);
     const auto cells = [&](int side, double panMm) {
         const double pan = std::abs(panMm) / camera.pixelMm;
         // A copy of the projection, a period away, must stay outside the image: its near edge lies
@@ -53,10 +53,12 @@ SliceGrid sliceGrid(const scene::Camera &camera, const SliceRoom &room,
                                                              largestSliceGrid));
         const auto keeps = [&](int period) {
             // Half for each axis, of what the image holds of the projection.
-            return std::all_of(room.spreads.begin(), room.spreads.end(), [&](const auto &spread) {
-                return foldedTailEnergy(*spread, image, camera.pixelMm, period, side, pan) <=
-                       0.5 * room.foldedTails * room.foldedTails * shareInImage(camera, *spread);
-            });
+            return std::all_of(
+                fieldOfView.spreads.begin(), fieldOfView.spreads.end(), [&](const auto &spread) {
+                    return foldedTailEnergy(*spread, image, camera.pixelMm, period, side, pan) <=
+                           0.5 * fieldOfView.aliasingLimit * fieldOfView.aliasingLimit *
+                               shareInImage(camera, *spread);
+                });
         };
         const int least = fourier::smoothEvenSize(int(std::ceil(reach)));
         const int most = std::min(largestSliceGrid, std::max(1024, 3 * least));

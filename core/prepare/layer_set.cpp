@@ -89,7 +89,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
                     fourier::Spectrum::prepare(fields[n].values, plan.spectrum,
                                                progress.part(done, done + 0.5 / double(count)))));
             }
-            auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.room);
+            auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
             auto viewError = std::make_shared<const accuracy::ViewErrorModel>(plan, summaries);
             std::shared_ptr<const accuracy::DetailLoss> loss;
             if (reduction > 1) {
@@ -188,7 +188,7 @@ picture::ProjectionImage LayerSet::render(const scene::Camera &camera,
 }
 
 render::EngineParts LayerSet::parts(const std::vector<render::ChannelShares> &shares) const {
-    return {m_engine->spectra(), shares, m_engine->room()};
+    return {m_engine->spectra(), shares, m_engine->fieldOfView()};
 }
 
 MixtureEngine::MixtureEngine(std::shared_ptr<LayerSet> layers,

@@ -111,7 +111,7 @@ std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
         spectra.fields.push_back(prepare(field));
     for (const classify::DensityField &gradient : channels.gradients)
         spectra.gradients.push_back(prepare(gradient));
-    auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.room);
+    auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
     if (channels.fields.size() == 1)
         engine->setShares({{color.red, color.green, color.blue}});
     else
@@ -186,7 +186,7 @@ std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double o
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
     render::EngineParts parts = prepared.engine->parts();
     parts.spectra.gradients.clear();
-    auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.room);
+    auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.fieldOfView);
     engine->setShares(std::move(parts.shares));
     const std::size_t bytes = engine->bytes();
     plan::RenderPlan plan = prepared.plan;

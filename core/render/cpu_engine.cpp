@@ -19,8 +19,8 @@ using fourier::stripLanes;
 
 // What one frame leaves to the next: threads, buffers, and tables of the frames of one size.
 struct FrameBuffers {
-    FrameBuffers(const plan::SliceRoom &room, int threads)
-        : team(threads), setup(room), scratch(team.slots()) {}
+    FrameBuffers(const plan::FieldOfView &fieldOfView, int threads)
+        : team(threads), setup(fieldOfView), scratch(team.slots()) {}
 
     // Makes ready for a frame.
     void fit(const FrameInputs &inputs, const scene::Camera &camera, double rollOffShare) {
@@ -154,7 +154,7 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.rowPhase = buffers.rowPhase.data();
     job.alongRows = &tables.alongRows;
     job.halfColumns = &tables.halfColumns;
-    job.untangle = tables.untangle.data();
+    job.unpackReal = tables.unpackReal.data();
     for (std::size_t c = 0; c < std::size_t(job.channels); ++c) {
         job.lines[c] = reinterpret_cast<float *>(buffers.lines[c].get());
         job.samples[c] = mixing.grey ? result.samples.data() : buffers.planes[c].data();
@@ -234,14 +234,15 @@ private:
 } // namespace
 
 CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
-                     const std::optional<plan::SliceRoom> &room, int threads)
+                     const std::optional<plan::FieldOfView> &fieldOfView, int threads)
     : CpuEngine({{spectrum}, {}, shading::shadingScale(spectrum->lattice())},
-                room ? *room : plan::roomOfBox(spectrum->lattice(), spectrum->layout().box),
+                fieldOfView ? *fieldOfView
+                            : plan::fieldOfViewOf(spectrum->lattice(), spectrum->layout().box),
                 threads) {}
 
-CpuEngine::CpuEngine(EngineSpectra spectra, const plan::SliceRoom &room, int threads)
-    : m_parts{std::move(spectra), {}, room},
-      m_buffers(std::make_unique<FrameBuffers>(room, threads)) {
+CpuEngine::CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads)
+    : m_parts{std::move(spectra), {}, fieldOfView},
+      m_buffers(std::make_unique<FrameBuffers>(fieldOfView, threads)) {
     m_parts.shares.assign(fieldCount(), {1.0, 1.0, 1.0});
 }
 

@@ -25,12 +25,13 @@ struct FrameBuffers;
 /// from the cells that are read anyway; light needs one more slice whatever the number of lights.
 class CpuEngine final : public ProjectionEngine {
 public:
-    /// `room`: the plan's; without one the spectrum's box is taken to be full. `threads`: 0 for as
-    /// many as oneTBB may use.
+    /// `fieldOfView`: the plan's; without one the spectrum's box is taken to be full. `threads`: 0
+    /// for as many as oneTBB may use.
     explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
-                       const std::optional<plan::SliceRoom> &room = std::nullopt, int threads = 0);
+                       const std::optional<plan::FieldOfView> &fieldOfView = std::nullopt,
+                       int threads = 0);
     /// The shares of the fields are 1 until set.
-    CpuEngine(EngineSpectra spectra, const plan::SliceRoom &room, int threads = 0);
+    CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads = 0);
     ~CpuEngine() override;
 
     /// *Shape*: one each field.
@@ -45,7 +46,7 @@ public:
     /// *Requires*: no concurrent setShares().
     EngineParts parts() const override { return m_parts; }
     const EngineSpectra &spectra() const { return m_parts.spectra; }
-    const plan::SliceRoom &room() const { return m_parts.room; }
+    const plan::FieldOfView &fieldOfView() const { return m_parts.fieldOfView; }
     picture::ProjectionImage render(const scene::Camera &camera,
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading = {},

@@ -29,13 +29,14 @@ FrameGeometry::FrameGeometry(const scene::Camera &camera, const plan::SliceGrid 
     turnsPerRow = -dv * (firstV - glm::dot(axes[1], toWrap));
 }
 
-const plan::SliceGrid &FramedGrid::gridFor(const scene::Camera &camera, const plan::SliceRoom &room,
+const plan::SliceGrid &FramedGrid::gridFor(const scene::Camera &camera,
+                                           const plan::FieldOfView &fieldOfView,
                                            const volume::Lattice &lattice,
                                            const scene::ImageDefinition &image) {
     scene::Camera framing = camera;
     framing.orientation = scene::Camera().orientation;
     if (!m_framed || m_framed->camera != framing || m_framed->image != image)
-        m_framed = Framed{framing, image, plan::sliceGrid(camera, room, lattice, image)};
+        m_framed = Framed{framing, image, plan::sliceGrid(camera, fieldOfView, lattice, image)};
     return m_framed->grid;
 }
 

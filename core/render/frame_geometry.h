@@ -38,7 +38,8 @@ struct FrameGeometry {
 class FramedGrid {
 public:
     /// *Throws* Error{outOfMemory} as `sliceGrid` does.
-    const plan::SliceGrid &gridFor(const scene::Camera &camera, const plan::SliceRoom &room,
+    const plan::SliceGrid &gridFor(const scene::Camera &camera,
+                                   const plan::FieldOfView &fieldOfView,
                                    const volume::Lattice &lattice,
                                    const scene::ImageDefinition &image);
 

@@ -34,9 +34,9 @@ struct FrameInputs {
 /// from two threads at once.
 class FrameSetup {
 public:
-    explicit FrameSetup(plan::SliceRoom room) : m_room(std::move(room)) {}
+    explicit FrameSetup(plan::FieldOfView fieldOfView) : m_fieldOfView(std::move(fieldOfView)) {}
 
-    const plan::SliceRoom &room() const { return m_room; }
+    const plan::FieldOfView &fieldOfView() const { return m_fieldOfView; }
     /// Without the spectra of gradients lights are off. *Shape*: the shares are one each field; the
     /// moment kernels that the shading refers to live as long as this. *Throws* Error{outOfMemory}
     /// as `plan::sliceGrid` does.
@@ -45,7 +45,7 @@ public:
                           const shading::Shading &shading);
 
 private:
-    plan::SliceRoom m_room;
+    plan::FieldOfView m_fieldOfView;
     FramedGrid m_framed;
     std::optional<MomentKernels> m_moments; // made for the first frame with a linear cue, in ms
 };

@@ -121,7 +121,7 @@ struct FrameJob {
     const fourier::StripTransform *alongRows = nullptr;   ///< length rows
     const fourier::StripTransform *halfColumns = nullptr; ///< length columns / 2
     /// exp(+i 2 pi k / columns), k = 0..columns/2 - 1.
-    const std::complex<float> *untangle = nullptr;
+    const std::complex<float> *unpackReal = nullptr;
 
     /// After the transform along image rows' direction: [group of 16 image rows][column][strip], of
     /// each channel.

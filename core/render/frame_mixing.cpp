@@ -49,8 +49,8 @@ void Mixing::add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t 
                        kind});
     const auto &moments = spectrum.moments();
     for (std::size_t c = 0; c < share.size(); ++c) {
-        Mass &sum = mass[std::size_t(kind)][c];
-        sum.value += share[c] * spectrum.mass();
+        Dc &sum = dc[std::size_t(kind)][c];
+        sum.value += share[c] * spectrum.dc();
         sum.moments += share[c] * glm::dvec3(moments[0], moments[1], moments[2]);
     }
 }
@@ -117,11 +117,11 @@ ZeroSums zeroSums(const Mixing &mixing, const FrameShading &shading,
     ZeroSums zero{};
     for (std::size_t kind = 0; kind < zero.size(); ++kind)
         for (std::size_t c = 0; c < std::size_t(mixing.sums); ++c) {
-            const Mixing::Mass &mass = mixing.mass[kind][c];
+            const Mixing::Dc &dc = mixing.dc[kind][c];
             double moment = 0.0;
             for (int d = 0; d < 3; ++d)
-                moment += shading.perMoment[std::size_t(d)] / layout.padded[d] * mass.moments[d];
-            zero[kind][c] = {mass.value / mixing.unit, moment / mixing.unit};
+                moment += shading.perMoment[std::size_t(d)] / layout.padded[d] * dc.moments[d];
+            zero[kind][c] = {dc.value / mixing.unit, moment / mixing.unit};
         }
     return zero;
 }

@@ -19,11 +19,11 @@ struct Mixing {
     double unit = 1.0;                  ///< of the sums
     ChannelShares color{1.0, 1.0, 1.0}; ///< of a single source
     /// What the sums are at frequency 0, and their first moments in samples from the wrap voxel.
-    struct Mass {
+    struct Dc {
         double value = 0.0;
         glm::dvec3 moments{0.0};
     };
-    std::array<std::array<Mass, 3>, 2> mass; ///< by kind and sum
+    std::array<std::array<Dc, 3>, 2> dc; ///< by kind and sum
 
 private:
     void add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,

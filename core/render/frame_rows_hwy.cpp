@@ -42,7 +42,7 @@ void finishSixteenRows(const FrameJob &job, int channel, int group, FrameScratch
             const StripComplex sum{hn::Add(a.re, b.re), hn::Sub(a.im, b.im)};
             const StripComplex difference =
                 rotated({hn::Sub(a.re, b.re), hn::Add(a.im, b.im)},
-                        hn::Set(d, job.untangle[k].real()), hn::Set(d, job.untangle[k].imag()));
+                        hn::Set(d, job.unpackReal[k].real()), hn::Set(d, job.unpackReal[k].imag()));
             float *const to = scratch.strips[0] + std::size_t(k) * stripFloats + lane;
             hn::Store(hn::Sub(sum.re, difference.im), d, to);
             hn::Store(hn::Add(sum.im, difference.re), d, to + stripLanes);

@@ -26,7 +26,7 @@ std::vector<std::complex<double>> rotations(int count, double turns) {
 GridTables::GridTables(const plan::SliceGrid &size, double share)
     : grid(size), rollOffShare(share), alongRows(size.rows), halfColumns(size.columns / 2) {
     for (const auto &factor : rotations(size.columns / 2, 1.0 / size.columns))
-        untangle.emplace_back(factor);
+        unpackReal.emplace_back(factor);
     const auto radius = [&](int column, int row) {
         return std::hypot(2.0 * column / size.columns, 2.0 * row / size.rows);
     };

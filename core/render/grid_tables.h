@@ -23,9 +23,9 @@ struct GridTables {
 
     plan::SliceGrid grid;
     double rollOffShare;
-    fourier::StripTransform alongRows;         ///< length rows
-    fourier::StripTransform halfColumns;       ///< length columns / 2
-    std::vector<std::complex<float>> untangle; ///< see FrameJob::untangle
+    fourier::StripTransform alongRows;           ///< length rows
+    fourier::StripTransform halfColumns;         ///< length columns / 2
+    std::vector<std::complex<float>> unpackReal; ///< see FrameJob::unpackReal
     std::vector<StripBounds> strips;
     std::vector<float> rollOff; ///< see StripBounds::rollOff
 };

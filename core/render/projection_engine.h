@@ -36,7 +36,7 @@ struct EngineSpectra {
 struct EngineParts {
     EngineSpectra spectra;
     std::vector<ChannelShares> shares; ///< one each field
-    plan::SliceRoom room;
+    plan::FieldOfView fieldOfView;
 };
 
 /// Makes projections of prepared fields by slicing their spectra. Engines are interchangeable:

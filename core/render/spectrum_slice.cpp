@@ -75,7 +75,7 @@ SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &came
     // As a frame takes it: before any rounding or interpolation.
     double atZero = 0.0;
     for (const auto &[spectrum, weight] : spectra)
-        atZero += weight * spectrum->mass();
+        atZero += weight * spectrum->dc();
     if (!(std::abs(atZero) > 0.0))
         throw task::Error(task::ErrorCode::unusable, task::because::nothingVisible);
     const fourier::Spectrum &first = *spectra.front().spectrum;

@@ -3324,7 +3324,7 @@
         <translation>所選指令的按鍵</translation>
     </message>
     <message>
-        <source>Usual key</source>
+        <source>Default</source>
         <translation>原來的按鍵</translation>
     </message>
     <message>
@@ -3332,7 +3332,7 @@
         <translation>不設按鍵</translation>
     </message>
     <message>
-        <source>All as usual</source>
+        <source>Restore all defaults</source>
         <translation>全部還原</translation>
     </message>
     <message>

@@ -7,7 +7,7 @@ layout(std430, binding = ROTATIONS) readonly buffer Rotations {
 
 // The half-length transform of the result is x[2n] + i x[2n+1] of a real line whose half spectrum
 // is X: (X_k + conj X_(h-k)) + i exp(+i 2 pi k / 2h) (X_k - conj X_(h-k)).
-vec2 untangled(vec2 x, vec2 mirrored, vec2 rotation) {
+vec2 unpackReal(vec2 x, vec2 mirrored, vec2 rotation) {
     vec2 other = conjugate(mirrored);
     return x + other + multiplied(quarterTurned(rotation), x - other);
 }

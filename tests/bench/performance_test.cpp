@@ -18,7 +18,7 @@ TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
     const auto plan = plan::planRender(scene, plan::summarise(subject.field));
     render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
                                  fourier::Spectrum::prepare(subject.field.values, plan.spectrum)),
-                             plan.room);
+                             plan.fieldOfView);
     const bench::SpatialVolume inSpace(subject.field.values);
     std::vector<double> frame, cast;
     scene::Camera camera = scene.camera;

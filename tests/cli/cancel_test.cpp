@@ -41,7 +41,7 @@ TEST_F(Faults, CancellingIsPossibleAtEveryStage) {
         {"unpacking",
          [&](const task::Progress &progress) {
              fs::create_directories(unpacked);
-             decoder::unpackArchive(decoder::Decoder::ofProgram(), archive, unpacked, progress);
+             decoder::unpackArchive(decoder::Decoder::shared(), archive, unpacked, progress);
          }},
         {"headers", [&](const task::Progress &progress) { dicom::scan({in}, progress); }},
         {"pixels", [&](const task::Progress &progress) { dicom::loadVolume(entry, progress); }},

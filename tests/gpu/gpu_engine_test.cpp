@@ -38,7 +38,7 @@ protected:
         const render::EngineParts parts = prepared.engine->parts();
         gpu::GpuEngine engine(
             gpu::SpectrumTextures::upload(card, parts.spectra, {}, mostTextureBytes), parts.shares,
-            parts.room);
+            parts.fieldOfView);
         double worst = 0.0;
         for (const glm::dquat &view : views()) {
             scene.camera.orientation = view;
@@ -187,7 +187,7 @@ TEST_F(GpuEngine, LayersWithMovingShares) {
         spectra.fields.push_back(std::make_shared<const fourier::Spectrum>(
             fourier::Spectrum::prepare(field.values, plan.spectrum)));
     spectra.scale = shading::shadingScale(lattice);
-    render::CpuEngine processor(spectra, plan.room);
+    render::CpuEngine processor(spectra, plan.fieldOfView);
     const auto engine = gpu::copyToCard(card, processor);
     std::mt19937 random(8);
     std::uniform_real_distribution<double> uniform(0.0, 2.0);

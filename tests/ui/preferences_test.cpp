@@ -105,7 +105,7 @@ private slots:
         QCOMPARE(find<QAction>("cropToolAction")->shortcut(), QKeySequence("W"));
         QVERIFY(find<QAction>("windowToolAction")->shortcut().isEmpty());
         openDialog();
-        find<QPushButton>("usualKeysButton")->click();
+        find<QPushButton>("defaultKeysButton")->click();
         QCOMPARE(find<QAction>("windowToolAction")->shortcut(), QKeySequence("W"));
         QCOMPARE(find<QAction>("cropToolAction")->shortcut(), QKeySequence("K"));
         begin();

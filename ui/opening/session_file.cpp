@@ -176,7 +176,7 @@ void SessionFile::choose() {
     for (int n = 0; n <= all; ++n) {
         if (n == all && m_lock)
             break;
-        files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Others::areLetBe);
+        files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Mode::tryLock);
         if (!lock.isHeld())
             continue;
         const auto path = fileOf(*folder, n, ".json");
@@ -257,7 +257,7 @@ void SessionFile::forgetAll() {
     forget();
     const auto folder = files::userDataFolder();
     for (int n = 0, all = folder ? places(*folder) : 0; n < all; ++n) {
-        const files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Others::areLetBe);
+        const files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Mode::tryLock);
         std::error_code ignored;
         if (lock.isHeld())
             std::filesystem::remove(fileOf(*folder, n, ".json"), ignored);

@@ -51,7 +51,7 @@ void StudyOpener::keepCurrent() {
     m_kept.trim(system::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
 
-void StudyOpener::goOn(const Continuity &continuity) {
+void StudyOpener::resume(const Continuity &continuity) {
     m_preparer.setHeld(true);
     scene::Scene scene = continuity.scene;
     m_document.setScene(scene);
@@ -67,7 +67,7 @@ void StudyOpener::goOn(const Continuity &continuity) {
 void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &continuity) {
     m_document.setVolume(study.volume, study.initialWindow, study.fieldWindow, false);
     if (continuity) {
-        goOn(*continuity);
+        resume(*continuity);
         if (study.engine)
             m_preparer.adopt(*study.preparedFor, *study.engine);
         m_preparer.prepareAgain();
@@ -151,7 +151,7 @@ std::optional<int> StudyOpener::resumedOf(const std::vector<int> &indices) const
     return std::nullopt;
 }
 
-void StudyOpener::takeUp() {
+void StudyOpener::applyResumption() {
     if (!m_resumption)
         return;
     const Resumption resumption = *m_resumption;
@@ -161,7 +161,7 @@ void StudyOpener::takeUp() {
     const StudySource &open = m_document.sources()[std::size_t(m_document.currentSource())];
     if (open.digest() == resumption.digest) {
         m_document.addProblems(resumption.leftOut);
-        goOn(resumption.shown);
+        resume(resumption.shown);
     }
 }
 
@@ -236,7 +236,7 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
                 m_document.addProblems(loaded.skipped);
                 m_document.setVolume(loaded.volume, window, field, false);
                 m_preparer.expect(wanted);
-                goOn(stays);
+                resume(stays);
                 m_preparer.prepareAgain(); // the look may have been changed meanwhile
             });
             job.stage(tr("Preparing the projection"));
@@ -300,7 +300,7 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
         job.deliver([this, loaded, window, field] {
             m_document.addProblems(loaded.skipped);
             m_document.setVolume(loaded.volume, window, field, false);
-            takeUp();
+            applyResumption();
             // The quality may have been changed while the volume came.
             m_preparer.prepareAgain();
         });

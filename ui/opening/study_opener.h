@@ -72,12 +72,12 @@ private:
     void endScan();
     /// The one of them that is to be resumed.
     std::optional<int> resumedOf(const std::vector<int> &indices) const;
-    void takeUp();
+    void applyResumption();
     void keepCurrent();
     /// Reopens the previous study after a load that failed or was cancelled.
     void goBack();
     Continuity leavePhase(int next);
-    void goOn(const Continuity &continuity);
+    void resume(const Continuity &continuity);
     void show(const KeptStudy &study, const std::optional<Continuity> &continuity);
 
     Document &m_document;

@@ -180,12 +180,13 @@ void PresetsPanel::showCurrent() {
     }
     // Values without a unit have the window of their first phase.
     const bool isFree = m_document.volume()->unit() == volume::ValueUnit::none;
-    const classify::FieldWindow usual = isFree ? shown : m_document.defaultFieldWindow();
+    const classify::FieldWindow defaultWindow = isFree ? shown : m_document.defaultFieldWindow();
     QString current = tr("Own look");
-    if (scene.look == classify::Look() && scene.shading == shading::Shading() && shown == usual)
+    if (scene.look == classify::Look() && scene.shading == shading::Shading() &&
+        shown == defaultWindow)
         current = tr("Plain density");
     for (const auto &entry : m_library.entries()) {
-        const auto window = entry.preset.window.value_or(usual);
+        const auto window = entry.preset.window.value_or(defaultWindow);
         if (!suits(entry.preset) || !(window == shown) ||
             !(presets::lookFor(entry.preset, window) == scene.look) ||
             !(entry.preset.shading == scene.shading))

@@ -29,7 +29,7 @@ using shading::Light;
 using shading::LightFrame;
 using shading::Shading;
 
-constexpr double usualCue = 0.6, usualLight = 0.8;
+constexpr double defaultCue = 0.6, defaultLight = 0.8;
 // Beside the density as it is the light of surfaces is faint.
 constexpr double ambientUnderLight = 0.1;
 
@@ -52,7 +52,7 @@ QIcon colorIcon(const classify::Color &color) {
 Light newLight(std::size_t count) {
     const double turn =
         2.0 * std::numbers::pi * (0.35 + double(count % 3) / 3.0 + double(count / 3) / 9.0);
-    return {{0.75 * std::cos(turn), 0.75 * std::sin(turn), 0.66}, {}, usualLight};
+    return {{0.75 * std::cos(turn), 0.75 * std::sin(turn), 0.66}, {}, defaultLight};
 }
 
 } // namespace
@@ -60,8 +60,8 @@ Light newLight(std::size_t count) {
 ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *parent)
     : QWidget(parent), m_document(document), m_sphere(new LightSphere(theme)), m_cue(new QComboBox),
       m_curveValues(new QSpinBox), m_curve(new DepthCurve(theme)),
-      m_strength(new ValueSlider({1.0, usualCue}, "cueSlider", "cueValue")),
-      m_light(new ValueSlider({1.0, usualLight}, "lightSlider", "lightValue")),
+      m_strength(new ValueSlider({1.0, defaultCue}, "cueSlider", "cueValue")),
+      m_light(new ValueSlider({1.0, defaultLight}, "lightSlider", "lightValue")),
       m_ambient(new ValueSlider({shading::largestAmbient, 1.0}, "ambientSlider", "ambientValue")),
       m_reset(linkButton(tr("Reset"), "resetShadingButton", tr("No depth cue and no lights"))),
       m_add(linkButton(tr("Add light"), "addLightButton", tr("One more light"))),
@@ -260,7 +260,7 @@ void ShadingPanel::toggleCue() {
         if (s.cue.kind == CueKind::none)
             s.cue.kind = m_lastCue;
         if (s.cue.strength == 0.0)
-            s.cue.strength = usualCue;
+            s.cue.strength = defaultCue;
     });
 }
 

@@ -66,7 +66,7 @@ void ValueSlider::setNames(const QString &accessibleName, const QString &tip) {
 
 bool ValueSlider::eventFilter(QObject *watched, QEvent *event) {
     if (watched == m_slider && event->type() == QEvent::MouseButtonDblClick) {
-        emit changed(m_range.usual, noDrag);
+        emit changed(m_range.initial, noDrag);
         return true;
     }
     return QWidget::eventFilter(watched, event);

@@ -10,13 +10,14 @@ class QSlider;
 
 namespace pellucid::ui {
 
-/// A slider with its value beside it, which can be typed; a double-click brings back the usual one.
+/// A slider with its value beside it, which can be typed; a double-click brings back the initial
+/// one.
 class ValueSlider : public QWidget {
     Q_OBJECT
 public:
     struct Range {
         double largest = 1.0; ///< from 0
-        double usual = 1.0;
+        double initial = 1.0;
     };
     /// The object names of the two controls.
     ValueSlider(const Range &range, const QString &sliderName, const QString &valueName,

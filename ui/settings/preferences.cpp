@@ -9,15 +9,15 @@ namespace pellucid::ui {
 
 Preferences Preferences::load() {
     const QSettings settings;
-    const Preferences usual;
+    const Preferences defaults;
     Preferences p;
-    p.language = settings.value("language", usual.language).toString();
-    p.theme = settings.value("theme", usual.theme).toString() == "light" ? "light" : "dark";
+    p.language = settings.value("language", defaults.language).toString();
+    p.theme = settings.value("theme", defaults.theme).toString() == "light" ? "light" : "dark";
     p.toolBar =
-        ToolBarStyle(std::clamp(settings.value("toolBar", int(usual.toolBar)).toInt(), 0, 2));
-    p.remembersStudies = settings.value("remembersStudies", usual.remembersStudies).toBool();
-    p.resumesAtStart = settings.value("resumesAtStart", usual.resumesAtStart).toBool();
-    p.showsPatient = settings.value("showsPatientInTitle", usual.showsPatient).toBool();
+        ToolBarStyle(std::clamp(settings.value("toolBar", int(defaults.toolBar)).toInt(), 0, 2));
+    p.remembersStudies = settings.value("remembersStudies", defaults.remembersStudies).toBool();
+    p.resumesAtStart = settings.value("resumesAtStart", defaults.resumesAtStart).toBool();
+    p.showsPatient = settings.value("showsPatientInTitle", defaults.showsPatient).toBool();
     return p;
 }
 

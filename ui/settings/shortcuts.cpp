@@ -12,7 +12,7 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr const char *usualProperty = "usualShortcut";
+constexpr const char *defaultProperty = "defaultShortcut";
 
 QString keyOf(const QString &name) {
     return "shortcuts/" + name;
@@ -26,11 +26,11 @@ QString plain(QString text) {
 }
 
 // The usual key is remembered before another one is given for the first time.
-QKeySequence usualOf(QAction *action) {
-    const QVariant known = action->property(usualProperty);
+QKeySequence defaultKeyOf(QAction *action) {
+    const QVariant known = action->property(defaultProperty);
     if (known.isValid())
         return QKeySequence(known.toString(), QKeySequence::PortableText);
-    action->setProperty(usualProperty, action->shortcut().toString(QKeySequence::PortableText));
+    action->setProperty(defaultProperty, action->shortcut().toString(QKeySequence::PortableText));
     return action->shortcut();
 }
 
@@ -40,7 +40,7 @@ void add(const QMenu &menu, const QString &path, std::vector<ShortcutEntry> &ent
         if (action->menu() != nullptr)
             add(*action->menu(), text + " > ", entries);
         else if (!action->isSeparator() && !action->objectName().isEmpty())
-            entries.push_back({action, action->objectName(), text, usualOf(action)});
+            entries.push_back({action, action->objectName(), text, defaultKeyOf(action)});
     }
 }
 
@@ -64,7 +64,7 @@ void applyShortcuts(const QWidget &window) {
 
 void setShortcut(const ShortcutEntry &entry, const QKeySequence &key) {
     entry.action->setShortcut(key);
-    if (key == entry.usual)
+    if (key == entry.defaultKey)
         QSettings().remove(keyOf(entry.name));
     else
         QSettings().setValue(keyOf(entry.name), key.toString(QKeySequence::PortableText));

@@ -16,7 +16,7 @@ struct ShortcutEntry {
     QAction *action = nullptr;
     QString name; ///< what it is kept under
     QString text; ///< with its menu, as it is read there
-    QKeySequence usual;
+    QKeySequence defaultKey;
 };
 
 /// Every named command of a window's menus, in their order.

@@ -8,7 +8,7 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr int usualRate = 15;
+constexpr int defaultRate = 15;
 constexpr double turnDeg = 2.0;
 
 } // namespace
@@ -16,7 +16,7 @@ constexpr double turnDeg = 2.0;
 Cine::Cine(const std::array<MprView *, 3> &planes, ProjectionView &projection, QObject *parent)
     : QObject(parent), m_planes(planes), m_projection(projection) {
     m_timer.setTimerType(Qt::PreciseTimer);
-    setFramesPerSecond(usualRate);
+    setFramesPerSecond(defaultRate);
     connect(&m_timer, &QTimer::timeout, this, &Cine::step);
 }
 

@@ -31,9 +31,9 @@ struct HelpMenuTexts {
 QUrl manual() {
     const QString translated = QCoreApplication::translate("HelpMenuTexts", "manual.html",
                                                            "file name of the translated manual");
-    const QString usual = "manual.html";
+    const QString english = "manual.html";
     return QUrl("qrc:/pellucid/manual/" +
-                (QFile::exists(":/pellucid/manual/" + translated) ? translated : usual));
+                (QFile::exists(":/pellucid/manual/" + translated) ? translated : english));
 }
 
 void showManual() {

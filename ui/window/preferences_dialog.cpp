@@ -147,19 +147,19 @@ QWidget *PreferencesDialog::makeShortcuts() {
     m_key = new QKeySequenceEdit;
     m_key->setObjectName("shortcutEdit");
     m_key->setAccessibleName(tr("Key of the chosen command"));
-    auto *usual = new QPushButton(tr("Usual key"));
-    usual->setObjectName("usualKeyButton");
+    auto *restore = new QPushButton(tr("Default"));
+    restore->setObjectName("defaultKeyButton");
     auto *none = new QPushButton(tr("No key"));
     none->setObjectName("noKeyButton");
-    auto *all = new QPushButton(tr("All as usual"));
-    all->setObjectName("usualKeysButton");
+    auto *all = new QPushButton(tr("Restore all defaults"));
+    all->setObjectName("defaultKeysButton");
     m_conflict = new QLabel;
     m_conflict->setObjectName("shortcutConflict");
     m_conflict->setProperty("role", "warning");
     m_conflict->setWordWrap(true);
     auto *row = new QHBoxLayout;
     row->addWidget(m_key, 1);
-    row->addWidget(usual);
+    row->addWidget(restore);
     row->addWidget(none);
     row->addWidget(all);
     auto *page = new QWidget;
@@ -171,10 +171,10 @@ QWidget *PreferencesDialog::makeShortcuts() {
     connect(m_filter, &QLineEdit::textChanged, this, &PreferencesDialog::showShortcuts);
     connect(m_commands, &QTreeWidget::currentItemChanged, this, &PreferencesDialog::showChosenKey);
     connect(m_key, &QKeySequenceEdit::editingFinished, this, &PreferencesDialog::giveKey);
-    connect(usual, &QPushButton::clicked, this, [this] {
+    connect(restore, &QPushButton::clicked, this, [this] {
         if (chosen() < 0)
             return;
-        m_key->setKeySequence(m_entries[std::size_t(chosen())].usual);
+        m_key->setKeySequence(m_entries[std::size_t(chosen())].defaultKey);
         giveKey();
     });
     connect(none, &QPushButton::clicked, this, [this] {
@@ -183,7 +183,7 @@ QWidget *PreferencesDialog::makeShortcuts() {
     });
     connect(all, &QPushButton::clicked, this, [this] {
         for (const ShortcutEntry &entry : m_entries)
-            setShortcut(entry, entry.usual);
+            setShortcut(entry, entry.defaultKey);
         m_conflict->clear();
         showShortcuts();
     });
@@ -201,7 +201,7 @@ void PreferencesDialog::showShortcuts() {
             continue;
         auto *item = new QTreeWidgetItem(m_commands, {entry.text, key});
         item->setData(0, Qt::UserRole, int(n));
-        if (entry.action->shortcut() != entry.usual) {
+        if (entry.action->shortcut() != entry.defaultKey) {
             QFont changed = font();
             changed.setBold(true);
             item->setFont(1, changed);

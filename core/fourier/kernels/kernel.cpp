@@ -88,7 +88,7 @@ Kernel Kernel::hammingSinc() {
 
 Kernel Kernel::exponentialSemicircle(int width, double padding) {
     const double b = 0.976 * pi * width * (1.0 - 1.0 / (2.0 * padding));
-    // Degree width + 3 keeps the jump between neighbouring pieces below the ghosts of the kernel.
+    // Degree width + 3 keeps the jump between neighbouring pieces below the aliases of the kernel.
     return fitted("ES" + std::to_string(width), width, width + 3, [&](double t) {
         const double x = 2.0 * t / width;
         return std::exp(b * (std::sqrt(std::max(0.0, 1.0 - x * x)) - 1.0));

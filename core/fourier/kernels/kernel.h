@@ -40,13 +40,13 @@ public:
     /// KB: I0(b sqrt(1 - (2t/w)^2)) / I0(b), b = pi sqrt((w/padding)^2 (padding - 1/2)^2 - 0.8);
     /// w = 2..7. *Source*: Beatty, Nishimura, Pauly 2005.
     static Kernel kaiserBessel(int width, double padding);
-    /// LS: the piecewise polynomial of degree max(3, w) with the least energy in the ghosts of a
+    /// LS: the piecewise polynomial of degree max(3, w) with the least energy in the aliases of a
     /// field, one by one and in phase (REFERENCES.md), w = 2..7: from width 3 on about half the
     /// error of ES or KB at the same taps, and fewer multiplications. `energy` says how f^2 is
     /// spread from the middle of the axis (first) to its ends (last), at 1/(2 padding) of the
     /// period; half of the weight is spread evenly, so that what is faint near the ends is kept
     /// too. Empty: all of it evenly.
-    static Kernel leastGhosts(int width, double padding, std::span<const double> energy = {});
+    static Kernel leastAliasing(int width, double padding, std::span<const double> energy = {});
 
     const std::string &name() const { return m_name; }
     int width() const { return m_shape.width(); }
@@ -80,16 +80,16 @@ enum class KernelFamily {
     hammingSinc,
     exponentialSemicircle,
     kaiserBessel,
-    leastGhosts
+    leastAliasing
 };
 
 struct KernelChoice {
-    KernelFamily family = KernelFamily::leastGhosts;
+    KernelFamily family = KernelFamily::leastAliasing;
     int width = 4;
     bool operator==(const KernelChoice &) const = default;
 };
 
-/// The kernel of a choice for a padding (and, for `leastGhosts`, an energy).
+/// The kernel of a choice for a padding (and, for `leastAliasing`, an energy).
 Kernel makeKernel(const KernelChoice &choice, double padding, std::span<const double> energy = {});
 /// "nearest", "trilinear", "catmull-rom", "b-spline", "hamming-sinc", "ES2".."ES7", "KB2".."KB7",
 /// "LS2".."LS7"; case does not matter. *Throws* Error{usage}.

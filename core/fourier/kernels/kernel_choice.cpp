@@ -24,7 +24,7 @@ constexpr std::array<Named, 8> names{{{"nearest", KernelFamily::nearest, 1},
                                       {"hamming-sinc", KernelFamily::hammingSinc, 5},
                                       {"es", KernelFamily::exponentialSemicircle, 0},
                                       {"kb", KernelFamily::kaiserBessel, 0},
-                                      {"ls", KernelFamily::leastGhosts, 0}}};
+                                      {"ls", KernelFamily::leastAliasing, 0}}};
 
 } // namespace
 
@@ -44,10 +44,10 @@ Kernel makeKernel(const KernelChoice &choice, double padding, std::span<const do
         return Kernel::exponentialSemicircle(choice.width, padding);
     case KernelFamily::kaiserBessel:
         return Kernel::kaiserBessel(choice.width, padding);
-    case KernelFamily::leastGhosts:
+    case KernelFamily::leastAliasing:
         break;
     }
-    return Kernel::leastGhosts(choice.width, padding, energy);
+    return Kernel::leastAliasing(choice.width, padding, energy);
 }
 
 KernelChoice kernelFromName(const std::string &name) {

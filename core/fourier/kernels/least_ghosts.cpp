@@ -45,7 +45,7 @@ Vector energyByPosition(std::span<const double> energy) {
 // What the pieces of a basis make of a sample at a position x.
 struct Responses {
     Vector direct;               ///< b_0
-    std::vector<Vector> ghosts;  ///< b_m, and what they add up to for a frequency on the grid
+    std::vector<Vector> aliases; ///< b_m, and what they add up to for a frequency on the grid
     std::vector<Vector> squares; ///< sum_m b_m b_m^T, its upper half
 };
 
@@ -55,15 +55,15 @@ Responses responsesAt(Real x, int width, const PiecewiseBasis &kernel) {
     Responses r{kernel.transforms(x), {}, std::vector<Vector>(count, Vector(count, 0))};
     for (int m = -farthest; m <= farthest; ++m)
         if (m != 0)
-            r.ghosts.push_back(kernel.transforms(x + m));
+            r.aliases.push_back(kernel.transforms(x + m));
     for (const Real c : width % 2 == 0 ? std::vector<Real>{-0.5} : std::vector<Real>{-0.5, 0}) {
         auto [real, imaginary] = kernel.transformsAt(c, x);
         for (std::size_t p = 0; p < count; ++p)
             real[p] -= r.direct[p];
-        r.ghosts.push_back(std::move(real));
-        r.ghosts.push_back(std::move(imaginary));
+        r.aliases.push_back(std::move(real));
+        r.aliases.push_back(std::move(imaginary));
     }
-    for (const Vector &b : r.ghosts)
+    for (const Vector &b : r.aliases)
         for (std::size_t p = 0; p < count; ++p)
             for (std::size_t q = p; q < count; ++q)
                 r.squares[p][q] += b[p] * b[q];
@@ -86,20 +86,20 @@ Vector solved(const std::vector<Responses> &responses, const Vector &energy, con
         }
     }
     for (std::size_t p = 0; p < count; ++p)
-        matrix[p][p] += Real(1e-19); // far below the ghosts of any width
+        matrix[p][p] += Real(1e-19); // far below the aliases of any width
     return solveSymmetric(std::move(matrix), std::move(right));
 }
 
 // What is minimised is J(a) = sum_x e(x) g(x) / h(x)^2 with h = b_0.a and g the sum of the squares
-// of b_m.a over the ghosts m, and of what they add up to for a frequency on the grid. There, in
+// of b_m.a over the aliases m, and of what they add up to for a frequency on the grid. There, in
 // views along an axis, they are in phase: the kernel of width 4 that only spared them one by one
 // had 2.6 times the error in these views, which are the standard ones. The gradient vanishes where
 //   [sum_x e/h^2 sum_m b_m b_m^T] a = sum_x e g/h^3 b_0,
 // which a few rounds of solving for a with g and h of the round before reach.
-Vector leastGhostCoefficients(int width, const PiecewiseBasis &kernel, double padding,
-                              std::span<const double> energy) {
+Vector leastAliasingCoefficients(int width, const PiecewiseBasis &kernel, double padding,
+                                 std::span<const double> energy) {
     constexpr int rounds = 16;
-    constexpr Real settled = 1e-8; // of coefficients up to 1: the ghosts change by its square
+    constexpr Real settled = 1e-8; // of coefficients up to 1: the aliases change by its square
     const Vector e = energyByPosition(energy);
     std::vector<Responses> responses(positions);
     tbb::parallel_for(0, positions, [&](int i) {
@@ -121,9 +121,9 @@ Vector leastGhostCoefficients(int width, const PiecewiseBasis &kernel, double pa
         for (int i = 0; i < positions; ++i) {
             h[i] = dot(a, responses[i].direct);
             g[i] = 0;
-            for (const Vector &b : responses[i].ghosts) {
-                const Real ghost = dot(a, b);
-                g[i] += ghost * ghost;
+            for (const Vector &b : responses[i].aliases) {
+                const Real alias = dot(a, b);
+                g[i] += alias * alias;
             }
         }
     }
@@ -132,12 +132,12 @@ Vector leastGhostCoefficients(int width, const PiecewiseBasis &kernel, double pa
 
 } // namespace
 
-Kernel Kernel::leastGhosts(int width, double padding, std::span<const double> energy) {
+Kernel Kernel::leastAliasing(int width, double padding, std::span<const double> energy) {
     assert(width >= 2 && width <= largestWidth && padding > 1.0);
     // Below this degree the error doubles and more; one degree above gains under a hundredth.
     const int degree = std::max(3, width);
     const PiecewiseBasis kernel(width, degree, Parity::even);
-    const Vector a = leastGhostCoefficients(width, kernel, padding, energy);
+    const Vector a = leastAliasingCoefficients(width, kernel, padding, energy);
     return Kernel("LS" + std::to_string(width), kernel.pieces(a));
 }
 

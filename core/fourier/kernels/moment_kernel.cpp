@@ -14,7 +14,8 @@ using Vector = PiecewiseBasis::Vector;
 
 // What is minimised, linear in the coefficients, is
 //   sum_x 1/h(x)^2 [(k(x) - x h(x))^2 + sum_m k(x + m)^2 + |S(x) - i x h(x)|^2],
-// m the ghosts and S what the taps of a frequency on the grid give, where the ghosts are in phase.
+// m the aliases and S what the taps of a frequency on the grid give, where the aliases are in
+// phase.
 Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, double padding) {
     constexpr int positions = 24, farthest = 4;
     const std::size_t count = basis.count();
@@ -42,7 +43,7 @@ Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, double
         }
     }
     for (std::size_t p = 0; p < count; ++p)
-        matrix[p][p] += Real(1e-19); // far below the ghosts of any width
+        matrix[p][p] += Real(1e-19); // far below the aliases of any width
     return solveSymmetric(std::move(matrix), std::move(right));
 }
 

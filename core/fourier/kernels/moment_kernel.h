@@ -11,8 +11,8 @@ namespace pellucid::fourier {
 /// The odd kernel that reads from a spectrum prepared for a `Kernel` not the field but the field
 /// times its distance from the wrap voxel, along one axis: the derivative of the spectrum. Of the
 /// odd piecewise polynomials of the kernel's width and of degree max(3, width), the one that comes
-/// closest to x h(x) over the field with the least ghosts, by least squares; the derivative of the
-/// kernel itself, which the source takes, has exactly x h(x) and (x + m) h(x + m) for its ghosts,
+/// closest to x h(x) over the field with the least aliases, by least squares; the derivative of the
+/// kernel itself, which the source takes, has exactly x h(x) and (x + m) h(x + m) for its aliases,
 /// and deltas where the kernel jumps.
 /// *Source*: Totsuka 1993, eq. 4 and 5, the filter of V . grad H.
 class MomentKernel {

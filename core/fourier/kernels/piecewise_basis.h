@@ -12,7 +12,7 @@ namespace pellucid::fourier {
 /// every Legendre polynomial of the taps left of the middle, those of the parity of the middle tap;
 /// the taps right of it mirror. Taps and offsets are those of `Kernel`.
 ///
-/// The ghosts of the widest kernels are 1e-7 of the image, so their energy is 1e-14 of the
+/// The aliases of the widest kernels are 1e-7 of the image, so their energy is 1e-14 of the
 /// kernel's: double precision cannot tell them from rounding.
 class PiecewiseBasis {
 public:

@@ -33,7 +33,7 @@ PiecewiseKernel::PiecewiseKernel(std::vector<std::vector<double>> pieces, Parity
                 const std::size_t power = 2 * std::size_t(n) + odd;
                 m_pairs.push_back(power < m_pieces[k].size() ? float(m_pieces[k][power]) : 0.0F);
             }
-    // Sixteen points a cell follow the cosine of a ghost five periods away to rounding.
+    // Sixteen points a cell follow the cosine of an alias five periods away to rounding.
     static const GaussLegendre<double> quadrature(16);
     for (int k = width / 2; k < width; ++k)
         for (std::size_t n = 0; n < quadrature.at.size(); ++n) {

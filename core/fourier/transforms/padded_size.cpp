@@ -8,7 +8,7 @@ namespace pellucid::fourier {
 
 namespace {
 
-// Twice the apron of a spectrum, so that copies around the period never overlap.
+// Twice the halo of a spectrum, so that copies around the period never overlap.
 constexpr int smallestPaddedSize = 16;
 
 bool smooth(int n) {

@@ -81,7 +81,7 @@ TEST_P(CentralRounding, IsTheDifferenceThat16BitCellsMake) {
     ASSERT_EQ(picture.samples.size(), truth.samples.size());
     const accuracy::CentralEnergies central = accuracy::centralEnergies(
         rounded->parts(), scene.camera,
-        plan::sliceGrid(scene.camera, plan.room, field.values.lattice(), scene.image),
+        plan::sliceGrid(scene.camera, plan.fieldOfView, field.values.lattice(), scene.image),
         scene.shading);
     const auto channels = std::size_t(picture.channels);
     const double pixelMm2 = scene.camera.pixelMm * scene.camera.pixelMm;
@@ -120,9 +120,11 @@ TEST(CentralRoundingOfFloats, IsNotKnownOfFloatCells) {
     scene.camera = scene::defaultCamera(field.values.lattice());
     scene.interpolation.storage = fourier::Storage::float32;
     const auto prepared = prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {});
-    const accuracy::CentralEnergies central = accuracy::centralEnergies(
-        prepared.engine->parts(), scene.camera,
-        plan::sliceGrid(scene.camera, prepared.plan.room, field.values.lattice(), scene.image), {});
+    const accuracy::CentralEnergies central =
+        accuracy::centralEnergies(prepared.engine->parts(), scene.camera,
+                                  plan::sliceGrid(scene.camera, prepared.plan.fieldOfView,
+                                                  field.values.lattice(), scene.image),
+                                  {});
     EXPECT_EQ(central.image[0], 0.0);
     EXPECT_EQ(central.error[0], 0.0);
 }

@@ -57,7 +57,7 @@ protected:
 
     std::string refusal(const fs::path &archive, const UnpackLimits &limits = {}) {
         try {
-            unpackArchive(Decoder::ofProgram(), archive, m_out.path(), {}, limits);
+            unpackArchive(Decoder::shared(), archive, m_out.path(), {}, limits);
         } catch (const task::Error &error) {
             EXPECT_EQ(error.code(), task::ErrorCode::unusable);
             EXPECT_EQ(error.path(), archive);
@@ -83,7 +83,7 @@ TEST_F(Archive, unpacksFilesUnderTheirNames) {
         add(w, "study/series/two", "second");
     });
     EXPECT_TRUE(isArchive(path));
-    unpackArchive(Decoder::ofProgram(), path, m_out.path());
+    unpackArchive(Decoder::shared(), path, m_out.path());
     EXPECT_EQ(read("study/one.dcm"), "first");
     EXPECT_EQ(read("study/series/two"), "second");
 }
@@ -97,7 +97,7 @@ TEST_F(Archive, noNameLeadsOutAndNoLinkIsMade) {
         add(w, "same", "1");
         add(w, "./same", "2");
     });
-    EXPECT_EQ(unpackArchive(Decoder::ofProgram(), path, m_out.path()),
+    EXPECT_EQ(unpackArchive(Decoder::shared(), path, m_out.path()),
               (std::vector<LeftOutFile>{{"link", task::because::isALinkInAnArchive}}));
     EXPECT_EQ(read("evil"), "up");
     EXPECT_EQ(read("etc/evil"), "root");
@@ -175,7 +175,7 @@ TEST_F(Archive, aDamagedFileCostsItself) {
     for (std::size_t n = 0; n < 8; ++n)
         bytes[dataOf("f3") + n] = char(0xff);
     std::ofstream(path, std::ios::binary) << bytes;
-    const auto leftOut = unpackArchive(Decoder::ofProgram(), path, m_out.path());
+    const auto leftOut = unpackArchive(Decoder::shared(), path, m_out.path());
     ASSERT_EQ(leftOut.size(), 2U);
     for (const std::size_t n : {0U, 1U}) {
         EXPECT_EQ(leftOut[n].name, n == 0 ? "f1" : "f3");
@@ -194,7 +194,7 @@ TEST_F(Archive, cancelStopsIt) {
     std::stop_source stop;
     stop.request_stop();
     EXPECT_THROW(
-        unpackArchive(Decoder::ofProgram(), path, m_out.path(), task::Progress(stop.get_token())),
+        unpackArchive(Decoder::shared(), path, m_out.path(), task::Progress(stop.get_token())),
         task::Cancelled);
 }
 

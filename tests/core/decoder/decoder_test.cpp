@@ -61,7 +61,7 @@ protected:
 } // namespace
 
 TEST(Decoder, isConfinedHere) {
-    EXPECT_EQ(Decoder::ofProgram().confinement(), limitsHold | callsAreFiltered);
+    EXPECT_EQ(Decoder::shared().confinement(), limitsHold | callsAreFiltered);
 }
 
 TEST(Decoder, aMissingProgramIsNamed) {
@@ -89,7 +89,7 @@ TEST(Decoder, aFileThatIsWrittenIntoWhileItIsReadIsRefused) {
                          volume::Volume(lattice, std::move(noise), volume::ValueUnit::hounsfield),
                          {}, dicom::TransferSyntax::jpeg2000);
     const fs::path path = folder / "IM0001.dcm";
-    EXPECT_NO_THROW(Decoder::ofProgram().image(path));
+    EXPECT_NO_THROW(Decoder::shared().image(path));
     std::jthread writer([&](const std::stop_token &stop) { // as it takes most of a second
         while (!stop.stop_requested()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -97,7 +97,7 @@ TEST(Decoder, aFileThatIsWrittenIntoWhileItIsReadIsRefused) {
         }
     });
     try {
-        Decoder::ofProgram().image(path);
+        Decoder::shared().image(path);
         FAIL();
     } catch (const task::Error &error) {
         EXPECT_EQ(error.reason(), task::because::changedWhileRead);
@@ -109,7 +109,7 @@ TEST(Decoder, whatIsNoRegularFileIsNotWaitedFor) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(std::system(("mkfifo " + (folder / "pipe").string()).c_str()), 0);
     for (const fs::path &path : {folder / "pipe", fs::path("/dev/zero"), folder.path()})
-        EXPECT_THROW(Decoder::ofProgram().header(path), task::Error) << path;
+        EXPECT_THROW(Decoder::shared().header(path), task::Error) << path;
 }
 
 TEST_F(TakenOver, itReachesNothing) {
@@ -258,7 +258,7 @@ TEST(Decoder, givesTheSameSamples) {
         dicom::writeCtSeries(folder.path(), volume, {}, syntax);
         const fs::path path = folder / "IM0002.dcm";
         const DecodedImage here = parse::decodeImage(test::readBytes(path));
-        const DecodedFile there = Decoder::ofProgram().image(path);
+        const DecodedFile there = Decoder::shared().image(path);
         EXPECT_TRUE(std::equal(here.samples.begin(), here.samples.end(), there.samples.begin(),
                                there.samples.end()));
         EXPECT_EQ(pack(here.header), pack(there.header));

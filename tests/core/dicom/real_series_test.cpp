@@ -76,7 +76,7 @@ TEST(RealSeries, TheTiltedHeadIsResampledAlongItsStackAndKeepsItsTilt) {
     EXPECT_GT(s.maximum, 1500.0);
     // The first thirteen slices lie where the frames do: their samples are untouched.
     const auto first =
-        decoder::Decoder::ofProgram().image(test::testData() / "ct_head_tilt_ge_28/01.dcm");
+        decoder::Decoder::shared().image(test::testData() / "ct_head_tilt_ge_28/01.dcm");
     EXPECT_EQ(head.volume.value({256, 256, 0}),
               double(std::int16_t(first.samples[256 * 512 + 256])));
 }
@@ -103,7 +103,7 @@ fs::path syntaxFile(const char *uid) {
 }
 
 decoder::DecodedImage decoded(const fs::path &path) {
-    const auto file = decoder::Decoder::ofProgram().image(path);
+    const auto file = decoder::Decoder::shared().image(path);
     return {file.header, {file.samples.begin(), file.samples.end()}};
 }
 
@@ -281,7 +281,7 @@ TEST(Nasty, MonochromeOneAndModalityTable) {
     const auto lut = dicom::scan({test::testData() / "nasty_pydicom_data/mlut_18.dcm"});
     const auto loaded = dicom::loadVolume(*dicom::defaultSelection(lut).volume);
     const auto header =
-        decoder::Decoder::ofProgram().header(test::testData() / "nasty_pydicom_data/mlut_18.dcm");
+        decoder::Decoder::shared().header(test::testData() / "nasty_pydicom_data/mlut_18.dcm");
     ASSERT_FALSE(header.modalityTable.empty());
     EXPECT_GE(volume::statistics(loaded.volume).minimum, 0.0); // table entries are unsigned
 }
@@ -325,16 +325,15 @@ TEST(Nasty, DicomdirsOfEveryKindListTheirFiles) {
     std::size_t known = 0;
     for (const char *name : {"DICOMDIR", "DICOMDIR-bigEnd", "DICOMDIR-implicit",
                              "DICOMDIR-nooffset", "DICOMDIR-nopatient", "DICOMDIR-reordered"}) {
-        const auto directory = decoder::Decoder::ofProgram().directory(folder / name);
+        const auto directory = decoder::Decoder::shared().directory(folder / name);
         EXPECT_TRUE(directory.isDirectory) << name;
         EXPECT_GT(directory.files.size(), 0U) << name;
         for (const auto &parts : directory.files)
             known += fs::exists(folder / parts[0]) ? 1 : 0;
     }
     EXPECT_GT(known, 0U);
-    EXPECT_TRUE(
-        decoder::Decoder::ofProgram().directory(folder / "DICOMDIR-empty.dcm").files.empty());
-    EXPECT_EQ(decoder::Decoder::ofProgram().directory(folder / "TINY_ALPHA/DICOMDIR").files.size(),
+    EXPECT_TRUE(decoder::Decoder::shared().directory(folder / "DICOMDIR-empty.dcm").files.empty());
+    EXPECT_EQ(decoder::Decoder::shared().directory(folder / "TINY_ALPHA/DICOMDIR").files.size(),
               50U);
     // Through the index the same files are seen as by looking at its folders, used or not.
     const auto seen = [](const dicom::Catalogue &catalogue) {

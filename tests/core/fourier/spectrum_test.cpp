@@ -36,7 +36,7 @@ TEST_P(SpectrumCells, AreThePremultipliedSumAndTheApronWraps) {
                 }
         return sum * lattice.cellVolumeMm3();
     };
-    // Inside, on the planes where the half ends, and everywhere in the apron. A binary16 cell is
+    // Inside, on the planes where the half ends, and everywhere in the halo. A binary16 cell is
     // rounded by 2^-12 of itself at most, a little more in a complex number.
     const double scale = std::abs(exact(0, 0, 0));
     const double rounding = GetParam() == fourier::Storage::binary16 ? 3.5e-4 : 0.0;
@@ -66,11 +66,11 @@ INSTANTIATE_TEST_SUITE_P(Storages, SpectrumCells,
                          });
 
 TEST(Spectrum, TakesFourBytesACellAndLittleMoreToMake) {
-    const auto kernel = fourier::Kernel::leastGhosts(4, 1.5);
+    const auto kernel = fourier::Kernel::leastAliasing(4, 1.5);
     const volume::VoxelBox box{{0, 0, 0}, {256, 256, 256}};
     fourier::SpectrumLayout layout{{kernel, kernel, kernel}, box, {384, 384, 384}};
     const double cells = 193.0 * 384 * 384;
-    // Columns overlap by three of sixteen cells and have an apron: 4 bytes a cell, times 1.4.
+    // Columns overlap by three of sixteen cells and have a halo: 4 bytes a cell, times 1.4.
     EXPECT_LT(double(layout.bytes()), 1.4 * 4.0 * cells);
     layout.storage = fourier::Storage::float32;
     EXPECT_LT(double(layout.peakBytes()), 2.2 * double(layout.bytes()));

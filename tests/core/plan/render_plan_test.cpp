@@ -41,10 +41,10 @@ TEST(RenderPlan, TheSliceGridHoldsEveryDirection) {
     const auto plan = plan::planRender(scene, plan::summarise(field));
     // The projection of a cube is up to sqrt(3) N wide. A slice needs half of it plus half the
     // image.
-    const auto grid = plan::sliceGrid(scene.camera, plan.room, lattice, scene.image);
+    const auto grid = plan::sliceGrid(scene.camera, plan.fieldOfView, lattice, scene.image);
     EXPECT_GE(grid.columns, 173);
     scene.camera.width = 40;
-    const auto narrow = plan::sliceGrid(scene.camera, plan.room, lattice, scene.image);
+    const auto narrow = plan::sliceGrid(scene.camera, plan.fieldOfView, lattice, scene.image);
     EXPECT_LT(narrow.columns, grid.columns);
     EXPECT_GE(narrow.rows, grid.rows); // aliases weigh more in a crop
     EXPECT_GE(narrow.columns, 20 + 86);
@@ -111,7 +111,7 @@ TEST(RenderPlan, PredictsTheMeasuredErrorOfEveryFraming) {
             const accuracy::ViewErrorModel model(plan, {&summary, 1});
             render::CpuEngine engine(std::make_shared<const fourier::Spectrum>(
                                          fourier::Spectrum::prepare(field.values, plan.spectrum)),
-                                     plan.room);
+                                     plan.fieldOfView);
             const reference::WideKernel wide(field.values, field.support);
             double measured = 0.0;
             for (const double azimuth : {0.0, 40.0}) {

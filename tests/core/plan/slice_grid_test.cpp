@@ -11,25 +11,26 @@ namespace {
 
 struct Setting {
     volume::Lattice lattice = volume::Lattice::centred({60, 60, 60}, {1, 1, 1});
-    plan::SliceRoom room = plan::roomOfBox(lattice, lattice.bounds());
+    plan::FieldOfView fieldOfView = plan::fieldOfViewOf(lattice, lattice.bounds());
     scene::Camera camera = scene::defaultCamera(lattice);
-    plan::SliceGrid grid() const { return plan::sliceGrid(camera, room, lattice, {}); }
+    plan::SliceGrid grid() const { return plan::sliceGrid(camera, fieldOfView, lattice, {}); }
 };
 
 TEST(SliceGrid, LessTailsTakeMoreRoomAndNeverMoreThanThereIs) {
     Setting s;
     int before = 0;
     for (const double tails : {1e-1, 1e-3, 1e-4, 1e-5}) {
-        s.room.foldedTails = tails;
+        s.fieldOfView.aliasingLimit = tails;
         const plan::SliceGrid grid = s.grid();
         EXPECT_GE(grid.columns, before);
         EXPECT_GE(grid.columns, 52 + s.camera.width / 2); // half a diagonal beside half the image
         EXPECT_LE(plan::predictFoldedTails({}, s.camera, grid.columns, grid.rows,
-                                           *s.room.spreads.front()),
+                                           *s.fieldOfView.spreads.front()),
                   tails);
         before = grid.columns;
     }
-    s.room.foldedTails = 0.0; // cannot be had: three times the cells, or 1024, are the most
+    s.fieldOfView.aliasingLimit =
+        0.0; // cannot be had: three times the cells, or 1024, are the most
     EXPECT_EQ(s.grid().columns, 1024);
 }
 
@@ -50,7 +51,7 @@ TEST(SliceGrid, HugeGridsAreRefusedOrStayWithinTheLimit) {
     s.camera.panMm = {1e9, 0.0};
     EXPECT_THROW(s.grid(), task::Error);
     s.camera.panMm = {40000.0, 0.0};
-    s.room.foldedTails = 0.0;
+    s.fieldOfView.aliasingLimit = 0.0;
     EXPECT_LE(s.grid().columns, 65536);
 }
 
@@ -59,9 +60,10 @@ TEST(FoldedTails, ACropHasMoreOfThem) {
     const Setting s;
     scene::Camera crop = s.camera;
     crop.width = crop.height = 16;
-    EXPECT_EQ(plan::shareInImage(s.camera, *s.room.spreads.front()), 1.0);
+    EXPECT_EQ(plan::shareInImage(s.camera, *s.fieldOfView.spreads.front()), 1.0);
     // A cube's mean shadow is a quarter of its surface.
-    EXPECT_NEAR(plan::shareInImage(crop, *s.room.spreads.front()), 256.0 / (1.5 * 3600.0), 1e-12);
+    EXPECT_NEAR(plan::shareInImage(crop, *s.fieldOfView.spreads.front()), 256.0 / (1.5 * 3600.0),
+                1e-12);
 }
 
 } // namespace

@@ -31,7 +31,7 @@ TEST(DirectSum, OneVoxelIsAPhaseFactor) {
 }
 
 TEST(WideKernel, AgreesWithTheDirectSum) {
-    // The wide kernel's ghosts at width 12, padding 2 are near 1e-12 in the middle and grow toward
+    // The wide kernel's aliases at width 12, padding 2 are near 1e-12 in the middle and grow toward
     // the faces; 1e-10 leaves room for a field that fills its lattice.
     const auto lattice = test::tiltedLattice({17, 12, 9}, {0.8, 1.1, 3.0}, 25.0);
     const auto field = test::noiseField(lattice);

@@ -22,7 +22,7 @@ render::CpuEngine engineFor(const classify::DensityField &field, const scene::Sc
     const auto plan = plan::planRender(scene, plan::summarise(field));
     return render::CpuEngine(std::make_shared<const fourier::Spectrum>(
                                  fourier::Spectrum::prepare(field.values, plan.spectrum)),
-                             plan.room);
+                             plan.fieldOfView);
 }
 
 scene::Camera cameraFor(const volume::Lattice &lattice, StandardView view,

@@ -23,7 +23,7 @@ protected:
     }
     render::FrameInputs inputsOf(const render::EngineParts &parts,
                                  const shading::Shading &shading) {
-        return render::FrameSetup(parts.room)
+        return render::FrameSetup(parts.fieldOfView)
             .inputsFor(parts.spectra, parts.shares, camera, {}, shading);
     }
 
@@ -69,7 +69,7 @@ TEST_F(FrameInputs, OneColorIsGivenToTheOneImage) {
 
 TEST_F(FrameInputs, TheMomentKernelsAreKeptFromFrameToFrame) {
     const render::EngineParts parts = partsFor({.cue = lit.cue});
-    render::FrameSetup setup(parts.room);
+    render::FrameSetup setup(parts.fieldOfView);
     const auto kernels = [&](const shading::Shading &shading) {
         return setup.inputsFor(parts.spectra, parts.shares, camera, {}, shading).shading.kernels;
     };

@@ -44,8 +44,8 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     for (int d = 0; d < 3; ++d)
         axes[d] = plan::axisError(kernel, layout.padded[d], energy.axis[d]);
     const double predicted = plan::predictRelativeError(axes, storage, energy, {});
-    const auto room = plan::roomOfBox(field.values.lattice(), field.support);
-    EXPECT_LT(error, std::hypot(predicted, room.foldedTails)) << predicted;
+    const auto fieldOfView = plan::fieldOfViewOf(field.values.lattice(), field.support);
+    EXPECT_LT(error, std::hypot(predicted, fieldOfView.aliasingLimit)) << predicted;
 
     // The same with a linear cue.
     const shading::DepthCue cue{shading::CueKind::linear, 1.0};
@@ -61,7 +61,7 @@ TEST_P(EveryWidth, IsWithinTheKernelsError) {
     const double predictedCued = plan::predictRelativeError(
         axes, storage, energy, {},
         plan::cueWeight(cue, lattice, lattice.radiusMm(), layout, energy));
-    EXPECT_LT(cuedError, std::hypot(predictedCued, room.foldedTails)) << predictedCued;
+    EXPECT_LT(cuedError, std::hypot(predictedCued, fieldOfView.aliasingLimit)) << predictedCued;
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryWidth,
@@ -83,7 +83,7 @@ const std::vector<shading::Shading> shadings{
 render::CpuEngine shadedEngine(const std::shared_ptr<const fourier::Spectrum> &spectrum,
                                int threads) {
     return {{{spectrum}, {spectrum}, shading::shadingScale(spectrum->lattice())},
-            plan::roomOfBox(spectrum->lattice(), spectrum->layout().box),
+            plan::fieldOfViewOf(spectrum->lattice(), spectrum->layout().box),
             threads};
 }
 
@@ -128,7 +128,7 @@ TEST(InstructionSets, AgreeWithinRounding) {
 TEST(InstructionSets, FourThreadsGiveTheBitsOfOne) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
     const auto field = test::noiseField(lattice);
-    const auto kernel = fourier::Kernel::leastGhosts(4, 1.5);
+    const auto kernel = fourier::Kernel::leastAliasing(4, 1.5);
     const auto spectrum = std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
         field.values, {{kernel, kernel, kernel}, field.support, {60, 60, 60}}));
     scene::Camera camera = scene::defaultCamera(lattice);

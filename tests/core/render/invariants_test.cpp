@@ -38,7 +38,7 @@ struct Subject {
 
 // Linear to rounding: cells in float, and one kernel whatever the field.
 fourier::SpectrumLayout linearLayout(const volume::Lattice &lattice) {
-    const auto kernel = fourier::Kernel::leastGhosts(5, 1.5);
+    const auto kernel = fourier::Kernel::leastAliasing(5, 1.5);
     const auto padded = [&](int d) { return fourier::paddedSize(lattice.size()[d], 1.5); };
     return {{kernel, kernel, kernel},
             lattice.bounds(),
@@ -61,7 +61,7 @@ double sum(const picture::ProjectionImage &image) {
 }
 
 // Over a period the image sums to the field's own sum, exactly. What of it lies outside the image
-// are ghosts, which the tolerance limits and which change sign, so that at most a fifth of it
+// are aliases, which the tolerance limits and which change sign, so that at most a fifth of it
 // remains, and tails of the exact image, which are 4e-7 here.
 TEST(Invariants, TheMeanIsTheFieldsSumForEveryView) {
     for (const double tolerance : {1.1e-3, 1e-4, 1e-5}) {

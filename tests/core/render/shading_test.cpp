@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
 // The figures that the width fixes: with four taps what the default keeps, with five 3e-4.
 TEST(Shading, FiveTapsLeaveAThirdOfAThousandth) {
     const scene::Interpolation five{
-        .kernel = fourier::KernelChoice{fourier::KernelFamily::leastGhosts, 5}};
+        .kernel = fourier::KernelChoice{fourier::KernelFamily::leastAliasing, 5}};
     for (const DepthCue &cue : {linear, sine}) {
         Subject subject(headField(), {.cue = cue}, 3e-4, five);
         EXPECT_LE(subject.worstError(), 3e-4);

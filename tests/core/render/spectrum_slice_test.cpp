@@ -44,7 +44,7 @@ render::EngineParts partsOf(const std::vector<volume::Volume> &fields,
                             const fourier::SpectrumLayout &layout,
                             std::vector<render::ChannelShares> shares = {{1.0, 1.0, 1.0}}) {
     render::EngineParts parts{
-        {}, std::move(shares), plan::roomOfBox(fields.front().lattice(), layout.box)};
+        {}, std::move(shares), plan::fieldOfViewOf(fields.front().lattice(), layout.box)};
     for (const volume::Volume &field : fields)
         parts.spectra.fields.push_back(
             std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field, layout)));

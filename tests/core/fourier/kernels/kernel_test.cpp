@@ -44,7 +44,7 @@ std::vector<Kernel> everyKernel() {
     for (int w = 2; w <= 7; ++w) {
         all.push_back(Kernel::exponentialSemicircle(w, 1.5));
         all.push_back(Kernel::kaiserBessel(w, 1.5));
-        all.push_back(Kernel::leastGhosts(w, 1.5));
+        all.push_back(Kernel::leastAliasing(w, 1.5));
     }
     return all;
 }
@@ -107,9 +107,9 @@ TEST(Kernels, HaveTheTextbookShapes) {
                 1e-5);
 }
 
-// sqrt of the energy in the ghosts of a field that fills its axis evenly, one by one, and summed up
-// in phase for frequencies on the grid and for those that read a tap on the kernel's edge.
-double ghosts(const Kernel &kernel, double padding) {
+// sqrt of the energy in the aliases of a field that fills its axis evenly, one by one, and summed
+// up in phase for frequencies on the grid and for those that read a tap on the kernel's edge.
+double aliases(const Kernel &kernel, double padding) {
     double sum = 0.0;
     const int positions = 64, width = kernel.width();
     for (int n = 0; n < positions; ++n) {
@@ -134,15 +134,15 @@ double ghosts(const Kernel &kernel, double padding) {
 }
 
 // The reason for the least-squares kernels: about half of the error of ES and KB.
-TEST(Kernels, LeastGhostsHasLeast) {
+TEST(Kernels, LeastAliasingHasLeast) {
     for (const double padding : {1.25, 1.5, 2.0})
         for (int w = 2; w <= 7; ++w) {
-            const double least = ghosts(Kernel::leastGhosts(w, padding), padding);
-            EXPECT_LT(least, ghosts(Kernel::exponentialSemicircle(w, padding), padding)) << w;
-            EXPECT_LT(least, ghosts(Kernel::kaiserBessel(w, padding), padding)) << w;
+            const double least = aliases(Kernel::leastAliasing(w, padding), padding);
+            EXPECT_LT(least, aliases(Kernel::exponentialSemicircle(w, padding), padding)) << w;
+            EXPECT_LT(least, aliases(Kernel::kaiserBessel(w, padding), padding)) << w;
         }
-    EXPECT_LT(ghosts(Kernel::leastGhosts(4, 1.5), 1.5),
-              0.5 * ghosts(Kernel::exponentialSemicircle(4, 1.5), 1.5));
+    EXPECT_LT(aliases(Kernel::leastAliasing(4, 1.5), 1.5),
+              0.5 * aliases(Kernel::exponentialSemicircle(4, 1.5), 1.5));
 }
 
 TEST(Kernels, NamesRoundTripAndBadOnesAreRefused) {

@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Kernels, Moment,
 TEST(Moments, LeaveWhatADerivativeLeaves) {
     for (const int width : {3, 4, 5, 6, 7})
         for (const double padding : {1.25, 1.5, 2.0}) {
-            const Kernel kernel = Kernel::leastGhosts(width, padding);
+            const Kernel kernel = Kernel::leastAliasing(width, padding);
             const MomentKernel moment(kernel, padding);
             double left = 0.0, derivative = 0.0;
             constexpr int positions = 50;

@@ -30,5 +30,5 @@ void main() {
         return;
     vec2 mirrored = k == 0 ? vec2(0.0) : lineAt(image, row, halfColumns - k);
     to[(image * frame.periodRows + row) * halfColumns + k] =
-        untangled(lineAt(image, row, k), mirrored, rotations[frame.unpackRotations + k]);
+        unpackReal(lineAt(image, row, k), mirrored, rotations[frame.unpackRotations + k]);
 }
