@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What manual and documents point at is there: files beside them, headings, pictures, and each
-# picture of the manual is one that the program brings along. Usage: links.sh SOURCE_ROOT
+# Checks that what the manual and the documents point at exists: files beside them, headings,
+# pictures that the program contains, and the files of ARCHITECTURE.md's rooms.
+# Usage: links.sh SOURCE_ROOT
 set -euo pipefail
 cd "$1"
 python3 - <<'PYTHON'
@@ -22,6 +23,18 @@ for document in documents:
             wrong.append(f"{document}: {target}")
         elif place and anchor(place) not in {anchor(h) for h in re.findall(r"^#+ (.*)$", to.read_text(), re.M)}:
             wrong.append(f"{document}: no heading {target}")
+def exists(name, room):
+    return any(any(folder.glob(name)) for folder in (pathlib.Path("."), room))
+
+rooms = re.findall(r"^\| `([^`]+)` \|(.*)$", pathlib.Path("ARCHITECTURE.md").read_text(), re.M)
+folders = {str(p) for floor in ("core", "ui", "app") for p in pathlib.Path(floor).iterdir() if p.is_dir()}
+wrong += [f"ARCHITECTURE.md: no row for {room}" for room in sorted(folders - {room for room, _ in rooms})]
+for room, row in rooms:
+    if not pathlib.Path(room).is_dir():
+        wrong.append(f"ARCHITECTURE.md: {room} is not a folder")
+    for name in re.findall(r"`([\w/*.-]+(?:\.\w+|/[\w-]+))`", row):
+        if not exists(name.replace("NAME", "*"), pathlib.Path(room)):
+            wrong.append(f"ARCHITECTURE.md: {room} has no {name}")
 embedded = set(re.findall(r">(manual/[^<]+)<", pathlib.Path("resources/resources.qrc").read_text()))
 shown = set()
 for manual in sorted(pathlib.Path("resources/manual").glob("*.html")):
