@@ -4,6 +4,8 @@
 
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalSpy>
+#include <QSplitter>
 #include <QToolButton>
 
 #include "ui/beside/study_beside.h"
@@ -26,7 +28,7 @@ private slots:
     void aPriorStandsBesideAndMovesAlong() {
         using Step = void (BesideTest::*)();
         for (const Step step :
-             {&BesideTest::openAPrior, &BesideTest::turnTheProjections,
+             {&BesideTest::openAPrior, &BesideTest::turnTheProjections, &BesideTest::resizeThePanes,
               &BesideTest::turnAboutTheCrosshairs, &BesideTest::movePlanesAndWindows,
               &BesideTest::chooseALookAndALayout, &BesideTest::matchByHand,
               &BesideTest::closeThePrior}) {
@@ -56,6 +58,23 @@ private:
         dragMouse(other(), Qt::LeftButton, other()->rect().center(), {-90, 0});
         QVERIFY(prior().scene().camera.orientation == now().scene().camera.orientation);
         QVERIFY(std::abs(prior().scene().camera.pixelMm - now().scene().camera.pixelMm) < 1e-9);
+    }
+
+    // The open study keeps its zoom, and the other one follows its scale.
+    void resizeThePanes() {
+        turnWheel(projection(), 1);
+        const ui::Pose pose = now().pose();
+        QSignalSpy moved(&now(), &ui::Document::poseChanged);
+        auto *viewers = find<QSplitter>("viewers");
+        for (const QList<int> &sizes : {QList<int>{2, 1}, {1, 1}}) {
+            const int width = now().scene().camera.width;
+            viewers->setSizes(sizes);
+            QTRY_VERIFY(now().scene().camera.width != width);
+            QTRY_VERIFY(std::abs(prior().scene().camera.pixelMm - now().scene().camera.pixelMm) <
+                        1e-9);
+        }
+        QVERIFY(now().pose() == pose);
+        QCOMPARE(moved.size(), 0);
     }
 
     // Each about its own, which are at the same place of the pictures.

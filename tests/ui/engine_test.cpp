@@ -275,7 +275,7 @@ private slots:
         open(headPath());
         chooseCard();
         const auto closeAndCount = [&] {
-            m_bench->opener.closeSource(0);
+            m_bench->study.opener.closeSource(0);
             int count = -1;
             // The worker lets go of it a moment later.
             const bool rests = QTest::qWaitFor(

@@ -71,11 +71,11 @@ private slots:
         find<QComboBox>("exportPaneBox")->setCurrentText("Coronal");
         find<QComboBox>("exportFormatBox")->setCurrentIndex(2);
         QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
-        QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("Only the projection"));
+        QVERIFY(find<QLabel>("exportMessage")->text().contains("Only the projection"));
         find<QComboBox>("exportFormatBox")->setCurrentIndex(0);
         find<QLineEdit>("exportPathEdit")->setText("/nowhere/at/all/x.png");
         find<QPushButton>("exportWriteButton")->click();
-        QTRY_VERIFY(find<QLabel>("exportSaidLabel")->text().contains("cannot be written"));
+        QTRY_VERIFY(find<QLabel>("exportMessage")->text().contains("cannot be written"));
         QVERIFY(find<QDialog>("exportDialog")->isVisible());
         QVERIFY(find<QPushButton>("exportWriteButton")->isEnabled());
     }
@@ -115,7 +115,7 @@ private slots:
         const QString file = QString::fromStdString((m_folder / "nobody.dcm").string());
         dialogFor("Projection", 4, 1, true);
         find<QCheckBox>("exportDeidentifiedBox")->click();
-        QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("nothing of the patient"));
+        QVERIFY(find<QLabel>("exportMessage")->text().contains("does not identify"));
         find<QLineEdit>("exportPathEdit")->setText(file);
         finish();
         QProcess dump;
@@ -159,7 +159,7 @@ private slots:
             find<QLineEdit>("exportPathEdit")->setText(QString::fromStdString(path.string()));
             answerWith(QMessageBox::Yes);
             find<QPushButton>("exportWriteButton")->click();
-            QCOMPARE(find<QLabel>("exportSaidLabel")->text(),
+            QCOMPARE(find<QLabel>("exportMessage")->text(),
                      QString("IM0003.dcm belongs to an open study; choose another name"));
             QVERIFY(readText(slice) == before);
             find<QDialog>("exportDialog")->close();
@@ -205,7 +205,7 @@ private slots:
         const QString path = find<QLineEdit>("exportPathEdit")->text();
         if (!ui::VideoWriter::isAvailable()) {
             QVERIFY(!find<QPushButton>("exportWriteButton")->isEnabled());
-            QVERIFY(find<QLabel>("exportSaidLabel")->text().contains("ffmpeg"));
+            QVERIFY(find<QLabel>("exportMessage")->text().contains("ffmpeg"));
             return;
         }
         find<QSpinBox>("exportFramesBox")->setValue(10);

@@ -5,9 +5,11 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QProcess>
+#include <QSignalSpy>
 #include <QToolButton>
 
 #include "ui/document/commands.h"
+#include "ui/panels/study_panel.h"
 #include "ui/views/mpr_view.h"
 
 namespace pellucid {
@@ -37,6 +39,78 @@ private slots:
         QVERIFY(glm::distance(onPicture(document.crosshair()), now) < 1e-6);
         settle();
         save("orbit_crosshair");
+    }
+
+    // The document has the pose; only the camera depends on the pane.
+    void aResizeKeepsThePoseAndChangesNothingElse() {
+        find<QAction>("twoByTwoAction")->trigger();
+        turnWheel(projection(), 1);
+        drag({40, 10});
+        settle();
+        ui::Document &document = m_window->document();
+        const ui::Pose pose = document.pose();
+        QVERIFY(pose.zoom > 1.1);
+        const scene::Camera before = document.scene().camera;
+        const QImage picture = projection()->picture();
+        const int edits = document.undoStack()->count();
+        QSignalSpy sceneChanged(&document, &ui::Document::sceneChanged),
+            poseChanged(&document, &ui::Document::poseChanged);
+        QTest::mouseDClick(projection(), Qt::LeftButton); // fills the window
+        QTRY_VERIFY(document.scene().camera.height > before.height);
+        settle();
+        QVERIFY(document.pose() == pose);
+        // The shorter side shows as much of the patient as before.
+        const auto shownMm = [](const scene::Camera &camera) {
+            return std::min(camera.width, camera.height) * camera.pixelMm;
+        };
+        QVERIFY(std::abs(shownMm(document.scene().camera) - shownMm(before)) < 1e-6);
+        QTest::mouseDClick(projection(), Qt::LeftButton);
+        QTRY_VERIFY(document.scene().camera == before);
+        settle();
+        QVERIFY(projection()->picture() == picture);
+        QVERIFY(document.pose() == pose);
+        QCOMPARE(document.undoStack()->count(), edits);
+        QCOMPARE(sceneChanged.size(), 0);
+        QCOMPARE(poseChanged.size(), 0);
+    }
+
+    // Even if the pane has another size by then.
+    void everyStudyComesBackWithItsOwnZoom() {
+        ui::Document &document = m_window->document();
+        turnWheel(projection(), 1);
+        turnWheel(projection(), 1);
+        const ui::Pose head = document.pose();
+        QVERIFY(head.zoom > 1.2);
+        find<QAction>("chestPhantomAction")->trigger();
+        QTRY_VERIFY(document.currentSource() == 1);
+        settle();
+        QVERIFY(document.pose() == ui::Pose());
+        const int height = document.scene().camera.height;
+        find<QAction>("twoByTwoAction")->trigger();
+        QTRY_VERIFY(document.scene().camera.height < height);
+        turnWheel(projection(), -1);
+        const ui::Pose chest = document.pose();
+        QVERIFY(chest.zoom < 1.0);
+        auto *studies = find<ui::StudyPanel>("studyPanel");
+        emit studies->sourceActivated(0);
+        QVERIFY(document.pose() == head);
+        settle();
+        emit studies->sourceActivated(1);
+        QVERIFY(document.pose() == chest);
+        settle();
+    }
+
+    void theZoomHasLimits() {
+        ui::Document &document = m_window->document();
+        for (int n = 0; n < 40; ++n)
+            turnWheel(projection(), 1);
+        QCOMPARE(document.pose().zoom, ui::maxZoom);
+        for (int n = 0; n < 60; ++n)
+            turnWheel(projection(), -1);
+        QCOMPARE(document.pose().zoom, ui::minZoom);
+        QTest::keyClick(projection(), Qt::Key_0, Qt::KeypadModifier);
+        QVERIFY(document.pose() == ui::Pose());
+        settle();
     }
 
     void theCropBoxIsDraggedInAPlaneAndUndone() {

@@ -53,9 +53,10 @@ private slots:
         QVERIFY(offer->isVisible());
         QCOMPARE(offer->text(), QString("Recover what was open"));
         offer->click();
-        QTRY_VERIFY_WITH_TIMEOUT(
-            next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
-        QCOMPARE(next.bench().document.volume()->lattice().size().k, 80);
+        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.volume() &&
+                                     !next.bench().study.document.isPreview(),
+                                 patienceMs);
+        QCOMPARE(next.bench().study.document.volume()->lattice().size().k, 80);
     }
 
     // Neither takes the other's place, and what still runs is nothing to recover.
@@ -78,9 +79,10 @@ private slots:
         auto *offer = next.window().findChild<QPushButton *>("resumeButton");
         QCOMPARE(offer->text(), QString("Recover what was open")); // before what has ended
         offer->click();
-        QTRY_VERIFY_WITH_TIMEOUT(
-            next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
-        QCOMPARE(next.bench().document.volume()->lattice().size().k, 80);
+        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.volume() &&
+                                     !next.bench().study.document.isPreview(),
+                                 patienceMs);
+        QCOMPARE(next.bench().study.document.volume()->lattice().size().k, 80);
         emit next.window().fileMenu().recentForgotten();
         QVERIFY(!fs::exists(m_sessionFile) && !fs::exists(second));
     }
@@ -100,8 +102,8 @@ private slots:
         QCOMPARE(QProcess::execute("dcmodify", change), 0);
         ui::Workstation next;
         next.window().reopening().resume();
-        QTRY_VERIFY_WITH_TIMEOUT(next.bench().document.volume(), patienceMs);
-        const auto &problems = next.bench().document.problems();
+        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.volume(), patienceMs);
+        const auto &problems = next.bench().study.document.problems();
         QVERIFY(std::any_of(problems.begin(), problems.end(), [](const auto &p) {
             return p.reason.is(task::because::isAnotherStudy);
         }));
@@ -113,7 +115,7 @@ private slots:
         {
             ui::Workstation program;
             program.window().openPaths({headPath()});
-            ui::Document &document = program.bench().document;
+            ui::Document &document = program.bench().study.document;
             QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
             ui::editScene(document, "Weights", ui::noDrag, [](scene::Scene &scene) {
                 scene.look.transferFunction.weights = {0.0, 0.7, 1.9, 0.3};
@@ -130,7 +132,8 @@ private slots:
                       fs::copy_options::overwrite_existing);
         ui::Workstation next;
         next.window().reopening().resume();
-        QTRY_VERIFY_WITH_TIMEOUT(next.bench().document.scene().look == edited.look, patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.scene().look == edited.look,
+                                 patienceMs);
     }
 
     // Slices that could not be used are named again when the rest is taken up.
@@ -141,7 +144,7 @@ private slots:
         fs::resize_file(damaged, 300);
         std::optional<task::Reason> why;
         const auto isNamed = [&](ui::Workstation &program) {
-            const auto &problems = program.bench().document.problems();
+            const auto &problems = program.bench().study.document.problems();
             return std::any_of(problems.begin(), problems.end(), [&](const dicom::Skipped &p) {
                 return p.path == damaged && p.reason == why.value_or(p.reason);
             });
@@ -156,8 +159,9 @@ private slots:
         ui::Workstation next;
         QVERIFY(!isNamed(next));
         next.window().reopening().resume();
-        QTRY_VERIFY_WITH_TIMEOUT(
-            next.bench().document.volume() && !next.bench().document.isPreview(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.volume() &&
+                                     !next.bench().study.document.isPreview(),
+                                 patienceMs);
         QVERIFY(isNamed(next));
     }
 
@@ -169,8 +173,9 @@ private slots:
             ui::Workstation program;
             program.window().openPaths({QString::fromStdString(series.string())});
             QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            program.bench().document.addProblems({{series / "IM0005.dcm", task::because::isGone},
-                                                  {series / "IM0099.dcm", task::because::isEmpty}});
+            program.bench().study.document.addProblems(
+                {{series / "IM0005.dcm", task::because::isGone},
+                 {series / "IM0099.dcm", task::because::isEmpty}});
         }
         QCOMPARE(kept().leftOut.size(), 1U);
         QCOMPARE(kept().leftOut[0].path, series / "IM0099.dcm");
@@ -179,24 +184,24 @@ private slots:
     // Picture, letters, cube and scale are those of before.
     void whatIsTakenUpIsSeenAsBefore() {
         const auto turned = [](ui::Document &document) {
-            scene::Camera camera = document.scene().camera;
-            camera.orientation =
-                glm::normalize(glm::dquat(0.9, 0.1, 0.3, 0.0)) * camera.orientation;
-            return camera;
+            ui::Pose pose = document.pose();
+            pose.orientation = glm::normalize(glm::dquat(0.9, 0.1, 0.3, 0.0)) * pose.orientation;
+            return pose;
         };
         std::optional<picture::ToneRange> brightness;
         QImage picture;
         {
             ui::Workstation program;
             program.window().openPaths({headPath()});
-            ui::Document &document = program.bench().document;
+            ui::Document &document = program.bench().study.document;
             QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
             auto *pane = program.window().findChild<ui::ProjectionView *>();
             const auto rests = [&] { return pane->showsWhatIsAskedFor(); };
             QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs); // and has its brightness, of the front
-            scene::Camera camera = turned(document);
-            camera.panMm = {30.0, 0.0};
-            emit program.bench().opener.cameraKept(camera);
+            ui::Pose pose = turned(document);
+            pose.panMm = {30.0, 0.0};
+            pose.zoom = 1.3;
+            document.setPose(pose);
             QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs);
             brightness = document.brightness();
             picture = pane->picture();
@@ -204,7 +209,7 @@ private slots:
         QVERIFY(brightness && kept().shown.brightness == brightness);
         ui::Workstation next;
         next.window().reopening().resume();
-        ui::Document &document = next.bench().document;
+        ui::Document &document = next.bench().study.document;
         auto *pane = next.window().findChild<ui::ProjectionView *>();
         const auto rests = [&] { return document.volume() && pane->showsWhatIsAskedFor(); };
         QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs);
@@ -213,10 +218,10 @@ private slots:
         auto *overlay = pane->findChild<QWidget *>("projectionOverlay");
         const QImage shown = overlay->grab().toImage();
         // As it is after another view.
-        const scene::Camera camera = document.scene().camera;
-        document.setCamera(turned(document));
+        const ui::Pose pose = document.pose();
+        document.setPose(turned(document));
         const QImage other = overlay->grab().toImage();
-        document.setCamera(camera);
+        document.setPose(pose);
         QVERIFY(changed(overlay->grab().toImage(), other) > 0.0);
         QVERIFY(changed(overlay->grab().toImage(), shown) == 0.0);
     }
@@ -237,7 +242,7 @@ private slots:
         {
             ui::Workstation program;
             program.window().openPaths(halves);
-            ui::Document &document = program.bench().document;
+            ui::Document &document = program.bench().study.document;
             QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
             scene::Scene scene = document.scene();
             scene.look.transferFunction.weights = {0.0, 0.25, 1.0};
@@ -251,7 +256,7 @@ private slots:
         QCOMPARE(opened, halves);
         ui::Workstation next;
         next.window().reopening().resume();
-        ui::Document &document = next.bench().document;
+        ui::Document &document = next.bench().study.document;
         QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
         QCOMPARE(document.volume()->lattice().size().k, 80);
         QVERIFY(document.scene().look == look);
@@ -262,7 +267,7 @@ private slots:
         std::ofstream(m_sessionFile) << "{\"schema\": \"pellucid-sess";
         ui::Workstation program;
         QVERIFY(!program.window().findChild<QPushButton *>("resumeButton")->isVisible());
-        const auto &problems = program.bench().document.problems();
+        const auto &problems = program.bench().study.document.problems();
         QCOMPARE(problems.size(), 1U);
         QCOMPARE(problems[0].path, m_sessionFile);
         QVERIFY(problems[0].reason.is(task::because::isNoSession));
@@ -277,12 +282,12 @@ private slots:
         qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "locked/data").string()));
         {
             ui::Workstation program;
-            const auto &problems = program.bench().document.problems();
+            const auto &problems = program.bench().study.document.problems();
             QCOMPARE(problems.size(), 1U);
             const QString why = QString::fromStdString(problems[0].reason.english());
             QVERIFY2(why.contains("cannot be written"), qPrintable(why));
             program.window().openPaths({headPath()});
-            QTRY_VERIFY_WITH_TIMEOUT(program.bench().document.volume(), patienceMs);
+            QTRY_VERIFY_WITH_TIMEOUT(program.bench().study.document.volume(), patienceMs);
         }
         QVERIFY(fs::is_empty(m_folder / "locked"));
     }

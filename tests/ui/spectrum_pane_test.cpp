@@ -116,15 +116,18 @@ private slots:
         // The upper edge is at the frequency of the band's circle: that of the samples, or of the
         // picture where its pixels are larger. A logical pixel of the plot is at most a few
         // hundredths of the limit.
+        ui::Document &document = m_window->document();
+        const volume::Lattice &lattice = document.volume()->lattice();
+        const QSizeF small(100.0, 100.0); // a pane where the zoom allows both
+        document.setProjectionSize(small);
         for (const double pixelMm : {0.5, 7.0}) {
-            scene::Camera zoomed = m_window->document().scene().camera;
-            zoomed.pixelMm = pixelMm;
-            m_window->document().setCamera(zoomed);
+            const double fitMm = ui::fittingPixelMm(lattice.radiusMm(), small);
+            document.setPose({.zoom = fitMm / pixelMm});
+            QVERIFY(std::abs(document.scene().camera.pixelMm - pixelMm) < 1e-9);
             follow();
             moveMouse(plot(), square.center().toPoint());
             moveMouse(plot(), QPointF(square.center().x(), square.top() + 1.0).toPoint());
-            const double limit =
-                0.5 / std::max(pixelMm, m_window->document().volume()->lattice().shortestStepMm());
+            const double limit = 0.5 / std::max(pixelMm, lattice.shortestStepMm());
             const double read = readout->text().section(' ', 0, 0).toDouble();
             QVERIFY2(std::abs(read - limit) < 0.03 * limit, qPrintable(readout->text()));
         }
@@ -149,8 +152,9 @@ private:
     }
     // By the core alone, of the prepared engine and the present view.
     QImage expected() {
-        const auto slice = render::spectrumSlice(m_bench->preparer.fullEngine()->engine->parts(),
-                                                 camera(), ui::SpectrumSampler::side);
+        const auto slice =
+            render::spectrumSlice(m_bench->study.preparer.fullEngine()->engine->parts(), camera(),
+                                  ui::SpectrumSampler::side);
         const auto rgba = render::greyLevels(slice);
         return QImage(rgba.data(), slice.side, slice.side, QImage::Format_RGBA8888).copy();
     }

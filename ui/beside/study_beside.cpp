@@ -3,10 +3,11 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QScopedValueRollback>
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "ui/engine/graphics_card.h"
+#include "ui/beside/study_projection.h"
 #include "ui/jobs/job_strip.h"
 #include "ui/language/reasons.h"
 #include "ui/views/mpr_view.h"
@@ -21,8 +22,7 @@ QString headingText(const StudySource &source) {
 }
 
 StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *parent)
-    : QWidget(parent), m_preparer(m_document, m_jobs), m_copier(m_document, m_jobs, card),
-      m_opener(m_document, m_jobs, m_preparer), m_viewer(makeViewer()),
+    : QWidget(parent), m_study(card), m_viewer(makeViewer()),
       m_link(new StudyLink(leader, m_viewer, this)), m_name(new QLabel), m_linked(new QToolButton) {
     setObjectName("studyBeside");
     auto *layout = new QVBoxLayout(this);
@@ -31,44 +31,39 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
     layout->addWidget(makeHeading());
     layout->addWidget(m_viewer.area, 1);
     m_viewer.area->arrangeAs(*leader.area);
-    ProjectionView *const projection = m_viewer.projection;
-    connect(&m_preparer, &LookPreparer::engineReady, &m_copier, &CardCopier::show);
-    connect(&m_copier, &CardCopier::engineReady, projection, &ProjectionView::setEngine);
-    connect(projection, &ProjectionView::cardFailed, &card, &GraphicsCard::giveUp);
-    connect(&m_preparer, &LookPreparer::planChanged, projection, &ProjectionView::setPlanState);
-    connect(&m_opener, &StudyOpener::brightnessKept, projection, &ProjectionView::adoptTone);
-    connect(&m_opener, &StudyOpener::notProjectable, projection, &ProjectionView::setMessage);
-    connect(&m_jobs, &JobRunner::started, projection, &ProjectionView::jobStarted);
-    connect(&m_jobs, &JobRunner::finished, projection, &ProjectionView::jobEnded);
-    connect(&m_jobs, &JobRunner::failed, this,
+    connectProjection(m_study, *m_viewer.projection, card);
+    connect(&m_study.jobs, &JobRunner::failed, this,
             [this](const task::Reason &what, const QString &path) {
                 m_viewer.projection->setMessage(translated(what));
                 emit failed(what, path);
             });
-    connect(&m_document, &Document::volumeChanged, this, [this] {
-        if (!m_document.volume() || m_document.isPreview())
-            return;
-        m_link->begin();
+    connect(&document(), &Document::volumeChanged, this, [this] {
+        if (!m_isOpening)
+            beginLink();
     });
 }
 
+void StudyBeside::beginLink() {
+    if (document().volume() && !document().isPreview())
+        m_link->begin();
+}
+
 StudyBeside::~StudyBeside() {
-    // Work that still runs looks at the members; the panes at the document.
-    m_jobs.join();
+    // Before the document, which they refer to.
     delete m_link;
     delete m_viewer.area;
 }
 
 Viewer StudyBeside::makeViewer() {
-    Viewer viewer{m_document, {}, nullptr, nullptr};
+    Viewer viewer{document(), {}, nullptr, nullptr};
     std::array<QWidget *, 4> panes{};
     for (const auto orientation : mpr::allOrientations) {
-        auto *plane = new MprView(m_document, orientation);
+        auto *plane = new MprView(document(), orientation);
         plane->setObjectName("beside_" + plane->objectName());
         connect(plane, &MprView::readoutChanged, this, &StudyBeside::readoutChanged);
         panes[std::size_t(orientation)] = viewer.planes[std::size_t(orientation)] = plane;
     }
-    viewer.projection = new ProjectionView(m_document);
+    viewer.projection = new ProjectionView(document());
     viewer.projection->setObjectName("beside_projectionView");
     panes[3] = viewer.projection;
     viewer.area = new PaneArea(panes);
@@ -86,7 +81,7 @@ QWidget *StudyBeside::makeHeading() {
     heading->setProperty("role", "studyHeading");
     heading->setFixedHeight(headingHeight);
     m_name->setObjectName("besideName");
-    // A long name gives way to the buttons.
+    // A long name leaves room for the buttons.
     m_name->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_linked->setObjectName("linkButton");
     m_linked->setText(tr("Linked"));
@@ -101,7 +96,7 @@ QWidget *StudyBeside::makeHeading() {
     auto *row = new QHBoxLayout(heading);
     row->setContentsMargins(10, 2, 6, 2);
     row->addWidget(m_name, 1);
-    row->addWidget(new JobStrip(m_jobs, "beside"));
+    row->addWidget(new JobStrip(jobs(), "beside"));
     row->addWidget(m_linked);
     row->addWidget(close);
     connect(m_linked, &QToolButton::toggled, this, [this](bool isLinked) {
@@ -116,9 +111,13 @@ void StudyBeside::open(const StudySource &source) {
     m_name->setText(headingText(source));
     m_name->setToolTip(headingText(source));
     m_link->hold();
-    m_opener.openSource(m_document.addSources({source}).front());
-    if (m_document.volume() && !m_document.isPreview()) // it was there already
-        m_link->begin();
+    {
+        // A kept study restores its view after its volume: linked earlier, it would move the
+        // leader.
+        const QScopedValueRollback opening(m_isOpening, true);
+        m_study.opener.openSource(document().addSources({source}).front());
+    }
+    beginLink();
 }
 
 void StudyBeside::setTool(Tool tool) {

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
-
 #include <QWidget>
 
 #include "ui/beside/study_link.h"
-#include "ui/document/document.h"
-#include "ui/engine/card_copier.h"
-#include "ui/engine/look_preparer.h"
-#include "ui/jobs/job_runner.h"
-#include "ui/opening/study_opener.h"
+#include "ui/opening/open_study.h"
 #include "ui/views/tools/tool.h"
 
 class QLabel;
@@ -18,8 +12,8 @@ class QToolButton;
 
 namespace pellucid::ui {
 
-/// A second study, beside the open one: a document, jobs and panes of its own under a heading that
-/// names it, links it and closes it. There while it is wanted.
+/// A second study beside the open one: panes of its own under a heading that names it, links it and
+/// closes it.
 class StudyBeside : public QWidget {
     Q_OBJECT
 public:
@@ -27,11 +21,11 @@ public:
     ~StudyBeside() override;
 
     void open(const StudySource &source);
-    Document &document() { return m_document; }
-    JobRunner &jobs() { return m_jobs; }
+    Document &document() { return m_study.document; }
+    JobRunner &jobs() { return m_study.jobs; }
     StudyLink &link() { return *m_link; }
     const Viewer &viewer() const { return m_viewer; }
-    /// Measures and crop boxes belong to the open study: their tools window here.
+    /// Measurements and crop boxes belong to the open study: here their tools set the window.
     void setTool(Tool tool);
 
 signals:
@@ -43,22 +37,21 @@ signals:
 private:
     Viewer makeViewer();
     QWidget *makeHeading();
+    /// Lets the link follow, if the volume is complete.
+    void beginLink();
 
-    Document m_document;
-    JobRunner m_jobs;
-    LookPreparer m_preparer;
-    CardCopier m_copier;
-    StudyOpener m_opener;
+    OpenStudy m_study;
     Viewer m_viewer;
     StudyLink *m_link;
     QLabel *m_name;
     QToolButton *m_linked;
+    bool m_isOpening = false;
 };
 
-/// Of the line over a study, so that panes stand side by side. *Units*: logical pixels.
+/// The height of the heading above a study; both are equally high. *Units*: logical pixels.
 inline constexpr int headingHeight = 32;
 
-/// "Doe Jane, 2007-04-04 CT Chest, 3 5 mm": what stands over a study.
+/// The heading of a study: "Doe Jane, 2007-04-04 CT Chest, 3 5 mm".
 QString headingText(const StudySource &source);
 
 } // namespace pellucid::ui

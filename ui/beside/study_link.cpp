@@ -21,16 +21,20 @@ StudyLink::StudyLink(const Viewer &leader, const Viewer &follower, QObject *pare
             [this] { passCrosshair(m_leader, m_follower, 1.0); });
     connect(&follower.document, &Document::crosshairChanged, this,
             [this] { passCrosshair(m_follower, m_leader, -1.0); });
+    // A pane that is resized keeps its zoom; the scale of both is that of the leader.
+    for (const Viewer &resized : {leader, follower})
+        connect(&resized.document, &Document::projectionResized, this,
+                [this] { pass([this] { passCamera(m_leader, m_follower); }); });
     for (const auto changed : {&Document::sceneChanged, &Document::displayWindowChanged})
         connect(&leader.document, changed, this, &StudyLink::follow);
-    // Look and crosshair of the leader's next volume are set after it.
+    // Look, pose and crosshair of the leader's next volume are set after it.
     connect(&leader.document, &Document::volumeChanged, this, [this] {
         const bool isWaited = m_isHeld;
         m_isHeld = true;
         if (!isWaited)
             QMetaObject::invokeMethod(this, &StudyLink::begin, Qt::QueuedConnection);
     });
-    // Told after every edit, one that was merged too.
+    // The signal also comes after a merged edit.
     connect(follower.document.undoStack(), &QUndoStack::indexChanged, this,
             &StudyLink::passWindowBack);
 }
@@ -77,7 +81,7 @@ void StudyLink::follow() {
             scene.tolerance = shown.tolerance;
             scene.interpolation = shown.interpolation;
             scene.tone = shown.tone;
-            // Values without a unit have windows of their own volume.
+            // A window of values without a unit is meaningful for its own volume only.
             if (m_leader.document.volume()->unit() == volume::ValueUnit::hounsfield) {
                 scene.fieldWindow = shown.fieldWindow;
                 m_follower.document.setDisplayWindow(m_leader.document.displayWindow());
@@ -91,7 +95,7 @@ void StudyLink::follow() {
 }
 
 void StudyLink::linkViews(const Viewer &from, const Viewer &to) {
-    connect(&from.document, &Document::cameraChanged, this,
+    connect(&from.document, &Document::poseChanged, this,
             [this, from, to] { pass([&] { passCamera(from, to); }); });
     connect(&from.document, &Document::cutChanged, this,
             [this, from, to] { pass([&] { to.document.setCut(from.document.cut()); }); });
@@ -107,7 +111,7 @@ void StudyLink::passCamera(const Viewer &from, const Viewer &to) {
 }
 
 void StudyLink::linkPanes(const Viewer &from, const Viewer &to) {
-    // Layouts are alike even where the studies are not linked: panes are compared in pairs.
+    // Also while the studies are not linked: panes are compared in pairs.
     connect(from.area, &PaneArea::arranged, to.area,
             [from, to] { to.area->arrangeAs(*from.area); });
 }
@@ -116,7 +120,7 @@ void StudyLink::passCrosshair(const Viewer &from, const Viewer &to, double sign)
     pass([&] {
         const volume::Lattice &lattice = to.document.volume()->lattice();
         const glm::dvec3 wanted = from.document.crosshair().mm + sign * m_offsetMm;
-        // Where one study ends the other still goes on.
+        // The other study may extend beyond this one.
         const glm::dvec3 last(lattice.size().i - 1, lattice.size().j - 1, lattice.size().k - 1);
         const glm::dvec3 voxel =
             glm::clamp(lattice.voxel(volume::PatientPoint{wanted}).v, glm::dvec3(0.0), last);
@@ -132,7 +136,7 @@ void StudyLink::passWindowBack() {
         if (last == nullptr || !sharesUnit() ||
             m_leader.document.volume()->unit() != volume::ValueUnit::hounsfield)
             return;
-        // One drag there is one step back here.
+        // One drag of the follower is one step to undo.
         m_leader.document.undoStack()->push(new EditDisplayWindow(
             m_leader.document, m_follower.document.displayWindow(), last->drag()));
     });

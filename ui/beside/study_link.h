@@ -9,27 +9,27 @@
 
 namespace pellucid::ui {
 
-/// Two studies that are looked at alike: view, zoom, planes, slab, layout, look and window of one
-/// are those of the other; the crosshairs keep the distance that they had when they were linked, so
-/// that two examinations are matched by hand once. Looks and windows are shared by values of one
-/// unit only.
+/// Shows two studies alike: they share view, scale, planes, slab, layout, look and window. The
+/// crosshairs keep the distance that they had when they were linked, so the user matches two
+/// examinations by hand only once. Studies share looks and windows only if their values have the
+/// same unit.
 class StudyLink : public QObject {
     Q_OBJECT
 public:
-    /// *Shape*: `leader`: whose look and window the other one takes.
+    /// The follower takes look and window of the leader.
     StudyLink(const Viewer &leader, const Viewer &follower, QObject *parent = nullptr);
 
     void setLinked(bool isLinked);
     bool isLinked() const { return m_isLinked; }
-    /// Another volume comes for the follower: the leader is left alone till it is there.
+    /// Shares nothing until `begin`: the follower is opening another volume.
     void hold() { m_isHeld = true; }
-    /// It is there, and follows from now on.
+    /// The follower takes the state of the leader and shares it from now on.
     void begin();
 
 private:
     void follow();
     bool sharesUnit() const;
-    /// Runs it unless it is the answer to a change that the link itself made.
+    /// Runs `f`, unless the link is off or is itself making the change.
     template <class F> void pass(F &&f);
     void linkViews(const Viewer &from, const Viewer &to);
     void passCamera(const Viewer &from, const Viewer &to);
@@ -40,7 +40,7 @@ private:
 
     Viewer m_leader, m_follower;
     bool m_isLinked = true, m_isHeld = true, m_isPassing = false;
-    glm::dvec3 m_offsetMm{0.0}; ///< of the follower's crosshair from the leader's
+    glm::dvec3 m_offsetMm{0.0}; ///< from the leader's crosshair to the follower's
 };
 
 } // namespace pellucid::ui

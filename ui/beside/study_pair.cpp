@@ -44,7 +44,7 @@ void StudyPair::makeBeside() {
     setSizes({1, 1});
     m_beside->setTool(m_tool);
     connect(m_beside, &StudyBeside::closeRequested, this, &StudyPair::closeBeside,
-            Qt::QueuedConnection); // a button of what is deleted then
+            Qt::QueuedConnection); // the button is deleted with its heading
     connect(m_beside, &StudyBeside::linkChanged, this, &StudyPair::linkChanged);
     connect(m_beside, &StudyBeside::readoutChanged, this, &StudyPair::readoutChanged);
     connect(m_beside, &StudyBeside::failed, this, &StudyPair::failed);
@@ -70,7 +70,7 @@ void StudyPair::setTool(Tool tool) {
         m_beside->setTool(tool);
 }
 
-// Which is which is asked only where there are two.
+// A single study needs no heading.
 void StudyPair::showHeading() {
     const Document &document = m_open.document;
     const int open = document.currentSource();

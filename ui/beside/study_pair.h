@@ -15,15 +15,15 @@ class GraphicsCard;
 class StudyBeside;
 struct StudySource;
 
-/// The panes of the open study, and while it is wanted those of a second one beside them; which is
-/// which stands over them then.
+/// The panes of the open study and, if the user wants it, those of a second study beside them. Each
+/// then has a heading with its name.
 class StudyPair : public QSplitter {
     Q_OBJECT
 public:
     StudyPair(const Viewer &open, GraphicsCard &card, QWidget *parent = nullptr);
 
     void openBeside(const StudySource &source);
-    /// Nothing looks at the open study from beside it any more.
+    /// Closes the second study and its link, which refers to the open study.
     void closeBeside();
     void toggleLink();
     void setTool(Tool tool);

@@ -11,8 +11,8 @@ class QObject;
 
 namespace pellucid::ui {
 
-/// An entry of a menu. *Shape*: `name` is what tests and the list of shortcuts find it by; `owner`:
-/// nothing is run after its end.
+/// Adds an action to a menu. `name`: its object name, by which tests and the list of shortcuts find
+/// it. `owner`: when it is destroyed, the action runs nothing any more.
 QAction *addCommand(QMenu &menu, const QString &text, const char *name, const QKeySequence &key,
                     QObject *owner, const std::function<void()> &run);
 

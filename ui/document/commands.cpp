@@ -11,9 +11,7 @@ EditScene::EditScene(Document &document, const scene::Scene &after, const QStrin
                      DragId drag)
     : EditValue(document, document.scene(), after, text, drag) {}
 
-void EditScene::apply(const scene::Scene &wanted) {
-    scene::Scene scene = wanted;
-    scene.camera = m_document.scene().camera;
+void EditScene::apply(const scene::Scene &scene) {
     m_document.setScene(scene);
 }
 

@@ -15,14 +15,14 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Commands of one drag carry the same number and merge.
+/// Edits of one drag carry the same number and merge.
 using DragId = int;
 
-/// The number of an edit that is not part of a drag; it never merges.
+/// The number of an edit outside a drag; it never merges.
 inline constexpr DragId noDrag = 0;
 
-/// Replaces a value of the document. A kind of command tells its number, by which commands of one
-/// kind find each other, and how the value is set.
+/// Replaces a value of the document. A kind of edit defines its id, which edits need in common to
+/// merge, and how the value is set.
 template <class Value> class EditValue : public QUndoCommand {
 public:
     void undo() override { apply(m_before); }
@@ -49,7 +49,7 @@ private:
     DragId m_drag;
 };
 
-/// Replaces what the scene shows; the camera stays where it is looking. Pushed by `editScene`.
+/// Replaces the scene, but not its camera. Pushed by `editScene`.
 class EditScene : public EditValue<scene::Scene> {
 public:
     EditScene(Document &document, const scene::Scene &after, const QString &text, DragId drag);
@@ -80,12 +80,12 @@ private:
     void apply(const std::vector<measure::Measurement> &measurements) override;
 };
 
-/// A number no other drag has.
+/// A number that no other drag has.
 DragId nextDragId();
 
-/// Applies `edit` to a copy of the scene and pushes the result as a command named `text`. Returns
-/// false and pushes nothing if the edit has no effect. A change of the camera has none: looking is
-/// not an edit.
+/// Applies `edit` to a copy of the scene and pushes the result as an edit named `text`. Returns
+/// false and pushes nothing if the scene stays the same. A change of the camera is ignored: looking
+/// is not an edit.
 bool editScene(Document &document, const QString &text, DragId drag,
                const std::function<void(scene::Scene &)> &edit);
 

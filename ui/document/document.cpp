@@ -24,7 +24,9 @@ volume::PatientPoint middleSample(const volume::Lattice &lattice) {
 
 } // namespace
 
-Document::Document(QObject *parent) : QObject(parent) {}
+Document::Document(QObject *parent) : QObject(parent) {
+    updateCamera();
+}
 
 std::vector<int> Document::addSources(std::vector<StudySource> sources) {
     std::vector<int> indices;
@@ -62,7 +64,7 @@ void Document::setCurrentSource(int index) {
 void Document::addProblems(const std::vector<dicom::Skipped> &problems) {
     if (problems.empty())
         return;
-    // The same folder opened again has the same ones.
+    // A folder that is opened again has the same problems.
     std::set<std::pair<std::string, std::string>> known;
     for (const dicom::Skipped &problem : m_problems)
         known.emplace(problem.path.native(), problem.reason.encoded());
@@ -97,28 +99,30 @@ void Document::setVolume(const volume::Volume &volume, const volume::ValueWindow
     m_volume = volume;
     m_preview = preview;
     if (!same) {
-        // Edits belong to the study they were made on.
+        // Edits belong to their study.
         m_undo.clear();
         m_brightness.reset();
         m_crosshair = middleSample(volume.lattice());
-        // Of few slices only their own planes show more than a strip.
+        // Other planes would cut only a strip out of a few slices.
         m_cut.axes = volume.lattice().size().k < fewSlices && volume.notes().placed
                          ? mpr::PlaneAxes::along(volume.lattice())
                          : mpr::PlaneAxes();
         m_measured.clear();
         m_selectedMeasurement = -1;
-        // How well pictures are made belongs to the person, what they show to the study.
+        // The quality of pictures is the user's choice and stays; what they show belongs to the
+        // study.
         scene::Scene fresh;
         fresh.tolerance = m_scene.tolerance;
         fresh.interpolation = m_scene.interpolation;
         m_scene = fresh;
         m_selectedClass = -1;
-        m_scene.camera.orientation = scene::viewOrientation(scene::StandardView::front);
+        m_pose = {};
     }
-    // A preview's quantiles are those of the slices that happened to come first; a window that the
-    // user has set meanwhile stays.
+    // A preview's quantiles are those of the slices that came first; a window that the user has set
+    // meanwhile stays.
     if (!same || (!preview && m_undo.count() == 0))
         m_window = initialWindow;
+    updateCamera();
     emit volumeChanged();
 }
 
@@ -129,6 +133,7 @@ void Document::closeVolume() {
     m_selectedMeasurement = -1;
     m_preview = false;
     m_undo.clear();
+    updateCamera();
     emit volumeChanged();
 }
 
@@ -146,19 +151,40 @@ void Document::announce() {
     emit measurementsChanged();
 }
 
-void Document::setCamera(const scene::Camera &camera) {
-    if (m_scene.camera == camera)
-        return;
-    m_scene.camera = camera;
-    emit cameraChanged();
+double Document::fittingPixelMm() const {
+    return m_volume ? ui::fittingPixelMm(m_volume->lattice().radiusMm(), m_projectionSize) : 1.0;
+}
+
+void Document::updateCamera() {
+    m_scene.camera = cameraOf(m_pose, fittingPixelMm(), m_projectionSize);
 }
 
 void Document::setScene(const scene::Scene &scene) {
-    const bool isOtherCamera = m_scene.camera != scene.camera;
     m_scene = scene;
+    updateCamera();
     emit sceneChanged();
-    if (isOtherCamera)
-        emit cameraChanged();
+}
+
+void Document::setPose(const Pose &pose) {
+    Pose limited = pose;
+    limited.zoom = std::clamp(pose.zoom, minZoom, maxZoom);
+    if (m_pose == limited)
+        return;
+    m_pose = limited;
+    updateCamera();
+    emit poseChanged();
+}
+
+Pose Document::poseOf(const scene::Camera &camera) const {
+    return {camera.orientation, camera.panMm, fittingPixelMm() / camera.pixelMm};
+}
+
+void Document::setProjectionSize(const QSizeF &size) {
+    if (m_projectionSize == size)
+        return;
+    m_projectionSize = size;
+    updateCamera();
+    emit projectionResized();
 }
 
 int Document::selectedClass() const {
@@ -205,12 +231,12 @@ std::vector<measure::Measurement> Document::measurements() const {
 }
 
 void Document::setMeasurements(const std::vector<measure::Measurement> &measurements) {
-    if (!m_volume || m_preview) // of what is there in part nothing is measured
+    if (!m_volume || m_preview) // a part of a volume is not measured
         return;
     std::vector<Measured> measured;
     for (const measure::Measurement &m : measurements) {
         const std::size_t n = measured.size();
-        // Of a drag one changes, many times.
+        // A drag changes one measurement many times: the others keep their results.
         measured.push_back({m, n < m_measured.size() && m_measured[n].measurement == m
                                    ? m_measured[n].result
                                    : measure::measure(m, *m_volume)});

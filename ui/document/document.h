@@ -16,41 +16,42 @@
 #include "core/picture/tone_subject.h"
 #include "core/scene/scene.h"
 #include "core/volume/volume.h"
+#include "ui/document/pose.h"
 #include "ui/studies/study_source.h"
 
 namespace pellucid::ui {
 
-/// How the planes cut the volume; the same for all three.
+/// How the planes cut the volume, the same for all three.
 struct Cut {
     mpr::PlaneAxes axes;
     mpr::ResliceOptions options;
     bool operator==(const Cut &) const = default;
 };
 
-/// A measurement and what it gives on the open volume.
+/// A measurement and its result on the open volume.
 struct Measured {
     measure::Measurement measurement;
     measure::Result result;
 };
 
-/// What is open and what is asked to be seen: the studies, the volume, the Scene, the display
+/// The open studies and what the user asked to see: the volume, the Scene, the pose, the display
 /// window, the crosshair, the measurements, and the undo stack. Views and panels read it, listen to
-/// it, and change it by commands; looking (camera, crosshair, cut) changes it directly and is not
-/// undoable.
+/// it, and change it by edits. Looking (pose, crosshair, cut) changes it directly and cannot be
+/// undone.
 class Document : public QObject {
     Q_OBJECT
 public:
     explicit Document(QObject *parent = nullptr);
 
     const std::vector<StudySource> &sources() const { return m_sources; }
-    /// Adds sources, or replaces those that are there already. *Shape*: their indices, in order.
+    /// Adds sources, or replaces those with the same key. *Shape*: their indices, in order.
     std::vector<int> addSources(std::vector<StudySource> sources);
-    /// The index of the source with a key; -1: none.
+    /// The index of the source with this key, or -1.
     int sourceWith(const QString &key) const { return m_sourceIndices.value(key, -1); }
-    /// It is listed no more; indices stay.
+    /// Takes a source off the list; indices stay valid.
     void closeSource(int index);
     int currentSource() const { return m_currentSource; }
-    /// Of the current source, if there is one.
+    /// The path of the current source; empty if there is none.
     QString place() const;
     void setCurrentSource(int index);
 
@@ -58,11 +59,13 @@ public:
     void addProblems(const std::vector<dicom::Skipped> &problems);
     void clearProblems();
 
-    /// The open volume. A preview is the part that has arrived; it keeps crosshair and window.
+    /// The open volume. A preview is the part that has been loaded so far.
     const std::optional<volume::Volume> &volume() const { return m_volume; }
     bool isPreview() const { return m_preview; }
-    /// `initialWindow`: what it is first shown with, and what resetting goes back to.
-    /// `fieldWindow`: what the field is made with unless the scene says otherwise.
+    /// Opens a volume. Scene, pose, crosshair and window are reset and the edits are dropped,
+    /// unless the volume completes a preview; `volumeChanged` alone announces all of it.
+    /// `initialWindow`: the display window at first and after a reset. `fieldWindow`: the window of
+    /// the field unless the scene has one.
     void setVolume(const volume::Volume &volume, const volume::ValueWindow &initialWindow,
                    const classify::FieldWindow &fieldWindow, bool preview);
     /// The scene's field window, or the volume's own.
@@ -73,29 +76,38 @@ public:
     const volume::ValueWindow &initialWindow() const { return m_initialWindow; }
     void closeVolume();
 
-    /// Nothing that is open is written over: *throws* Error{usage} if one of the paths leads to a
-    /// file of a study.
+    /// Protects the open studies from being overwritten: *throws* Error{usage} if one of the paths
+    /// leads to a file of a study.
     void requireOther(const std::vector<std::filesystem::path> &targets) const;
 
+    /// Its camera is that of the pose in the projection's pane.
     const scene::Scene &scene() const { return m_scene; }
-    /// Looking: not undoable.
-    void setCamera(const scene::Camera &camera);
-    /// The state behind the undo commands; call through `editScene`.
+    /// The state behind the edits; call through `editScene`. The camera of `scene` is ignored.
     void setScene(const scene::Scene &scene);
 
+    const Pose &pose() const { return m_pose; }
+    /// Limits the zoom to `minZoom` .. `maxZoom`.
+    void setPose(const Pose &pose);
+    /// The pose that looks the way a camera does, at its pixel size. The camera may belong to
+    /// another pane.
+    Pose poseOf(const scene::Camera &camera) const;
+    /// Reports the size of the projection's pane; the pose stays. *Units*: device pixels, not
+    /// rounded.
+    void setProjectionSize(const QSizeF &size);
+
     const volume::ValueWindow &displayWindow() const { return m_window; }
-    /// The state behind the undo commands; call through `EditDisplayWindow`.
+    /// The state behind the edits; call through `EditDisplayWindow`.
     void setDisplayWindow(const volume::ValueWindow &window);
 
-    /// What the automatic brightness of the projection came to be, for the scene as it is; none: it
-    /// has not been seen yet.
+    /// The automatic brightness of the projection for the present scene; none until its picture has
+    /// been shown.
     std::optional<picture::ToneRange> brightness() const;
     void setBrightness(const picture::ToneRange &range);
 
     volume::PatientPoint crosshair() const { return m_crosshair; }
     void setCrosshair(volume::PatientPoint point);
-    /// To the middle of the volume, on a slice: what is seen first is a slice of the scan and not a
-    /// mixture of two.
+    /// Moves it to the sample in the middle of the volume: the planes then show slices of the scan
+    /// and not a mixture of two.
     void centerCrosshair();
 
     const Cut &cut() const { return m_cut; }
@@ -103,22 +115,22 @@ public:
 
     const std::vector<Measured> &measured() const { return m_measured; }
     std::vector<measure::Measurement> measurements() const;
-    /// The state behind the undo commands; call through `EditMeasurements`. A preview has none.
+    /// The state behind the edits; call through `EditMeasurements`. A preview has no measurements.
     void setMeasurements(const std::vector<measure::Measurement> &measurements);
     /// -1: none.
     int selectedMeasurement() const { return m_selectedMeasurement; }
     void selectMeasurement(int index);
 
-    /// The class whose curve and range are looked at; -1: the whole volume.
+    /// The class whose curve and range the panels show; -1: the whole volume.
     int selectedClass() const;
     void selectClass(int index);
-    /// A range of values that the planes tint while it is chosen.
+    /// A range of values that the planes tint while the user chooses it.
     const std::optional<classify::TissueClass> &tint() const { return m_tint; }
     void setTint(const std::optional<classify::TissueClass> &tint);
 
     QUndoStack *undoStack() { return &m_undo; }
 
-    /// Tells everything anew, to a window that has just been made.
+    /// Emits the signals of everything that is set, for a new window.
     void announce();
 
 signals:
@@ -126,8 +138,11 @@ signals:
     void currentSourceChanged();
     void problemsChanged();
     void volumeChanged();
-    void cameraChanged();
     void sceneChanged();
+    /// The camera of the scene has changed with it.
+    void poseChanged();
+    /// The camera of the scene has other pixels; the pose is the same.
+    void projectionResized();
     void displayWindowChanged();
     void brightnessChanged();
     void crosshairChanged();
@@ -138,8 +153,11 @@ signals:
     void tintChanged();
 
 private:
+    double fittingPixelMm() const;
+    void updateCamera();
+
     std::vector<StudySource> m_sources;
-    QHash<QString, int> m_sourceIndices; ///< by key: a disc may hold a thousand series
+    QHash<QString, int> m_sourceIndices; ///< by key: a disc may contain a thousand series
     int m_currentSource = -1;
     std::vector<dicom::Skipped> m_problems;
     std::optional<volume::Volume> m_volume;
@@ -148,6 +166,8 @@ private:
     int m_selectedClass = -1;
     std::optional<classify::TissueClass> m_tint;
     scene::Scene m_scene;
+    Pose m_pose;
+    QSizeF m_projectionSize{2.0, 2.0};
     volume::ValueWindow m_window{40.0, 400.0, {}}, m_initialWindow{40.0, 400.0, {}};
     struct Brightness {
         picture::ToneRange range;

@@ -19,7 +19,7 @@ namespace because = task::because;
 namespace fs = std::filesystem;
 
 constexpr int restMs = 400;
-constexpr std::size_t mostOfMeasurements = 64 << 20; // far more than anybody draws
+constexpr std::size_t maxFileBytes = 64 << 20; // far more than anybody draws
 
 void write(const fs::path &path, const std::string &text) {
     files::AtomicFile file(path);
@@ -52,7 +52,7 @@ std::optional<fs::path> MeasurementStore::file() const {
 }
 
 void MeasurementStore::load() {
-    writePending(); // of the study before
+    writePending(); // of the former study
     if (!m_document.volume() || m_document.isPreview())
         return;
     const auto path = file();
@@ -62,9 +62,9 @@ void MeasurementStore::load() {
     const QScopedValueRollback loading(m_isLoading, true);
     try {
         m_document.setMeasurements(
-            measure::measurementsFromJson(files::readText(*path, mostOfMeasurements)));
+            measure::measurementsFromJson(files::readText(*path, maxFileBytes)));
     } catch (const task::Error &error) {
-        // What cannot be read is kept under another name: the next save would write over it.
+        // An unreadable file is kept under another name: the next save would overwrite it.
         std::string kept = path->string() + ".unreadable";
         std::error_code notMoved;
         fs::rename(*path, kept, notMoved);

@@ -14,17 +14,19 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Keeps the measurements of each study in a file of the user's data folder, named by a digest of
-/// what identifies the volume: written when they change, read when the study opens again.
+/// Keeps the measurements of each study in a file of the user's data folder, whose name is the
+/// digest of the study's source. Writes the file when they change, and reads it when the study is
+/// opened again.
 class MeasurementStore : public QObject {
     Q_OBJECT
 public:
     explicit MeasurementStore(Document &document, QObject *parent = nullptr);
     ~MeasurementStore() override;
 
-    /// What waits for the hand to rest is written now.
+    /// Writes now what waits for the end of a drag.
     void writePending();
-    /// Writes a table of the measurements. *Throws* Error{output}.
+    /// Writes a table of the measurements. *Throws* Error{output}, Error{usage} if no study is
+    /// open.
     void exportTable(const QString &path) const;
 
 signals:
@@ -37,15 +39,15 @@ private:
 
     Document &m_document;
     bool m_isLoading = false;
-    /// What is to be written when the hand rests: a drag changes it with every move. No text: the
-    /// file goes.
+    /// A drag changes measurements with every move: they are written when it pauses. An empty text
+    /// removes the file.
     struct Pending {
         std::filesystem::path path;
         std::string text;
     };
     std::optional<Pending> m_pending;
     QTimer m_rest;
-    /// A file that is there and cannot be read or moved away is not written over.
+    /// A file that can neither be read nor moved away is not overwritten.
     std::filesystem::path m_untouched;
 };
 

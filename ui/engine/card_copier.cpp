@@ -15,7 +15,7 @@ namespace {
 
 namespace because = task::because;
 
-constexpr std::size_t mostCopies = 2;
+constexpr std::size_t maxCopies = 2;
 
 bool isHeld(const gpu::GpuEngine &copy, const render::EngineParts &parts) {
     const render::EngineSpectra &spectra = copy.textures().spectra();
@@ -27,7 +27,7 @@ bool isHeld(const gpu::GpuEngine &copy, const render::EngineParts &parts) {
 
 struct CardCopier::Copied {
     std::shared_ptr<gpu::GpuEngine> engine;
-    std::optional<task::Reason> refusal{}; ///< if there is none
+    std::optional<task::Reason> refusal{}; ///< if there is no engine
     bool isLost = false;
 };
 
@@ -55,13 +55,13 @@ CardCopier::CardCopier(Document &document, JobRunner &jobs, GraphicsCard &card, 
         [this] {
             if (m_copying == Copying::wasCancelled) {
                 m_copying = Copying::no;
-                // The user wants no copy, unless another job took its place.
+                // Unless another job replaced it, the user cancelled the copy.
                 if (!m_jobs.isRunning())
                     giveUp(because::copyWasCancelled);
             }
             copyWhenIdle();
         },
-        // Whoever ended the job may be about to start the next.
+        // The code that ended the job may be about to start the next.
         Qt::QueuedConnection);
 }
 
@@ -79,7 +79,7 @@ void CardCopier::forget() {
 void CardCopier::cardChanged() {
     m_copies.clear();
     m_isGivenUp = false;
-    // Nobody wants what is under way.
+    // A copy to the former card is useless.
     if (std::exchange(m_copying, Copying::no) == Copying::underway)
         m_jobs.cancel();
     if (!m_current)
@@ -126,12 +126,12 @@ void CardCopier::announce(EngineStage stage) {
 }
 
 void CardCopier::copyWhenIdle() {
-    // The first, small picture is gone before it is copied.
+    // The coarse engine is replaced before it could be copied.
     if (!m_current || m_current->stage == EngineStage::coarse || !m_card.passes() || m_isGivenUp ||
         m_jobs.isRunning() || copyOf(m_current->engine.engine->parts()))
         return;
-    // What else the card holds goes before it is short of memory, but for a look and its layers.
-    m_copies.resize(std::min(m_copies.size(), mostCopies - 1));
+    // Older copies are dropped before the card runs out of memory. A look and its layers stay.
+    m_copies.resize(std::min(m_copies.size(), maxCopies - 1));
     const auto engine = m_current->engine.engine;
     const gpu::Fetch fetch =
         gpu::planFetch(m_current->engine.plan, m_document.scene().tolerance).fetch;

@@ -17,10 +17,9 @@ class GraphicsCard;
 class JobRunner;
 struct Outcome;
 
-/// Stands between those who make engines and those who show them: an engine is shown at once, on
-/// the processor, and again when its spectra have been copied to the graphics card, which is a job
-/// of its own while no other runs. What is on the card already serves at once: layers with other
-/// weights, a look without its light.
+/// Passes engines on to be shown: at once on the processor, and again when their spectra have been
+/// copied to the graphics card. Copying is a job that waits until no other runs. Spectra that are
+/// on the card already are used at once: layers with other weights, a look without its light.
 class CardCopier : public QObject {
     Q_OBJECT
 public:
@@ -40,7 +39,7 @@ private:
     /// Leaves the engine on the processor until another is shown or the card changes.
     void giveUp(const task::Reason &reason);
     void announce(EngineStage stage);
-    /// Of the same picture, which keeps its brightness.
+    /// Announces an engine of the same picture, which keeps its brightness.
     void announceAgain();
     struct Copied;
     static Copied copyTo(const std::shared_ptr<gpu::FramePasses> &passes,
@@ -58,10 +57,10 @@ private:
         EngineStage stage = EngineStage::coarse;
     };
     std::optional<Current> m_current;
-    /// The last ones first: of a look, and of its layers.
+    /// The latest first: a look and its layers.
     std::vector<std::shared_ptr<gpu::GpuEngine>> m_copies;
     enum class Copying { no, underway, wasCancelled } m_copying = Copying::no;
-    bool m_isGivenUp = false; ///< the current engine is not copied, for this reason
+    bool m_isGivenUp = false; ///< the current engine is not copied, for `m_reason`
     task::Reason m_reason = task::because::copyWasCancelled;
 };
 

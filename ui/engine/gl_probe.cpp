@@ -10,12 +10,12 @@ namespace pellucid::ui {
 
 const std::optional<gpu::Capabilities> &windowCapabilities() {
     static const auto capabilities = []() -> std::optional<gpu::Capabilities> {
-        // These have contexts, where there is a display, but no windows that show what they draw.
+        // With a display these have contexts, but no windows that show the drawing.
         const QStringList withoutSurfaces{"offscreen", "minimal", "linuxfb", "vnc"};
         if (withoutSurfaces.contains(QGuiApplication::platformName()))
             return std::nullopt;
 #ifdef Q_OS_LINUX
-        // libepoxy looks a context of GLX up there, and ends the program without it.
+        // libepoxy looks up the GLX context there, and ends the program if it is missing.
         if (!QLibrary("GL", 1).load())
             return std::nullopt;
 #endif

@@ -7,7 +7,7 @@
 
 namespace pellucid::ui {
 
-/// What OpenGL gives windows here; nothing if there is none. Found out once.
+/// The capabilities of OpenGL in windows; none if there is no OpenGL. Probed once.
 const std::optional<gpu::Capabilities> &windowCapabilities();
 
 } // namespace pellucid::ui

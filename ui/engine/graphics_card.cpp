@@ -23,7 +23,7 @@ EngineChoice rememberedChoice() {
     return EngineChoice(std::clamp(choice, 0, int(EngineChoice::card)));
 }
 
-// Before one is looked for.
+// The obstacle that is known before a card is probed.
 std::optional<task::Reason> whyNoCard(EngineChoice choice) {
     if (choice == EngineChoice::processor)
         return because::processorChosen;
@@ -53,7 +53,7 @@ void GraphicsCard::choose(EngineChoice choice) {
 
 void GraphicsCard::giveUp(const task::Reason &reason,
                           const std::shared_ptr<gpu::FramePasses> &passes) {
-    // What was chosen meanwhile is another.
+    // Another card may have been chosen meanwhile.
     if (!m_passes || m_passes != passes)
         return;
     m_passes.reset();

@@ -11,29 +11,29 @@
 
 namespace pellucid::ui {
 
-/// Which engine the user wants.
+/// The engine that the user chose.
 enum class EngineChoice { automatic, processor, card };
 
-/// The graphics card that projections may be made on, if there is one and it is wanted. Left to
-/// itself it takes any but those that are made of software.
+/// The graphics card that renders projections, if there is one and the user wants it. The automatic
+/// choice takes any card but not a software renderer.
 class GraphicsCard : public QObject {
     Q_OBJECT
 public:
-    /// `choice`: of this run alone; else what was chosen before.
+    /// `choice`: for this run only; none: the choice in the settings.
     explicit GraphicsCard(std::optional<EngineChoice> choice = std::nullopt,
                           QObject *parent = nullptr);
 
     EngineChoice choice() const { return m_choice; }
-    /// Begins anew, also after the card was given up, and is remembered.
+    /// Makes a new choice and stores it in the settings. A card that was given up is tried again.
     void choose(EngineChoice choice);
-    /// Nothing more is made with these passes, for this reason, until the card is chosen again.
+    /// Stops using these passes, for this reason, until the user makes a new choice.
     void giveUp(const task::Reason &reason, const std::shared_ptr<gpu::FramePasses> &passes);
 
-    /// None: the processor makes the projections.
+    /// The passes that render on the card; none: the processor renders.
     const std::shared_ptr<gpu::FramePasses> &passes() const { return m_passes; }
-    /// Why it is that one.
+    /// Why it is the card, or the processor.
     const task::Reason &reason() const { return m_reason; }
-    /// Both, in a line in the user's language.
+    /// Card or processor and the reason, in the user's language.
     QString description() const;
 
 signals:

@@ -18,16 +18,16 @@ using prepare::Detail;
 using prepare::Occasion;
 using prepare::Step;
 
-// A hand that pauses for longer rests.
+// A pause that ends a drag.
 constexpr int restMs = 300;
-// What the results of steps may hold of the memory that is left.
-constexpr std::size_t stepsShare = 4, mostStepsBytes = std::size_t(2) << 30;
+// Results of steps may occupy this part of the available memory.
+constexpr std::size_t stepsShare = 4, maxStepsBytes = std::size_t(2) << 30;
 
 } // namespace
 
 PreparedFor wantedOf(const Document &document) {
     PreparedFor wanted(document.scene());
-    // The volume's own window is the same whether it is named or not.
+    // A scene that names the volume's own window asks for the same as one without a window.
     if (document.fieldWindow() == document.defaultFieldWindow())
         wanted.window.reset();
     return wanted;
@@ -36,7 +36,7 @@ PreparedFor wantedOf(const Document &document) {
 LookPreparer::LookPreparer(Document &document, JobRunner &jobs, QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs),
       m_steps(std::make_shared<preprocess::StepCache>(
-          std::min(mostStepsBytes, system::availableMemoryBytes() / stepsShare))) {
+          std::min(maxStepsBytes, system::availableMemoryBytes() / stepsShare))) {
     m_rest.setSingleShot(true);
     m_rest.setInterval(restMs);
     connect(&m_rest, &QTimer::timeout, this, [this] { act(Occasion::handRested); });
@@ -147,7 +147,7 @@ void LookPreparer::showFull() {
 }
 
 void LookPreparer::showLayers() {
-    // What was made of a small volume, or of fewer samples, lacks detail.
+    // Layers of the coarse volume, or of fewer samples, lack detail.
     emit engineReady({std::make_shared<prepare::MixtureEngine>(
                           m_layers, classify::mixtureOf(m_document.scene().look).shares),
                       m_layers->plan(), m_layers->bytes(), false, m_layers->viewError(),
@@ -174,7 +174,7 @@ void LookPreparer::start(Step step, const PreparedFor &wanted) {
 void LookPreparer::start(Step step, const PreparedFor &wanted, const QString &title,
                          JobRunner::Work work) {
     const QString place = m_document.place();
-    // Another's job ends, and its starter is told, before this one counts as underway.
+    // The running job has to end, and call its `onEnd`, before this one counts as underway.
     m_jobs.cancel();
     m_have = prepare::afterStep(step, wanted, m_have);
     if (!m_have.layers)
@@ -198,7 +198,7 @@ void LookPreparer::expect(const PreparedFor &wanted) {
     m_have.givenUp.reset();
 }
 
-// A job that delivered everything, or was stopped by stopJob, is not underway any more.
+// A job that delivered everything, or that stopJob stopped, does not count as underway any more.
 void LookPreparer::jobEnded(const Outcome &outcome) {
     if (!m_have.underway)
         return;
@@ -227,7 +227,7 @@ void LookPreparer::takeEngine(const PreparedFor &of, const prepare::PreparedEngi
     if (detail == Detail::coarse) {
         m_have = prepare::afterCoarse(of, m_have);
         emit engineReady(engine, *m_have.shown);
-        act(Occasion::sceneChanged); // it may have, meanwhile
+        act(Occasion::sceneChanged); // it may have changed meanwhile
         return;
     }
     m_full = engine;

@@ -23,15 +23,15 @@ class Document;
 using prepare::EngineStage;
 using prepare::PreparedFor;
 
-/// Whether the engine in use is made for what the scene asks for: it is, that one is being made, it
-/// was cancelled, or it could not be made.
+/// Whether the engine in use is made for what the scene asks for: it is, that engine is being made,
+/// was cancelled, or could not be made.
 enum class PlanState { holds, underway, cancelled, failed };
 
-/// What the projection of a document's scene is made for.
+/// What an engine has to be made for, for the document's scene.
 PreparedFor wantedOf(const Document &document);
 
-/// Makes the engines of the projection, as jobs, and follows the scene with them. While weights and
-/// colours move, the layers of the look are summed; when they rest, one engine is made of the sum.
+/// Makes the engines of the projection, as jobs, whenever the scene changes. While weights and
+/// colors move, the layers of the look are summed; when they rest, one engine is made of the sum.
 /// `prepare::next` decides what to do and when.
 class LookPreparer : public QObject {
     Q_OBJECT
@@ -39,31 +39,31 @@ public:
     LookPreparer(Document &document, JobRunner &jobs, QObject *parent = nullptr);
     ~LookPreparer() override;
 
-    /// Prepares the projection that the document's scene asks for, unless it is there or on its
-    /// way, even if that was cancelled or failed before.
+    /// Prepares the projection that the document's scene asks for, unless it is ready or underway,
+    /// even if that was cancelled or failed before.
     void prepareAgain();
     /// Prepares nothing while studies are being scanned.
     void setHeld(bool held) { m_have.isHeld = held; }
     bool isHeld() const { return m_have.isHeld; }
 
-    /// A new volume comes: what was made is forgotten. What its engine will be made for.
+    /// Forgets the engines, as a new volume comes. Returns what the engine of that is made for.
     PreparedFor forgetVolume();
-    /// What the last full engine was made for, and the engine, if there is one.
+    /// The last full engine and what it was made for, if there is one.
     const std::optional<PreparedFor> &preparedFor() const { return m_have.full; }
     const std::optional<prepare::PreparedEngine> &fullEngine() const { return m_full; }
-    /// Shows an engine that was made before.
+    /// Takes over and shows an engine that was made before.
     void adopt(const PreparedFor &preparedFor, const prepare::PreparedEngine &engine);
-    /// Tells everything anew, to a window that has just been made.
+    /// Emits the signals of the present state, for a new window.
     void announce();
 
-    /// What makes engines within a job and hands them over, in the part of its progress beyond
-    /// `from`. It needs the preparer itself only where it delivers.
+    /// A function that makes engines within another job and delivers them, in the part of the job's
+    /// progress beyond `from`. It refers to the preparer only where it delivers.
     using Preparation = std::function<void(const Job &job, const volume::Volume &volume)>;
     Preparation preparation(const PreparedFor &wanted, double from, prepare::Detail first);
-    /// Announces that another's job, which runs or is about to start, uses `preparation` to make
-    /// this engine. Its `onEnd` has to call `jobEnded`.
+    /// Announces that another job, which runs or is about to start, uses `preparation` to make this
+    /// engine. Its `onEnd` has to call `jobEnded`.
     void expect(const PreparedFor &wanted);
-    /// A job that was expected has ended: what it did not deliver counts as given up.
+    /// An expected job has ended: an engine that it did not deliver counts as given up.
     void jobEnded(const Outcome &outcome);
 
 signals:
@@ -92,7 +92,7 @@ private:
     std::shared_ptr<preprocess::StepCache> m_steps;
     QTimer m_rest; ///< runs while the weights move
     prepare::Have m_have;
-    bool m_hasFailed = false; ///< what was given up was not cancelled
+    bool m_hasFailed = false; ///< the given-up engine failed and was not cancelled
     std::optional<prepare::PreparedEngine> m_full;
     std::shared_ptr<prepare::LayerSet> m_layers;
     bool m_layersAreCoarse = false; ///< of a small volume

@@ -15,10 +15,10 @@ namespace {
 
 constexpr int coarseSide = 72;
 constexpr int histogramBins = 4096;
-// Steps on a coarse volume are small: a dozen results are kept for presets that share them.
+// The results of steps on a coarse volume are small: a dozen fit, for presets that share them.
 constexpr std::size_t stepsBytes = std::size_t(64) << 20;
 
-// Small and quick: a fixed kernel spares the planning.
+// A fixed kernel makes planning unnecessary.
 scene::Scene pictureScene(const volume::Lattice &lattice) {
     scene::Scene scene;
     scene.camera.orientation = scene::viewOrientation(scene::StandardView::front);
@@ -77,7 +77,7 @@ void LookPreviewer::preview(const std::vector<presets::Preset> &presets) {
                         pictureOf(coarse, window, presets::lookFor(preset, window), preset.shading,
                                   shading::shadingScale(volume.lattice()), steps, job.progress());
                 } catch (const task::Error &) {
-                    // A preset that cannot be shown small says why when it is chosen.
+                    // A preset that fails here reports the reason when it is chosen.
                 }
                 job.deliver([this, name = QString::fromStdString(preset.name), picture] {
                     emit pictureReady(name, picture);

@@ -14,14 +14,14 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Looks at the open volume in the background: its histogram, and small pictures of it through
-/// presets.
+/// Computes the histogram of the open volume and small pictures of it with presets, in the
+/// background.
 class LookPreviewer : public QObject {
     Q_OBJECT
 public:
     explicit LookPreviewer(Document &document, QObject *parent = nullptr);
 
-    /// Pictures of the open volume through presets, one after the other.
+    /// Makes the histogram, then the pictures one after the other.
     void preview(const std::vector<presets::Preset> &presets);
 
     static constexpr int pictureWidth = 60, pictureHeight = 52;
@@ -32,7 +32,7 @@ signals:
 
 private:
     Document &m_document;
-    JobRunner m_jobs; // its own: it stops for nobody and shows no progress
+    JobRunner m_jobs; // its own: no other job stops it, and it shows no progress
 };
 
 } // namespace pellucid::ui

@@ -17,7 +17,7 @@ namespace {
 
 using prepare::Detail;
 
-// The coarse projection: small enough to be there within a blink of the volume.
+// Small enough that the coarse projection appears a moment after the volume.
 constexpr int coarseSide = 96;
 
 bool isLarge(const volume::Volume &volume) {
@@ -67,7 +67,7 @@ public:
         const auto shaded = prepare::shadedFields(fields.channels, m_scene.shading, m_scale,
                                                   m_progress.part(0.3, 0.35));
         if (m_coarse)
-            tellErrorOfCoarse(shaded, fields.channels.size());
+            addErrorOfCoarse(shaded, fields.channels.size());
         m_take(prepare::prepareEngine(m_scene, shaded, fields.color, budget,
                                       m_progress.part(0.35, 1.0)),
                Detail::full);
@@ -111,8 +111,8 @@ private:
         m_coarseProjections = projectionsOf(shaded, m_progress);
     }
 
-    // The coarse picture is on the screen meanwhile.
-    void tellErrorOfCoarse(const prepare::ShadedFields &shaded, std::size_t channels) {
+    // Meanwhile the coarse picture is on the screen.
+    void addErrorOfCoarse(const prepare::ShadedFields &shaded, std::size_t channels) {
         m_coarse->detailLoss = std::make_shared<const accuracy::DetailLoss>(
             projectionsOf(shaded, m_progress), m_coarseProjections, channels, m_scale.stepMm);
         m_take(*m_coarse, Detail::coarse);
@@ -147,12 +147,12 @@ void makeLayers(const EngineSource &source, const TakeLayers &take,
                          classify::layerField(of, window, mixture.layers[n], source.steps.get(), p),
                          source.wanted.crop);
                  },
-                 // Half of it: engines of the sum are to come.
+                 // The engines of the sum need the other half.
                  {system::availableMemoryBytes() / 2}, part,
                  shading::shadingScale(source.volume.lattice())),
              detail);
     };
-    // The hand does not wait for the full ones.
+    // Weights can be dragged before the full layers are ready.
     if (isLarge(source.volume))
         make(classify::coarseVolume(source.volume, coarseSide), Detail::coarse,
              progress.part(0.0, 0.1));

@@ -14,7 +14,7 @@ namespace pellucid::ui {
 struct EngineSource {
     volume::Volume volume;
     prepare::PreparedFor wanted;
-    std::shared_ptr<preprocess::StepCache> steps; ///< earlier results of the classes' steps
+    std::shared_ptr<preprocess::StepCache> steps; ///< results of the classes' steps
 };
 
 /// Receives an engine, coarse or full, on the job's thread.
@@ -22,9 +22,9 @@ using TakeEngine = std::function<void(const prepare::PreparedEngine &, prepare::
 /// The same for layers.
 using TakeLayers = std::function<void(const std::shared_ptr<prepare::LayerSet> &, prepare::Detail)>;
 
-/// Makes the engine of a look and hands it over. With `first` coarse, a large volume gets a coarse
-/// engine before, which is handed over at once and again when its error is known. *Throws*
-/// Error{outOfMemory}, Cancelled.
+/// Makes the engine of a look and passes it to `take`. If `first` is coarse, a large volume gets a
+/// coarse engine before that; `take` receives it at once and again when its error is known.
+/// *Throws* Error{outOfMemory}, Cancelled.
 void makeEngine(const EngineSource &source, prepare::Detail first, const TakeEngine &take,
                 const task::Progress &progress);
 

@@ -142,7 +142,7 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
         gpu::CardTimes times;
         frame->onCard =
             request.onCard->renderOnCard(request.camera, request.image, request.shading, &times);
-        // The loss of detail depends on the part that is shown.
+        // The loss of detail depends on the part that the picture shows.
         const bool wantsError = request.wantsError && request.prepared.isCoarse;
         if (request.wantsTone || wantsError) {
             const picture::ProjectionImage image = frame->onCard->download();
@@ -156,15 +156,15 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
         answer.frame = std::move(frame);
     } catch (const task::Error &error) {
         answer.refusal = error.reason();
-        // A picture too large for the card is none of its next.
+        // A picture that is too large for the card does not rule out the next one.
         answer.isLost = error.code() != task::ErrorCode::outOfMemory;
     } catch (...) {
         answer.refusal = currentFailure().what;
     }
     const std::lock_guard lock(m_mutex);
     m_cardIsDone = true;
-    // The processor made this one meanwhile: what was asked for last is asked for once more, now
-    // that the card is ready.
+    // Meanwhile the processor made this frame. Now that the card is ready, the last request is
+    // repeated.
     if (m_cardIsLate && !m_next && m_last && m_last->onCard) {
         m_next = m_last;
         m_wake.notify_one();
@@ -172,8 +172,8 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
     return answer;
 }
 
-// Whether the card made the frame. A driver compiles what a new kind of frame needs, which may take
-// longer than a hand waits.
+// Whether the card made the frame. For a new kind of frame the driver may have to compile shaders,
+// which takes too long to wait for.
 bool RenderWorker::renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Request &request) {
     const auto isBusy = [this] {
         const std::lock_guard lock(m_mutex);
@@ -185,12 +185,12 @@ bool RenderWorker::renderOnCard(std::shared_ptr<RenderedFrame> &frame, const Req
             frame->refusal = task::because::cardIsBeingPrepared;
             return false;
         }
-        // What came late: it may be what is asked for, or say that the card is gone.
+        // The late answer may be the requested frame, or report that the card has failed.
         const CardFrame late = m_card.get();
         if (late.onCard == request.onCard && (late.number == request.number || late.isLost))
             return take(late, frame);
     }
-    m_cardIsDone = m_cardIsLate = false; // nobody else looks at them now
+    m_cardIsDone = m_cardIsLate = false; // no other thread reads them now
     m_card = std::async(std::launch::async, [this, request] { return askCard(request); });
     if (m_card.wait_for(cardPatience) != std::future_status::ready && isBusy()) {
         frame->refusal = task::because::cardIsBeingPrepared;

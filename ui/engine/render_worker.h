@@ -21,25 +21,25 @@ namespace pellucid::ui {
 
 /// A finished frame.
 struct RenderedFrame {
-    /// Of the request: frames of what is no longer shown are dropped.
+    /// That of the request: frames of a former generation are dropped.
     std::uint64_t generation = 0;
     picture::ProjectionImage image;
-    /// In place of the image, where the graphics card made it.
+    /// In place of the image, if the graphics card made it.
     std::shared_ptr<const gpu::CardPicture> onCard;
-    /// Why the processor made it and not the card, if that was to.
+    /// Why the processor made it, if the card was to make it.
     std::optional<task::Reason> refusal;
-    /// What an automatic tone makes of it, if that was asked for.
+    /// The automatic tone of this frame, if requested.
     std::optional<picture::ToneRange> automaticTone;
-    /// The same view of what it is compared with, if that was asked for.
+    /// The same view of the compared look, if requested.
     std::optional<picture::ProjectionImage> compared;
     picture::FrameTimes times;
-    /// Of this picture against the study, where that was asked for and is known.
+    /// The error of this picture against the study, if requested and known.
     std::optional<double> error;
     std::uint64_t number = 0; ///< of the request it answers
     bool draft = false;
 };
 
-/// Makes projections on a thread of its own, so that the event loop never waits for one. Only the
+/// Renders projections on a thread of its own, so that the event loop never waits for one. Only the
 /// latest request counts: older ones that have not begun are dropped.
 class RenderWorker : public QObject {
     Q_OBJECT
@@ -52,26 +52,27 @@ public:
     /// carry; a pending request of another generation is dropped.
     void setEngine(const std::optional<prepare::PreparedEngine> &prepared,
                    std::shared_ptr<gpu::GpuEngine> onCard, std::uint64_t generation);
-    /// How a frame is made smaller than it is shown.
+    /// How a frame is made smaller than the pane.
     struct Reduction {
         bool draft = false; ///< half the pixels a side: the central part of the same spectrum
         /// Pixels are made at least this large; finer ones would only magnify.
         double finestPixelMm = 0.0;
     };
-    /// Another look that each frame is made of too.
+    /// Another look that is rendered with each frame, too.
     struct Compared {
         std::shared_ptr<render::ProjectionEngine> engine;
         scene::ImageDefinition image;
         shading::Shading shading;
     };
-    /// Returns the number of the request, which its frame will carry. `wantsError`: not while the
-    /// view moves, as computing the error takes longer than the frame.
+    /// Requests a frame and returns the number of the request, which the frame will carry.
+    /// `wantsError`: computing the error takes longer than the frame; do not request it while the
+    /// view moves.
     std::uint64_t request(const scene::Camera &camera, const scene::ImageDefinition &image,
                           const shading::Shading &shading, const Reduction &reduction,
                           bool wantsTone, bool wantsError,
                           const std::optional<Compared> &compared = {});
-    /// A picture of one's own, before the next frame: engines render on this thread alone. *Throws*
-    /// what rendering throws, and std::future_error if the worker ends before.
+    /// Renders a single picture before the next frame, as engines render on this thread only. The
+    /// future *throws* as rendering does, and std::future_error if the worker ends before.
     std::future<picture::ProjectionImage> picture(std::shared_ptr<render::ProjectionEngine> engine,
                                                   const scene::Camera &camera,
                                                   const scene::ImageDefinition &image,
@@ -80,7 +81,7 @@ public:
 signals:
     void frameReady(std::shared_ptr<const pellucid::ui::RenderedFrame> frame);
     void failed(const pellucid::task::Reason &reason);
-    /// The card cannot be used any more; the frame was made on the processor instead.
+    /// The card has failed; the processor made the frame instead.
     void cardFailed(const pellucid::task::Reason &reason,
                     const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
 
@@ -97,7 +98,7 @@ private:
         std::optional<Compared> compared;
         std::uint64_t number;
     };
-    /// What became of a frame on the card.
+    /// The answer of the card to a request.
     struct CardFrame {
         std::uint64_t number = 0; ///< of the request
         std::shared_ptr<gpu::GpuEngine> onCard;
@@ -119,10 +120,10 @@ private:
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
     std::optional<Request> m_next, m_last;
-    bool m_dropsCard = false; ///< what the card made late is of a study that is closed
+    bool m_dropsCard = false; ///< the card's late frame belongs to a closed study
     std::deque<std::packaged_task<picture::ProjectionImage()>> m_pictures;
     std::uint64_t m_number = 0;
-    /// A frame that the card takes long for; meanwhile the processor makes them.
+    /// A frame that is slow on the card; meanwhile the processor renders.
     std::future<CardFrame> m_card;
     bool m_cardIsLate = false, m_cardIsDone = false;
     std::jthread m_thread;

@@ -19,7 +19,7 @@ namespace because = task::because;
     throw task::Error(task::ErrorCode::noSuchDevice, why);
 }
 
-// Whoever lets go of the device last may be any thread.
+// Any thread may release the device last.
 template <class Object> void remove(std::unique_ptr<Object> object) {
     if (object->thread() == QThread::currentThread())
         object.reset();
@@ -45,8 +45,8 @@ SharedContext::SharedContext()
     if (!QOpenGLContext::areSharing(m_context.get(), QOpenGLContext::globalShareContext()))
         refuse(because::contextsDoNotShare);
     if (!m_context->format().testOption(QSurfaceFormat::ResetNotification))
-        system::log("OpenGL here does not tell when its driver is reset");
-    // Without a thread, so that the one that needs it may take it.
+        system::log("OpenGL does not report resets of the driver");
+    // A context without a thread can be taken by the thread that needs it.
     m_context->moveToThread(nullptr);
 }
 

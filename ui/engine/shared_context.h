@@ -10,8 +10,8 @@ class QOpenGLContext;
 
 namespace pellucid::ui {
 
-/// A context for the engine's own thread that shares textures with those of the windows. Made on
-/// the thread of the user interface.
+/// A context for the engine's own thread, which shares textures with the contexts of the windows.
+/// It is made on the thread of the user interface.
 class SharedContext final : public gpu::Context {
 public:
     /// *Throws* Error{noSuchDevice} with the reason.
@@ -24,7 +24,7 @@ public:
     void doneCurrent() override;
 
 private:
-    // Surfaces go where windows live, contexts where they were last used.
+    // Surfaces are deleted on the thread of the windows, contexts on the thread of their last use.
     std::unique_ptr<QOffscreenSurface> m_surface;
     std::unique_ptr<QOpenGLContext> m_context;
 };

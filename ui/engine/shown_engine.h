@@ -7,13 +7,13 @@
 
 namespace pellucid::ui {
 
-/// What makes the frames of the projection: an engine on the processor and, where there is one, its
-/// twin on the graphics card, which is used as long as it lasts.
+/// The engines of the projection: one on the processor and, if there is one, its copy on the
+/// graphics card, which is used until it fails.
 struct ShownEngine {
     prepare::PreparedEngine prepared;
     std::shared_ptr<gpu::GpuEngine> onCard;
-    double predictedError = 0.0; ///< of the one that is used
-    task::Reason reason;         ///< why it is that one
+    double predictedError = 0.0; ///< of the engine in use
+    task::Reason reason;         ///< why that one is in use
 };
 
 } // namespace pellucid::ui

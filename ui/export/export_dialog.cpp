@@ -49,15 +49,15 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
       m_scale(box("exportScaleBox", {"1 x", "2 x", "3 x", "4 x"})),
       m_annotated(new QCheckBox(tr("With annotations"))),
       m_deidentified(new QCheckBox(tr("Without the patient's identity"))), m_path(new QLineEdit),
-      m_frames(new QSpinBox), m_said(new QLabel) {
+      m_frames(new QSpinBox), m_message(new QLabel) {
     setObjectName("exportDialog");
     setWindowTitle(tr("Export picture"));
     setAttribute(Qt::WA_DeleteOnClose);
     m_pane->setCurrentIndex(int(Pane::projection));
     m_annotated->setObjectName("exportAnnotatedBox");
     m_annotated->setChecked(true);
-    m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them a picture "
-                               "has no patient's side on it"));
+    m_annotated->setToolTip(tr("Names, letters, scale and measurements; without them the picture "
+                               "does not mark the patient's sides"));
     m_deidentified->setObjectName("exportDeidentifiedBox");
     m_deidentified->setToolTip(tr("No name, number, dates or study of the patient, and a new study "
                                   "UID (DICOM PS3.15, basic profile)"));
@@ -68,8 +68,8 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     m_path->setObjectName("exportPathEdit");
     m_path->setMinimumWidth(360);
     m_path->setText(QDir(exportFolder()).filePath("projection.png"));
-    m_said->setObjectName("exportSaidLabel");
-    m_said->setWordWrap(true);
+    m_message->setObjectName("exportMessage");
+    m_message->setWordWrap(true);
     auto *other = new QPushButton(tr("Browse..."));
     other->setObjectName("exportBrowseButton");
     auto *where = new QHBoxLayout;
@@ -83,7 +83,7 @@ ExportDialog::ExportDialog(const Document &document, const Panes &panes, JobRunn
     form->addRow(QString(), m_deidentified);
     form->addRow(tr("Frames"), m_frames);
     form->addRow(tr("File"), where);
-    form->addRow(m_said);
+    form->addRow(m_message);
     auto *buttons = new QDialogButtonBox;
     m_write = buttons->addButton(tr("Write"), QDialogButtonBox::AcceptRole);
     m_write->setObjectName("exportWriteButton");
@@ -122,18 +122,18 @@ void ExportDialog::showChosen() {
     const QWidget *const pane = m_panes.of(what.pane);
     const QSize pixels = pane->size() * pane->devicePixelRatioF() * what.scale;
     const auto why = obstacle(what, m_panes, m_document);
-    if (m_jobs.isRunning()) // what it writes is decided
+    if (m_jobs.isRunning()) // the choice is made
         return;
     QString text = tr("%1 x %2 pixels").arg(pixels.width()).arg(pixels.height());
     if (what.format == PictureFormat::capture)
         text +=
-            "; " + (m_deidentified->isChecked() ? tr("holds nothing of the patient's identity")
-                                                : tr("holds the patient's name and identifier"));
+            "; " + (m_deidentified->isChecked() ? tr("does not identify the patient")
+                                                : tr("contains the patient's name and identifier"));
     if (what.format == PictureFormat::frames)
         text += "; " + tr("one file for each frame, numbered");
-    say(why ? translated(*why) : text, why ? "warning" : "muted");
+    showMessage(why ? translated(*why) : text, why ? "warning" : "muted");
     m_write->setEnabled(!why);
-    // The name goes with the format, as long as it is one of ours.
+    // The suffix follows the format, unless the user chose another suffix.
     QString path = m_path->text();
     for (int format = 0; format < m_format->count(); ++format)
         if (const QString known = suffixOf(PictureFormat(format));
@@ -150,7 +150,7 @@ void ExportDialog::browse() {
     if (path.isEmpty())
         return;
     m_path->setText(path);
-    m_confirmed = path; // it was asked there
+    m_confirmed = path; // the file dialog has asked
 }
 
 bool ExportDialog::mayReplace(const QString &path) {
@@ -160,16 +160,16 @@ bool ExportDialog::mayReplace(const QString &path) {
     if (!QFileInfo::exists(first))
         return true;
     QMessageBox question(QMessageBox::NoIcon, tr("Export picture"),
-                         tr("%1 is there already. Replace it?").arg(QFileInfo(first).fileName()),
+                         tr("%1 already exists. Replace it?").arg(QFileInfo(first).fileName()),
                          QMessageBox::Yes | QMessageBox::No, this);
     question.setDefaultButton(QMessageBox::No);
     return question.exec() == QMessageBox::Yes;
 }
 
-void ExportDialog::say(const QString &text, const char *role) {
-    m_said->setText(text);
-    m_said->setProperty("role", role);
-    m_said->style()->polish(m_said);
+void ExportDialog::showMessage(const QString &text, const char *role) {
+    m_message->setText(text);
+    m_message->setProperty("role", role);
+    m_message->style()->polish(m_message);
 }
 
 void ExportDialog::write() {
@@ -198,12 +198,12 @@ void ExportDialog::write() {
             [this](const Outcome &outcome) {
                 showChosen();
                 if (outcome.kind == Outcome::Kind::failed)
-                    say(translated(*outcome.reason), "warning");
+                    showMessage(translated(*outcome.reason), "warning");
             });
-        if (m_jobs.isRunning()) // there may have been no thread for it
+        if (m_jobs.isRunning()) // it is not if no thread could be had
             m_write->setEnabled(false);
     } catch (const task::Error &error) {
-        say(translated(error.reason()), "warning");
+        showMessage(translated(error.reason()), "warning");
     }
 }
 

@@ -20,9 +20,9 @@ namespace pellucid::ui {
 
 class JobRunner;
 
-/// Which pane, in which format and size, with or without annotations, and where to. What cannot be
-/// written is said before, what could not be stays in the dialog. Writing is a job: the dialog
-/// closes when it is done, and closing it earlier cancels it.
+/// Exports a picture: asks for pane, format, size, annotations and file. The dialog shows why an
+/// export is impossible, or why it failed. Writing is a job: the dialog closes when it is done;
+/// closing it earlier cancels the job.
 class ExportDialog : public QDialog {
     Q_OBJECT
 public:
@@ -32,17 +32,17 @@ public:
 
 signals:
     void written(const QString &path);
-    /// A capture belongs to the study, and into its list.
+    /// A capture of the open study was written, which the list of studies shows.
     void captured(const std::shared_ptr<const pellucid::dicom::Catalogue> &capture);
 
 private:
     PictureExport chosen() const;
-    /// Asks before what is there is lost.
+    /// Asks before a file is replaced.
     bool mayReplace(const QString &path);
     void showChosen();
     void browse();
     void write();
-    void say(const QString &text, const char *role);
+    void showMessage(const QString &text, const char *role);
 
     const Document &m_document;
     Panes m_panes;
@@ -51,8 +51,8 @@ private:
     QCheckBox *m_annotated, *m_deidentified;
     QLineEdit *m_path;
     QSpinBox *m_frames;
-    QLabel *m_said;
-    QString m_confirmed; ///< a path that was asked about when it was chosen
+    QLabel *m_message;
+    QString m_confirmed; ///< a path that the file dialog has asked about
     QPushButton *m_write = nullptr;
 };
 

@@ -19,7 +19,6 @@
 #include "ui/document/document.h"
 #include "ui/export/scene_files.h"
 #include "ui/export/video_writer.h"
-#include "ui/views/camera_moves.h"
 #include "ui/views/mpr_view.h"
 #include "ui/views/projection_view.h"
 
@@ -32,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr int framesPerSecond = 25;
 
-// From the lower to the upper end of the window in a straight line: figures, not looks.
+// Linear from the lower to the upper end of the window, as the grey values are measured.
 QImage sixteenBits(const picture::ProjectionImage &image, const scene::Tone &tone) {
     QImage out(image.width, image.height, QImage::Format_Grayscale16);
     const double scale = 65535.0 / (*tone.high - *tone.low);
@@ -47,13 +46,13 @@ QImage sixteenBits(const picture::ProjectionImage &image, const scene::Tone &ton
     return out;
 }
 
-QImage asItLooks(const picture::ProjectionImage &image, const scene::Tone &tone) {
+QImage onScreen(const picture::ProjectionImage &image, const scene::Tone &tone) {
     const auto rgba = picture::compose(image, tone);
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888)
         .convertToFormat(QImage::Format_RGB32);
 }
 
-// What is drawn over a picture is drawn once, where the panes are, and put over it elsewhere.
+// Annotations are recorded on the thread of the panes and painted over the picture on another.
 // *Units*: logical pixels.
 using Annotations = std::shared_ptr<const QPicture>;
 
@@ -77,14 +76,14 @@ void putOver(QImage &picture, const Annotations &annotations, double pixelRatio)
     picture.setDevicePixelRatio(1.0);
 }
 
-// `isGrey`: the picture is, whatever the colour of its annotations: captures in colour are read by
-// fewer programs.
+// `isGrey`: the picture is grey; its annotations then lose their color, as fewer programs read
+// captures in color.
 void write(const QImage &picture, PictureFormat format, const QString &path,
            const dicom::CaptureLabels &labels, bool isGrey = false) {
     if (format != PictureFormat::capture) {
-        QImage said = picture;
-        said.setText("Comment", "Not for diagnostic use");
-        writePictureFile(path, said);
+        QImage commented = picture;
+        commented.setText("Comment", "Not for diagnostic use");
+        writePictureFile(path, commented);
         return;
     }
     const QImage rgba = (isGrey ? picture.convertToFormat(QImage::Format_Grayscale8) : picture)
@@ -93,7 +92,7 @@ void write(const QImage &picture, PictureFormat format, const QString &path,
                         rgba.height(), rgba.width(), labels);
 }
 
-// `seen`: the axes of the picture, of pixels of that size.
+// `seen`: the axes of the picture; `pixelMm`: the size of its pixels.
 dicom::CaptureLabels labelsOf(const Document &document, const mpr::Axes &seen, double pixelMm) {
     const StudySource &source = document.sources().at(std::size_t(document.currentSource()));
     dicom::CaptureLabels labels;
@@ -101,7 +100,7 @@ dicom::CaptureLabels labelsOf(const Document &document, const mpr::Axes &seen, d
     if (document.volume()->notes().placed)
         labels.patientOrientation = scene::dicomOrientation(seen.right, seen.up);
     if (!source.volume.file.isEmpty() || !source.phantom.isEmpty())
-        return labels; // a file or a phantom is nobody's
+        return labels; // a file or a phantom has no patient
     const StudyFacts &study = source.study;
     labels.patientId = study.patientId.toStdString();
     labels.patientName = study.patientName.toStdString();
@@ -135,7 +134,7 @@ PictureWriter planeWriter(const PictureExport &what, const Panes &panes, const D
     };
 }
 
-// Frame by frame: each has letters and a cube of its own.
+// One turn. Each frame has letters and a cube of its own.
 struct Turn {
     std::vector<scene::Camera> cameras;
     std::vector<Annotations> over;
@@ -147,13 +146,13 @@ QString framePath(const QString &path, int frame) {
     return QString("%1_%2.png").arg(stem).arg(frame, 4, 10, QChar('0'));
 }
 
-// A picture of the projection, or a turn of it: what is needed to write it on any thread.
+// A picture of the projection, or a turn of it, that any thread can write.
 struct ProjectionJob {
     PictureExport what;
     QString path;
     scene::Scene scene;
     std::function<picture::ProjectionImage(const scene::Camera &)> render;
-    double ratio; ///< pixels for a logical one of the pane
+    double ratio; ///< pixels for one logical pixel of the pane
     Turn turn;
     dicom::CaptureLabels labels;
     volume::Lattice lattice;
@@ -165,7 +164,7 @@ struct ProjectionJob {
 };
 
 QImage ProjectionJob::picture(std::size_t n) const {
-    QImage made = asItLooks(render(turn.cameras[n]), scene.tone);
+    QImage made = onScreen(render(turn.cameras[n]), scene.tone);
     putOver(made, turn.over[n], ratio);
     return made;
 }
@@ -246,7 +245,7 @@ PictureWriter projectionWriter(const PictureExport &what, const Panes &panes,
     return [job](const task::Progress &progress) { job.run(progress); };
 }
 
-// All files that an export gives.
+// All files that an export writes.
 std::vector<fs::path> targets(const PictureExport &what, const QString &path) {
     std::vector<fs::path> files;
     for (int n = 0; n < (what.format == PictureFormat::frames ? what.frameCount : 0); ++n)

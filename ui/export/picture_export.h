@@ -21,7 +21,7 @@ class ProjectionView;
 /// The planes in the order of mpr::Orientation, and the projection.
 enum class Pane { axial, coronal, sagittal, projection };
 
-/// The panes that pictures are made of.
+/// The panes that can be exported.
 struct Panes {
     std::array<MprView *, 3> planes;
     ProjectionView *projection;
@@ -29,20 +29,21 @@ struct Panes {
     QWidget *of(Pane pane) const;
 };
 
-/// `png`: as it looks; `png16`: grey from the lower to the upper end of the window, in a straight
-/// line, 16 bits; `npy`, `nrrd`: the values of the projection, single precision; `capture`: as it
-/// looks, a DICOM image of the open study; `frames`, `video`: once around the patient, as it looks.
+/// `png`: as on the screen; `png16`: 16-bit grey, linear from the lower to the upper end of the
+/// window; `npy`, `nrrd`: the values of the projection, single precision; `capture`: as on the
+/// screen, a DICOM image of the open study; `frames`, `video`: as on the screen, one turn around
+/// the patient.
 enum class PictureFormat { png, png16, npy, nrrd, capture, frames, video };
 
 struct PictureExport {
     Pane pane = Pane::projection;
     PictureFormat format = PictureFormat::png;
-    int scale = 1; ///< pixels for one of the screen, a side
+    int scale = 1; ///< pixels a side for one of the screen
     bool isAnnotated = true;
     int frameCount = 120;        ///< of a turn
-    bool isDeidentified = false; ///< a capture of nobody's
+    bool isDeidentified = false; ///< a capture without the patient's identity
 
-    /// Whether it shows colours and annotations.
+    /// Whether it has colors and annotations.
     bool isPicture() const {
         return format != PictureFormat::png16 && format != PictureFormat::npy &&
                format != PictureFormat::nrrd;
@@ -52,20 +53,21 @@ struct PictureExport {
     }
 };
 
-/// ".png", of the file that is written.
+/// The suffix of the file that is written, ".png" for example.
 QString suffixOf(PictureFormat format);
 
-/// The file that is written first: a turn has one for each frame.
+/// The first file that is written: a turn has one for each frame.
 QString firstFileOf(const PictureExport &what, const QString &path);
 
-/// What an export cannot hold or make here; none if it can be made.
+/// Why an export is impossible; none if it is possible.
 std::optional<task::Reason> obstacle(const PictureExport &what, const Panes &panes,
                                      const Document &document);
 
-/// Writes a picture of a pane as it is now; run it on any thread. The file appears only when
-/// complete; of frames that are cancelled none is left. It *throws* task::Error, task::Cancelled.
+/// Writes a picture of a pane; may run on any thread. The file appears only when complete; a cancel
+/// leaves no frames. It *throws* task::Error, task::Cancelled.
 using PictureWriter = std::function<void(const task::Progress &)>;
-/// *Throws* Error{usage} with the obstacle, also where a file of an open study would be replaced.
+/// A writer of the present picture. *Throws* Error{usage} with the obstacle, and if a file of an
+/// open study would be replaced.
 PictureWriter pictureWriter(const PictureExport &what, const Panes &panes, const Document &document,
                             const QString &path);
 

@@ -11,8 +11,9 @@ namespace pellucid::ui {
 
 /// *Throws* task::Error with the path and the reason.
 scene::Scene readSceneFile(const QString &path);
-/// Files that appear only when complete. *Throws* task::Error.
+/// Writes a scene as JSON. The file appears only when complete. *Throws* task::Error.
 void writeSceneFile(const QString &path, const scene::Scene &scene);
+/// Writes a picture as PNG. The file appears only when complete. *Throws* task::Error.
 void writePictureFile(const QString &path, const QImage &picture);
 
 } // namespace pellucid::ui

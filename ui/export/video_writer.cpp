@@ -15,8 +15,8 @@ namespace pellucid::ui {
 namespace {
 
 constexpr int waitMs = 100;
-// What may wait to be encoded.
-constexpr qint64 mostPending = qint64(64) << 20;
+// Bytes that may wait to be encoded.
+constexpr qint64 maxPending = qint64(64) << 20;
 
 } // namespace
 
@@ -32,7 +32,7 @@ VideoWriter::VideoWriter(const QString &path, const QSize &size, int framesPerSe
                      {"-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24",
                       "-s", QString("%1x%2").arg(size.width()).arg(size.height()), "-r",
                       QString::number(framesPerSecond), "-i", "-",
-                      // The codec wants even sizes, players these pixels.
+                      // The codec needs even sizes, players need this pixel format.
                       "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "16",
                       "-pix_fmt", "yuv420p", "-metadata", "comment=Not for diagnostic use",
                       "-movflags", "+faststart", m_unfinished});
@@ -50,19 +50,19 @@ VideoWriter::~VideoWriter() {
 
 void VideoWriter::fail() {
     m_encoder->waitForFinished(waitMs);
-    const QString said = QString::fromUtf8(m_encoder->readAllStandardError()).simplified();
+    const QString message = QString::fromUtf8(m_encoder->readAllStandardError()).simplified();
     throw task::Error(task::ErrorCode::output,
-                      said.isEmpty() ? task::Reason(task::because::ffmpegEndedEarly)
-                                     : task::because::ffmpegReports(said.toStdString()),
+                      message.isEmpty() ? task::Reason(task::because::ffmpegEndedEarly)
+                                        : task::because::ffmpegReports(message.toStdString()),
                       m_path.toStdString());
 }
 
 void VideoWriter::add(const QImage &frame, const task::Progress &progress) {
     const QImage rgb = frame.convertToFormat(QImage::Format_RGB888);
-    for (int row = 0; row < rgb.height(); ++row) // lines may be longer than their pixels
+    for (int row = 0; row < rgb.height(); ++row) // a line may end with padding
         m_encoder->write(reinterpret_cast<const char *>(rgb.constScanLine(row)),
                          qint64(rgb.width()) * 3);
-    while (m_encoder->bytesToWrite() > mostPending) {
+    while (m_encoder->bytesToWrite() > maxPending) {
         progress.check();
         if (m_encoder->state() == QProcess::NotRunning)
             fail();

@@ -14,19 +14,22 @@ class QProcess;
 
 namespace pellucid::ui {
 
-/// Writes a video (H.264 in MP4) with the program ffmpeg, where there is one. The file appears only
-/// when complete; what a kill leaves the next export there removes. Used on one thread, any.
+/// Writes a video (H.264 in MP4) with the program ffmpeg. The file appears only when complete.
+/// After a kill, the next export to the folder removes the unfinished file. Use it on one thread,
+/// which may be any.
 class VideoWriter {
 public:
+    /// Whether ffmpeg is installed.
     static bool isAvailable();
 
     /// *Throws* Error{output} if ffmpeg does not start.
     VideoWriter(const QString &path, const QSize &size, int framesPerSecond);
     ~VideoWriter();
 
-    /// *Shape*: of the size. *Throws* Error{output} with what ffmpeg says, Cancelled.
+    /// Adds a frame. *Shape*: `size` of the constructor. *Throws* Error{output} with the message of
+    /// ffmpeg, Cancelled.
     void add(const QImage &frame, const task::Progress &progress);
-    /// *Throws* as add.
+    /// Waits for ffmpeg and puts the file in its place. *Throws* as `add`.
     void finish(const task::Progress &progress);
 
 private:

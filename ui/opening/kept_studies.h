@@ -8,18 +8,20 @@
 #include "core/mpr/plane.h"
 #include "core/picture/compose.h"
 #include "core/prepare/prepared_engine.h"
+#include "ui/document/pose.h"
 #include "ui/engine/look_preparer.h"
 
 namespace pellucid::ui {
 
-/// A study as it was when another was opened, so that going back to it takes no time.
+/// A study as it was when another one was opened, so that it can come back at once.
 struct KeptStudy {
     int source = -1;
     volume::Volume volume;
     volume::ValueWindow initialWindow;
     classify::FieldWindow fieldWindow;
     scene::Scene scene;
-    /// Its projection, unless it was dropped or never made.
+    Pose pose;
+    /// The engine of its projection, unless it was dropped or never made.
     std::optional<PreparedFor> preparedFor;
     std::optional<prepare::PreparedEngine> engine;
     volume::ValueWindow displayWindow;
@@ -30,25 +32,25 @@ struct KeptStudy {
     std::size_t bytes() const;
 };
 
-/// The studies that were open before, as far as the memory goes. What is shown is not among them
-/// and stays. Of the rest goes first what is made again fastest: the layers of looks are not kept
-/// at all, results of steps leave their cache when it is full, then the spectra of the study that
-/// was shown longest ago go, of the next, and so on, and then the volumes in the same order.
+/// The studies that were open before, as many as fit in memory. The study on the screen is not
+/// among them. What is fastest to make again is dropped first: the spectra, beginning with those of
+/// the study that was shown longest ago, then the volumes in the same order. The layers of looks
+/// are not kept at all.
 class KeptStudies {
 public:
-    /// In place of what was kept of the same source.
+    /// Replaces what was kept of the same source.
     void keep(KeptStudy study);
-    /// Takes a study out, if it is there.
+    /// Removes a study and returns it; none if it was not kept.
     std::optional<KeptStudy> take(int source);
-    /// Whether it comes back at once, with its spectra.
+    /// Whether the study can come back at once, with its spectra.
     bool isReady(int source) const;
-    /// Drops until the rest fits.
+    /// Drops spectra and volumes until the rest fits.
     void trim(std::size_t budgetBytes);
     std::size_t bytes() const;
     std::size_t count() const { return m_studies.size(); }
 
 private:
-    std::list<KeptStudy> m_studies; ///< shown last first
+    std::list<KeptStudy> m_studies; ///< the last shown first
 };
 
 } // namespace pellucid::ui

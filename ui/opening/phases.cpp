@@ -27,7 +27,7 @@ Phases::Phases(Document &document, StudyOpener &opener, JobRunner &jobs, QObject
     connect(&document, &Document::sourcesChanged, this, &Phases::findPhases);
     connect(&document, &Document::currentSourceChanged, this, &Phases::findPhases);
     connect(&m_timer, &QTimer::timeout, this, [this] {
-        if (!m_jobs.isRunning()) // one that is not there yet is waited for
+        if (!m_jobs.isRunning()) // wait for the phase that is being loaded
             step(1);
     });
 }
@@ -60,7 +60,7 @@ void Phases::show(int phase) {
         return;
     const int source = m_sources[std::size_t(phase)];
     m_opener.openPhase(source, [this, source](const Outcome &) {
-        // Cancelled, or it cannot be loaded: playing would ask for it again and again.
+        // After a cancel or a failure, playing would request the phase again and again.
         if (source != m_document.currentSource())
             m_timer.stop();
         emit changed();

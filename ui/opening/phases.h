@@ -12,22 +12,23 @@ class Document;
 class JobRunner;
 class StudyOpener;
 
-/// The volumes of the open series that differ in time, echo or the like: same place, same size. One
-/// is shown at a time; look, view, window and planes stay.
+/// The phases of the open series: volumes of the same place and size that differ in time, echo or
+/// the like. One is shown at a time; look, view, window and planes stay.
 class Phases : public QObject {
     Q_OBJECT
 public:
     Phases(Document &document, StudyOpener &opener, JobRunner &jobs, QObject *parent = nullptr);
 
-    /// 0 or 1: there is nothing to choose.
+    /// The number of phases; 0 or 1: there is nothing to choose.
     int count() const { return int(m_sources.size()); }
-    /// -1 while none is open.
+    /// The index of the open phase; -1: none is open.
     int current() const;
     QString label(int phase) const;
     void show(int phase);
-    /// Forwards or back, and around.
+    /// Steps forwards or back, and from one end to the other.
     void step(int phases);
-    /// One after the other. Each is loaded once; the second round is as fast as pictures are made.
+    /// Plays the phases in a loop. The first round loads each; later ones are as fast as the
+    /// frames.
     void togglePlaying();
     bool isPlaying() const { return m_timer.isActive(); }
 

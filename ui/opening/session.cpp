@@ -10,8 +10,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What could not be used of the folders that the files of a session are in. What is opened again is
-// looked at again; texts and programs lie beside images, and are nobody's loss.
+// The files that could not be used, of the folders that the session's files are in. Files that the
+// session opens are read again. Texts and programs are often beside images and are no loss.
 std::vector<dicom::Skipped> leftOutOf(const StudySource &source,
                                       const std::vector<dicom::Skipped> &problems) {
     constexpr std::size_t most = 1000;

@@ -16,52 +16,53 @@
 
 namespace pellucid::ui {
 
-/// What was open, so that it can be taken up again: where it comes from and how it was looked at.
-/// Names of patients are not kept, paths are.
+/// The open study, so that it can be resumed: where it comes from and how it was looked at. It
+/// contains paths, but no names of patients.
 struct Session {
-    QStringList files; ///< of the series, or the archives that they are in
-    /// What else of the same folders could not be used: it is said again, and not looked at again.
+    QStringList files; ///< of the series, or the archives that contain them
+    /// Other files of the same folders that could not be used. They are listed again, and not read.
     std::vector<dicom::Skipped> leftOut;
-    QString phantom; ///< or its name
-    QString key;     ///< a digest of the source's
+    QString phantom; ///< its name, in place of files
+    QString key;     ///< the digest of the source
     Continuity shown;
-    /// The program that kept it has ended as programs should.
+    /// The program that kept the session has ended normally.
     bool hasEnded = false;
 };
 
-/// As it is kept. Reading *throws* Error{unusable} if the text is no session.
+/// The session as JSON. Reading *throws* Error{unusable} if the text is no session.
 std::string toJson(const Session &session);
 Session sessionFromJson(const std::string &text);
 
-/// The session as it is; none while nothing is open.
+/// The session of the open study; none if no study is open.
 std::optional<Session> currentSession(const Document &document);
 
-/// The user's file of it, written a moment after each change and when the program ends: one that is
-/// killed loses a second or two. What cannot be written or read is as if there were none: nobody is
-/// kept from ending or beginning. Programs that run at the same time have files of their own; one
-/// that begins goes on with the one that was killed last, else with the one that ended last.
+/// The user's session file. It is written a moment after each change and when the program ends: a
+/// killed program loses a second or two. A file that cannot be written or read counts as absent, so
+/// that the program can always start and end. Programs that run at the same time have files of
+/// their own. A new program continues the session of the one that was killed last, else of the one
+/// that ended last.
 class SessionFile {
 public:
     SessionFile();
-    /// Waits until what was given last is written.
+    /// Waits until the last session is written.
     ~SessionFile();
 
-    /// Written aside, because it waits for the disk.
+    /// Returns at once; a thread of its own writes the session.
     void keep(const Session &session);
     void forget();
-    /// Those of programs that have ended, too.
+    /// Forgets the sessions of programs that have ended, too.
     void forgetAll();
     std::optional<Session> kept() const;
-    /// Why what was kept cannot be taken up, where something was.
+    /// Why the kept session cannot be read; none if it can, or if there is none.
     std::optional<task::Error> fault() const;
 
 private:
     void choose();
     void write(const std::stop_token &stop);
-    /// A moment when nothing is being written; what was not begun may be dropped then.
+    /// Waits until nothing is being written, and holds off the next write.
     std::unique_lock<std::mutex> rest() const;
 
-    std::optional<std::filesystem::path> m_path; ///< none: there is no place for it
+    std::optional<std::filesystem::path> m_path; ///< none: there is no folder for it
     std::optional<files::FileLock> m_lock;
     mutable std::mutex m_mutex;
     mutable std::condition_variable_any m_changed;
@@ -70,7 +71,7 @@ private:
     std::jthread m_thread; ///< last: it uses the others
 };
 
-/// Opens it, as it was looked at. Files that are gone are among the problems.
+/// Opens the study of a session and looks at it as before. Missing files are listed as problems.
 void resume(const Session &session, StudyOpener &opener);
 
 } // namespace pellucid::ui

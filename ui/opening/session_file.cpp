@@ -26,9 +26,9 @@ namespace pellucid::ui {
 namespace {
 
 constexpr const char *schema = "pellucid-session/1";
-constexpr std::size_t mostOfSession = 64 << 20; // it may name each file of a study
+constexpr std::size_t maxSessionBytes = 64 << 20; // it may name each file of a study
 
-constexpr int mostPrograms = 100;
+constexpr int maxPrograms = 100;
 
 std::filesystem::path fileOf(const std::filesystem::path &folder, int program,
                              const char *extension) {
@@ -36,23 +36,23 @@ std::filesystem::path fileOf(const std::filesystem::path &folder, int program,
            ("session" + (program == 0 ? "" : "-" + std::to_string(program + 1)) + extension);
 }
 
-// Of the programs that have, or had, a file.
+// The number of programs that have, or had, a file.
 int places(const std::filesystem::path &folder) {
     std::error_code unknown;
     int n = 0;
-    while (n < mostPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
-                                std::filesystem::exists(fileOf(folder, n, ".lock"), unknown)))
+    while (n < maxPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
+                               std::filesystem::exists(fileOf(folder, n, ".lock"), unknown)))
         ++n;
     return n;
 }
 
-// None where nothing was kept.
+// None if there is no file.
 std::optional<Session> readSession(const std::filesystem::path &path) {
     std::error_code unknown;
     if (!std::filesystem::exists(path, unknown))
         return std::nullopt;
     try {
-        return sessionFromJson(files::readText(path, mostOfSession));
+        return sessionFromJson(files::readText(path, maxSessionBytes));
     } catch (const task::Error &error) {
         throw task::Error(error.code(), error.reason(), path);
     }
@@ -75,7 +75,7 @@ QJsonArray toJson(const mpr::PlaneAxes &axes) {
 }
 
 mpr::PlaneAxes planesFrom(const QJsonArray &in) {
-    if (in.size() != 3) // an earlier program kept none
+    if (in.size() != 3) // a file of an earlier version
         return {};
     std::array<mpr::Axes, 3> axes;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -88,7 +88,8 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
 std::optional<picture::ToneRange> brightnessFrom(const QJsonValue &value) {
     const QJsonArray in = value.toArray();
     const picture::ToneRange range{in[0].toDouble(), in[1].toDouble()};
-    return range.low < range.high ? std::optional(range) : std::nullopt; // none, of old programs
+    return range.low < range.high ? std::optional(range)
+                                  : std::nullopt; // none: a file of an earlier version
 }
 
 QJsonObject objectOf(const Session &s) {
@@ -130,8 +131,8 @@ Session fromJson(const QJsonObject &in) {
                              reasonFromLine(skipped["reason"].toString())});
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
-    s.hasEnded = in["ended"].toBool(true); // an earlier program wrote at its end only
-    if (!s.phantom.isEmpty())              // of a newer program it may be unknown
+    s.hasEnded = in["ended"].toBool(true); // earlier versions wrote only at the end
+    if (!s.phantom.isEmpty())              // a newer version may know other kinds
         phantom::kindFromName(s.phantom.toStdString());
     s.shown.scene = scene::sceneFromJson(
         QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());
@@ -170,7 +171,7 @@ void SessionFile::choose() {
     if (!folder)
         return;
     const int all = places(*folder);
-    // What was killed is more urgent than what ended, and what is there at all than a free place.
+    // A killed program is more urgent than one that ended, and any session than a free place.
     std::tuple<int, std::filesystem::file_time_type> best;
     std::vector<std::filesystem::path> ended;
     for (int n = 0; n <= all; ++n) {
@@ -188,7 +189,7 @@ void SessionFile::choose() {
                     ended.push_back(path);
             }
         } catch (const task::Error &) {
-            urgency = 1; // it is to be said that it cannot be read
+            urgency = 1; // its fault has to be reported
         }
         std::error_code none;
         const std::tuple rank{urgency, std::filesystem::last_write_time(path, none)};
@@ -198,7 +199,7 @@ void SessionFile::choose() {
             m_lock = std::move(lock);
         }
     }
-    // Of those that ended, only the last is of use.
+    // Only the last session that ended is useful.
     for (const auto &path : ended)
         if (std::error_code ignored; path != m_path)
             std::filesystem::remove(path, ignored);
@@ -222,7 +223,7 @@ void SessionFile::write(const std::stop_token &stop) {
                 file.commit();
             }
         } catch (const std::exception &error) {
-            // Without the path: it may be the patient's.
+            // The path may name the patient: it is not logged.
             const auto *const known = dynamic_cast<const task::Error *>(&error);
             system::log("the session is not kept: " +
                         (known ? known->reason().english() : error.what()));

@@ -18,16 +18,16 @@ namespace pellucid::ui {
 StudyOpener::StudyOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
                          QObject *parent)
     : QObject(parent), m_document(document), m_jobs(jobs), m_preparer(preparer) {
-    // Queued: the caller that ended the job may start the next one.
+    // Queued: the code that ended the job may start the next one.
     connect(&jobs, &JobRunner::finished, this, &StudyOpener::goBack, Qt::QueuedConnection);
 }
 
 void StudyOpener::goBack() {
-    if (m_jobs.isRunning()) // another study is on its way, and may fail as well
+    if (m_jobs.isRunning()) // another study is being opened, and may fail as well
         return;
     const auto former = std::exchange(m_former, std::nullopt);
     const bool isLoaded = m_document.volume() && !m_document.isPreview();
-    // At once or not at all: a lack of memory may have been the reason.
+    // Only if it comes back without a job: the load may have failed for lack of memory.
     if (former && !isLoaded && m_kept.isReady(*former))
         openSource(*former);
 }
@@ -36,7 +36,7 @@ void StudyOpener::endScan() {
     if (!m_preparer.isHeld())
         return;
     m_preparer.setHeld(false);
-    m_preparer.prepareAgain(); // what the scan stopped, or what changed meanwhile
+    m_preparer.prepareAgain(); // the scan may have stopped it, or the scene may have changed
 }
 
 void StudyOpener::keepCurrent() {
@@ -44,22 +44,21 @@ void StudyOpener::keepCurrent() {
     if (!volume || m_document.isPreview() || m_document.currentSource() < 0)
         return;
     m_kept.keep({m_document.currentSource(), *volume, m_document.initialWindow(),
-                 m_document.defaultFieldWindow(), m_document.scene(), m_preparer.preparedFor(),
-                 m_preparer.fullEngine(), m_document.displayWindow(), m_document.crosshair(),
-                 m_document.cut().axes, m_document.brightness()});
-    // Half of what there is belongs to what comes.
+                 m_document.defaultFieldWindow(), m_document.scene(), m_document.pose(),
+                 m_preparer.preparedFor(), m_preparer.fullEngine(), m_document.displayWindow(),
+                 m_document.crosshair(), m_document.cut().axes, m_document.brightness()});
+    // The next study may need half of the memory.
     m_kept.trim(system::availableMemoryBytes() / 2 + m_kept.bytes() / 2);
 }
 
 void StudyOpener::resume(const Continuity &continuity) {
     m_preparer.setHeld(true);
-    scene::Scene scene = continuity.scene;
-    m_document.setScene(scene);
+    m_document.setScene(continuity.scene);
     m_preparer.setHeld(false);
+    m_document.setPose(m_document.poseOf(continuity.scene.camera));
     m_document.setDisplayWindow(continuity.displayWindow);
     m_document.setCrosshair(continuity.crosshair);
     m_document.setCut(continuity.cut);
-    emit cameraKept(scene.camera);
     if (continuity.brightness)
         emit brightnessKept(*continuity.brightness);
 }
@@ -74,15 +73,14 @@ void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &
         return;
     }
     scene::Scene scene = study.scene;
-    // The pane may have another size by now; the picture's quality is the person's, not the
-    // study's.
-    scene.camera = m_document.scene().camera;
+    // The quality of pictures is the user's choice, not a property of the study.
     scene.tolerance = m_document.scene().tolerance;
     scene.interpolation = m_document.scene().interpolation;
-    // The scene first: without a brightness of its own it is taken from the engine's first frame.
+    // Before the engine: its first frame sets the brightness of a study that has none yet.
     m_preparer.setHeld(true);
     m_document.setScene(scene);
     m_preparer.setHeld(false);
+    m_document.setPose(study.pose);
     if (study.engine)
         m_preparer.adopt(*study.preparedFor, *study.engine);
     m_document.setDisplayWindow(study.displayWindow);
@@ -90,10 +88,9 @@ void StudyOpener::show(const KeptStudy &study, const std::optional<Continuity> &
     Cut cut = m_document.cut();
     cut.axes = study.axes;
     m_document.setCut(cut);
-    emit cameraKept(study.scene.camera);
     if (study.brightness)
         emit brightnessKept(*study.brightness);
-    m_preparer.prepareAgain(); // what changed, or was dropped
+    m_preparer.prepareAgain(); // if the quality changed or the engine was dropped
 }
 
 void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resumption> &resumption,
@@ -126,20 +123,20 @@ void StudyOpener::openPaths(const QStringList &paths, const std::optional<Resump
                 for (const int index : indices)
                     m_kept.take(index);
                 const auto resumed = resumedOf(indices);
-                if (!m_resumption) // what the user named was remembered then
+                if (!m_resumption) // the paths of a session were opened before
                     emit pathsOpened(paths);
                 else if (!resumed)
                     m_document.addProblems({{files.front(), task::because::isAnotherStudy}});
-                m_preparer.setHeld(false); // another volume comes, or the open one goes on
+                m_preparer.setHeld(false); // another volume comes, or the open one stays
                 openSource(resumed.value_or(indices[defaultSource(*catalogue)]));
             });
         },
         [this](const Outcome &) {
-            if (!m_jobs.isRunning()) // another scan does not take its place
+            if (!m_jobs.isRunning()) // no other scan replaces this one
                 endScan();
         },
         paths.front());
-    if (m_jobs.isRunning()) // there may have been no thread for it
+    if (m_jobs.isRunning()) // it is not if no thread could be had
         m_preparer.setHeld(true);
 }
 
@@ -212,13 +209,13 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
         return;
     }
     m_jobs.cancel();
-    // Taken first: keeping the phase that is left may drop another one.
+    // Taken first: keeping the former phase may drop another one.
     if (const auto kept = m_kept.take(index)) {
         const Continuity stays = leavePhase(index);
         show(*kept, stays);
         return;
     }
-    // The former phase stays until this one is there.
+    // The former phase stays until this one is loaded.
     const StudySource source = m_document.sources().at(std::size_t(index));
     scene::Scene scene = m_document.scene();
     if (m_document.volume()->unit() == volume::ValueUnit::none)
@@ -237,7 +234,7 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
                 m_document.setVolume(loaded.volume, window, field, false);
                 m_preparer.expect(wanted);
                 resume(stays);
-                m_preparer.prepareAgain(); // the look may have been changed meanwhile
+                m_preparer.prepareAgain(); // the look may have changed meanwhile
             });
             job.stage(tr("Preparing the projection"));
             prepare(job, loaded.volume);
@@ -251,14 +248,14 @@ void StudyOpener::openPhase(int index, JobRunner::OnEnd onEnd) {
 }
 
 void StudyOpener::openSource(int index, JobRunner::OnEnd onEnd) {
-    // What is shown or on its way already need not come again.
+    // It is open, or being opened.
     if (index == m_document.currentSource() && (m_document.volume() || m_jobs.isRunning())) {
         if (m_document.volume())
-            m_preparer.prepareAgain(); // what a scan stopped
+            m_preparer.prepareAgain(); // a scan may have stopped it
         return;
     }
     const StudySource source = m_document.sources().at(std::size_t(index));
-    // First, because the end of the former job tidies up after it.
+    // First: the end of the former job changes the document.
     m_jobs.cancel();
     keepCurrent();
     if (m_document.volume() && !m_document.isPreview() && m_document.currentSource() >= 0)
@@ -276,7 +273,7 @@ void StudyOpener::openSource(int index, JobRunner::OnEnd onEnd) {
         tr("Loading %1").arg(seriesText(source.volume)), loading(source, wanted),
         [this, onEnd = std::move(onEnd)](const Outcome &outcome) {
             m_preparer.jobEnded(outcome);
-            // A load that ended before its volume came leaves nothing selected.
+            // After a load that delivered no volume, nothing is open.
             if (!m_document.volume())
                 m_document.setCurrentSource(-1);
             if (onEnd)
@@ -301,7 +298,7 @@ JobRunner::Work StudyOpener::loading(const StudySource &source, const PreparedFo
             m_document.addProblems(loaded.skipped);
             m_document.setVolume(loaded.volume, window, field, false);
             applyResumption();
-            // The quality may have been changed while the volume came.
+            // The quality may have changed during the load.
             m_preparer.prepareAgain();
         });
         if (!volume.notes().placed) {

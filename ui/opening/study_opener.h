@@ -14,53 +14,53 @@
 
 namespace pellucid::ui {
 
-/// How a volume is looked at, as far as it holds for another one too.
+/// How a volume is looked at, in terms that apply to another volume, too.
 struct Continuity {
-    scene::Scene scene;
+    scene::Scene scene; ///< with its camera, whose pixel size is kept
     volume::ValueWindow displayWindow;
     volume::PatientPoint crosshair;
     Cut cut;
     std::optional<picture::ToneRange> brightness; ///< see Document
 };
 
-/// The way from a path to a turning picture, as jobs: scan, choose, load with previews, and have
-/// the projection prepared.
+/// Opens studies, as jobs: scans paths, chooses a volume, loads it with previews, and has its
+/// projection prepared. Former studies are kept as long as memory allows.
 class StudyOpener : public QObject {
     Q_OBJECT
 public:
     StudyOpener(Document &document, JobRunner &jobs, LookPreparer &preparer,
                 QObject *parent = nullptr);
 
-    /// How what is opened is to be looked at, if it is that source.
+    /// How to look at a certain source when it is opened.
     struct Resumption {
         QString digest; ///< of the source
         Continuity shown;
-        /// What else of its folders could not be used then.
+        /// Other files of its folders that could not be used then.
         std::vector<dicom::Skipped> leftOut;
     };
     void openPaths(const QStringList &paths, const std::optional<Resumption> &resumption = {},
                    const dicom::ScanOptions &options = {});
     void openPhantom(const QString &kind, const std::optional<Resumption> &resumption = {});
-    /// `onEnd` is called if the volume has to be loaded.
+    /// Opens a source, unless it is open already. `onEnd` is called if the volume has to be loaded.
     void openSource(int index, JobRunner::OnEnd onEnd = {});
-    /// Another volume of the same series: look, view, window, crosshair and planes stay. `onEnd` is
-    /// called if the volume has to be loaded; the former one stays until it is there.
+    /// Opens another volume of the same series: look, view, window, crosshair and planes stay, and
+    /// so does the former volume until the new one is loaded. `onEnd`: as in `openSource`.
     void openPhase(int index, JobRunner::OnEnd onEnd = {});
-    /// *Shape*: `series`: all volumes of it; `volume`: the one that is opened.
+    /// Opens a volume of the library. *Shape*: `series`: all volumes of its series; `volume`: the
+    /// key of the one to open.
     void openFromLibrary(const StudyFacts &study, const std::vector<VolumeFacts> &series,
                          const QString &volume, const std::vector<dicom::InstanceFile> &files);
-    /// Takes it off the list; if it is the open one, nothing is open then.
+    /// Takes a source off the list, and closes it if it is open.
     void closeSource(int index);
 
 signals:
-    /// The paths held something.
+    /// The paths contain a study that can be opened.
     void pathsOpened(const QStringList &paths);
-    /// They held images that are opened only when that is asked for.
+    /// They contain images so large that they are opened only if the user asks for it.
     void hugeFound(const QStringList &paths, const std::vector<pellucid::dicom::Skipped> &huge);
-    /// The way the study that came back was looked at.
-    void cameraKept(const pellucid::scene::Camera &camera);
+    /// A study came back with the automatic brightness that it had.
     void brightnessKept(const pellucid::picture::ToneRange &range);
-    /// The brightness of the projection is to stay, too.
+    /// Another phase follows: the brightness of the projection has to stay.
     void phaseLeft();
     /// The open volume cannot be projected.
     void notProjectable(const QString &reason);
@@ -68,9 +68,9 @@ signals:
 private:
     /// The work that loads a volume and prepares its projection.
     JobRunner::Work loading(const StudySource &source, const PreparedFor &wanted);
-    /// Lets the preparer go on.
+    /// Lets the preparer continue.
     void endScan();
-    /// The one of them that is to be resumed.
+    /// The source among them that is to be resumed.
     std::optional<int> resumedOf(const std::vector<int> &indices) const;
     void applyResumption();
     void keepCurrent();

@@ -75,7 +75,7 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
     connectCue();
     connectLights();
     connect(&document, &Document::sceneChanged, this, &ShadingPanel::showScene);
-    connect(&document, &Document::cameraChanged, this, &ShadingPanel::showLights);
+    connect(&document, &Document::poseChanged, this, &ShadingPanel::showLights);
     connect(&document, &Document::volumeChanged, this, [this] {
         setEnabled(m_document.volume().has_value() && !m_document.isPreview());
         m_reset->setEnabled(isEnabled());

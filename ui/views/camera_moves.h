@@ -5,23 +5,23 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/scene/camera.h"
+#include "ui/document/pose.h"
 
 namespace pellucid::ui {
 
-/// Cameras that a hand has moved. Turning keeps one point of the patient where it is in the
-/// picture. *Units*: `pivotMm`: from the middle of the volume, LPS; 0: about the middle.
-scene::Camera turnedTo(const scene::Camera &camera, const glm::dquat &orientation,
-                       const glm::dvec3 &pivotMm);
-/// The side that faces the viewer follows the hand. *Units*: logical pixels.
-scene::Camera orbited(const scene::Camera &camera, const QPoint &delta, const glm::dvec3 &pivotMm);
-scene::Camera turnedAroundPatient(const scene::Camera &camera, double degrees,
-                                  const glm::dvec3 &pivotMm);
-/// The pan that shows a point where a camera shows another one, *units*: mm, both from the middle
-/// of their volumes.
-glm::dvec2 pannedTo(const scene::Camera &camera, const glm::dvec3 &shownMm,
-                    const glm::dvec3 &pointMm);
-/// *Units*: `delta`: logical pixels, `pixelRatio`: device pixels in one of them.
-scene::Camera panned(const scene::Camera &camera, const QPoint &delta, double pixelRatio);
+/// Moves of the camera by hand. Turning leaves the pivot, a point of the patient, at its place in
+/// the picture. *Units*: `pivotMm`: LPS, from the middle of the volume, which is 0.
+Pose turnedTo(const Pose &pose, const glm::dquat &orientation, const glm::dvec3 &pivotMm);
+/// The side that faces the viewer follows the hand. *Units*: `delta`: logical pixels.
+Pose orbited(const Pose &pose, const QPoint &delta, const glm::dvec3 &pivotMm);
+/// Turns about the patient's long axis.
+Pose turnedAroundPatient(const Pose &pose, double degrees, const glm::dvec3 &pivotMm);
+/// The pan that shows `pointMm` where the pose shows `shownMm`. *Units*: mm, each from the middle
+/// of its volume.
+glm::dvec2 pannedTo(const Pose &pose, const glm::dvec3 &shownMm, const glm::dvec3 &pointMm);
+/// The picture follows the hand. *Units*: `delta`: logical pixels of `pixelMm`.
+Pose panned(const Pose &pose, const QPoint &delta, double pixelMm);
+/// Above 1: the picture becomes larger.
+Pose zoomed(const Pose &pose, double factor);
 
 } // namespace pellucid::ui

@@ -11,7 +11,7 @@ namespace pellucid::ui {
 
 LookComparison::LookComparison(Document &document, QObject *parent)
     : QObject(parent), m_document(document), m_scene(document.scene()) {
-    // Merged edits of a drag have one index.
+    // The merged edits of a drag have one index.
     connect(document.undoStack(), &QUndoStack::indexChanged, this, &LookComparison::edited);
 }
 
@@ -28,11 +28,11 @@ void LookComparison::edited(int index) {
                         scene.crop != m_scene.crop || scene.tone != m_scene.tone ||
                         scene.image != m_scene.image || scene.fieldWindow != m_scene.fieldWindow;
     m_scene = scene;
-    if (std::exchange(m_index, index) == index || !isLook) // measurements have no look
+    if (std::exchange(m_index, index) == index || !isLook) // an edit of measurements, for example
         return;
     if (m_now)
         m_before = m_now;
-    m_now.reset(); // not again before the new one has settled
+    m_now.reset(); // until the new look has a final picture
 }
 
 QImage besideEachOther(const QImage &before, const QImage &now) {

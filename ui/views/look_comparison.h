@@ -15,7 +15,7 @@ namespace pellucid::ui {
 
 class Document;
 
-/// A look that was shown, with what is needed to show it again from anywhere.
+/// A look that was shown, and the engine that shows it again from any view.
 struct ShownLook {
     std::shared_ptr<render::ProjectionEngine> engine;
     scene::ImageDefinition image;
@@ -24,16 +24,16 @@ struct ShownLook {
     QString name;
 };
 
-/// Remembers the look before the last edit, for comparing: what was on the screen, settled, when an
-/// edit other than the last was made.
+/// Remembers the look before the last edit, to compare with: the last one that had a final picture
+/// on the screen.
 class LookComparison : public QObject {
     Q_OBJECT
 public:
     explicit LookComparison(Document &document, QObject *parent = nullptr);
 
-    /// A picture of what the scene asks for is on the screen.
+    /// A final picture of this look, which the scene asks for, is on the screen.
     void settled(const ShownLook &look) { m_now = look; }
-    /// Of another volume.
+    /// Forgets the looks of the former volume.
     void forget();
     const std::optional<ShownLook> &before() const { return m_before; }
 
@@ -46,7 +46,7 @@ private:
     int m_index = 0; ///< of the undo stack
 };
 
-/// Two pictures of one view beside each other: the middle of each. *Shape*: both of one size.
+/// The middle halves of two pictures of one view, side by side. *Shape*: pictures of one size.
 QImage besideEachOther(const QImage &before, const QImage &now);
 
 } // namespace pellucid::ui

@@ -22,7 +22,7 @@ public:
     }
     ~GlCanvas() override {
         release();
-        // The base class destroys the context, which would call into an object that is gone.
+        // The base class destroys the context, whose signal would call a destroyed object.
         if (context() != nullptr)
             disconnect(context(), nullptr, this, nullptr);
     }
@@ -47,13 +47,12 @@ public:
 
 protected:
     void initializeGL() override {
-        // The context goes away when the widget moves to another window; what is on it goes with
-        // it.
+        // A widget that moves to another window loses its context, and the objects on it.
         connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { release(); });
         try {
             m_pass = std::make_unique<gpu::TonePass>();
         } catch (const task::Error &) {
-            // A driver that does not take the shader: the picture is composed on the processor.
+            // The driver refuses the shader: the processor composes the picture.
         }
         m_fresh = true;
     }
@@ -97,7 +96,7 @@ private:
             m_image = m_picture->download();
             m_fresh = true;
         } catch (const task::Error &) {
-            // The card is gone; the next frame comes from the processor.
+            // The card has failed; the next frame comes from the processor.
         }
         m_picture.reset();
     }
@@ -123,7 +122,7 @@ public:
         try {
             setImage(picture->download());
         } catch (const task::Error &) {
-            // The card is gone; the next frame comes from the processor.
+            // The card has failed; the next frame comes from the processor.
         }
     }
     void setTone(const picture::ToneRange &range, bool inverted) override {
@@ -164,7 +163,7 @@ private:
 } // namespace
 
 std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent) {
-    // Qt may silently give a lower version than asked for.
+    // Qt may silently create a context of a lower version than requested.
     const auto &capabilities = windowCapabilities();
     if (capabilities && capabilities->canShowImages())
         return std::make_unique<GlCanvas>(parent);

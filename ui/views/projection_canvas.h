@@ -10,20 +10,20 @@
 
 namespace pellucid::ui {
 
-/// The surface that shows a projection stretched over its area.
+/// The surface that shows a projection, scaled to its area.
 class ProjectionCanvas {
 public:
     virtual ~ProjectionCanvas() = default;
     virtual QWidget *widget() = 0;
     /// An empty image shows black.
     virtual void setImage(const picture::ProjectionImage &image) = 0;
-    /// The same of a picture on the graphics card, for a canvas that can draw it.
+    /// Shows a picture that is on the graphics card; a canvas that cannot draw it there downloads
+    /// it.
     virtual void setPicture(std::shared_ptr<const gpu::CardPicture> picture) = 0;
     virtual void setTone(const picture::ToneRange &range, bool inverted) = 0;
 };
 
-/// A canvas on OpenGL 3.3 or newer with the GLSL tone pass, or, where there is none, on the
-/// processor.
+/// A canvas on OpenGL 3.3 or newer with the GLSL tone pass; on the processor if there is no OpenGL.
 std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent);
 
 } // namespace pellucid::ui

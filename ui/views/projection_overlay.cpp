@@ -87,7 +87,7 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
         return;
     if (names == Names::shown)
         drawText(painter, second, Qt::AlignLeft | Qt::AlignTop, m_texts.lookName, colors.text);
-    // Warnings of the geometry stay on the image.
+    // Warnings about the geometry belong on every picture.
     QRect warning = second.adjusted(0, line, -width() / 2 - 24, 0);
     const volume::VolumeNotes &notes = m_document.volume()->notes();
     for (const QString &w : warningLines(notes, names, notes.warnings.size())) {
@@ -96,7 +96,7 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
                  colors.warning);
         warning.translate(0, line);
     }
-    if (!m_document.scene().crop.isWhole()) // a part is not to be taken for the whole
+    if (!m_document.scene().crop.isWhole()) // nobody may take a part for the whole
         drawText(painter, warning, Qt::AlignLeft | Qt::AlignTop,
                  QCoreApplication::translate("ProjectionView", "Cropped"), colors.warning);
     if (!m_texts.message.isEmpty()) {
@@ -108,7 +108,7 @@ void ProjectionOverlay::paint(QPainter &painter, const PaneMapping &mapping, Mar
         paintPicture(painter, mapping, marks);
 }
 
-// The point that turning keeps.
+// The pivot of turning.
 void ProjectionOverlay::paintCrosshair(QPainter &painter, const PaneMapping &mapping) const {
     constexpr double gap = 4.0, arm = 12.0;
     const QPointF at = mapping.positionOf(m_document.crosshair());
@@ -127,12 +127,12 @@ void ProjectionOverlay::paintPicture(QPainter &painter, const PaneMapping &mappi
     const glm::dmat3 axes(seen.right, seen.up, seen.toViewer());
     drawOrientationLetters(painter, rect().adjusted(0, line, 0, -line), axes[0], axes[1], colors);
     drawOrientationCube(painter, QPointF(58, height() - 58), 40, axes, colors);
-    // Beside the lower letter, with its text, in the smallest pane too.
+    // Bar and text fit beside the lower letter even in the smallest pane.
     const int barLeft = std::max(width() - 180, width() / 2 + 14);
     drawScaleBar(painter, QPoint(barLeft, height() - 34), mapping.pixelsPerMm(),
                  width() - barLeft - 60, colors);
     if (!m_comparison.isNull())
-        return; // two pictures have no common places
+        return; // two pictures have no common positions
     if (m_showsCrosshair && marks != Marks::plain)
         paintCrosshair(painter, mapping);
     m_measure.paint(painter, {mapping, rect(), colors}, marks);

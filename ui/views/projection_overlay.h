@@ -11,8 +11,9 @@ namespace pellucid::ui {
 
 class Document;
 
-/// What stands over the projection: names, figures of the picture, letters, cube, scale,
-/// measurements. It lets the mouse through, and lies over a canvas that may be an OpenGL surface.
+/// The annotations over the projection: names, figures of the picture, letters, cube, scale,
+/// measurements. The mouse goes through to the pane below. The canvas below may be an OpenGL
+/// surface.
 class ProjectionOverlay : public QWidget {
 public:
     struct Texts {
@@ -25,10 +26,9 @@ public:
     void setTexts(const Texts &texts);
     void setMapping(const PaneMapping &mapping);
     void setShowsCrosshair(bool isShown);
-    /// Over the whole pane, in place of what is below; null: nothing. `name`: of the look at the
-    /// left.
+    /// Covers the canvas with a picture; null: with none. `name`: of the look at its left.
     void setComparison(const QImage &picture, const QString &name);
-    /// Over any picture of the pane's size.
+    /// Paints the annotations over any picture of the pane's size.
     void paint(QPainter &painter, const PaneMapping &mapping, Marks marks, Names names) const;
 
 protected:

@@ -14,10 +14,10 @@ struct ProjectionTexts {
     Q_DECLARE_TR_FUNCTIONS(ProjectionTexts)
 };
 
-// No more digits than are known.
+// As many digits as are meaningful.
 QString errorText(double error) {
     const double percent = 100.0 * error;
-    if (percent >= 100.0) // of a part that shows next to nothing
+    if (percent >= 100.0) // a view of almost empty space
         return QObject::tr("error over 100 %");
     return QObject::tr("error %1 %")
         .arg(percent < 1.0 ? QString::number(percent, 'f', 3) : QString::number(percent, 'g', 2));
@@ -28,8 +28,8 @@ QString withError(const QString &stage, const QString &error) {
 }
 
 QString qualityText(const DescribedFrame &described) {
-    // The error is that of the picture, which may still be the former engine's. It is not computed
-    // while the view moves.
+    // The error belongs to the picture, which may still be that of the former engine. It is not
+    // computed while the view moves.
     const QString error = described.error       ? errorText(*described.error)
                           : described.isPending ? QString()
                                                 : ProjectionTexts::tr("error not known yet");

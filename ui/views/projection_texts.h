@@ -10,13 +10,13 @@
 
 namespace pellucid::ui {
 
-/// A picture on the screen, as its figures describe it.
+/// A picture on the screen and what its figures report.
 struct DescribedFrame {
     const RenderedFrame &frame;
-    std::optional<double> error; ///< against the study, if anyone knows
+    std::optional<double> error; ///< against the study, if known
     EngineStage stage = EngineStage::coarse;
     PlanState planState = PlanState::holds;
-    bool isPending = false; ///< a newer one was asked for
+    bool isPending = false; ///< a newer picture was requested
 };
 
 /// Engine, time and error of a picture: "CPU  12.3 ms  error 0.021 %".

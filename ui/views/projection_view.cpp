@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/views/projection_view.h"
 
+#include <QScopedValueRollback>
+
 #include <glm/geometric.hpp>
 
 #include "core/task/error.h"
@@ -15,22 +17,23 @@ namespace pellucid::ui {
 
 namespace {
 
-// Full frames slower than this would lag behind the hand; drafts are drawn instead while it moves.
+// A full frame that takes longer lags behind the hand: drafts are drawn while the view moves.
 constexpr double smoothFrameMs = 35.0;
 constexpr int restMs = 120;
-// Beyond this a finer picture shows the reconstruction's smoothness, not the patient.
+// A finer picture would show the smoothness of the reconstruction, not the patient.
 constexpr double samplesPerPixel = 4.0;
 
 } // namespace
 
 ProjectionView::ProjectionView(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_canvas(makeProjectionCanvas(this)),
-      m_camera(document, *this), m_tools(document, *this),
-      m_overlay(new ProjectionOverlay(document, m_tools.measure(), this)), m_comparison(document) {
+      m_tools(document, *this), m_overlay(new ProjectionOverlay(document, m_tools.measure(), this)),
+      m_comparison(document) {
     setObjectName("projectionView");
     setAccessibleName(tr("Projection"));
     setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(200, 160);
+    m_document.setProjectionSize(sizeInPixels());
     m_canvas->widget()->setAttribute(Qt::WA_TransparentForMouseEvents);
     m_overlay->raise();
     m_rest.setSingleShot(true);
@@ -43,15 +46,19 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
     });
     connect(&m_worker, &RenderWorker::cardFailed, this, &ProjectionView::cardFailed);
     connect(&document, &Document::volumeChanged, this, [this] {
+        m_overlay->setMapping(mapping());
         if (!m_document.volume() || !m_document.isPreview())
             forgetVolume();
     });
     connect(&document, &Document::crosshairChanged, this, [this] {
-        if (orbitsCrosshair())
+        if (m_orbitsCrosshair)
             m_overlay->update();
     });
-    connect(&document, &Document::cameraChanged, this,
-            [this] { m_overlay->setMapping(mapping()); });
+    for (const auto changed : {&Document::poseChanged, &Document::projectionResized})
+        connect(&document, changed, this, [this] {
+            m_overlay->setMapping(mapping());
+            requestFrame(m_isMoving);
+        });
     for (const auto changed :
          {&Document::measurementsChanged, &Document::selectedMeasurementChanged})
         connect(&document, changed, this, [this] { m_overlay->update(); });
@@ -62,11 +69,11 @@ ProjectionView::ProjectionView(Document &document, QWidget *parent)
 }
 
 ProjectionView::~ProjectionView() {
-    // The canvas is also a child widget: it goes before the base class deletes its children.
+    // The canvas is also a child widget: destroy it before the base class deletes the children.
     m_canvas.reset();
 }
 
-// What was projected belongs to another volume.
+// Engine and picture belong to another volume.
 void ProjectionView::forgetVolume() {
     m_prepared.reset();
     m_onCard.reset();
@@ -81,15 +88,14 @@ void ProjectionView::forgetVolume() {
     m_drawnShading = {};
     m_message = m_document.volume() ? tr("Preparing the projection") : QString();
     m_canvas->setImage({});
-    m_camera.fitWhole();
     showTexts();
 }
 
 void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     if (m_prepared && m_prepared->engine == shown.prepared.engine && m_onCard == shown.onCard &&
         m_stage == stage && m_engineReason == shown.reason) {
-        // The same engine comes again when the detail that it lacks is known: only the figure
-        // changes, so frames that are underway remain valid.
+        // The same engine comes again when the error of its lacking detail is known: only that
+        // figure changes, and frames that are underway remain valid.
         m_prepared = shown.prepared;
         m_worker.setEngine(shown.prepared, shown.onCard, m_generation);
         requestFrame(m_rest.isActive());
@@ -98,14 +104,14 @@ void ProjectionView::setEngine(const ShownEngine &shown, EngineStage stage) {
     m_prepared = shown.prepared;
     m_predictedError = shown.predictedError;
     m_message.clear();
-    // Weights that move change the brightness, and are meant to; another field, or the fine one
-    // after the coarse one, has a brightness of its own.
+    // Weights that move are meant to change the brightness. Other fields, and the full ones after
+    // the coarse ones, have a brightness of their own.
     const bool sameFields = stage == EngineStage::live || stage == EngineStage::settled;
     if (!sameFields) {
         m_tone.beginFields(m_document.scene());
         m_fullFrameMs = 0.0;
     }
-    // Frames of the weights of a moment ago are shown: the hand may be faster than they are.
+    // Frames of slightly older weights are shown, too: the hand may be faster than the frames.
     if (stage != EngineStage::live || m_stage != EngineStage::live)
         ++m_generation;
     m_stage = stage;
@@ -127,8 +133,9 @@ void ProjectionView::jobStarted() {
 
 void ProjectionView::adoptCamera(const scene::Camera &wanted,
                                  const std::optional<glm::dvec3> &pivotMm) {
-    m_camera.adopt(wanted, pivotMm);
-    requestFrame(true); // another view may be moving with it
+    Pose pose = m_document.poseOf(wanted);
+    pose.panMm = pannedTo(pose, pivotMm.value_or(this->pivotMm()), this->pivotMm());
+    moveTo(pose, true); // a linked view may be moving
 }
 
 void ProjectionView::setLookName(const QString &name) {
@@ -163,26 +170,31 @@ void ProjectionView::setMessage(const QString &message) {
 }
 
 void ProjectionView::resetView() {
-    m_camera.reset();
-    requestFrame(false);
+    moveTo({}, false);
     editScene(m_document, tr("Reset window"), noDrag, [](scene::Scene &scene) {
         scene.tone.low.reset();
         scene.tone.high.reset();
     });
 }
 
-void ProjectionView::moveCamera(const scene::Camera &camera, bool moving) {
-    m_document.setCamera(camera);
-    requestFrame(moving);
+void ProjectionView::moveTo(const Pose &pose, bool isMoving) {
+    const QScopedValueRollback moving(m_isMoving, isMoving);
+    m_document.setPose(pose);
 }
 
 void ProjectionView::setOrbitsCrosshair(bool isAboutCrosshair) {
-    m_camera.setOrbitsCrosshair(isAboutCrosshair);
+    m_orbitsCrosshair = isAboutCrosshair;
     m_overlay->setShowsCrosshair(isAboutCrosshair);
 }
 
+glm::dvec3 ProjectionView::pivotMm() const {
+    return m_orbitsCrosshair && m_document.volume()
+               ? m_document.crosshair().mm - m_document.volume()->lattice().center().mm
+               : glm::dvec3(0.0);
+}
+
 void ProjectionView::showStandardView(scene::StandardView view) {
-    moveCamera(turnedTo(m_document.scene().camera, scene::viewOrientation(view), pivotMm()), false);
+    moveTo(turnedTo(m_document.pose(), scene::viewOrientation(view), pivotMm()), false);
 }
 
 void ProjectionView::setComparing(bool isComparing) {
@@ -203,7 +215,7 @@ void ProjectionView::showComparison() {
         const QImage then(rgba.data(), m_frame->compared->width, m_frame->compared->height,
                           QImage::Format_RGBA8888);
         m_overlay->setComparison(besideEachOther(then.scaled(now.size()), now), before.name);
-    } catch (const task::Error &error) { // the card went with the picture
+    } catch (const task::Error &error) { // the card that held the picture failed
         setComparing(false);
         setMessage(translated(error.reason()));
     }
@@ -216,8 +228,7 @@ void ProjectionView::requestFrame(bool moving) {
     m_pending = true;
     const double finest = m_document.volume()->lattice().shortestStepMm() / samplesPerPixel;
     shading::Shading shading = m_document.scene().shading;
-    if (shading.isLit() &&
-        !m_prepared->takesLight) // it is being prepared: all stays as it is till then
+    if (shading.isLit() && !m_prepared->takesLight) // until light is prepared, the shading stays
         shading = m_drawnShading;
     else
         m_tone.follow(shading);
@@ -234,9 +245,9 @@ void ProjectionView::requestFrame(bool moving) {
 
 void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame) {
     if (!m_prepared ||
-        frame->generation != m_generation) // of a volume that was closed, or the coarse one's
+        frame->generation != m_generation) // of a closed volume, or of the coarse engine
         return;
-    // Asked for before the brightness was to be taken anew: the next one tells it.
+    // It was requested before the automatic brightness was: the next frame has one.
     if (m_tone.isWanted() && !frame->automaticTone)
         return;
     m_frame = frame;
@@ -312,32 +323,50 @@ std::function<picture::ProjectionImage(const scene::Camera &)> ProjectionView::p
 
 void ProjectionView::paintAnnotations(QPainter &painter, const scene::Camera &camera,
                                       Names names) const {
-    m_overlay->paint(painter, m_camera.mapping(camera), Marks::plain, names);
+    m_overlay->paint(painter, mappingOf(camera), Marks::plain, names);
 }
 
 scene::Camera ProjectionView::turnedAroundPatient(const scene::Camera &camera,
                                                   double degrees) const {
-    return ui::turnedAroundPatient(camera, degrees, pivotMm());
+    const Pose pose = ui::turnedAroundPatient(m_document.pose(), degrees, pivotMm());
+    scene::Camera turned = camera;
+    turned.orientation = pose.orientation;
+    turned.panMm = pose.panMm;
+    return turned;
+}
+
+QSizeF ProjectionView::sizeInPixels() const {
+    return QSizeF(size()) * devicePixelRatioF();
 }
 
 void ProjectionView::resizeEvent(QResizeEvent *) {
     m_canvas->widget()->setGeometry(rect());
     m_overlay->setGeometry(rect());
-    m_camera.fit();
-    requestFrame(false);
+    m_document.setProjectionSize(sizeInPixels());
 }
 
 PaneMapping ProjectionView::mapping() const {
-    return m_camera.mapping(m_document.scene().camera);
+    return mappingOf(m_document.scene().camera);
+}
+
+PaneMapping ProjectionView::mappingOf(const scene::Camera &camera) const {
+    PaneMapping mapping;
+    mapping.pixelRatio = devicePixelRatioF();
+    const glm::dmat3 axes = camera.axes();
+    mapping.plane = {{}, {axes[0], axes[1]}, camera.pixelMm, camera.width, camera.height};
+    if (m_document.volume())
+        mapping.plane.center = {m_document.volume()->lattice().center().mm +
+                                camera.panMm.x * axes[0] + camera.panMm.y * axes[1]};
+    return mapping;
 }
 
 void ProjectionView::turnAroundPatient(double degrees) {
-    moveCamera(turnedAroundPatient(m_document.scene().camera, degrees), true);
+    moveTo(ui::turnedAroundPatient(m_document.pose(), degrees, pivotMm()), true);
 }
 
 void ProjectionView::lookAlong(const glm::dvec3 &right, const glm::dvec3 &up) {
     const glm::dquat orientation = glm::quat_cast(glm::dmat3(right, up, glm::cross(right, up)));
-    moveCamera(turnedTo(m_document.scene().camera, orientation, pivotMm()), false);
+    moveTo(turnedTo(m_document.pose(), orientation, pivotMm()), false);
 }
 
 void ProjectionView::showTexts() {

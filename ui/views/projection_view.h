@@ -10,12 +10,13 @@
 
 #include "core/picture/automatic_tone.h"
 #include "core/task/reason.h"
+#include "ui/document/pose.h"
 #include "ui/engine/look_preparer.h"
 #include "ui/engine/render_worker.h"
 #include "ui/engine/shown_engine.h"
 #include "ui/views/look_comparison.h"
 #include "ui/views/overlay.h"
-#include "ui/views/projection_camera.h"
+#include "ui/views/pane_mapping.h"
 #include "ui/views/projection_canvas.h"
 #include "ui/views/tools/projection_tools.h"
 
@@ -24,8 +25,9 @@ namespace pellucid::ui {
 class Document;
 class ProjectionOverlay;
 
-/// The Fourier projection of the open volume: orbit, pan, zoom, window and level. Draws a draft
-/// while the mouse moves if a full frame would lag, and the full frame when it rests.
+/// The pane of the Fourier projection of the open volume: orbit, pan, zoom, brightness. It reports
+/// its size to the document, and shows what the scene's camera sees. While the view moves it draws
+/// drafts if full frames would lag, and a full frame when the view rests.
 class ProjectionView : public QWidget, private ProjectionPane {
     Q_OBJECT
 public:
@@ -33,55 +35,57 @@ public:
     ~ProjectionView() override;
 
     void setEngine(const ShownEngine &shown, EngineStage stage);
-    /// The name of the look, shown below the pane's.
+    /// Shows the name of the look below that of the pane.
     void setLookName(const QString &name);
-    /// Whether the engine's predicted error is that of what is shown.
+    /// Whether the engine is made for what the scene asks for.
     void setPlanState(PlanState state);
     PlanState planState() const { return m_planState; }
-    /// Takes the brightness anew from the next frame.
+    /// Recomputes the automatic brightness from the next frame.
     void retakeTone();
-    /// What is shown next has this brightness.
+    /// Uses this automatic brightness for the present scene.
     void adoptTone(const picture::ToneRange &range);
-    /// The next volume is another phase: brightness and picture stay till its own is there.
+    /// The next volume is another phase: brightness and picture stay until its own picture comes.
     void holdTone();
     void setMessage(const QString &message);
-    /// Looks the way another camera does, as far as the pane allows. One of another volume turns
-    /// about a place of that, *units*: as `pivotMm()`; this view's own pivot is there then.
+    /// Looks the way another camera does, at the same pixel size, within the limits of the zoom.
+    /// `pivotMm`: what that camera turns about, if it shows another volume; this view then shows
+    /// its own pivot at the same place.
     void adoptCamera(const scene::Camera &wanted, const std::optional<glm::dvec3> &pivotMm = {});
-    /// What turning leaves where it is in the picture, from the middle of the volume.
-    glm::dvec3 pivotMm() const { return m_camera.pivotMm(); }
-    /// A job is over; whatever it should have delivered is there or will not come.
+    /// Turning leaves this point at its place in the picture. *Units*: mm, LPS, from the middle of
+    /// the volume.
+    glm::dvec3 pivotMm() const;
+    /// A job has ended: nothing more will come from it.
     void jobEnded();
     void jobStarted();
     void showStandardView(scene::StandardView view);
     void resetView();
-    /// Of the tools only that of distances matters here; else the left button orbits.
+    /// The left button measures distances with that tool; with every other one it orbits.
     void setTool(Tool tool);
-    /// Turning keeps the crosshair, or the middle of the volume, where it is in the picture.
+    /// Turns about the crosshair, or about the middle of the volume.
     void setOrbitsCrosshair(bool isAboutCrosshair);
-    bool orbitsCrosshair() const { return m_camera.orbitsCrosshair(); }
-    /// While it is held: the look before the last edit beside the one of now.
+    bool orbitsCrosshair() const { return m_orbitsCrosshair; }
+    /// Shows the look before the last edit beside the present one.
     void setComparing(bool isComparing);
     bool isComparing() const { return m_isComparing; }
-    /// About the patient's long axis.
+    /// Turns about the patient's long axis.
     void turnAroundPatient(double degrees);
-    /// With these image axes, as a distance in the plane of a picture was measured.
+    /// Looks with these image axes, for example those of a projected distance.
     void lookAlong(const glm::dvec3 &right, const glm::dvec3 &up);
-    /// The picture as it is seen, without annotations. *Throws* Error{noSuchDevice} if the graphics
-    /// card that holds it is gone, Error{outOfMemory}.
+    /// The picture on the screen, without annotations. *Throws* Error{noSuchDevice} if the graphics
+    /// card that holds it has failed, Error{outOfMemory}.
     QImage picture() const;
-    /// The scene that makes the picture of this pane again anywhere, pixel for pixel: with the
-    /// brightness that is shown, planned as it was. `scale`: pixels for one of the pane, a side.
+    /// The scene that reproduces the picture of this pane anywhere, pixel for pixel: with the shown
+    /// brightness, and planned for the volume. `scale`: pixels a side for one of the pane.
     scene::Scene sceneOfPicture(int scale = 1) const;
-    /// Makes the picture of any camera as it looks now, by the processor; to be called from any
-    /// thread as long as the view is there. It *throws* as the engine.
+    /// A function that renders the present look with any camera, on the processor. It may be called
+    /// on any thread while the view exists. It *throws* as the engine.
     std::function<picture::ProjectionImage(const scene::Camera &)> pictureRenderer();
-    /// What stands over the picture of a camera of the pane's size. *Units*: logical pixels.
+    /// Paints the annotations of a picture of the pane's size. *Units*: logical pixels.
     void paintAnnotations(QPainter &painter, const scene::Camera &camera, Names names) const;
-    /// As the cine turns it.
+    /// A camera of this pane, at any scale, turned as `turnAroundPatient` turns the view.
     scene::Camera turnedAroundPatient(const scene::Camera &camera, double degrees) const;
     bool isFinal() const { return m_stage == EngineStage::full || m_stage == EngineStage::settled; }
-    /// The final image of what the scene asks for.
+    /// Whether the final image of what the scene asks for is on the screen.
     bool showsWhatIsAskedFor() const;
     bool showsFinalImage() const { return m_frame && !m_frame->draft && isFinal() && !m_pending; }
 
@@ -90,10 +94,10 @@ signals:
     /// Engine and reason for the status bar.
     void engineDescribed(const QString &text);
     void finalImageShown();
-    /// The graphics card failed; the processor goes on.
+    /// The graphics card failed; the processor takes over.
     void cardFailed(const pellucid::task::Reason &reason,
                     const std::shared_ptr<pellucid::gpu::FramePasses> &passes);
-    /// A frame is on the screen; what it took to make.
+    /// A frame is on the screen. `times`: of rendering it.
     void frameShown(const pellucid::picture::FrameTimes &times, bool draft);
 
 protected:
@@ -111,7 +115,10 @@ private:
     void requestFrame(bool moving);
     void takeFrame(const std::shared_ptr<const RenderedFrame> &frame);
     void updateTone();
-    void moveCamera(const scene::Camera &camera, bool moving);
+    /// `isMoving`: more moves may follow, so a draft will do.
+    void moveTo(const Pose &pose, bool isMoving);
+    QSizeF sizeInPixels() const;
+    PaneMapping mappingOf(const scene::Camera &camera) const;
     void showComparison();
     void showTexts();
     void showCursor();
@@ -129,7 +136,6 @@ private:
 
     Document &m_document;
     std::unique_ptr<ProjectionCanvas> m_canvas;
-    ProjectionCamera m_camera;
     ProjectionTools m_tools;
     ProjectionOverlay *m_overlay;
     RenderWorker m_worker;
@@ -138,15 +144,17 @@ private:
     std::optional<prepare::PreparedEngine> m_prepared;
     std::shared_ptr<gpu::GpuEngine> m_onCard;
     task::Reason m_engineReason = task::because::processorChosen; ///< of the shown engine
-    /// What is shown, and what made it: a new engine has to make its first picture yet.
+    /// The frame on the screen. A new engine has not made it yet.
     std::shared_ptr<const RenderedFrame> m_frame;
-    std::optional<double> m_frameError; ///< against the study, if anyone knows
+    std::optional<double> m_frameError; ///< against the study, if known
     EngineStage m_frameStage = EngineStage::coarse;
     picture::AutomaticTone m_tone;
     QString m_message, m_lookName;
-    shading::Shading m_drawnShading; ///< of the last frame that was asked for
+    shading::Shading m_drawnShading; ///< of the last requested frame
     double m_predictedError = 0.0, m_fullFrameMs = 0.0;
     EngineStage m_stage = EngineStage::coarse;
+    bool m_orbitsCrosshair = false;
+    bool m_isMoving = false; ///< while moveTo sets the pose
     bool m_pending = false;
     bool m_isComparing = false;
     PlanState m_planState = PlanState::holds;

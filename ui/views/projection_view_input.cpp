@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What mouse, wheel and keys do in the projection.
+// Mouse, wheel and keys of the projection.
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QWheelEvent>
@@ -53,16 +53,17 @@ void ProjectionView::mouseDoubleClickEvent(QMouseEvent *event) {
 }
 
 void ProjectionView::orbitBy(const QPoint &delta) {
-    moveCamera(orbited(m_document.scene().camera, delta, pivotMm()), true);
+    moveTo(orbited(m_document.pose(), delta, pivotMm()), true);
 }
 
 void ProjectionView::panBy(const QPoint &delta) {
-    moveCamera(panned(m_document.scene().camera, delta, devicePixelRatioF()), true);
+    moveTo(
+        panned(m_document.pose(), delta, m_document.scene().camera.pixelMm * devicePixelRatioF()),
+        true);
 }
 
 void ProjectionView::zoomBy(double factor) {
-    m_camera.zoomBy(factor);
-    requestFrame(true);
+    moveTo(zoomed(m_document.pose(), factor), true);
 }
 
 void ProjectionView::wheelEvent(QWheelEvent *event) {
@@ -72,7 +73,7 @@ void ProjectionView::wheelEvent(QWheelEvent *event) {
 }
 
 bool ProjectionView::event(QEvent *event) {
-    // The keypad belongs to the views here, not to the window presets of the same digits.
+    // Here the digits of the keypad choose standard views, not window presets.
     if (event->type() == QEvent::ShortcutOverride &&
         (static_cast<QKeyEvent *>(event)->modifiers() & Qt::KeypadModifier) != 0) {
         event->accept();

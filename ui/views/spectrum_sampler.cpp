@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Before Qt, which makes a macro of a name that oneTBB uses.
+// Before Qt, which defines a name of oneTBB as a macro.
 #include <tbb/task_arena.h>
 
 #include "ui/views/spectrum_sampler.h"
@@ -12,7 +12,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// From the start of one slice to the next.
+// The shortest time from the start of one slice to that of the next.
 constexpr int pauseMs = 100;
 
 } // namespace
@@ -22,11 +22,12 @@ SpectrumSampler::SpectrumSampler(Document &document, QObject *parent)
     m_pause.setSingleShot(true);
     m_pause.setInterval(pauseMs);
     connect(&m_pause, &QTimer::timeout, this, &SpectrumSampler::sampleNext);
-    connect(&document, &Document::cameraChanged, this, &SpectrumSampler::follow);
+    for (const auto changed : {&Document::poseChanged, &Document::projectionResized})
+        connect(&document, changed, this, &SpectrumSampler::follow);
     connect(&document, &Document::volumeChanged, this, [this] {
         if (m_document.volume() && m_document.isPreview())
             return;
-        // What was prepared is of another volume; its own comes with its engine.
+        // The spectrum belongs to another volume; that of this one comes with its engine.
         m_parts.reset();
         m_isStale = false;
         m_jobs.cancel();
@@ -54,7 +55,7 @@ void SpectrumSampler::setActive(bool isActive) {
 
 scene::Camera SpectrumSampler::camera() const {
     scene::Camera camera = m_document.scene().camera;
-    // Beyond the band of the samples the spectrum only repeats itself.
+    // The spectrum is periodic beyond the band of the samples.
     camera.pixelMm = std::max(camera.pixelMm, m_document.volume()->lattice().shortestStepMm());
     return camera;
 }
@@ -74,7 +75,7 @@ void SpectrumSampler::sampleNext() {
     m_jobs.start(
         {},
         [this, parts = *m_parts, camera = camera()](const Job &job) {
-            // On one thread: the others are the frames'.
+            // On one thread: frames need the others.
             render::SpectrumSlice slice;
             tbb::task_arena alone(1);
             alone.execute(

@@ -14,26 +14,26 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Samples the slice of the spectrum that the projection's view takes, over the band of the picture
-/// or of the volume's shortest step, whichever is smaller. It works in the background and only
-/// while it is asked to. While the view turns, it samples the latest one, a few times a second.
+/// Samples the slice of the spectrum that the projection is made from, over the band of the picture
+/// or of the volume's shortest step, whichever is smaller. It works in the background, and only
+/// while it is active. While the view turns, it samples the latest view a few times a second.
 class SpectrumSampler : public QObject {
     Q_OBJECT
 public:
     explicit SpectrumSampler(Document &document, QObject *parent = nullptr);
 
     void setEngine(const ShownEngine &shown);
-    /// Whether anyone sees the result. It starts switched off.
+    /// Activates it while its result is visible. At first it is inactive.
     void setActive(bool isActive);
-    /// Whether the last slice is not, or will not remain, that of the present view.
+    /// Whether the last slice is not that of the present view, or another one is underway.
     bool isBehind() const { return m_isStale || m_jobs.isRunning(); }
 
-    /// Frequencies a side.
+    /// Frequencies along one side of the slice.
     static constexpr int side = 256;
 
 signals:
     void sampled(const pellucid::render::SpectrumSlice &slice);
-    /// There is no slice, and why, if that is not because nothing is open.
+    /// There is no slice. `reason`: why, unless no study is open.
     void cleared(const std::optional<pellucid::task::Reason> &reason);
 
 private:
@@ -43,7 +43,7 @@ private:
 
     Document &m_document;
     std::optional<render::EngineParts> m_parts;
-    JobRunner m_jobs; // its own: it stops for nobody and shows no progress
+    JobRunner m_jobs; // its own: no other job stops it, and it shows no progress
     QTimer m_pause;
     bool m_isActive = false, m_isStale = false;
 };

@@ -13,11 +13,11 @@
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
-#include <QTimer>
 #include <QVBoxLayout>
 
 #include "core/system/log.h"
 #include "ui/beside/study_pair.h"
+#include "ui/beside/study_projection.h"
 #include "ui/document/add_command.h"
 #include "ui/jobs/job_strip.h"
 #include "ui/language/reasons.h"
@@ -51,8 +51,7 @@ namespace pellucid::ui {
 MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &preferences,
                        QWidget *parent)
     : QMainWindow(parent), m_bench(bench), m_theme(theme), m_preferences(preferences) {
-    const scene::Camera camera = bench.document.scene().camera; // panes fit their own
-    const auto brightness = bench.document.brightness();
+    const auto brightness = bench.study.document.brightness(); // of the study that is open already
     setObjectName("mainWindow");
     setAcceptDrops(true);
     resize(QSize(1600, 1000).boundedTo(screen()->availableGeometry().size()));
@@ -60,21 +59,21 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     createPanes();
     m_docks = new StudyDocks(*this, m_bench, m_theme);
     connectStudyDocks();
-    m_look = new LookDocks(*this, m_bench.document, m_bench.preparer, m_bench.copier, *m_projection,
-                           m_theme);
+    m_look = new LookDocks(*this, m_bench.study.document, m_bench.study.preparer,
+                           m_bench.study.copier, *m_projection, m_theme);
     connect(&m_look->presets(), &PresetsPanel::failed, this, &MainWindow::report);
     createFileMenu();
     createEditMenu();
     createViewMenu();
-    auto *lookMenu =
-        new LookMenu(*menuBar()->addMenu(tr("&Look")), m_bench.document, *m_look, *m_projection);
-    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_bench.document, m_mpr,
-                            *m_projection, m_bench.phases);
+    auto *lookMenu = new LookMenu(*menuBar()->addMenu(tr("&Look")), m_bench.study.document, *m_look,
+                                  *m_projection);
+    m_tools = new ToolsMenu(*menuBar()->addMenu(tr("&Tools")), m_bench.study.document, m_mpr,
+                            *m_projection, m_bench.study.phases);
     m_pair->setTool(m_tools->tool());
     connect(m_tools, &ToolsMenu::toolChosen, m_pair, &StudyPair::setTool);
     createHelpMenu();
     giveIcons(*this, m_theme);
-    makeToolBar(*this, m_bench.document, m_theme, m_preferences.toolBar,
+    makeToolBar(*this, m_bench.study.document, m_theme, m_preferences.toolBar,
                 {*m_tools, m_view->layouts(), lookMenu->windowMenu()});
     createStatusBar();
     applyShortcuts(*this);
@@ -85,18 +84,16 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     connect(new ProjectionKeys(*this, *m_projection), &ProjectionKeys::comparisonRequested, this,
             &MainWindow::compareLooks);
     showVolumeState();
-    bench.document.announce(); // what is open already
+    bench.study.document.announce();
     if (brightness)
         m_projection->adoptTone(*brightness);
-    bench.preparer.announce();
-    if (bench.document.volume()) // once the panes have their sizes
-        QTimer::singleShot(0, m_projection, [this, camera] { m_projection->adoptCamera(camera); });
+    bench.study.preparer.announce();
 }
 
 MainWindow::~MainWindow() {
-    m_bench.exports.join();              // they look at the panes
-    m_pair->closeBeside();               // it looks at the open study
-    m_bench.measurements.writePending(); // while somebody can say that it failed
+    m_bench.exports.join();              // they refer to the panes
+    m_pair->closeBeside();               // it refers to the open study
+    m_bench.measurements.writePending(); // while a failure can still be reported
 }
 
 void MainWindow::createPanes() {
@@ -104,11 +101,11 @@ void MainWindow::createPanes() {
     std::size_t n = 0;
     for (const auto orientation :
          {mpr::Orientation::axial, mpr::Orientation::coronal, mpr::Orientation::sagittal}) {
-        m_mpr[n] = new MprView(m_bench.document, orientation);
+        m_mpr[n] = new MprView(m_bench.study.document, orientation);
         panes[n] = m_mpr[n];
         ++n;
     }
-    m_projection = new ProjectionView(m_bench.document);
+    m_projection = new ProjectionView(m_bench.study.document);
     panes[3] = m_projection;
     m_panes = new PaneArea(panes);
     for (MprView *view : m_mpr)
@@ -124,50 +121,41 @@ void MainWindow::createPanes() {
     auto *column = new QVBoxLayout(viewing);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    m_pair = new StudyPair({m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
+    m_pair = new StudyPair({m_bench.study.document, m_mpr, m_projection, m_panes}, m_bench.card);
     connect(m_pair, &StudyPair::failed, this, &MainWindow::report);
     column->addWidget(m_pair, 1);
-    column->addWidget(new PhaseBar(m_bench.phases));
+    column->addWidget(new PhaseBar(m_bench.study.phases));
     m_stack->addWidget(viewing);
     setCentralWidget(m_stack);
 }
 
 void MainWindow::connectBench() {
-    connect(&m_bench.document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
-    connect(&m_bench.copier, &CardCopier::engineReady, m_projection, &ProjectionView::setEngine);
-    connect(m_projection, &ProjectionView::cardFailed, &m_bench.card, &GraphicsCard::giveUp);
+    connect(&m_bench.study.document, &Document::volumeChanged, this, &MainWindow::showVolumeState);
+    connectProjection(m_bench.study, *m_projection, m_bench.card);
     connect(&m_bench.card, &GraphicsCard::changed, this, [this] {
-        if (!m_bench.document.volume())
+        if (!m_bench.study.document.volume())
             m_engine->setText(m_bench.card.description());
     });
-    connect(&m_bench.preparer, &LookPreparer::planChanged, m_projection,
-            &ProjectionView::setPlanState);
-    connect(&m_bench.opener, &StudyOpener::cameraKept, this,
-            [this](const scene::Camera &kept) { m_projection->adoptCamera(kept); });
-    connect(&m_bench.opener, &StudyOpener::brightnessKept, m_projection,
-            &ProjectionView::adoptTone);
-    connect(&m_bench.opener, &StudyOpener::hugeFound, this,
+    connect(&m_bench.study.opener, &StudyOpener::hugeFound, this,
             [this](const QStringList &paths, const std::vector<dicom::Skipped> &huge) {
                 askForHuge(this, huge, [this, paths] {
-                    m_bench.opener.openPaths(paths, {}, {.takesHuge = true});
+                    m_bench.study.opener.openPaths(paths, {}, {.takesHuge = true});
                 });
             });
-    connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
-    connect(&m_bench.opener, &StudyOpener::notProjectable, m_projection,
-            &ProjectionView::setMessage);
-    connect(&m_bench.document, &Document::currentSourceChanged, this, &MainWindow::showVolumeState);
+    connect(&m_bench.study.document, &Document::currentSourceChanged, this,
+            &MainWindow::showVolumeState);
 }
 
 void MainWindow::connectStudyDocks() {
     StudyPanel *studies = &m_docks->studies();
-    connect(studies, &StudyPanel::sourceActivated, &m_bench.opener,
-            [this](int source) { m_bench.opener.openSource(source); });
-    connect(studies, &StudyPanel::closeRequested, &m_bench.opener, &StudyOpener::closeSource);
+    connect(studies, &StudyPanel::sourceActivated, &m_bench.study.opener,
+            [this](int source) { m_bench.study.opener.openSource(source); });
+    connect(studies, &StudyPanel::closeRequested, &m_bench.study.opener, &StudyOpener::closeSource);
     connect(studies, &StudyPanel::besideRequested, m_pair, &StudyPair::openBeside);
     connect(studies, &StudyPanel::libraryVolumeActivated, m_reopening, &Reopening::openFromLibrary);
     connect(&m_bench.library, &StudyLibrary::failed, this, &MainWindow::report);
     connect(&m_bench.library, &StudyLibrary::imported, this, [this](const ImportResult &result) {
-        m_bench.document.addProblems(result.skipped);
+        m_bench.study.document.addProblems(result.skipped);
         statusBar()->showMessage(tr("Imported: %1 series, %2 files; %3 not used")
                                      .arg(result.series)
                                      .arg(result.files)
@@ -217,10 +205,10 @@ PreferencesDialog &MainWindow::openPreferences() {
 
 void MainWindow::createEditMenu() {
     QMenu *menu = menuBar()->addMenu(tr("&Edit"));
-    QAction *undo = m_bench.document.undoStack()->createUndoAction(this, tr("Undo"));
+    QAction *undo = m_bench.study.document.undoStack()->createUndoAction(this, tr("Undo"));
     undo->setObjectName("undoAction");
     undo->setShortcut(QKeySequence::Undo);
-    QAction *redo = m_bench.document.undoStack()->createRedoAction(this, tr("Redo"));
+    QAction *redo = m_bench.study.document.undoStack()->createRedoAction(this, tr("Redo"));
     redo->setObjectName("redoAction");
     redo->setShortcut(QKeySequence("Ctrl+Shift+Z"));
     menu->addActions({undo, redo});
@@ -236,7 +224,7 @@ void MainWindow::createEditMenu() {
 
 void MainWindow::createViewMenu() {
     m_view = new ViewMenu(*menuBar()->addMenu(tr("&View")), *this,
-                          {m_bench.document, m_mpr, m_projection, m_panes}, m_bench.card);
+                          {m_bench.study.document, m_mpr, m_projection, m_panes}, m_bench.card);
     m_view->addPane(*m_docks->spectrum().toggleViewAction(), tr("Spectr&um"), "spectrumAction",
                     QKeySequence("Shift+S"));
     connect(m_view, &ViewMenu::comparisonRequested, this, &MainWindow::compareLooks);
@@ -244,7 +232,7 @@ void MainWindow::createViewMenu() {
     connect(m_view, &ViewMenu::closeBesideRequested, m_pair, &StudyPair::closeBeside);
     connect(m_pair, &StudyPair::besideChanged, m_view, &ViewMenu::setBeside);
     connect(m_pair, &StudyPair::linkChanged, m_view, &ViewMenu::setLinked);
-    connect(m_view, &ViewMenu::preparationRequested, &m_bench.preparer,
+    connect(m_view, &ViewMenu::preparationRequested, &m_bench.study.preparer,
             &LookPreparer::prepareAgain);
 }
 
@@ -265,11 +253,9 @@ void MainWindow::createStatusBar() {
     m_engine->setObjectName("engineLabel");
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_readout);
-    statusBar()->addWidget(new JobStrip(m_bench.jobs, "job"));
+    statusBar()->addWidget(new JobStrip(m_bench.study.jobs, "job"));
     statusBar()->addPermanentWidget(m_engine);
-    connect(&m_bench.jobs, &JobRunner::started, m_projection, &ProjectionView::jobStarted);
-    connect(&m_bench.jobs, &JobRunner::finished, m_projection, &ProjectionView::jobEnded);
-    connect(&m_bench.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
+    connect(&m_bench.study.jobs, &JobRunner::failed, this, &MainWindow::reportLoad);
     connect(m_projection, &ProjectionView::engineDescribed, this, [this](const QString &text) {
         if (text != m_engine->text())
             system::log(text.toStdString());
@@ -283,17 +269,18 @@ void MainWindow::createStatusBar() {
 
 void MainWindow::showVolumeState() {
     showTitle();
-    m_stack->setCurrentWidget(m_bench.document.volume() || m_bench.document.currentSource() >= 0
+    m_stack->setCurrentWidget(m_bench.study.document.volume() ||
+                                      m_bench.study.document.currentSource() >= 0
                                   ? m_pair->parentWidget()
                                   : m_start);
 }
 
 void MainWindow::openPaths(const QStringList &paths) {
-    // They are remembered, and opened again from another folder.
+    // Paths are remembered, and may be opened again from another working folder.
     QStringList absolute;
     for (const QString &path : paths)
         absolute << QFileInfo(path).absoluteFilePath();
-    m_bench.opener.openPaths(absolute);
+    m_bench.study.opener.openPaths(absolute);
 }
 
 void MainWindow::setPreferences(const Preferences &preferences) {
@@ -302,27 +289,27 @@ void MainWindow::setPreferences(const Preferences &preferences) {
     showTitle();
 }
 
-// A name only where its owner asked for it.
+// The patient's name appears only if the user asked for it.
 void MainWindow::showTitle() {
-    const int open = m_bench.document.currentSource();
+    const int open = m_bench.study.document.currentSource();
     setWindowTitle(m_preferences.showsPatient && open >= 0
-                       ? patientText(m_bench.document.sources()[std::size_t(open)].study) +
+                       ? patientText(m_bench.study.document.sources()[std::size_t(open)].study) +
                              " - Pellucid"
                        : QString("Pellucid"));
 }
 
 void MainWindow::openPhantom(const QString &kind) {
-    m_bench.opener.openPhantom(kind);
+    m_bench.study.opener.openPhantom(kind);
 }
 
 void MainWindow::report(const task::Reason &what, const QString &path) {
-    m_bench.document.addProblems({{path.toStdString(), what}});
+    m_bench.study.document.addProblems({{path.toStdString(), what}});
     statusBar()->showMessage(translated(what), 8000);
 }
 
 void MainWindow::reportLoad(const task::Reason &what, const QString &path) {
     report(what, path);
-    if (m_bench.document.volume())
+    if (m_bench.study.document.volume())
         m_projection->setMessage(translated(what));
 }
 
@@ -344,18 +331,18 @@ void MainWindow::dropEvent(QDropEvent *event) {
 void MainWindow::compareLooks(bool isComparing) {
     m_projection->setComparing(isComparing);
     if (isComparing && !m_projection->isComparing())
-        statusBar()->showMessage(tr("There is no look before this one"), 4000);
+        statusBar()->showMessage(tr("There is no earlier look to compare with"), 4000);
 }
 
 void MainWindow::keyPressEvent(QKeyEvent *event) {
-    if (event->key() == Qt::Key_Escape && m_bench.jobs.isRunning())
-        m_bench.jobs.cancel();
+    if (event->key() == Qt::Key_Escape && m_bench.study.jobs.isRunning())
+        m_bench.study.jobs.cancel();
     else
         QMainWindow::keyPressEvent(event);
 }
 
 void MainWindow::changeEvent(QEvent *event) {
-    // Who goes to another window lets go there.
+    // The key that compares looks may be released in another window.
     if (event->type() == QEvent::ActivationChange && !isActiveWindow() && m_projection != nullptr)
         m_projection->setComparing(false);
     QMainWindow::changeEvent(event);
@@ -369,7 +356,7 @@ void MainWindow::keepLayout() {
 
 void MainWindow::closeEvent(QCloseEvent *event) {
     keepLayout();
-    m_bench.jobs.cancel();
+    m_bench.study.jobs.cancel();
     QMainWindow::closeEvent(event);
 }
 

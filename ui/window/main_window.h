@@ -29,8 +29,8 @@ class StudyPair;
 class ToolsMenu;
 class ViewMenu;
 
-/// The workstation's window: creates the panes and docks, names the menus, connects intents. It
-/// shows what is on the bench, also what was open before it was made.
+/// The workstation's window: creates the panes and docks, names the menus, connects intents. A new
+/// window shows the study that is open on the bench already.
 class MainWindow : public QMainWindow {
     Q_OBJECT
 public:
@@ -40,14 +40,14 @@ public:
 
     void openPaths(const QStringList &paths);
     void openPhantom(const QString &kind);
-    /// Those that need no new window.
+    /// Applies the preferences that need no new window.
     void setPreferences(const Preferences &preferences);
     PreferencesDialog &openPreferences();
-    /// Sizes and places of window and docks.
+    /// Stores sizes and places of window and docks in the settings.
     void keepLayout();
 
-    Document &document() { return m_bench.document; }
-    JobRunner &jobs() { return m_bench.jobs; }
+    Document &document() { return m_bench.study.document; }
+    JobRunner &jobs() { return m_bench.study.jobs; }
     StudyLibrary &library() { return m_bench.library; }
     GraphicsCard &graphicsCard() { return m_bench.card; }
     FileMenu &fileMenu() { return *m_file; }
@@ -76,7 +76,7 @@ private:
     void compareLooks(bool isComparing);
     void showTitle();
     void report(const task::Reason &what, const QString &path);
-    /// Of what should have been shown.
+    /// Reports the failure of a job in the projection's pane, too.
     void reportLoad(const task::Reason &what, const QString &path);
     QAction *command(QMenu &menu, const QString &text, const char *name, const QKeySequence &key,
                      const std::function<void()> &run);

@@ -18,16 +18,17 @@ namespace pellucid::ui {
 
 class GraphicsCard;
 
-/// The menu of where one looks from, and of how the panes are laid out.
+/// The View menu: standard views, looks and studies to compare, the layout of the panes, the
+/// engine.
 class ViewMenu : public QObject {
     Q_OBJECT
 public:
     ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, GraphicsCard &card);
 
     QList<QAction *> layouts() const;
-    /// A pane that is shown and hidden, below the layouts.
+    /// Adds the action that shows and hides a pane, below the layouts.
     void addPane(QAction &toggle, const QString &text, const char *name, const QKeySequence &key);
-    /// Whether there is a study beside; it is linked first.
+    /// Whether there is a study beside. It is linked at first.
     void setBeside(bool isThere);
     void setLinked(bool isLinked);
 

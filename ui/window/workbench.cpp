@@ -4,17 +4,14 @@
 namespace pellucid::ui {
 
 Workbench::Workbench(std::optional<EngineChoice> engine)
-    : preparer(document, jobs), card(engine), copier(document, jobs, card),
-      opener(document, jobs, preparer), phases(document, opener, jobs), measurements(document) {
-    QObject::connect(&preparer, &LookPreparer::engineReady, &copier, &CardCopier::show);
-    document.addProblems(library.notices());
+    : card(engine), study(card), measurements(study.document) {
+    study.document.addProblems(library.notices());
     if (const auto fault = session.fault())
-        document.addProblems({{fault->path(), fault->reason()}});
+        study.document.addProblems({{fault->path(), fault->reason()}});
 }
 
 Workbench::~Workbench() {
-    // Work that still runs looks at the members.
-    jobs.join();
+    // Their work refers to the other members. That of `study` refers to itself alone.
     exports.join();
     library.jobs().join();
 }

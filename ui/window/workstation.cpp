@@ -20,7 +20,8 @@ namespace {
 
 constexpr int keepingMs = 1500;
 
-// Whether no path of it names a patient. A series has hundreds of files in a folder.
+// Whether no path of the session names a patient. A series has hundreds of files in one folder, so
+// folders and names are checked once each.
 bool mayStay(const Session &session, const Document &document) {
     std::set<QString> folders, names;
     const auto look = [&](const QString &file) {
@@ -49,11 +50,11 @@ Workstation::Workstation(std::optional<EngineChoice> engine)
     m_keeping.setInterval(keepingMs);
     connect(&m_keeping, &QTimer::timeout, this, [this] { keepWhatIsOpen(false); });
     for (const auto changed :
-         {&Document::volumeChanged, &Document::sceneChanged, &Document::cameraChanged,
-          &Document::displayWindowChanged, &Document::brightnessChanged,
-          &Document::crosshairChanged, &Document::cutChanged})
-        connect(&m_bench.document, changed, this, [this] {
-            if (!m_keeping.isActive()) // a hand that does not rest is kept, too
+         {&Document::volumeChanged, &Document::sceneChanged, &Document::poseChanged,
+          &Document::projectionResized, &Document::displayWindowChanged,
+          &Document::brightnessChanged, &Document::crosshairChanged, &Document::cutChanged})
+        connect(&m_bench.study.document, changed, this, [this] {
+            if (!m_keeping.isActive()) // a long drag does not postpone it
                 m_keeping.start();
         });
 }
@@ -67,27 +68,28 @@ void Workstation::keepWhatIsOpen(bool hasEnded) {
         m_bench.session.forget();
         return;
     }
-    // Who opened nothing still has what was open before; what was closed since is not of a crash.
-    auto session = currentSession(m_bench.document);
+    // If nothing was opened, the previous session stays. A study that was closed on purpose is not
+    // offered as crash recovery.
+    auto session = currentSession(m_bench.study.document);
     if (!session && hasEnded && m_hasKept)
         session = m_bench.session.kept();
     if (!session)
         return;
     m_hasKept = true;
     session->hasEnded = hasEnded;
-    // A program that is killed may lose nothing; of one that ends no name is to stay.
-    if (hasEnded && !mayStay(*session, m_bench.document))
+    // Paths that name a patient are kept only while the program runs, for the case of a crash.
+    if (hasEnded && !mayStay(*session, m_bench.study.document))
         m_bench.session.forget();
     else
         m_bench.session.keep(*session);
 }
 
-// English stands in the program; what is missing of another language stays English.
+// The texts of the program are English; a text without a translation stays English.
 void Workstation::speak(const QString &language) {
     QCoreApplication::removeTranslator(&m_texts);
     QCoreApplication::removeTranslator(&m_ofQt);
     const QLocale locale = language.isEmpty() ? QLocale() : QLocale(language);
-    // English has a file too, of its plurals.
+    // English has a file, too, for its plurals.
     if (m_texts.load(locale, "pellucid", "_", ":/i18n"))
         QCoreApplication::installTranslator(&m_texts);
     if (m_ofQt.load(locale, "qtbase", "_", QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
@@ -103,7 +105,7 @@ void Workstation::makeWindow() {
         geometry = m_window->saveGeometry();
         m_window->keepLayout();
     }
-    std::optional<PreferencesDialog::Place> preferences; // it is in the middle of a choice
+    std::optional<PreferencesDialog::Place> preferences; // the user is making a choice in it
     if (wasThere)
         if (const auto *const dialog = m_window->findChild<PreferencesDialog *>())
             preferences = dialog->place();
@@ -117,7 +119,7 @@ void Workstation::makeWindow() {
         m_window->openPreferences().setPlace(*preferences);
 }
 
-// What is being written looks at the panes: it is finished first.
+// Exports refer to the panes: they finish first.
 void Workstation::makeWindowWhenIdle() {
     if (m_bench.exports.isRunning())
         connect(&m_bench.exports, &JobRunner::finished, this, &Workstation::makeWindowWhenIdle,
@@ -139,7 +141,7 @@ void Workstation::follow(const Preferences &preferences) {
         speak(preferences.language);
     if (preferences.language != before.language || preferences.theme != before.theme ||
         preferences.toolBar != before.toolBar)
-        // Not from within a dialog of the window that goes.
+        // Queued: the caller is a dialog of the old window.
         QMetaObject::invokeMethod(this, &Workstation::makeWindowWhenIdle, Qt::QueuedConnection);
     else
         m_window->setPreferences(preferences);

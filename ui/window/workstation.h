@@ -14,8 +14,8 @@ namespace pellucid::ui {
 
 class MainWindow;
 
-/// The running program: the bench, the window over it, language and theme. The window is made anew
-/// when one of these changes; what is on the bench stays.
+/// The running program: the bench, the window over it, language and theme. A change of language or
+/// theme makes a new window; the bench stays.
 class Workstation : public QObject {
     Q_OBJECT
 public:
@@ -37,7 +37,7 @@ private:
     Workbench m_bench;
     std::unique_ptr<MainWindow> m_window;
     bool m_hasKept = false; ///< in this run
-    QTimer m_keeping;       ///< runs from a change until it is kept
+    QTimer m_keeping;       ///< runs from a change until the session is kept
 };
 
 } // namespace pellucid::ui
