@@ -2723,7 +2723,7 @@
         <translation>匯出影像</translation>
     </message>
     <message>
-        <source>Names, letters, scale and measurements; without them a picture has no patient&apos;s side on it</source>
+        <source>Names, letters, scale and measurements; without them the picture does not mark the patient&apos;s sides</source>
         <translation>名稱、方位字母、比例尺與測量；若不包含，影像上便沒有病患的左右標示</translation>
     </message>
     <message>
@@ -2763,7 +2763,7 @@
         <translation>%1 x %2 像素</translation>
     </message>
     <message>
-        <source>holds the patient&apos;s name and identifier</source>
+        <source>contains the patient&apos;s name and identifier</source>
         <translation>含有病患姓名與識別碼</translation>
     </message>
     <message>
@@ -2775,7 +2775,7 @@
         <translation>正在寫入</translation>
     </message>
     <message>
-        <source>%1 is there already. Replace it?</source>
+        <source>%1 already exists. Replace it?</source>
         <translation>%1 已經存在。要取代它嗎？</translation>
     </message>
     <message>
@@ -2787,8 +2787,8 @@
         <translation>不含病人的姓名、編號、日期與檢查資料，並使用新的檢查 UID（DICOM PS3.15 基本設定檔）</translation>
     </message>
     <message>
-        <source>holds nothing of the patient&apos;s identity</source>
-        <translation>不含任何病人身分資料</translation>
+        <source>does not identify the patient</source>
+        <translation>不含任何病患身分資料</translation>
     </message>
 </context>
 <context>
@@ -3160,8 +3160,8 @@
         <translation>說明(&amp;H)</translation>
     </message>
     <message>
-        <source>There is no look before this one</source>
-        <translation>在此之前沒有其他外觀</translation>
+        <source>There is no earlier look to compare with</source>
+        <translation>沒有可比較的先前外觀</translation>
     </message>
     <message>
         <source>Spectr&amp;um</source>

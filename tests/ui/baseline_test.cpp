@@ -154,8 +154,9 @@ private:
         return found;
     }
     void rest() {
-        QTRY_VERIFY_WITH_TIMEOUT(
-            projectionOf()->showsFinalImage() && !m_program->bench().jobs.isRunning(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(projectionOf()->showsFinalImage() &&
+                                     !m_program->bench().study.jobs.isRunning(),
+                                 patienceMs);
     }
     QString density() const {
         return QString("%1x").arg(m_program

@@ -151,7 +151,7 @@ private slots:
             ui::Workstation program;
             program.window().openPaths({QString::fromStdString(named.string())});
             QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            const auto &source = program.bench().document.sources().at(0);
+            const auto &source = program.bench().study.document.sources().at(0);
             QVERIFY(ui::namesPatient(source.lasting.at(0), source.study));
         }
         QVERIFY(!hasSession());
@@ -176,7 +176,7 @@ private slots:
         {
             ui::Workstation program;
             program.window().openPaths({path});
-            ui::Document &document = program.bench().document;
+            ui::Document &document = program.bench().study.document;
             QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
             QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
             QVERIFY(!program.window().windowTitle().contains("Secret"));

@@ -162,7 +162,7 @@ private:
         return std::size_t(spans.end() - std::upper_bound(spans.begin(), spans.end(), ms));
     }
     ui::Document &document() {
-        return m_program->bench().document;
+        return m_program->bench().study.document;
     }
     QWidget *widget(const char *name) {
         return m_program->window().findChild<QWidget *>(name);
@@ -174,7 +174,7 @@ private:
     }
 
     void settleDown() {
-        QTRY_VERIFY_WITH_TIMEOUT(!m_program->bench().jobs.isRunning(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(!m_program->bench().study.jobs.isRunning(), patienceMs);
         QTest::qWait(500);
     }
 
@@ -188,7 +188,7 @@ private:
             auto *gallery = m_program->window().findChild<QListWidget *>("presetGallery");
             for (int n = 0; n < gallery->count(); ++n) {
                 QTest::mouseClick(gallery->viewport(), Qt::LeftButton, {}, clickPlace(*gallery, n));
-                QTRY_VERIFY_WITH_TIMEOUT(!m_program->bench().jobs.isRunning(), patienceMs);
+                QTRY_VERIFY_WITH_TIMEOUT(!m_program->bench().study.jobs.isRunning(), patienceMs);
             }
         }
     }
@@ -202,7 +202,7 @@ private:
         settleDown();
         const int count = int(document().sources().size());
         for (int n = 0; n < count; ++n)
-            m_program->bench().opener.closeSource(n);
+            m_program->bench().study.opener.closeSource(n);
         settleDown();
         ::malloc_trim(0);
         m_inUseMb = double(bytesInUse()) / 1048576.0;
@@ -263,7 +263,7 @@ private:
             break;
         case 13:
             if (isOpen && document().currentSource() >= 0 && detail % 3 == 0)
-                m_program->bench().opener.closeSource(document().currentSource());
+                m_program->bench().study.opener.closeSource(document().currentSource());
             break;
         case 14:
             if (isOpen && detail % 2 == 0) {

@@ -20,7 +20,7 @@ protected:
         window_().activateWindow();
     }
     ui::MainWindow &window_() { return m_program->window(); }
-    ui::Document &document() { return m_program->bench().document; }
+    ui::Document &document() { return m_program->bench().study.document; }
     ui::ProjectionView *projectionOf() { return find<ui::ProjectionView>("projectionView"); }
     template <class T> T *find(const char *name) {
         T *found = window_().findChild<T *>(name);
@@ -29,8 +29,9 @@ protected:
         return found;
     }
     void settleIn() {
-        QTRY_VERIFY_WITH_TIMEOUT(
-            projectionOf()->showsFinalImage() && !m_program->bench().jobs.isRunning(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(projectionOf()->showsFinalImage() &&
+                                     !m_program->bench().study.jobs.isRunning(),
+                                 patienceMs);
     }
     void openIn(const QString &path) {
         drop(window_(), {QUrl::fromLocalFile(path)});

@@ -83,7 +83,7 @@ private slots:
         QTimer::singleShot(0, &program, [] { throw std::bad_alloc(); });
         QTRY_COMPARE(said.size(), 1);
         QVERIFY(reasonOf(said).is(task::because::notEnoughMemory));
-        ui::JobRunner &jobs = program.bench().jobs;
+        ui::JobRunner &jobs = program.bench().study.jobs;
         QSignalSpy failed(&jobs, &ui::JobRunner::failed);
         const std::vector<std::pair<std::function<void()>, task::Reason>> faults{
             {[] { throw std::bad_alloc(); }, task::because::notEnoughMemory},
@@ -99,8 +99,9 @@ private slots:
             QVERIFY(!jobs.isRunning());
         }
         program.window().openPaths({headPath()});
-        QTRY_VERIFY_WITH_TIMEOUT(
-            program.bench().document.volume() && !program.bench().document.isPreview(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(program.bench().study.document.volume() &&
+                                     !program.bench().study.document.isPreview(),
+                                 patienceMs);
     }
 
 #ifndef PELLUCID_SANITIZED // which reserve terabytes
@@ -148,8 +149,8 @@ private slots:
                                                       {.size = volume::GridSize{256, 256, 128}})),
                              {}, dicom::TransferSyntax::explicitLittle);
         ui::Workstation program;
-        ui::Document &document = program.bench().document;
-        ui::JobRunner &jobs = program.bench().jobs;
+        ui::Document &document = program.bench().study.document;
+        ui::JobRunner &jobs = program.bench().study.jobs;
         QSignalSpy failed(&jobs, &ui::JobRunner::failed);
         QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
         const auto rests = [&] { return !jobs.isRunning() && !document.isPreview(); };

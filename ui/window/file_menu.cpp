@@ -93,7 +93,7 @@ void FileMenu::savePicture() {
                                              tr("PNG image (*.png)"));
         if (path.isEmpty())
             return;
-        m_bench.document.requireOther({path.toStdString()});
+        m_bench.study.document.requireOther({path.toStdString()});
         writePictureFile(path, picture);
         sayWritten(path);
     });
@@ -106,17 +106,17 @@ void FileMenu::exportPicture() {
         return;
     }
     // Beside the window, which goes on: it may be turned to what is to be written.
-    auto *dialog = new ExportDialog(m_bench.document, m_panes, m_bench.exports, &m_window);
+    auto *dialog = new ExportDialog(m_bench.study.document, m_panes, m_bench.exports, &m_window);
     connect(dialog, &ExportDialog::written, this, &FileMenu::sayWritten);
     connect(dialog, &ExportDialog::captured, this,
             [this](const std::shared_ptr<const dicom::Catalogue> &capture) {
-                m_bench.document.addSources(sourcesFrom(capture));
+                m_bench.study.document.addSources(sourcesFrom(capture));
             });
     dialog->show();
 }
 
 void FileMenu::exportMeasurements() {
-    if (m_bench.document.measured().empty()) {
+    if (m_bench.study.document.measured().empty()) {
         emit said(tr("There are no measurements to export yet"));
         return;
     }
@@ -125,7 +125,7 @@ void FileMenu::exportMeasurements() {
     if (path.isEmpty())
         return;
     attempt([&] {
-        m_bench.document.requireOther({path.toStdString()});
+        m_bench.study.document.requireOther({path.toStdString()});
         m_bench.measurements.exportTable(path);
         sayWritten(path);
     });
@@ -141,7 +141,7 @@ void FileMenu::saveScene() {
     if (path.isEmpty())
         return;
     attempt([&] {
-        m_bench.document.requireOther({path.toStdString()});
+        m_bench.study.document.requireOther({path.toStdString()});
         writeSceneFile(path, m_panes.projection->sceneOfPicture());
         sayWritten(path);
     });
@@ -154,7 +154,7 @@ void FileMenu::openScene() {
     attempt([&] {
         scene::Scene scene = readSceneFile(path);
         scene.plannedFor = {}; // the window plans for the volume, whatever a file says
-        editScene(m_bench.document, tr("Open scene"), noDrag,
+        editScene(m_bench.study.document, tr("Open scene"), noDrag,
                   [&](scene::Scene &shown) { shown = scene; });
         m_panes.projection->adoptCamera(scene.camera);
     });

@@ -17,7 +17,7 @@ Reopening::Reopening(Workbench &bench, StartPage &page, const Preferences &prefe
     : QObject(parent), m_bench(bench), m_page(page), m_preferences(preferences) {
     connect(&page, &StartPage::recentRequested, this, &Reopening::openRecent);
     connect(&page, &StartPage::resumeRequested, this, &Reopening::resume);
-    connect(&bench.opener, &StudyOpener::pathsOpened, this, &Reopening::rememberPaths);
+    connect(&bench.study.opener, &StudyOpener::pathsOpened, this, &Reopening::rememberPaths);
     show();
 }
 
@@ -33,14 +33,14 @@ void Reopening::openFromLibrary(const StudyFacts &study, const VolumeFacts &volu
     });
     // The list that gave them is made anew by the opening.
     const QString entry = recentEntry(study);
-    m_bench.opener.openFromLibrary(StudyFacts(study), series, volume.key(),
-                                   m_bench.library.files(study, volume));
+    m_bench.study.opener.openFromLibrary(StudyFacts(study), series, volume.key(),
+                                         m_bench.library.files(study, volume));
     remember({entry});
 }
 
 void Reopening::resume() {
     if (const auto session = m_bench.session.kept())
-        ui::resume(*session, m_bench.opener);
+        ui::resume(*session, m_bench.study.opener);
 }
 
 void Reopening::forgetAll() {
@@ -51,7 +51,7 @@ void Reopening::forgetAll() {
 
 void Reopening::rememberPaths(QStringList paths) {
     erase_if(paths, [&](const QString &path) {
-        const bool isKept = mayBeKept(path, m_bench.document);
+        const bool isKept = mayBeKept(path, m_bench.study.document);
         if (!isKept) // from when it was allowed
             forgetRecentPath(path);
         return !isKept;
@@ -63,7 +63,7 @@ void Reopening::rememberPaths(QStringList paths) {
 void Reopening::openRecent(const QString &entry) {
     const auto study = recentStudy(entry, m_bench.library);
     if (!study) {
-        m_bench.opener.openPaths({entry});
+        m_bench.study.opener.openPaths({entry});
         return;
     }
     const auto volumes = m_bench.library.volumes(*study);

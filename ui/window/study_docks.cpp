@@ -15,8 +15,8 @@
 namespace pellucid::ui {
 
 StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme)
-    : QObject(&window), m_studies(new StudyPanel(bench.document, bench.library, theme)),
-      m_measurements(new MeasurementsPanel(bench.document)) {
+    : QObject(&window), m_studies(new StudyPanel(bench.study.document, bench.library, theme)),
+      m_measurements(new MeasurementsPanel(bench.study.document)) {
     m_study = makeDock(tr("STUDIES"), "studyDock", m_studies, m_studies->corner());
     m_studies->setMinimumWidth(250);
     window.addDockWidget(Qt::LeftDockWidgetArea, m_study);
@@ -29,7 +29,7 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
 }
 
 QDockWidget *StudyDocks::addHistory(QMainWindow &window, Workbench &bench) {
-    auto *history = new QUndoView(bench.document.undoStack());
+    auto *history = new QUndoView(bench.study.document.undoStack());
     history->setObjectName("historyView");
     history->setAccessibleName(tr("History of edits"));
     history->setToolTip(tr("A click goes back to how it was after that edit"));
@@ -41,9 +41,9 @@ QDockWidget *StudyDocks::addHistory(QMainWindow &window, Workbench &bench) {
 }
 
 QDockWidget *StudyDocks::addSpectrum(QMainWindow &window, Workbench &bench, const Theme &theme) {
-    auto *sampler = new SpectrumSampler(bench.document, this);
+    auto *sampler = new SpectrumSampler(bench.study.document, this);
     auto *panel = new SpectrumPanel(theme);
-    connect(&bench.copier, &CardCopier::engineReady, sampler, &SpectrumSampler::setEngine);
+    connect(&bench.study.copier, &CardCopier::engineReady, sampler, &SpectrumSampler::setEngine);
     connect(sampler, &SpectrumSampler::sampled, panel, &SpectrumPanel::showSlice);
     connect(sampler, &SpectrumSampler::cleared, panel, &SpectrumPanel::clear);
     connect(panel, &SpectrumPanel::visibilityChanged, sampler, &SpectrumSampler::setActive);
