@@ -5,7 +5,7 @@ namespace pellucid::render {
 
 namespace {
 
-// The lights shine on what was prepared for them alone.
+// Lights need gradients, which exist only if they were prepared.
 shading::Shading activeShading(const shading::Shading &shading, const EngineSpectra &spectra) {
     shading::Shading active = shading;
     if (spectra.gradients.empty())
@@ -34,7 +34,7 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
     FrameInputs inputs{.mixing = Mixing(spectra, shares, slices, active.isGrey())};
     if (inputs.isEmpty())
         return inputs;
-    inputs.grid = m_framed.gridFor(camera, m_room, spectrum.lattice(), image);
+    inputs.grid = m_framed.gridFor(camera, m_fieldOfView, spectrum.lattice(), image);
     inputs.geometry = FrameGeometry(camera, inputs.grid, spectrum);
     inputs.shading = frameShading(slices, inputs.mixing, spectrum, inputs.geometry.toWrap, axes[2],
                                   spectra.scale.stepMm);
