@@ -20,10 +20,10 @@ namespace {
 using Complex = std::complex<double>;
 using fourier::Spectrum;
 
-constexpr std::size_t mostTaps = 2 * Spectrum::roundingReach;
-using Taps = std::array<std::array<double, mostTaps>, 3>;
+constexpr std::size_t maxTaps = 2 * Spectrum::roundingReach;
+using Taps = std::array<std::array<double, maxTaps>, 3>;
 
-// What is read from a spectrum, and what rounding has made of it.
+// A value read from a spectrum, and its rounding error.
 struct Read {
     Complex value = 0.0, error = 0.0;
     Read &operator+=(const Read &other) {
@@ -44,9 +44,9 @@ public:
           m_layout(m_spectrum.layout()), m_geometry(camera, grid, m_spectrum),
           m_slices(shading::sliceShading(shading, camera.axes(), engine.spectra.scale)),
           m_mixing(engine.spectra, engine.shares, m_slices, shading.isGrey()),
-          m_shades(render::frameShading(m_slices, m_mixing, m_spectrum, m_geometry.toWrap,
-                                        camera.axes()[2], engine.spectra.scale.stepMm)) {
-        if (m_shades.cued)
+          m_frameShading(render::frameShading(m_slices, m_mixing, m_spectrum, m_geometry.toWrap,
+                                              camera.axes()[2], engine.spectra.scale.stepMm)) {
+        if (m_frameShading.cued)
             m_moments.emplace(render::momentKernels(m_layout));
     }
 
@@ -68,12 +68,12 @@ public:
                                                          : std::array<Read, 3>{});
             }
         CentralEnergies energies = energiesIn(camera, grid, waves);
-        energies.ofCells = roundingOfCells();
+        energies.cellRounding = roundingOfCells();
         return energies;
     }
 
 private:
-    // Slices read whole kernels.
+    // Slices read whole kernel footprints.
     double reach() const { return Spectrum::roundingReach - 0.5 * m_layout.width(); }
 
     double roundingOfCells() const {
@@ -97,37 +97,37 @@ private:
     }
 
     bool isWithinReach(const std::array<double, 3> &at) const {
-        for (int t = 0; t < m_shades.termCount; ++t)
+        for (int t = 0; t < m_frameShading.termCount; ++t)
             for (std::size_t d = 0; d < 3; ++d)
-                if (std::abs(at[d] + m_shades.terms[std::size_t(t)].cells[d]) > reach())
+                if (std::abs(at[d] + m_frameShading.terms[std::size_t(t)].cells[d]) > reach())
                     return false;
         return true;
     }
 
-    // Of a slice's central cells, out to so many columns and rows on both sides; 0 where the slice
-    // reads cells that are not kept.
+    // The waves of a slice's central cells, up to this many columns and rows on both sides. Zero
+    // where the slice reads cells that are not kept.
     struct Waves {
         int columns, rows;
-        std::vector<std::array<Read, 3>> images; ///< by row and column; by channel
+        std::vector<std::array<Read, 3>> images; ///< by row and column, then by channel
     };
 
     std::array<Read, 3> slicesAt(const std::array<double, 3> &at, bool isZero) const {
         std::array<Read, 3> image{};
-        for (int t = 0; t < m_shades.termCount; ++t)
+        for (int t = 0; t < m_frameShading.termCount; ++t)
             addTerm(at, t, isZero, image);
         if (m_mixing.channels > 1)
             return image;
-        // One image takes its colour afterwards.
+        // A single image is coloured afterwards.
         const Read grey = image[0];
         for (std::size_t c = 0; c < 3; ++c)
             image[c] = Complex(m_mixing.color[c]) * grey;
         return image;
     }
 
-    // The waves are slow, so a few points of the picture give their energy in it.
+    // The waves are slow, so a few points of the picture are enough for their energy in it.
     CentralEnergies energiesIn(const scene::Camera &camera, const plan::SliceGrid &grid,
                                const Waves &waves) const {
-        // The energy's waves are twice as fast. A picture of several padded periods has many.
+        // The energy's waves are twice as fast. A picture of several padded periods contains many.
         const auto pointsFor = [](int most, int side, int period) {
             return std::size_t(std::max(24.0, std::ceil(4.0 * most * side / period)));
         };
@@ -184,12 +184,12 @@ private:
     // See FrameShading.
     void addTerm(const std::array<double, 3> &central, int term, bool isZero,
                  std::array<Read, 3> &images) const {
-        const render::FrameShading::Term &of = m_shades.terms[std::size_t(term)];
-        const Complex weight(of.weight);
+        const render::FrameShading::Term &shadingTerm = m_frameShading.terms[std::size_t(term)];
+        const Complex weight(shadingTerm.weight);
         std::array<double, 3> at{};
         for (std::size_t d = 0; d < 3; ++d)
-            at[d] = central[d] + of.cells[d];
-        // Plain and cued, of fields and of gradients, by sum.
+            at[d] = central[d] + shadingTerm.cells[d];
+        // Plain and cued, by kind (field, gradient) and sum.
         std::array<std::array<std::array<Read, 3>, 2>, 2> reads{};
         for (const render::FrameSource &source : m_mixing.sources) {
             const auto kind = std::size_t(source.kind);
@@ -205,7 +205,7 @@ private:
             }
         }
         for (std::size_t c = 0; c < std::size_t(m_mixing.channels); ++c) {
-            const render::FrameShading::Image &image = m_shades.images[c];
+            const render::FrameShading::Image &image = m_frameShading.images[c];
             const std::size_t sum = m_mixing.sums == 1 ? 0 : c;
             double gradient = 0.0, excess = 0.0;
             for (std::size_t d = 0; d < 3; ++d) {
@@ -231,7 +231,7 @@ private:
                 taps[d][std::size_t(tap)] = m_layout.kernels[d].value(away);
                 if (m_moments)
                     moments[d][std::size_t(tap)] =
-                        m_shades.perMoment[d] * (*m_moments)[d].value(away);
+                        m_frameShading.perMoment[d] * (*m_moments)[d].value(away);
             }
         }
         Read plain, moment;
@@ -247,10 +247,10 @@ private:
                                           x * y * moments[2][r]) *
                                   cell;
                 }
-        // The odd kernel reads -i times the field times its distance.
-        Read cued = Complex(m_shades.base) * plain;
+        // The odd kernel yields -i times the field times its distance.
+        Read cued = Complex(m_frameShading.base) * plain;
         cued += Complex(0.0, 1.0) * moment;
-        return {plain, m_shades.cued ? cued : plain};
+        return {plain, m_frameShading.cued ? cued : plain};
     }
 
     static Read readCell(const Spectrum &spectrum, int p, int q, int r) {
@@ -267,7 +267,7 @@ private:
     render::FrameGeometry m_geometry;
     shading::SliceShading m_slices;
     render::Mixing m_mixing;
-    render::FrameShading m_shades;
+    render::FrameShading m_frameShading;
     std::optional<render::MomentKernels> m_moments;
 };
 
@@ -280,7 +280,7 @@ CentralEnergies centralEnergies(const render::EngineParts &engine, const scene::
                            [](const auto &spectrum) { return spectrum->keepsRounding(); });
     };
     if (!keepsRounding(engine.spectra.fields) || !keepsRounding(engine.spectra.gradients) ||
-        std::size_t(engine.spectra.fields.front()->layout().width()) >= mostTaps)
+        std::size_t(engine.spectra.fields.front()->layout().width()) >= maxTaps)
         return {};
     if (std::all_of(
             engine.shares.begin(), engine.shares.end(),

@@ -18,30 +18,31 @@ namespace pellucid::accuracy {
 
 namespace {
 
-// Margins, as energy, for what coarse blocks and mean energies leave out. They were fitted to 2,000
-// random pictures of the bench's suite `pictures` (seeds 604, 911, 1201 to 1204, 1301 to 1304, 1401
-// to 1403, 1501, 1701), which can therefore no longer test them; those of coarse pixels and points
-// also to counterexamples.
+// Margins, as energy, for what coarse blocks and mean energies do not model. They were fitted to
+// 2,000 random pictures of the bench's suite `pictures` (seeds 604, 911, 1201 to 1204, 1301 to
+// 1304, 1401 to 1403, 1501, 1701), which can therefore no longer test them. Those of coarse pixels
+// and points were also fitted to counterexamples.
 constexpr double coherentMargin = 2.7, ///< aliases, block by block
-    detailMargin = 2.4,                ///< aliases of what blocks do not show
+    detailMargin = 2.4,                ///< aliases of detail finer than the blocks
     coarsePixelMargin = 2.5,           ///< aliases in pixels larger than the blocks
-    restMargin = 1.1,                  ///< rounding of other cells than the central ones
-    aloneMargin = 7.1,                 ///< rounding where no cell's is known
+    restMargin = 1.1,                  ///< rounding of cells other than the central ones
+    unknownRoundingMargin = 7.1,       ///< rounding where no cell's error is known
     centralMargin = 4.0,               ///< the known rounding of the central cells
     pointMargin = 1.7,                 ///< rounding of a few samples, judged by the central cells
     litPointMargin = 1.5,              ///< the same under light
     partOfPointsMargin = 3.0,          ///< the same in a part of the picture
     tailMargin = 50.0,                 ///< tails of the picture
-    patternBesideMargin = 40.0,        ///< tails of what lies beside it
-    pointBesideMargin = 15.0;          ///< the same of a few samples
-// The part of the plan's bound that every picture is charged with, for what no term describes.
+    outsidePatternMargin = 40.0,       ///< tails of structures beside the picture
+    outsidePointMargin = 15.0;         ///< the same of a few samples
+// The share of the plan's bound that every picture is charged with, for errors that no term
+// describes.
 constexpr double unseenShare = 0.094;
-// Similar errors add up to point-like aliases; this share of their energy may fall in any part of
+// Similar errors add up to point-like aliases. This share of their energy may fall into any part of
 // the picture.
 constexpr double pointShare = 0.69;
-// The energy of rounding over its mean where no cell's is known.
+// The energy of rounding over its mean where no cell's error is known.
 constexpr double unknownRounding = 1.5;
-// How rough a projection is, relative to its field; chosen on crops beside points and noise.
+// The roughness of a projection relative to its field, fitted to crops beside points and noise.
 constexpr double projectedRoughness = 0.4;
 
 // The energy of one channel's error, term by term.
@@ -58,7 +59,7 @@ public:
           m_imageEnergy(m_sums.energy * m_pixelMm * m_pixelMm),
           m_centralImage(context.central.image[std::size_t(channel)]),
           m_centralError(context.central.error[std::size_t(channel)]) {
-        weighBlocks(weights);
+        weightBlocks(weights);
         projectBlocks();
     }
 
@@ -66,32 +67,32 @@ public:
         ChannelEnergies energies{m_imageEnergy, 0.0, isWhole()};
         if (!(m_imageEnergy > 0.0) || !(m_blocks.all > 0.0))
             return energies;
-        const Beside beside = besidePicture();
-        const double whole = m_imageEnergy + beside.energy;
+        const Outside outside = outsidePicture();
+        const double whole = m_imageEnergy + outside.energy;
         const Rounding rounding = roundingErrors(whole);
-        energies.error = coherentAliases() + detailMargin * detailAliases(beside) + rounding.few +
+        energies.error = coherentAliases() + detailMargin * detailAliases(outside) + rounding.few +
                          rounding.others + centralMargin * m_centralError +
-                         foldedTails(beside, whole) + momentError(whole) +
+                         foldedTails(outside, whole) + momentError(whole) +
                          std::pow(unseenShare * bound, 2) * m_imageEnergy;
         return energies;
     }
 
 private:
-    // The energies of blocks and aliases as they are seen.
+    // The projected energies of blocks and aliases.
     struct BlockSums {
-        // Each block or alias by itself.
+        // Summed block by block.
         double all = 0.0, inPicture = 0.0;
         double aliases = 0.0;                      ///< in the picture
-        double inverse = 0.0;                      ///< of blocks without the cue, times 1/h^2
-        double tailsAcross = 0.0, tailsDown = 0.0; ///< what their tails leave in the picture
-        // Their projections.
+        double inverse = 0.0;                      ///< of blocks without the cue, divided by h^2
+        double tailsAcross = 0.0, tailsDown = 0.0; ///< of their tails in the picture
+        // Of their projections.
         double projection = 0.0, projectionInPicture = 0.0;
         double aliasesInPicture = 0.0;
     };
-    // What lies beside the picture.
-    struct Beside {
-        double blocks = 0.0;   ///< energy of blocks, each by itself
-        double energy = 0.0;   ///< of a projection of them
+    // Structures beside the picture.
+    struct Outside {
+        double blocks = 0.0;   ///< of blocks, summed one by one
+        double energy = 0.0;   ///< of their projection
         double lengthMm = 1.0; ///< over which a sample's energy is projected
     };
     // The rounding of fields of a few samples, and of others.
@@ -99,9 +100,9 @@ private:
         double few = 0.0, others = 0.0;
     };
 
-    // All fields of the channel as one. Layers may share samples, so their amplitudes add up; those
-    // of gradients have nothing to do with those of densities.
-    void weighBlocks(std::span<const FieldWeight> weights) {
+    // Combines all fields of the channel. Layers may share samples, so their amplitudes add up;
+    // gradients and densities are uncorrelated.
+    void weightBlocks(std::span<const FieldWeight> weights) {
         const std::size_t count = m_fields.blocks.size();
         m_mass.resize(count);
         m_energy.resize(count);
@@ -132,7 +133,7 @@ private:
             if (m_energy[n] == 0.0)
                 continue;
             const CoarseFields::Block &block = m_fields.blocks[n];
-            // Returns the energy that lies in the picture.
+            // Returns the energy in the picture.
             const auto add = [&](CoarsePlane &plane, const glm::dvec3 &at, double amplitude) {
                 const glm::dvec3 seen = toCamera * at;
                 const double weight = amplitude * value(seen.z / m_fields.depthRadiusMm);
@@ -167,51 +168,51 @@ private:
 
     bool isWhole() const { return m_blocks.all - m_blocks.inPicture <= 1e-9 * m_blocks.all; }
 
-    // A part of the picture suffers from what lies beside it as well: from the mass of its blocks,
-    // and from samples that have nothing to do with each other.
-    Beside besidePicture() const {
+    // A part of a picture also has errors from the structures beside it: from the mass of their
+    // blocks, and from uncorrelated samples.
+    Outside outsidePicture() const {
         const double cellMm3 = m_fields.lattice.cellVolumeMm3();
-        Beside beside;
-        beside.blocks = std::max(0.0, m_blocks.all - m_blocks.inPicture);
-        beside.lengthMm = cellMm3 / std::max(std::pow(cellMm3, 2.0 / 3.0), m_pixelMm * m_pixelMm);
-        beside.energy = std::max(0.0, m_blocks.projection - m_blocks.projectionInPicture) +
-                        beside.blocks * beside.lengthMm;
-        return beside;
+        Outside outside;
+        outside.blocks = std::max(0.0, m_blocks.all - m_blocks.inPicture);
+        outside.lengthMm = cellMm3 / std::max(std::pow(cellMm3, 2.0 / 3.0), m_pixelMm * m_pixelMm);
+        outside.energy = std::max(0.0, m_blocks.projection - m_blocks.projectionInPicture) +
+                         outside.blocks * outside.lengthMm;
+        return outside;
     }
 
-    // Coarse pixels that are larger than the blocks spread each of them over several.
+    // Coarse pixels larger than the blocks spread each block over several pixels.
     double coherentAliases() const {
-        const double ofCoarse = m_coarseMm > 2.0 * m_fields.blockMm ? coarsePixelMargin : 1.0;
-        return ofCoarse * coherentMargin * m_blocks.aliasesInPicture;
+        const double coarseMargin = m_coarseMm > 2.0 * m_fields.blockMm ? coarsePixelMargin : 1.0;
+        return coarseMargin * coherentMargin * m_blocks.aliasesInPicture;
     }
 
-    // What blocks do not show, edges and noise, has aliases as its energy lies.
-    double detailAliases(const Beside &beside) const {
+    // Detail finer than the blocks (edges and noise) has aliases in proportion to its energy.
+    double detailAliases(const Outside &outside) const {
         const double unseen =
             std::max(0.05 * m_imageEnergy, m_imageEnergy - m_blocks.projectionInPicture);
-        return m_blocks.aliases * (unseen + beside.blocks * beside.lengthMm) / m_blocks.all;
+        return m_blocks.aliases * (unseen + outside.blocks * outside.lengthMm) / m_blocks.all;
     }
 
-    // 1 for fields of a few samples, near 0 for those whose energy is spread out.
-    double fewness() const {
+    // 1 for fields of a few samples, near 0 for fields with widely spread energy.
+    double sparsity() const {
         double concentration = 0.0;
         for (const auto &spread : m_fields.spreads)
             concentration = std::max(concentration, spread->concentration);
         return std::min(1.0, 2.5 * concentration);
     }
 
-    // Rounding is all over the period, the picture a part of it.
+    // Rounding errors cover the whole period, and the picture shows a part of it.
     double partOfPeriod() const {
-        double periodMm2 = 0.0; // as seen
+        double periodMm2 = 0.0; // projected
         for (std::size_t d = 0; d < 3; ++d)
             periodMm2 += std::abs(glm::dot(
                 glm::cross(m_fields.periodsMm[d], m_fields.periodsMm[(d + 1) % 3]), m_axes[2]));
         return std::min(1.0, 1.6 * m_windowMm.x * m_windowMm.y / periodMm2);
     }
 
-    // The rounding of all cells but the central ones, all over the period. The cue weighs it by
-    // depths all over the period, and the image by the depths of the field.
-    double restOfRounding(double whole) const {
+    // The rounding of all cells except the central ones, over the whole period. The cue weights it
+    // by the depths of the whole period, and the image by the depths of the field.
+    double otherRounding(double whole) const {
         const shading::DepthCue &cue = m_context.shading.cue;
         const double cueRms = plan::cueRms(cue),
                      dimmed = cueRms * cueRms * m_energyWithoutCue / m_blocks.all;
@@ -220,44 +221,46 @@ private:
                std::max(0.05 * whole, whole - m_centralImage);
     }
 
-    // All cells of a few samples' spectrum are alike and round alike, so the central ones represent
-    // all: in a whole picture by the error that they make in this view, in a part, which may hold
-    // none of them, by their rounding. Under light a sample's gradient is several samples, which
-    // are less alike. Without the central cells' share some frequencies of each field decide, which
-    // average less.
+    // All cells of the spectrum of a few samples are alike and round alike, so the central cells
+    // represent all of them: by their error in this view in a whole picture, and by their rounding
+    // in a part, which may contain none of them. Under light a sample's gradient covers several
+    // samples, which are less alike. If the share of the central cells is unknown, a few
+    // frequencies of each field dominate, and average out less.
     Rounding roundingErrors(double whole) const {
         const bool isLit = m_context.shading.isLit();
         const bool isKnown = m_centralImage > 0.0, representAll = isKnown && isWhole();
-        const double few = fewness(), part = partOfPeriod(), rest = restOfRounding(whole);
+        const double few = sparsity(), part = partOfPeriod(), rest = otherRounding(whole);
         const double alike = isLit ? 0.0 : few,
-                     known = isKnown ? m_context.central.ofCells /
+                     known = isKnown ? m_context.central.cellRounding /
                                            (m_fields.rounding * m_fields.rounding)
                                      : unknownRounding,
-                     ofPoints = representAll ? few * m_centralError / m_centralImage *
-                                                   std::max(0.0, whole - m_centralImage)
-                                             : 0.0,
-                     ofPart = alike * std::max(pointShare, part) * known * rest;
-        return {(isLit ? litPointMargin : pointMargin) * ofPoints +
-                    (representAll ? 0.0 : partOfPointsMargin * ofPart),
-                (isKnown ? restMargin : aloneMargin) * part * rest *
+                     pointRounding = representAll ? few * m_centralError / m_centralImage *
+                                                        std::max(0.0, whole - m_centralImage)
+                                                  : 0.0,
+                     partRounding = alike * std::max(pointShare, part) * known * rest;
+        return {(isLit ? litPointMargin : pointMargin) * pointRounding +
+                    (representAll ? 0.0 : partOfPointsMargin * partRounding),
+                (isKnown ? restMargin : unknownRoundingMargin) * part * rest *
                     (representAll ? 1.0 - alike : 1.0)};
     }
 
-    // Tails come from what the picture has at the edge of its band, along each of its axes. The
-    // picture does not show how rough the field is beside it. The field's own roughness stands in
-    // for it, reduced because projections are smoother than samples, and limited to that of white
-    // samples in pixels of this size.
-    double foldedTails(const Beside &beside, double whole) const {
+    // Tails come from the edge of the picture's band, along each axis. The picture does not show
+    // how rough the field is beside it. The field's own roughness is used there, reduced because
+    // projections are smoother than samples, and limited to that of white samples in pixels of this
+    // size.
+    double foldedTails(const Outside &outside, double whole) const {
         double roughness = 0.0;
         for (const auto &spread : m_fields.spreads)
             roughness = std::max(roughness, spread->roughness);
         const double stepMm = m_fields.lattice.shortestStepMm(),
                      white = std::min(1.0, 0.2 * std::pow(std::max(1.0, m_pixelMm / stepMm), 2.0)),
-                     besideMargin = std::lerp(patternBesideMargin, pointBesideMargin, fewness());
+                     outsideMargin =
+                         std::lerp(outsidePatternMargin, outsidePointMargin, sparsity());
         const auto tails = [&](double rough) {
             return tailMargin * rough * m_imageEnergy +
-                   besideMargin * std::min(std::max(rough, projectedRoughness * roughness), white) *
-                       beside.energy;
+                   outsideMargin *
+                       std::min(std::max(rough, projectedRoughness * roughness), white) *
+                       outside.energy;
         };
         const double folded = (tails(m_sums.across) * m_blocks.tailsAcross +
                                tails(m_sums.down) * m_blocks.tailsDown) /
@@ -265,8 +268,8 @@ private:
         return std::max(folded, tailsOfLattice(whole));
     }
 
-    // Tails of the lattice's own band cannot be told by what the picture has at the edge of its
-    // own, which may be finer.
+    // Tails of the lattice's own band cannot be derived from the edge of the picture's band, which
+    // may be finer.
     double tailsOfLattice(double whole) const {
         if (m_context.image.reconstruction != scene::Reconstruction::bandLimited)
             return 0.0;
@@ -281,8 +284,8 @@ private:
         return worst;
     }
 
-    // A linear cue reads depth by kernels of its own, which leave an error of their own: of a
-    // picture without the cue, by how much depth a period is.
+    // A linear cue has its own kernels for depth, and these have their own error: the energy
+    // without the cue, times the depth of a period.
     double momentError(double whole) const {
         const shading::DepthCue &cue = m_context.shading.cue;
         double sum = 0.0;
@@ -300,8 +303,8 @@ private:
     const scene::Camera &m_camera;
     glm::dmat3 m_axes;
     double m_pixelMm;
-    glm::dvec2 m_windowMm, m_periodMm; ///< of the picture; of the slice grid's
-    double m_coarseMm;                 ///< pixel of coarse planes
+    glm::dvec2 m_windowMm, m_periodMm; ///< of the picture; of the slice grid
+    double m_coarseMm;                 ///< pixel size of coarse planes
     PictureSums m_sums;
     double m_imageEnergy, m_centralImage, m_centralError;
     std::vector<double> m_mass, m_energy; ///< of blocks, without the cue

@@ -9,7 +9,7 @@
 
 namespace pellucid::accuracy {
 
-/// A picture, and what it was rendered with.
+/// A picture and the settings of its rendering.
 struct PictureContext {
     const picture::ProjectionImage &picture;
     const scene::Camera &camera;
@@ -28,12 +28,12 @@ struct FieldWeight {
 /// The energies of one channel, and of its error. *Units*: of the picture squared, times mm^2.
 struct ChannelEnergies {
     double image = 0.0, error = 0.0;
-    bool isWhole = true; ///< nothing of the fields lies beside the picture
+    bool isWhole = true; ///< no part of the fields is beside the picture
 };
 
-/// Predicts the energy of the error in one channel of a picture: aliases, rounding, tails of the
-/// roll-off, and what the moment kernels of a linear cue leave. *Shape*: one weight for each of the
-/// fields; `bound`: the plan's bound of the relative error.
+/// Predicts the energy of the error in one channel of a picture: aliases, rounding, roll-off tails,
+/// and the error of a linear cue's moment kernels. *Shape*: one weight per field. `bound`: the
+/// plan's bound on the relative error.
 ChannelEnergies channelEnergies(const CoarseFields &fields, double bound,
                                 const PictureContext &context, int channel,
                                 std::span<const FieldWeight> weights);

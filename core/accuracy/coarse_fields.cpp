@@ -11,7 +11,8 @@ namespace pellucid::accuracy {
 
 namespace {
 
-// Cells of a few samples' spectrum are alike and round alike: less averages out.
+// With at most this many samples the cells of the spectrum are alike and round alike, so their
+// errors average out less.
 constexpr int fewSamples = 10;
 
 // A block along one axis.
@@ -49,11 +50,11 @@ public:
         const fourier::MomentKernel moment(m_kernel, double(m_padded) / m_samples);
         double worst = 0.0;
         for (const plan::FieldSummary &field : m_summaries) {
-            plan::AxisError left;
-            plan::addMomentError(left, m_kernel, moment, m_padded,
+            plan::AxisError error;
+            plan::addMomentError(error, m_kernel, moment, m_padded,
                                  field.slabs ? (*field.slabs)[m_axis]
                                              : plan::evenSlabProducts(field.energy.axis[m_axis]));
-            worst = std::max(worst, left.moment);
+            worst = std::max(worst, error.moment);
         }
         return worst;
     }
@@ -67,7 +68,7 @@ private:
         return (index - middle) / m_padded;
     }
 
-    // Root mean squares over the block, as the energy lies in it; the sign of its middle.
+    // Root mean squares over the block, weighted by energy; the sign is that at its middle.
     AxisBlock blockOf(const plan::BlockRange &range) const {
         double before = 0.0, after = 0.0, inverse = 0.0, all = 0.0;
         for (int n = range.first; n <= range.last; ++n) {

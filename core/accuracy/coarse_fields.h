@@ -11,28 +11,28 @@
 
 namespace pellucid::accuracy {
 
-/// The fields of a plan as coarse blocks, and the aliases that the plan's kernels make
-/// of each block.
+/// The fields of a plan as coarse blocks, with the amplitudes of each block's aliases under the
+/// plan's kernels.
 struct CoarseFields {
-    struct Block { ///< a place, whichever fields have a part of it
+    struct Block { ///< one place; any field may have a part in it
         glm::dvec3 fromCentreMm{0.0};
-        std::array<float, 6> aliases{}; ///< amplitudes along each axis, of the periods -1 and 1
-        float inverse = 1.0F;           ///< 1/h^2 of all axes
+        std::array<float, 6> aliases{}; ///< of the aliases along each axis, in periods -1 and 1
+        float inverse = 1.0F;           ///< 1/h^2, the product over the axes
     };
-    struct Part { ///< of a field in a block
+    struct Part { ///< the part of a field in a block
         std::uint32_t block = 0;
         float mass = 0.0F, energy = 0.0F;
     };
 
     volume::Lattice lattice;
-    std::array<glm::dvec3, 3> periodsMm{}; ///< of the aliases
-    /// What the moment kernels of a linear cue leave, see plan::AxisError::moment.
+    std::array<glm::dvec3, 3> periodsMm{}; ///< offsets of the aliases
+    /// The error of a linear cue's moment kernels, see plan::AxisError::moment.
     std::array<double, 3> moments{};
-    std::vector<Block> blocks;             ///< of all fields, each once
-    std::vector<std::vector<Part>> fields; ///< of each field, the blocks that are not empty
+    std::vector<Block> blocks;             ///< of all fields, each block once
+    std::vector<std::vector<Part>> fields; ///< the nonempty blocks of each field
     std::vector<std::shared_ptr<const plan::EnergySpread>> spreads; ///< by field
-    double kernelEnergy = 1.0;                                      ///< integral H^2 of all axes
-    double rounding = 0.0;      ///< of a cell as it is stored, relative
+    double kernelEnergy = 1.0;  ///< integral H^2, the product over the axes
+    double rounding = 0.0;      ///< relative error of a stored cell
     double depthRadiusMm = 1.0; ///< the R of a depth cue
     double blockMm = 1.0;       ///< the longest side of a block
 };

@@ -7,19 +7,19 @@
 
 namespace pellucid::accuracy {
 
-/// A periodic picture in pixels about as large as the blocks of coarse fields.
+/// A periodic picture with pixels about as large as the blocks of coarse fields.
 class CoarsePlane {
 public:
     /// *Shape*: one period; at most 128 pixels a side.
     CoarsePlane(glm::dvec2 periodMm, double pixelMm);
 
-    /// Adds an amount at a place, shared out between the nearest four pixels.
+    /// Adds an amount at a point, shared between the nearest four pixels.
     void add(double u, double v, double amount);
 
-    /// The integral of the square over a window about a place, of sums of what lies in a pixel.
+    /// The integral, over a window around a point, of the square of the sums in the pixels.
     double energyIn(glm::dvec2 centreMm, glm::dvec2 sizeMm) const;
 
-    /// Whether an offset, or one whole periods from it, lies within a window of a size about 0.
+    /// Whether an offset is, modulo the period, within a window of this size centred on 0.
     static bool isWithin(double off, double period, double size);
 
 private:

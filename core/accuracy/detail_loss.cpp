@@ -11,16 +11,17 @@ namespace pellucid::accuracy {
 
 namespace {
 
-// Views between the axes lose up to this much more, as an amplitude: edges that lie along no axis.
+// Views between the axes lose up to this much more, as an amplitude, at edges that are not parallel
+// to any axis.
 constexpr double viewMargin = 1.25;
 
-// For each fine sample of an axis, the four coarse ones about it and their weights.
+// For each fine sample of an axis, the four coarse samples around it and their weights.
 struct Taps {
     int first = 0;
     std::array<double, 4> weights{};
 };
 
-// `beyond`: samples more on both sides.
+// `beyond`: the number of extra samples on both sides.
 std::vector<Taps> tapsAlong(int axis, const volume::Lattice &fine, const volume::Lattice &coarse,
                             int beyond) {
     const fourier::Kernel keys = fourier::Kernel::catmullRom();
@@ -36,8 +37,8 @@ std::vector<Taps> tapsAlong(int axis, const volume::Lattice &fine, const volume:
     return taps;
 }
 
-// The number of fine samples between the fine lattice's ends and the ends of Keys' footprint, two
-// coarse samples beyond the outermost coarse sample, by axis.
+// By axis, the number of fine samples from the ends of the fine lattice to the ends of Keys'
+// footprint, which reaches two coarse samples beyond the outermost one.
 std::array<int, 3> reachBeyond(const volume::Lattice &fine, const volume::Lattice &coarse) {
     std::array<int, 3> samples{};
     for (int d = 0; d < 3; ++d) {
@@ -145,8 +146,8 @@ void AxisProjections::add(const classify::DensityField &field, const task::Progr
     }
 }
 
-// The coarse projection between its samples, by Keys' cubic convolution, less the fine one. Both
-// are zero beyond their samples.
+// The difference between the coarse projection, interpolated by Keys' cubic convolution, and the
+// fine one. Both are zero beyond their samples.
 AxisProjections::Plane DetailLoss::lossOf(const Plane &fine, const Plane &coarse, int axis,
                                           const volume::Lattice &fineLattice,
                                           const volume::Lattice &coarseLattice) {
@@ -217,7 +218,7 @@ DetailLoss::Energies DetailLoss::energiesAlong(const Products &products,
             if (!isLit)
                 continue;
             weights[m_fields + f] = share * light.magnitude;
-            // The component along the line of sight projects to nothing.
+            // The component along the line of sight projects to zero.
             directed[f] = share * m_stepMm * glm::length(light.gradient);
         }
         sum.image += form(weights, products.projections);

@@ -27,7 +27,7 @@ private:
         double &at(int column, int row) { return values[std::size_t(row) * columns + column]; }
         double at(int column, int row) const { return values[std::size_t(row) * columns + column]; }
     };
-    /// `beyond`: samples more on both sides, by axis.
+    /// `beyond`: the number of extra samples on both sides, by axis.
     static Plane emptyPlane(int axis, const volume::Lattice &lattice,
                             const std::array<int, 3> &beyond = {});
     static Plane planeAlong(int axis, const classify::DensityField &field);
@@ -36,25 +36,25 @@ private:
     std::vector<std::array<Plane, 3>> m_planes; ///< of each field, by axis
 };
 
-/// The error of pictures of coarse fields against pictures of the original fields. The projections
-/// of both along the axes of the lattice are compared on the fine grid and beyond it, up to the
-/// outermost coarse samples' footprint: a cut face of the volume is blurred to both sides. Only
-/// inner products are kept, which give the loss of any weighted sum of the fields.
+/// The error of pictures of coarse fields against pictures of the original fields. It compares the
+/// projections of both along the axes of the lattice, on the fine grid and beyond it as far as the
+/// footprint of the outermost coarse samples, because a cut face of the volume is blurred to both
+/// sides. Only inner products are kept; they give the loss of any weighted sum of the fields.
 class DetailLoss {
 public:
-    /// `fine` and `coarse` hold `fields` densities and, after them, the lengths of their
-    /// gradients, if there are any. *Shape*: as many coarse as fine; both lattices have axes of the
-    /// same directions. *Units*: `stepMm` is the step of the light's differences.
+    /// `fine` and `coarse` hold `fields` densities, then the lengths of their gradients, if any.
+    /// *Shape*: as many coarse as fine; the axes of both lattices have the same directions.
+    /// *Units*: `stepMm` is the step of the light's differences.
     DetailLoss(const AxisProjections &fine, const AxisProjections &coarse, std::size_t fields,
                double stepMm);
 
     /// The relative L2 error of a whole coarse picture with these channel weights, this cue and
-    /// light: that of the worst axis, with a margin for the views between. It applies to pixels the
-    /// size of the samples; larger pixels lose less. *Shape*: a weight for each field.
+    /// light: that of the worst axis, with a margin for views between the axes. It applies to
+    /// pixels the size of the samples; larger pixels lose less. *Shape*: one weight per field.
     double relativeError(std::span<const render::ChannelShares> shares,
                          const shading::Shading &shading) const;
-    /// The same for a picture, which may be a part of the whole: the part is charged with all that
-    /// the whole loses.
+    /// The same for a picture that may be a part of the whole: the part is charged with the loss of
+    /// the whole.
     double relativeError(const picture::ProjectionImage &picture,
                          std::span<const render::ChannelShares> shares,
                          const shading::Shading &shading) const;
@@ -68,14 +68,14 @@ private:
     /// plane.
     struct Products {
         std::vector<double> projections, losses;
-        std::vector<double> slopes; ///< of the losses' gradients, both components
+        std::vector<double> slopes; ///< of the gradients of the losses, both components
     };
     struct Energies {
         double image = 0.0, error = 0.0;
     };
     Energies energiesAlong(const Products &products, std::span<const render::ChannelShares> shares,
                            const shading::Shading &shading, int channels) const;
-    std::size_t m_fields, m_count; ///< without gradients, and with them
+    std::size_t m_fields, m_count; ///< without and with gradients
     double m_stepMm;
     std::array<Products, 3> m_along;
 };

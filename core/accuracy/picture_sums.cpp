@@ -12,9 +12,9 @@ namespace pellucid::accuracy {
 
 namespace {
 
-// A filter that passes only what lies within 0.06 cycles per pixel of the highest frequency, where
-// the tails of the roll-off come from: cos^4 about half the sampling rate. Of frequency 0 it passes
-// 1e-12, as energy.
+// A filter that passes only frequencies within 0.06 cycles per pixel of the highest one, where the
+// tails of the roll-off come from: cos^4 centred on half the sampling rate. It passes 1e-12 of
+// frequency 0, as energy.
 class EdgeFilter {
 public:
     EdgeFilter() {
@@ -29,19 +29,20 @@ public:
             factor /= std::sqrt(squares);
     }
 
-    // The energies of a line and of what passes. The line's ends are extended as constants.
+    // The energies of a line and of its filtered version. The line's ends are extended as
+    // constants.
     template <class Value> std::array<double, 2> energies(int length, const Value &value) {
         m_line.resize(std::size_t(length + 2 * reach));
-        m_passed.assign(std::size_t(length), 0.0);
+        m_filtered.assign(std::size_t(length), 0.0);
         for (int n = -reach; n < length + reach; ++n)
             m_line[std::size_t(n + reach)] = value(std::clamp(n, 0, length - 1));
         for (std::size_t tap = 0; tap < m_factors.size(); ++tap)
-            for (std::size_t n = 0; n < m_passed.size(); ++n)
-                m_passed[n] += m_factors[tap] * m_line[n + tap];
+            for (std::size_t n = 0; n < m_filtered.size(); ++n)
+                m_filtered[n] += m_factors[tap] * m_line[n + tap];
         std::array<double, 2> sums{};
-        for (std::size_t n = 0; n < m_passed.size(); ++n) {
+        for (std::size_t n = 0; n < m_filtered.size(); ++n) {
             sums[0] += m_line[n + reach] * m_line[n + reach];
-            sums[1] += m_passed[n] * m_passed[n];
+            sums[1] += m_filtered[n] * m_filtered[n];
         }
         return sums;
     }
@@ -49,7 +50,7 @@ public:
 private:
     static constexpr int reach = 24;
     std::array<double, 2 * reach + 1> m_factors{};
-    std::vector<double> m_line, m_passed;
+    std::vector<double> m_line, m_filtered;
 };
 
 } // namespace
@@ -67,9 +68,9 @@ PictureSums pictureSums(const picture::ProjectionImage &picture, int channel) {
         std::array<double, 2> sums{};
         const int step = std::max(1, lines / enough);
         for (int line = 0; line < lines; line += step) {
-            const auto of = filter.energies(length, [&](int n) { return sample(line, n); });
-            sums[0] += step * of[0];
-            sums[1] += step * of[1];
+            const auto energies = filter.energies(length, [&](int n) { return sample(line, n); });
+            sums[0] += step * energies[0];
+            sums[1] += step * energies[1];
         }
         return sums;
     };

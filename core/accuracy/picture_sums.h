@@ -5,11 +5,12 @@
 
 namespace pellucid::accuracy {
 
-/// What a picture has at the edge of its band, where the tails of the roll-off come from.
+/// The energy of a picture, and its part at the edge of the band, where the tails of the roll-off
+/// come from.
 struct PictureSums {
     double energy = 0.0; ///< sum of the squared pixels
     /// The share of the energy within 0.06 cycles per pixel of the highest frequency, along each
-    /// axis, over that of white noise.
+    /// axis, relative to that of white noise.
     double across = 0.0, down = 0.0;
 };
 

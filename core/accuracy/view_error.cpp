@@ -15,8 +15,8 @@ namespace pellucid::accuracy {
 
 namespace {
 
-// The weights of all fields in a channel. Behind the fields are their gradients, if they were
-// prepared for light.
+// The weights of all fields in a channel. The gradients, if they were prepared for light, follow
+// the fields.
 std::vector<FieldWeight> weightsOf(std::size_t fields,
                                    const std::vector<render::ChannelShares> &shares,
                                    std::size_t channel, const shading::Shading &shading,
@@ -40,12 +40,12 @@ std::vector<FieldWeight> weightsOf(std::size_t fields,
     return weights;
 }
 
-// Relative to what is shown, which is the exact picture and the error; where the error may be all
-// of it, little is known of the exact one.
+// Relative to the shown picture, which is the exact picture plus the error. If all of it may be
+// error, little is known about the exact one.
 double relativeError(double energy, double error) {
-    constexpr double leastLeft = 1e-3;
-    const double ofShown = energy > 0.0 ? std::sqrt(error / energy) : 0.0;
-    return ofShown / std::max(leastLeft, 1.0 - ofShown);
+    constexpr double minExact = 1e-3;
+    const double relativeToShown = energy > 0.0 ? std::sqrt(error / energy) : 0.0;
+    return relativeToShown / std::max(minExact, 1.0 - relativeToShown);
 }
 
 } // namespace
@@ -63,26 +63,27 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     if (picture.samples.empty())
         return {m_bound, true};
     const std::vector<render::ChannelShares> &shares = engine.shares;
-    // Without light the weights are the same; R and the step do not matter to them.
+    // Without light the weights do not depend on R and the step.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
     const plan::SliceGrid grid = plan::sliceGrid(camera, m_fieldOfView, m_fields.lattice, image);
     const PictureContext context{picture, camera, image,
                                  shading, grid,   centralEnergies(engine, camera, grid, shading)};
     double energy = 0.0, error = 0.0;
-    bool isWhole = true, areSingle = true; // what the plan's bound is for
+    bool isWhole = true, hasOneFieldEach = true; // the plan's bound holds for these only
     for (int channel = 0; channel < picture.channels; ++channel) {
         const auto c = std::size_t(channel);
-        const ChannelEnergies of =
+        const ChannelEnergies energies =
             channelEnergies(m_fields, m_bound, context, channel,
                             weightsOf(m_fields.fields.size(), shares, c, shading, slices));
-        energy += of.image;
-        error += of.error;
+        energy += energies.image;
+        error += energies.error;
         const auto isShown = [&](const render::ChannelShares &share) { return share[c] != 0.0; };
-        isWhole = isWhole && of.isWhole;
-        areSingle = areSingle && std::count_if(shares.begin(), shares.end(), isShown) <= 1;
+        isWhole = isWhole && energies.isWhole;
+        hasOneFieldEach =
+            hasOneFieldEach && std::count_if(shares.begin(), shares.end(), isShown) <= 1;
     }
     const double estimate = relativeError(energy, error);
-    return {isWhole && areSingle ? std::min(m_bound, estimate) : estimate, isWhole};
+    return {isWhole && hasOneFieldEach ? std::min(m_bound, estimate) : estimate, isWhole};
 }
 
 } // namespace pellucid::accuracy

@@ -11,22 +11,22 @@ namespace pellucid::accuracy {
 
 /// The predicted error of one picture.
 struct PictureError {
-    /// The relative L2 error. From 1 on the picture may be nothing but error, as of a part in which
-    /// nothing is shown.
+    /// The relative L2 error. From 1 on the picture may be nothing but error, for example an empty
+    /// part.
     double relative = 0.0;
-    bool isWhole = true; ///< nothing of the fields lies beside the picture
+    bool isWhole = true; ///< no part of the fields is beside the picture
 };
 
-/// Predicts the error of single pictures from a plan and its fields: it keeps coarse fields and the
-/// aliases that the plan's kernels make of each of their blocks.
+/// Predicts the error of single pictures from a plan and its fields. It keeps the fields as coarse
+/// blocks, and the aliases of each block under the plan's kernels.
 class ViewErrorModel {
 public:
     /// *Shape*: one summary for each field of the plan.
     ViewErrorModel(const plan::RenderPlan &plan, std::span<const plan::FieldSummary> fields);
 
-    /// The error of a picture that an engine of the plan made, with cue and light, with the
-    /// energies and the aliases as they are seen from there, in the window that it has. For a whole
-    /// picture of one field a channel it is never more than the plan's bound, which is for whole
+    /// The error of a picture made by an engine of this plan, with cue and light. It is predicted
+    /// from the projected energies and aliases of this view, in the picture's window. For a whole
+    /// picture with one field per channel it is at most the plan's bound, which holds for whole
     /// pictures only.
     PictureError errorOf(const picture::ProjectionImage &picture, const scene::Camera &camera,
                          const scene::ImageDefinition &image, const render::EngineParts &engine,

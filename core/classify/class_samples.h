@@ -11,23 +11,24 @@
 
 namespace pellucid::classify {
 
-/// Where a sample lies after the steps of a class: outside it; where its value decides; or in a gap
-/// that a closing filled, where it belongs to the class whatever its value.
+/// The region of a sample after the steps of a class: outside; inside, where its value decides; or
+/// in a gap filled by a closing, where it belongs to the class whatever its value.
 enum class Region : std::uint8_t { outside, inside, filled };
 
-/// What a class is shown with: the window's density; its value over the end of the class's range,
-/// for values that are no longer the volume's, such as gradients; or one, for edges.
+/// The density that a class is shown with: that of the window; the value divided by the upper end
+/// of the class's range, for values such as gradients that are no longer the volume's; or 1, for
+/// edges.
 enum class DensityKind { window, range, one };
 
-/// What the steps of a class leave of a volume.
+/// The samples of a class after its steps.
 struct ClassSamples {
     volume::Volume values;
     DensityKind density = DensityKind::window;
-    /// *Shape*: one of each sample; none: inside everywhere.
+    /// *Shape*: one per sample; null: inside everywhere.
     std::shared_ptr<const std::vector<Region>> regions;
 };
 
-/// Runs the steps of classes. Apart from the classes because only core/preprocess knows how.
+/// Runs the steps of classes. An interface, because they are implemented in core/preprocess.
 class StepRunner {
 public:
     virtual ~StepRunner() = default;
@@ -36,8 +37,8 @@ public:
                              const task::Progress &progress) = 0;
 };
 
-/// The samples of a class: the volume's own, or what the runner makes of its steps. *Throws*
-/// Error{usage} if there are steps and nothing to run them.
+/// The samples of a class: the volume's own, or the runner's result. *Throws* Error{usage} if there
+/// are steps but no runner.
 ClassSamples samplesOf(const volume::Volume &volume, const TissueClass &tissue, StepRunner *runner,
                        const task::Progress &progress = {});
 

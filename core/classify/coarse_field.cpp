@@ -11,8 +11,8 @@ namespace pellucid::classify {
 
 namespace {
 
-// What lies beyond the last sample of an outer block: nothing, as of a field; or what the samples
-// within it are.
+// What to assume beyond the last sample of an outer block: zero, as in a field; or the mean of the
+// samples within it.
 enum class Beyond { zero, mean };
 
 volume::Volume blockMeans(const volume::Volume &volume, int side, Beyond beyond) {
@@ -22,8 +22,8 @@ volume::Volume blockMeans(const volume::Volume &volume, int side, Beyond beyond)
         block[d] = (fine.size()[d] + side - 1) / side;
         count[d] = (fine.size()[d] + block[d] - 1) / block[d];
     }
-    // Blocks stand symmetrically about the centre of the lattice, so that both fields turn about
-    // the same point; the outer ones may reach past the last sample, where the field is zero.
+    // Blocks are symmetric about the centre of the lattice, so that both fields rotate about the
+    // same point. The outer blocks may extend beyond the last sample, where the field is zero.
     glm::dvec3 firstBlock;
     std::array<glm::dvec3, 3> steps;
     for (int d = 0; d < 3; ++d) {
@@ -32,11 +32,11 @@ volume::Volume blockMeans(const volume::Volume &volume, int side, Beyond beyond)
     }
     const auto lattice = volume::Lattice::make({count[0], count[1], count[2]},
                                                fine.patient(volume::VoxelPoint{firstBlock}), steps);
-    // The first sample of the first block; at most half a sample is lost to the rounding of it.
+    // The first sample of the first block; its rounding loses at most half a sample.
     std::array<int, 3> start{};
     for (int d = 0; d < 3; ++d)
         start[d] = int(std::ceil(firstBlock[d] - 0.5 * block[d]));
-    // How many samples of an axis a block holds, as the loops below share them out.
+    // The number of samples in a block along an axis, counted as in the loops below.
     const auto held = [&](int d, int n) {
         const int first = start[d] + n * block[d];
         const int last = n + 1 == count[d] ? fine.size()[d] : first + block[d];

@@ -5,11 +5,11 @@
 
 namespace pellucid::classify {
 
-/// A field of at most `side` samples along each axis, each the mean of a block of the original's:
-/// the mass stays, the detail goes. About the same centre, for a first quick picture.
+/// A field of at most `side` samples along each axis, each the mean of a block of the original. It
+/// has the same mass and the same centre but less detail, for a fast first picture.
 DensityField coarseField(const DensityField &field, int side);
 
-/// The values of a volume as means of blocks, with which it looks the same from afar.
+/// The values of a volume as means of blocks, which look the same from a distance.
 volume::Volume coarseVolume(const volume::Volume &volume, int side);
 
 } // namespace pellucid::classify

@@ -16,7 +16,7 @@ struct Range {
     int lo, hi;
 };
 
-// Centres lie at (n + 1/2) / count. A share that came by rounding from a face is that face.
+// Sample centres are at (n + 1/2) / count. A fraction that was rounded from a face is that face.
 Range samplesBetween(double low, double high, int count) {
     constexpr double rounding = 1e-9;
     int lo = int(std::ceil(low * count - 0.5 - rounding));

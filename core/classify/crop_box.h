@@ -5,22 +5,22 @@
 
 namespace pellucid::classify {
 
-/// The part of a volume that is shown, in shares of the lattice's axes from the outer face of the
-/// first sample to that of the last, so that it means the same on coarser samples. Its faces are
-/// those of the lattice's own cells: of a tilted scan they lean as the scan does.
+/// The visible part of a volume, in fractions of the lattice's axes between the outer faces of the
+/// first and last samples, so that it also applies to coarser samples. Its faces are parallel to
+/// those of the lattice's cells: in a tilted scan they are sheared like the scan.
 struct CropBox {
     glm::dvec3 low{0.0}, high{1.0};
     bool isWhole() const { return *this == CropBox(); }
     bool operator==(const CropBox &) const = default;
 };
 
-/// *Throws* Error{usage} if an end is out of 0 to 1 or a side has no length.
+/// *Throws* Error{usage} if an end is outside 0 to 1 or a side has no length.
 void validate(const CropBox &box);
 
-/// The samples whose centres lie in the box, one on every axis at least.
+/// The samples with their centres in the box, at least one along every axis.
 volume::VoxelBox samplesIn(const CropBox &box, const volume::GridSize &size);
 
-/// The fields with nothing outside the box, on the same lattice: views do not move.
+/// The fields, set to zero outside the box, on the same lattice, so that views do not move.
 /// *Throws* Error{outOfMemory}.
 DensityField cropped(DensityField field, const CropBox &box);
 ShownFields cropped(ShownFields fields, const CropBox &box);

@@ -21,12 +21,12 @@ struct Mapping {
     float low, scale;
     template <class T> float operator()(T value) const {
         const float f = (float(value) - low) * scale;
-        // Written so that NaN fails both comparisons and ends as 0.
+        // NaN fails both comparisons and becomes 0.
         return f >= 1.0F ? 1.0F : f > 0.0F ? f : 0.0F;
     }
 };
 
-// An empty box becomes the middle sample.
+// Replaces an empty box by the middle sample.
 VoxelBox orMiddle(const VoxelBox &box, volume::GridSize size) {
     if (box.hi.i > box.lo.i)
         return box;

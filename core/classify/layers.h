@@ -10,23 +10,23 @@
 
 namespace pellucid::classify {
 
-/// A field that is projected once and shown with any weight and colour: f b_i(f) of a Bézier
+/// A field that is projected once and shown with any weight and colour: a term f b_i(f) of a Bézier
 /// transfer function, or a class. *Source*: Cheng 2007, eq. 32 and 36.
 struct Layer {
-    /// The class, its own weight and colour left out; without a name: the whole volume.
+    /// The class without its own weight and colour; unnamed: the whole volume.
     TissueClass tissue;
     int index = -1, degree = 0; ///< b_index of the degree; -1: none
     bool operator==(const Layer &) const = default;
 };
 
-/// Layers and their shares of the picture's channels: a look is the sum of share times layer.
+/// Layers and their channel weights: a look is the sum of weight times layer.
 struct Mixture {
     std::vector<Layer> layers;
-    std::vector<std::array<double, 3>> shares; ///< of red, green and blue, one each layer
+    std::vector<std::array<double, 3>> shares; ///< of red, green and blue, one entry per layer
 };
 
-/// A look as a mixture: looks that differ in weights, colours and control points have the same
-/// layers. Classes without weight are layers too, so that they can be brought in at once.
+/// A look as a mixture. Looks that differ only in weights, colours and control points have the same
+/// layers. Classes with zero weight are layers too, so that they can be shown at once.
 Mixture mixtureOf(const Look &look);
 
 /// The field of a layer. *Throws* Error{outOfMemory}, Cancelled.

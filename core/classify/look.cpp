@@ -30,9 +30,9 @@ bool isGrey(const Look &look) {
 
 void validate(const Look &look) {
     validate(look.transferFunction);
-    if (look.classes.size() > mostClasses)
+    if (look.classes.size() > maxClasses)
         throw task::Error(task::ErrorCode::usage,
-                          task::because::tooManyClasses(look.classes.size(), mostClasses));
+                          task::because::tooManyClasses(look.classes.size(), maxClasses));
     for (const TissueClass &tissue : look.classes)
         validate(tissue);
 }

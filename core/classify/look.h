@@ -8,24 +8,24 @@
 
 namespace pellucid::classify {
 
-/// More are not told apart, and each may cost a spectrum.
-inline constexpr std::size_t mostClasses = 64;
+/// More cannot be distinguished, and each may need a spectrum.
+inline constexpr std::size_t maxClasses = 64;
 
-/// What of a volume is shown: its density through a transfer function; or, if there are any, the
-/// sum of weight times class in the colours of the classes.
+/// What a volume shows: its density through a transfer function, or, if there are classes, the sum
+/// of weight times class in the colours of the classes.
 struct Look {
     TransferFunction transferFunction;
     std::vector<TissueClass> classes;
     bool operator==(const Look &) const = default;
 };
 
-/// *Throws* Error{usage} naming what is out of its range.
+/// *Throws* Error{usage} naming the value that is out of range.
 void validate(const Look &look);
 
-/// The classes with a weight: the others cost nothing.
+/// The classes with a nonzero weight; the others cost nothing.
 std::vector<TissueClass> visibleClasses(const Look &look);
 
-/// Whether the picture of a look needs three channels, and whether it has no colour at all.
+/// Whether the picture of a look needs three channels; whether it has no colour at all.
 bool mixesColors(const Look &look);
 bool isGrey(const Look &look);
 

@@ -7,12 +7,12 @@
 
 namespace pellucid::classify {
 
-/// A look as a JSON object: `transfer_function`, its weights, unless it is plain; and `classes`,
-/// each with name, range, softness, weight, color, steps and perhaps a transfer_function.
+/// A look as a JSON object: the weights as `transfer_function`, unless it is plain; and `classes`,
+/// each with name, range, softness, weight, color, steps and optionally a transfer_function.
 std::string toJson(const Look &look);
 
-/// From such an object; keys of others are left alone. *Throws* Error{usage} with the JSON
-/// pointer of what is wrong (`because::at`).
+/// Reads such an object; ignores unknown keys. *Throws* Error{usage} with the JSON pointer of the
+/// error (`because::at`).
 Look lookFromJson(const std::string &text);
 
 } // namespace pellucid::classify

@@ -28,7 +28,7 @@ Step stepFrom(const JsonValue &in) {
         const std::string &name = member.first;
         if (name == "kind")
             continue;
-        in.checked([&] { step.at(name); }); // before the value is looked at
+        in.checked([&] { step.at(name); }); // before the value is read
         step.parameters[name] = member.second.number();
     }
     in.checked([&] { validate(step); });
@@ -82,7 +82,7 @@ json classJson(const TissueClass &tissue) {
 
 std::string toJson(const Look &look) {
     json out = json::object();
-    // The number of control points is part of the look even if they all are one.
+    // The number of control points is part of the look, even if all weights are 1.
     if (look.transferFunction != TransferFunction())
         out["transfer_function"] = look.transferFunction.weights;
     for (const TissueClass &tissue : look.classes)
@@ -99,8 +99,8 @@ Look lookFromJson(const std::string &source) {
     if (const JsonValue function = in["transfer_function"])
         look.transferFunction = functionFrom(function);
     if (const JsonValue classes = in["classes"]) {
-        if (classes.size() > mostClasses)
-            classes.refuse(because::holdsTooManyClasses(mostClasses));
+        if (classes.size() > maxClasses)
+            classes.refuse(because::holdsTooManyClasses(maxClasses));
         for (const JsonValue &tissue : classes.elements())
             look.classes.push_back(classFrom(tissue));
     }

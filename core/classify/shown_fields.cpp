@@ -11,9 +11,9 @@ namespace pellucid::classify {
 
 namespace {
 
-// What running steps takes at most, in floats a sample: edges hold the smoothed values, their
-// second derivative and its zero crossings beside what smoothing itself needs.
-constexpr std::size_t floatsOfSteps = 6;
+// The most memory that running steps needs, in floats per sample: edges hold the smoothed values,
+// their second derivative and its zero crossings, besides the memory for smoothing.
+constexpr std::size_t stepFloats = 6;
 
 std::function<double(double)> shapeOf(const std::optional<TransferFunction> &function) {
     if (!function || function->isPlain())
@@ -29,7 +29,7 @@ WeightedCurve curveOf(const TissueClass &tissue, const FieldWindow &window, Dens
             oneColor ? std::array{w, w, w} : std::array{w * c.red, w * c.green, w * c.blue}};
 }
 
-// The sums of the classes, all that have no steps in one pass over the volume.
+// The sums of the classes. All classes without steps share one pass over the volume.
 void addClasses(const volume::Volume &volume, const FieldWindow &window,
                 const std::vector<TissueClass> &shown, bool oneColor, StepRunner *runner,
                 std::vector<std::vector<float>> &sums, const task::Progress &progress) {
@@ -67,7 +67,7 @@ std::size_t peakBytes(const Look &look, std::size_t samples) {
         return !tissue.steps.empty();
     });
     const std::size_t floats =
-        (mixesColors(look) ? 3 : 1) + (hasSteps ? floatsOfSteps : std::size_t(0));
+        (mixesColors(look) ? 3 : 1) + (hasSteps ? stepFloats : std::size_t(0));
     return floats * samples * sizeof(float);
 }
 

@@ -9,8 +9,8 @@
 
 namespace pellucid::classify {
 
-/// The fields whose projections make the picture of a look: one, times a colour, or one each for
-/// red, green and blue where colours mix. Projecting is linear: the sum of the fields is projected
+/// The fields whose projections make the picture of a look: one times a colour, or one each for
+/// red, green and blue if colours mix. Projection is linear: the sum of the fields is projected
 /// once, whatever the number of classes. *Source*: Cheng 2007, eq. 32 and 34.
 struct ShownFields {
     std::vector<DensityField> channels; ///< one or three
@@ -19,14 +19,15 @@ struct ShownFields {
     bool isGrey() const { return channels.size() == 1 && color == Color{}; }
 };
 
-/// Bytes held at once while the fields of a look of so many samples are made, the result included.
+/// The largest number of bytes held at once while the fields of a look of this many samples are
+/// made, including the result.
 std::size_t peakBytes(const Look &look, std::size_t samples);
 
 /// `runner`: may be null if no class has steps. *Throws* Error{outOfMemory}, Cancelled.
 ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window, const Look &look,
                         StepRunner *runner, const task::Progress &progress = {});
 
-/// The field of one class, its weight and colour left out. *Throws* Error{outOfMemory}, Cancelled.
+/// The field of one class without its weight and colour. *Throws* Error{outOfMemory}, Cancelled.
 DensityField classField(const volume::Volume &volume, const FieldWindow &window,
                         const TissueClass &tissue, StepRunner *runner,
                         const task::Progress &progress = {});

@@ -19,7 +19,7 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-// No end: as large as single precision bears squares of.
+// No limit: the largest value whose square fits single precision.
 constexpr double open = 1e15;
 
 const StepParameter *find(const StepDescription &step, const std::string &name) {
@@ -39,7 +39,7 @@ const StepParameter &parameterOf(const StepDescription &step, const std::string 
                                       : because::stepHasOtherParameters(name, step.name, names));
 }
 
-// "NAME=NUMBER,..." of the step that `text` is.
+// Parses "NAME=NUMBER,..."; `text`: the whole step, for errors.
 std::map<std::string, double> parametersFrom(std::string_view list, const std::string &text) {
     std::map<std::string, double> parameters;
     while (!list.empty()) {
@@ -59,7 +59,8 @@ std::map<std::string, double> parametersFrom(std::string_view list, const std::s
 } // namespace
 
 const std::vector<StepDescription> &stepDescriptions() {
-    static const StepParameter byItk{"itk", "", 0.0, 1.0, 0.0, true, "1: by ITK's filters, slower"};
+    static const StepParameter byItk{
+        "itk", "", 0.0, 1.0, 0.0, true, "1: use ITK's filters, slower"};
     static const std::vector<StepDescription> all{
         {StepKind::gaussian,
          "gaussian",
@@ -76,57 +77,57 @@ const std::vector<StepDescription> &stepDescriptions() {
          StepEffect::values,
          "Curvature anisotropic diffusion: smooths along edges, not across them",
          {{"iterations", "", 1.0, 50.0, 5.0, true, "Number of iterations"},
-          {"conductance", "", 0.5, 10.0, 3.0, false, "The lower, the more edges are kept"}}},
+          {"conductance", "", 0.5, 10.0, 3.0, false, "Lower values preserve more edges"}}},
         {StepKind::gradient,
          "gradient",
          StepEffect::values,
-         "Magnitude of the gradient, value units per mm",
-         {{"sigma_mm", "mm", 0.0, 20.0, 1.0, false, "Smoothing beforehand"}}},
+         "Magnitude of the gradient, in value units per mm",
+         {{"sigma_mm", "mm", 0.0, 20.0, 1.0, false, "Standard deviation of prior smoothing"}}},
         {StepKind::threshold,
          "threshold",
          StepEffect::region,
-         "Only where the value is within a hard range",
-         {{"low", "value units", -open, open, -open, false, "Least value"},
-          {"high", "value units", -open, open, open, false, "Greatest value"}}},
+         "Only samples within a hard range of values",
+         {{"low", "value units", -open, open, -open, false, "Minimum"},
+          {"high", "value units", -open, open, open, false, "Maximum"}}},
         {StepKind::edges,
          "edges",
          StepEffect::region,
          "Canny edges, shown with a density of one",
-         {{"sigma_mm", "mm", 0.0, 20.0, 1.0, false, "Smoothing beforehand"},
-          {"low", "value units per mm", 0.0, open, 20.0, false, "An edge goes on above this"},
+         {{"sigma_mm", "mm", 0.0, 20.0, 1.0, false, "Standard deviation of prior smoothing"},
+          {"low", "value units per mm", 0.0, open, 20.0, false, "An edge continues above this"},
           {"high", "value units per mm", 0.0, open, 60.0, false, "An edge starts above this"},
           byItk}},
         {StepKind::binarise,
          "binarise",
          StepEffect::region,
-         "A density of one from a value on, and none below",
-         {{"from", "value units", -open, open, 0.0, false, "Least value"}}},
+         "A density of one at or above a value, zero below",
+         {{"from", "value units", -open, open, 0.0, false, "Minimum"}}},
         {StepKind::opening,
          "opening",
          StepEffect::region,
-         "Removes what is thinner than a ball",
+         "Removes structures thinner than a ball",
          {{"radius_mm", "mm", 0.1, 30.0, 2.0, false, "Radius of the ball"}, byItk}},
         {StepKind::closing,
          "closing",
          StepEffect::region,
-         "Fills what a ball does not fit into",
+         "Fills gaps narrower than a ball",
          {{"radius_mm", "mm", 0.1, 30.0, 2.0, false, "Radius of the ball"}, byItk}},
         {StepKind::largestComponent,
          "largest",
          StepEffect::region,
-         "Only the largest connected part, or all that are not much smaller",
-         {{"share", "", 0.001, 1.0, 1.0, false, "Least size of a part, of the largest"}}},
+         "Only the largest connected part, and parts of similar size",
+         {{"share", "", 0.001, 1.0, 1.0, false, "Minimum size of a part relative to the largest"}}},
         {StepKind::body,
          "body",
          StepEffect::region,
-         "Only the patient: without the couch and the air around",
-         {{"margin_mm", "mm", 0.0, 30.0, 2.0, false, "What is left around the skin"}}},
+         "Only the patient, without the couch and the surrounding air",
+         {{"margin_mm", "mm", 0.0, 30.0, 2.0, false, "Margin around the skin"}}},
         {StepKind::skin,
          "skin",
          StepEffect::region,
          "Only the surface of the patient",
-         {{"depth_mm", "mm", 0.5, 30.0, 4.0, false, "How far it reaches in"},
-          {"margin_mm", "mm", 0.0, 30.0, 2.0, false, "And out"}}}};
+         {{"depth_mm", "mm", 0.5, 30.0, 4.0, false, "Depth below the skin"},
+          {"margin_mm", "mm", 0.0, 30.0, 2.0, false, "Margin outside the skin"}}}};
     return all;
 }
 

@@ -62,8 +62,8 @@ void validate(const TissueClass &tissue) {
     for (const double c : {tissue.color.red, tissue.color.green, tissue.color.blue})
         if (!(c >= 0.0 && c <= 1.0))
             refuse(because::colorOutOfRange);
-    if (tissue.steps.size() > mostSteps)
-        refuse(because::hasTooManySteps(tissue.steps.size(), mostSteps));
+    if (tissue.steps.size() > maxSteps)
+        refuse(because::hasTooManySteps(tissue.steps.size(), maxSteps));
     try {
         if (tissue.transferFunction)
             validate(*tissue.transferFunction);

@@ -16,36 +16,36 @@ struct Color {
     bool operator==(const Color &) const = default;
 };
 
-/// "#rrggbb" as linear light, each over 255. *Throws* Error{usage}.
+/// "#rrggbb" as linear light: each component divided by 255. *Throws* Error{usage}.
 Color colorFromText(const std::string &text);
 std::string colorText(const Color &color);
 
-/// Samples that belong together by their value, and how they are shown. *Source*: Cheng 2007,
-/// eq. 32, with soft edges in place of a threshold, which rings.
+/// Samples grouped by value, and how they are shown. *Source*: Cheng 2007, eq. 32, with soft edges
+/// instead of a threshold, which rings.
 struct TissueClass {
     std::string name;
-    double low = 0.0, high = 1.0; ///< the range, value units
-    /// The width over which membership rises from 0 to 1 about `low` and falls about `high`.
+    double low = 0.0, high = 1.0; ///< the range, in units of the values
+    /// The width over which membership rises from 0 to 1 around `low`, and falls around `high`.
     double softness = 0.0;
     double weight = 1.0;
     Color color;
     std::optional<TransferFunction> transferFunction;
-    /// What is done before, in this order: those that change values come first.
+    /// Preceding steps, in this order: those that change values come first.
     std::vector<Step> steps;
     bool operator==(const TissueClass &) const = default;
 
-    /// 0 to 1: a raised cosine about each end of the range.
+    /// 0 to 1: a raised cosine around each end of the range.
     double membership(double value) const;
 };
 
-/// Each takes seconds; more serve nobody.
-inline constexpr std::size_t mostSteps = 16;
+/// Each step takes seconds; more are of no use.
+inline constexpr std::size_t maxSteps = 16;
 
-/// *Throws* Error{usage} naming the class and what is out of its range.
+/// *Throws* Error{usage} naming the class and the value that is out of range.
 void validate(const TissueClass &tissue);
 
-/// The classes that go by a name for CT: air, lung, fat, fluid, muscle, organ, contrast, bone,
-/// metal, body, edges.
+/// The named classes for CT: air, lung, fat, fluid, muscle, organ, contrast, bone, metal, body,
+/// edges.
 const std::vector<TissueClass> &standardClasses();
 
 } // namespace pellucid::classify

@@ -12,8 +12,8 @@ namespace pellucid::classify {
 
 namespace {
 
-// The least squares problem in the Bernstein basis within a box, by descent along one coordinate
-// after the other. The matrix is positive definite: what the descent tends to is the minimum.
+// Solves the least squares problem in the Bernstein basis within a box by coordinate descent. The
+// matrix is positive definite, so the descent converges to the minimum.
 std::vector<double> boxedLeastSquares(const std::vector<std::vector<double>> &matrix,
                                       const std::vector<double> &right, double largest) {
     std::vector<double> x(right.size(), 0.5 * largest);
@@ -101,7 +101,7 @@ TransferFunction withPoints(const TransferFunction &function, int points) {
     if (points < int(weights.size()))
         return fitTransferFunction([&](double f) { return function.at(f); }, points).function;
     while (int(weights.size()) < points) {
-        // The control points of the next degree lie on the sides of the control polygon.
+        // The control points of the next degree are on the sides of the control polygon.
         std::vector<double> raised(weights.size() + 1);
         raised.front() = weights.front();
         raised.back() = weights.back();

@@ -9,10 +9,10 @@ namespace pellucid::classify {
 /// b_i(f) = C(degree, i) f^i (1 - f)^(degree - i), 0 <= i <= degree.
 double bernstein(int index, int degree, double f);
 
-/// The weight that a density is shown with: B(f) = sum_i P_i b_i(f), a Bézier curve over f in 0..1
-/// whose n control points lie above i/(n - 1). It multiplies: what is projected is f B(f). All
-/// weights 1 leave the density as it is. The product has an n-fold band and the samples alias it:
-/// these samples are what the field is. *Source*: Cheng 2007, eq. 34 to 36.
+/// The weight of a density: B(f) = sum_i P_i b_i(f), a Bézier curve over f in 0..1 whose n control
+/// points are above i/(n - 1). The projected quantity is the product f B(f); if all weights are 1,
+/// the density is unchanged. The product has n times the bandwidth, and sampling aliases it: the
+/// field is defined by these samples. *Source*: Cheng 2007, eq. 34 to 36.
 struct TransferFunction {
     static constexpr int fewestPoints = 2, mostPoints = 16;
     static constexpr double largestWeight = 2.0;
@@ -21,26 +21,26 @@ struct TransferFunction {
 
     int degree() const { return int(weights.size()) - 1; }
     double at(double f) const;
-    /// Whether it leaves every density as it is.
+    /// Whether it leaves every density unchanged.
     bool isPlain() const;
     bool operator==(const TransferFunction &) const = default;
 };
 
-/// *Throws* Error{usage} naming what is out of its range.
+/// *Throws* Error{usage} naming the value that is out of range.
 void validate(const TransferFunction &function);
 
-/// A curve as a transfer function, and how far off it is.
+/// A curve as a transfer function, with its largest error.
 struct FittedTransferFunction {
     TransferFunction function;
     double largestError = 0.0; ///< of the weights over f in 0..1
 };
 
-/// The weights within 0..largestWeight with the least mean square distance from a curve over 0..1,
-/// each part of the curve counting by its importance: the same everywhere if none is given.
+/// The weights within 0..largestWeight with the least mean square distance from a curve over 0..1.
+/// Each part of the curve is weighted by `importance`; without it all parts count equally.
 FittedTransferFunction fitTransferFunction(const std::function<double(double)> &curve, int points,
                                            const std::function<double(double)> &importance = {});
 
-/// The same curve held by more control points, exactly; or the nearest one held by fewer.
+/// The same curve with more control points, exactly; or the closest one with fewer.
 TransferFunction withPoints(const TransferFunction &function, int points);
 
 } // namespace pellucid::classify

@@ -13,7 +13,7 @@ namespace pellucid::classify {
 namespace {
 
 // f B(f) between steps of this size differs from its chord by h^2/8 times its second derivative:
-// 1e-6 for sixteen points that alternate between 0 and 2, the steepest there are.
+// 1e-6 for sixteen points that alternate between 0 and 2, the steepest possible.
 constexpr int tableSteps = 16384;
 
 using Shares = std::array<float, 3>;
@@ -28,7 +28,7 @@ Shares sharesOf(std::span<const WeightedCurve> curves, float value, Region regio
     return sum;
 }
 
-// Every value that 16 bits hold.
+// A table for all 16-bit values.
 std::vector<Shares> tableOf(std::span<const WeightedCurve> curves) {
     using Limits = std::numeric_limits<std::int16_t>;
     std::vector<Shares> table(std::size_t(Limits::max() - Limits::min() + 1));
@@ -65,7 +65,7 @@ float ValueCurve::at(float value, Region region) const {
     if (region == Region::outside || std::isnan(value))
         return 0.0F;
     const float scaled = (value - m_low) * m_scale;
-    // Written so that infinity times a window without width, which is no number, ends as 0.
+    // Infinity times a window of zero width is NaN, which becomes 0 here.
     const float f = m_density == DensityKind::one ? 1.0F
                     : scaled >= 1.0F              ? 1.0F
                     : scaled > 0.0F               ? scaled
@@ -77,7 +77,7 @@ float ValueCurve::at(float value, Region region) const {
         const float *const pair = m_table.data() + left;
         shown = pair[0] + (at - float(left)) * (pair[1] - pair[0]);
     }
-    // Filled: it belongs to the class whatever its value.
+    // A filled sample belongs to the class whatever its value.
     if (m_tissue && shown > 0.0F && region != Region::filled)
         shown = float(double(shown) * m_tissue->membership(double(value)));
     return shown;

@@ -12,15 +12,15 @@
 
 namespace pellucid::classify {
 
-/// What a value is shown as: f(value) m(value) B(f), the density, the membership of a class if
-/// there is one, and a transfer function's weight.
+/// Maps a value to what is shown: f(value) m(value) B(f), that is the density, times the membership
+/// if there is a class, times the transfer function's weight.
 class ValueCurve {
 public:
-    /// `shape`: B(f); none for 1.
+    /// `shape`: B(f); null for 1.
     ValueCurve(const FieldWindow &window, DensityKind density, std::optional<TissueClass> tissue,
                const std::function<double(double)> &shape);
 
-    /// NaN is 0.
+    /// NaN becomes 0.
     float at(float value, Region region = Region::inside) const;
 
 private:
@@ -30,14 +30,15 @@ private:
     std::vector<float> m_table; ///< f B(f) in equal steps; empty: f
 };
 
-/// A curve and its share of each channel.
+/// A curve and its channel weights.
 struct WeightedCurve {
     ValueCurve curve;
     std::array<double, 3> weights{1.0, 1.0, 1.0};
 };
 
-/// sums[c] += weight_c curve(value) of every sample for each curve. *Shape*: a region of each
-/// sample, or none for inside; one or three sums, each of the volume's count. *Throws* Cancelled.
+/// Adds for each curve and sample: sums[c] += weight_c curve(value). *Shape*: one region per
+/// sample, or null for inside; one or three sums, each with the volume's number of samples.
+/// *Throws* Cancelled.
 void addCurves(const volume::Volume &volume, const std::vector<Region> *region,
                std::span<const WeightedCurve> curves, std::span<std::vector<float>> sums,
                const task::Progress &progress = {});

@@ -3,8 +3,8 @@
 
 namespace pellucid::dcmtk {
 
-/// Loads the data dictionary and registers the codecs, once; safe from any thread.
-/// *Throws* Error{internal} if the dictionary is missing.
+/// Loads the data dictionary and registers the codecs, once. Thread-safe. *Throws* Error{internal}
+/// if the dictionary is missing.
 void prepareDcmtk();
 
 } // namespace pellucid::dcmtk

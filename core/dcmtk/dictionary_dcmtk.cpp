@@ -22,7 +22,7 @@ namespace pellucid::dcmtk {
 
 namespace {
 
-// What was installed with its libraries beside it has DCMTK's dictionaries there, too.
+// An installation with its own libraries has DCMTK's dictionaries there, too.
 void findDictionaries() {
     const auto own = files::programFolder();
     std::error_code ignored;
@@ -42,16 +42,16 @@ void findDictionaries() {
 void prepareDcmtk() {
     static const bool loaded = [] {
         findDictionaries();
-        // DCMTK complains on the console about every odd file; the reasons come back as values.
+        // DCMTK logs every odd file to the console; reasons are returned as values instead.
         OFLog::configure(OFLogger::OFF_LOG_LEVEL);
-        // Attributes that passed through systems which did not know them come as UN.
+        // Attributes from systems that did not know them arrive as UN.
         dcmEnableUnknownVRConversion.set(OFTrue);
         DcmRLEDecoderRegistration::registerCodecs();
         DcmRLEEncoderRegistration::registerCodecs();
-        // Pixels of a length that is said, under a compressed syntax: the decoder sees what they
+        // Accepts pixels of defined length under a compressed syntax; the decoder checks what they
         // are.
         dcmUseExplLengthPixDataForEncTS.set(OFTrue);
-        // Cornell's coder wrote differences of 16 bits that others cut.
+        // Cornell's codec wrote 16-bit differences that others truncate.
         constexpr auto predictor6 = OFFalse, cornell = OFTrue;
         DJDecoderRegistration::registerCodecs(EDC_photometricInterpretation, EUC_default,
                                               EPC_default, predictor6, cornell);

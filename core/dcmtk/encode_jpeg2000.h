@@ -13,10 +13,10 @@ struct Jpeg2000Image {
     int precision = 0;
     bool isSigned = false;
     std::vector<std::int32_t> samples;
-    bool isDamaged = false; ///< when decoded: its end is missing, or the decoder warned
+    bool isDamaged = false; ///< after decoding: truncated, or the decoder warned
 };
 
-/// Encodes one component without loss as a codestream. *Throws* Error{internal}.
+/// Encodes one component losslessly as a codestream. *Throws* Error{internal}.
 std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &image);
 
 } // namespace pellucid::dcmtk

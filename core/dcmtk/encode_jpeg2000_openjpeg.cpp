@@ -49,7 +49,7 @@ std::vector<std::byte> encodeJpeg2000(const Jpeg2000Image &in) {
     parameters.tcp_numlayers = 1;
     parameters.tcp_rates[0] = 0;
     parameters.cp_disto_alloc = 1;
-    // Each resolution halves the image; small images have room for fewer.
+    // Each resolution halves the image; small images have fewer.
     parameters.numresolution = 1;
     while (parameters.numresolution < 6 &&
            (std::min(in.rows, in.columns) >> parameters.numresolution) > 0)

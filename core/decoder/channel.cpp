@@ -41,7 +41,7 @@ std::optional<Received> receive(int socket, Takes takes) {
     msghdr header{};
     header.msg_iov = &part;
     header.msg_iovlen = 1;
-    // Without room for one the kernel drops what is sent along, and says so.
+    // Without space for a descriptor the kernel drops an attached one and reports it.
     if (takes == Takes::descriptor) {
         header.msg_control = control.data();
         header.msg_controllen = control.size();
@@ -56,9 +56,9 @@ std::optional<Received> receive(int socket, Takes takes) {
             for (std::size_t at = 0; CMSG_LEN(at + sizeof(int)) <= c->cmsg_len; at += sizeof(int)) {
                 int fd = -1;
                 std::memcpy(&fd, CMSG_DATA(c) + at, sizeof fd);
-                received.descriptor = Descriptor(fd); // the one before is closed
+                received.descriptor = Descriptor(fd); // closes the previous one
             }
-    // Packets keep their borders: of another size it is none of ours.
+    // Packets keep their boundaries: one of a different size is not a message.
     if (got != ssize_t(sizeof(Message)) || (header.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0)
         return std::nullopt;
     return received;

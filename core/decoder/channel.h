@@ -12,14 +12,14 @@ namespace pellucid::decoder {
 
 using files::Descriptor;
 
-/// The descriptors that a decoder begins with.
+/// The descriptors that a decoder starts with.
 inline constexpr int socketDescriptor = 3, arenaDescriptor = 4;
 
-/// Sends a message, and a descriptor if it is not -1; never waits. False if nobody is there any
-/// more, or nobody listens.
+/// Sends a message, and a descriptor unless it is -1; never blocks. False if the other end is
+/// closed or does not read.
 bool send(int socket, const Message &message, int descriptor = -1);
 
-/// Waits for a message. Nothing if nobody is there any more, or what came is none.
+/// Waits for a message. Empty if the other end is closed, or sent something else.
 struct Received {
     Message message;
     Descriptor descriptor;

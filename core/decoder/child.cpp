@@ -33,11 +33,11 @@ using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t firstArenaBytes = 1 << 20;
-constexpr std::uint64_t keptArenaBytes = 16 << 20; // of a decoder that waits
+constexpr std::uint64_t keptArenaBytes = 16 << 20; // of an idle decoder
 constexpr std::uint64_t largestBodyBytes = 64 << 20;
-constexpr int cancelMs = 20;        // how long a cancelled call may still wait
-constexpr int mostWishes = 8;       // for memory, of one request
-constexpr double startSeconds = 30; // of a loaded machine
+constexpr int cancelPollMs = 20;     // the longest wait after a cancel
+constexpr int maxMemoryRequests = 8; // requests for memory within one call
+constexpr double startSeconds = 30;  // on a loaded machine
 constexpr std::chrono::milliseconds endPatience(500);
 
 [[noreturn]] void failStarting(const std::filesystem::path &program, int error) {
@@ -51,8 +51,8 @@ constexpr std::chrono::milliseconds endPatience(500);
 
 std::atomic<std::uint64_t> grantedBytes = 0; // of all arenas
 
-// Beyond the numbers that the decoder begins with, so that none of them is overwritten.
-Descriptor movedUp(int fd, const std::filesystem::path &program) {
+// Moves it above the numbers that the decoder starts with, so that none of them is overwritten.
+Descriptor aboveReserved(int fd, const std::filesystem::path &program) {
     Descriptor low(fd);
     Descriptor high(fd < 0 ? -1 : ::fcntl(fd, F_DUPFD_CLOEXEC, 10));
     if (!high)
@@ -60,7 +60,7 @@ Descriptor movedUp(int fd, const std::filesystem::path &program) {
     return high;
 }
 
-// Nothing of the user's surroundings but where libraries lie.
+// Passes on only the variables that are needed to find libraries.
 std::vector<std::string> environment() {
     std::vector<std::string> kept;
     for (const char *const name : {"LD_LIBRARY_PATH", "DCMDICTPATH", "ASAN_OPTIONS", "TSAN_OPTIONS",
@@ -75,25 +75,25 @@ std::vector<std::string> environment() {
 namespace {
 
 #ifdef PELLUCID_SANITIZED
-constexpr double slowness = 10.0;
+constexpr double sanitizerFactor = 10.0;
 #else
-constexpr double slowness = 1.0;
+constexpr double sanitizerFactor = 1.0;
 #endif
 
-// The slowest coder makes some MB a second; a share of a hospital less.
+// The slowest codec decodes a few MB per second; a hospital's network share is slower.
 double fullSeconds(const Message &request) {
-    constexpr double bytesPerSecond = 1e6, anyFile = 20.0;
-    return slowness * (anyFile + double(request.size) / bytesPerSecond);
+    constexpr double bytesPerSecond = 1e6, baseSeconds = 20.0;
+    return sanitizerFactor * (baseSeconds + double(request.size) / bytesPerSecond);
 }
 
 } // namespace
 
 double decodingSeconds(const Message &request) {
-    // For a header the pixels are passed over, fragment by fragment.
-    constexpr double ofHeader = 0.1;
+    // A header skips the pixels, fragment by fragment.
+    constexpr double headerShare = 0.1;
     const bool isHeader =
         request.kind == Message::Kind::header || request.kind == Message::Kind::layout;
-    return (isHeader ? ofHeader : 1.0) * fullSeconds(request);
+    return (isHeader ? headerShare : 1.0) * fullSeconds(request);
 }
 
 double waitingSeconds(const Message &request) {
@@ -103,7 +103,7 @@ double waitingSeconds(const Message &request) {
 
 Child::Child() = default;
 
-// The other constructor has made an object by then: what fails in here is tidied up.
+// The delegated constructor has completed by then, so the destructor cleans up if this fails.
 Child::Child(const std::filesystem::path &program, const task::Progress &progress) : Child() {
     start(program, progress);
 }
@@ -121,16 +121,17 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
     std::array<int, 2> ends{-1, -1};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
         failStarting(program, errno);
-    m_socket = movedUp(ends[0], program);
-    Descriptor theirs = movedUp(ends[1], program);
-    m_arena = movedUp(::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING), program);
-    // It may never get smaller below us: reading beyond its end would end the program.
+    m_socket = aboveReserved(ends[0], program);
+    Descriptor childSocket = aboveReserved(ends[1], program);
+    m_arena =
+        aboveReserved(::memfd_create("pellucid-decode", MFD_CLOEXEC | MFD_ALLOW_SEALING), program);
+    // The arena must never shrink: reading beyond its end would kill the program.
     if (::ftruncate(m_arena.get(), off_t(firstArenaBytes)) != 0 ||
         ::fcntl(m_arena.get(), F_ADD_SEALS, F_SEAL_SHRINK) != 0)
         failStarting(program, errno);
     m_arenaBytes = firstArenaBytes;
 
-    // The terminal's interrupt is for the program, and its signals begin as usual.
+    // The terminal's interrupt is for the program only, and signals start with their defaults.
     posix_spawnattr_t attributes;
     sigset_t none, all;
     ::sigemptyset(&none);
@@ -143,11 +144,11 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
                                                 POSIX_SPAWN_SETSIGDEF);
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, theirs.get(), socketDescriptor);
+    ::posix_spawn_file_actions_adddup2(&actions, childSocket.get(), socketDescriptor);
     ::posix_spawn_file_actions_adddup2(&actions, m_arena.get(), arenaDescriptor);
     ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-#ifndef PELLUCID_SANITIZED // whose reports go there
+#ifndef PELLUCID_SANITIZED // sanitizers report there
     ::posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
 #endif
     std::string name = program.string();
@@ -165,7 +166,7 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
         m_pid = -1;
         failStarting(program, failed);
     }
-    theirs = Descriptor(); // its end is to be seen
+    childSocket = Descriptor(); // so that a closed end is noticed
     std::optional<Received> ready;
     allow(startSeconds);
     if (waitForMessage(progress))
@@ -175,25 +176,26 @@ void Child::start(const std::filesystem::path &program, const task::Progress &pr
     m_confinement = ready->message.code;
     static std::once_flag once;
     std::call_once(once, [this] {
-        system::log(std::string("decoders: limits ") +
-                    ((m_confinement & limitsHold) != 0 ? "hold" : "DO NOT hold") + ", calls are " +
+        system::log(std::string("decoders: resource limits ") +
+                    ((m_confinement & limitsHold) != 0 ? "in force" : "NOT in force") +
+                    ", system calls " +
                     ((m_confinement & callsAreFiltered) != 0 ? "filtered" : "NOT filtered"));
     });
-    m_isSound = true;
+    m_isUsable = true;
 }
 
 void Child::ask(const Message &request, int file) {
     allow(waitingSeconds(request));
     const bool isSent = send(m_socket.get(), request, file);
-    m_isSound = false; // until it has answered
+    m_isUsable = false; // until it has answered
     if (!isSent)
         throw Error(ErrorCode::unusable, because::decoderIsGone);
 }
 
-void Child::askForNext() {
+void Child::requestNext() {
     allow(waitingSeconds({Message::Kind::next, 0, 0, 0}));
     if (!send(m_socket.get(), {Message::Kind::next, 0, 0, 0}))
-        failAsItEnded();
+        failByExitStatus();
 }
 
 void Child::allow(double seconds) {
@@ -201,12 +203,12 @@ void Child::allow(double seconds) {
             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-// False: the time is over.
+// Returns false after the deadline.
 bool Child::waitForMessage(const task::Progress &progress) const {
     for (;;) {
         progress.check();
         pollfd waiting{m_socket.get(), POLLIN, 0};
-        if (::poll(&waiting, 1, cancelMs) > 0)
+        if (::poll(&waiting, 1, cancelPollMs) > 0)
             return true;
         if (Clock::now() > m_end)
             return false;
@@ -214,21 +216,21 @@ bool Child::waitForMessage(const task::Progress &progress) const {
 }
 
 Child::Answer Child::answer(const task::Progress &progress) {
-    for (int wishes = 0;;) {
+    for (int memoryRequests = 0;;) {
         if (!waitForMessage(progress))
             throw Error(ErrorCode::unusable, because::takesTooLong);
         const auto received = receive(m_socket.get(), Takes::noDescriptors);
         if (!received)
-            failAsItEnded();
+            failByExitStatus();
         const Message &message = received->message;
         switch (message.kind) {
         case Message::Kind::need: {
-            if (++wishes > mostWishes) // it only wants to be talked to
+            if (++memoryRequests > maxMemoryRequests) // a decoder that only asks for memory
                 throw Error(ErrorCode::unusable, because::decodedToNonsense);
             const bool isGranted = grow(message.size);
             if (!send(m_socket.get(), {isGranted ? Message::Kind::granted : Message::Kind::refused,
                                        0, m_arenaBytes, 0}))
-                failAsItEnded();
+                failByExitStatus();
             break;
         }
         case Message::Kind::part:
@@ -240,11 +242,11 @@ Child::Answer Child::answer(const task::Progress &progress) {
     }
 }
 
-// Memory is asked for here, by one who does not believe.
+// Memory is granted on this side, because the decoder is not trusted.
 bool Child::grow(std::uint64_t bytes) {
     if (bytes <= m_arenaBytes)
         return true;
-    // What other decoders were granted may not be filled yet.
+    // Other decoders may not have filled what they were granted.
     const std::uint64_t more = bytes - m_arenaBytes;
     const std::uint64_t granted = grantedBytes.fetch_add(more) + more;
     m_grantedBytes += more;
@@ -268,7 +270,7 @@ Child::Answer Child::take(const Message &message) {
     const auto body = std::as_bytes(std::span(m_body));
     if (message.kind == Message::Kind::done) {
         const auto refusal = message.code != 0 ? std::optional(unpackReason(body)) : std::nullopt;
-        m_isSound = true;
+        m_isUsable = true;
         if (refusal)
             throw Error(message.code == needsMemory ? ErrorCode::outOfMemory : ErrorCode::unusable,
                         *refusal);
@@ -276,8 +278,9 @@ Child::Answer Child::take(const Message &message) {
     return {message, body, m_mapped.bytes().subspan(dataOffset(message.size), message.dataBytes)};
 }
 
-void Child::failAsItEnded() {
-    // Its end is seen a moment after the socket's; one that goes on has sent what is no message.
+void Child::failByExitStatus() {
+    // The process may end a moment after its socket; one that still runs has sent an invalid
+    // message.
     int status = 0;
     const auto end = Clock::now() + endPatience;
     for (pid_t ended = 0; ended != m_pid;) {
@@ -291,7 +294,7 @@ void Child::failAsItEnded() {
     }
     m_pid = -1;
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    system::log("a decoder ended: signal " + std::to_string(signal));
+    system::log("a decoder was ended by signal " + std::to_string(signal));
     switch (signal) {
     case SIGPROF:
         throw Error(ErrorCode::unusable, because::takesTooLong);

@@ -28,9 +28,10 @@ constexpr const char *programName = "pellucid-decode";
 struct OpenFile {
     Descriptor descriptor;
     std::uint64_t bytes = 0;
-    timespec changed{}; ///< of content or place; nobody can set it back, as with its date
+    timespec
+        changed{}; ///< of content or location; unlike the modification date it cannot be set back
 
-    // Called when it has been read: somebody may have written into it meanwhile.
+    // Called after reading, because the file may have been written to meanwhile.
     void requireUnchanged() const {
         struct stat about {};
         if (::fstat(descriptor.get(), &about) != 0 || std::uint64_t(about.st_size) != bytes ||
@@ -51,7 +52,7 @@ OpenFile open(const fs::path &path) {
     return file;
 }
 
-// Most files of a folder may be no images at all: that takes no decoder.
+// Most files in a folder may not be images; recognising these needs no decoder.
 void checkStart(const OpenFile &file, const fs::path &path) {
     std::array<std::byte, 132> start{};
     const ssize_t got = ::pread(file.descriptor.get(), start.data(), start.size(), 0);
@@ -61,7 +62,7 @@ void checkStart(const OpenFile &file, const fs::path &path) {
         throw Error(ErrorCode::unusable, because::isNotDicom, path);
 }
 
-// Runs f with the path in its errors.
+// Calls f and adds the path to its errors.
 template <class F> auto naming(const fs::path &path, F &&f) {
     try {
         return f();
@@ -90,7 +91,7 @@ fs::path findProgram() {
     for (const char *const place : {".", "../libexec/pellucid", "../lib/pellucid", "../bin"})
         if (const fs::path program = own / place / programName; fs::exists(program, ignored))
             return program;
-    return own / programName; // whose lack is said when it is wanted
+    return own / programName; // reported as missing when it is needed
 }
 
 } // namespace
@@ -115,7 +116,7 @@ DecodedFile::DecodedFile(DecodedFile &&other) noexcept = default;
 
 DecodedFile::~DecodedFile() {
     if (m_child)
-        m_decoder->takeBack(std::move(m_child));
+        m_decoder->release(std::move(m_child));
 }
 
 Decoder::Decoder(fs::path program) : m_program(std::move(program)) {}
@@ -128,13 +129,13 @@ Decoder &Decoder::shared() {
 }
 
 void Decoder::beginOpening() {
-    std::vector<std::unique_ptr<Child>> former; // ended without the lock
+    std::vector<std::unique_ptr<Child>> former; // destroyed without the lock
     const std::lock_guard lock(m_mutex);
     ++m_opening;
     former.swap(m_idle);
 }
 
-std::unique_ptr<Child> Decoder::lend(const task::Progress &progress) {
+std::unique_ptr<Child> Decoder::acquire(const task::Progress &progress) {
     std::uint64_t opening = 0;
     {
         const std::lock_guard lock(m_mutex);
@@ -145,14 +146,13 @@ std::unique_ptr<Child> Decoder::lend(const task::Progress &progress) {
         }
         opening = m_opening;
     }
-    auto child = started(progress);
+    auto child = startChild(progress);
     child->opening = opening;
     return child;
 }
 
-// One that ends as it begins is no reason to end all (the system may have wanted its memory); two
-// are.
-std::unique_ptr<Child> Decoder::started(const task::Progress &progress) const {
+// Tries twice: one process that ends at once may have been killed for its memory.
+std::unique_ptr<Child> Decoder::startChild(const task::Progress &progress) const {
     try {
         return std::make_unique<Child>(m_program, progress);
     } catch (const Error &) {
@@ -160,25 +160,25 @@ std::unique_ptr<Child> Decoder::started(const task::Progress &progress) const {
     }
 }
 
-void Decoder::takeBack(std::unique_ptr<Child> child) {
-    if (!child->isSound() || child->isLarge())
-        return; // another one will be started
+void Decoder::release(std::unique_ptr<Child> child) {
+    if (!child->isUsable() || child->isLarge())
+        return; // a new one will be started
     const std::lock_guard lock(m_mutex);
     if (child->opening == m_opening &&
         m_idle.size() < std::max(1U, std::thread::hardware_concurrency()))
         m_idle.push_back(std::move(child));
 }
 
-// Asks a decoder; one that ended while it waited (the system may have wanted its memory) is
+// Sends a request to a decoder. One that ended while it was idle (perhaps killed for its memory) is
 // replaced.
 std::unique_ptr<Child> Decoder::ask(const Message &request, int file,
                                     const task::Progress &progress) {
-    auto child = lend(progress);
+    auto child = acquire(progress);
     try {
         child->ask(request, file);
     } catch (const Error &) {
         const std::uint64_t opening = child->opening;
-        child = started(progress);
+        child = startChild(progress);
         child->opening = opening;
         child->ask(request, file);
     }
@@ -186,16 +186,16 @@ std::unique_ptr<Child> Decoder::ask(const Message &request, int file,
 }
 
 template <class F>
-auto Decoder::answered(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack) {
+auto Decoder::answerOf(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack) {
     const auto taken = [&] {
         try {
             return child->answer(progress);
         } catch (...) {
-            takeBack(std::move(child)); // a reason leaves it sound
+            release(std::move(child)); // a reason leaves it usable
             throw;
         }
     }();
-    // What is nonsense ends with the child that said it.
+    // A child that sent nonsense is destroyed with it.
     return unpack(taken);
 }
 
@@ -205,9 +205,9 @@ InstanceHeader Decoder::header(const fs::path &path, const task::Progress &progr
     return naming(path, [&] {
         auto child =
             ask({Message::Kind::header, 0, file.bytes, 0}, file.descriptor.get(), progress);
-        InstanceHeader header = answered(
+        InstanceHeader header = answerOf(
             child, progress, [](const Child::Answer &answer) { return unpackHeader(answer.body); });
-        takeBack(std::move(child));
+        release(std::move(child));
         file.requireUnchanged();
         return header;
     });
@@ -218,7 +218,7 @@ DecodedFile Decoder::image(const fs::path &path, const task::Progress &progress)
     return naming(path, [&] {
         auto child = ask({Message::Kind::image, 0, file.bytes, 0}, file.descriptor.get(), progress);
         std::span<const std::uint16_t> samples;
-        InstanceHeader header = answered(child, progress, [&](const Child::Answer &answer) {
+        InstanceHeader header = answerOf(child, progress, [&](const Child::Answer &answer) {
             InstanceHeader h = unpackHeader(answer.body);
             const std::uint64_t count = sampleCount(h);
             if (whyUnusable(h) || answer.data.size() != 2 * count)
@@ -236,10 +236,10 @@ DirectoryFile Decoder::directory(const fs::path &path, const task::Progress &pro
     return naming(path, [&] {
         auto child =
             ask({Message::Kind::directory, 0, file.bytes, 0}, file.descriptor.get(), progress);
-        DirectoryFile directory = answered(child, progress, [](const Child::Answer &answer) {
+        DirectoryFile directory = answerOf(child, progress, [](const Child::Answer &answer) {
             return unpackDirectory(answer.body);
         });
-        takeBack(std::move(child));
+        release(std::move(child));
         return directory;
     });
 }
@@ -252,11 +252,11 @@ void Decoder::archive(const fs::path &path,
     naming(path, [&] {
         auto child =
             ask({Message::Kind::archive, 0, file.bytes, 0}, file.descriptor.get(), progress);
-        // Every part but the last is full, and files come one after the other: nobody talks for
-        // ever.
+        // Every part but the last is full and files follow each other, so the answer cannot be
+        // endless.
         bool isAnnouncing = true, isInFile = false;
         for (bool isDone = false; !isDone;) {
-            answered(child, progress, [&](const Child::Answer &answer) {
+            answerOf(child, progress, [&](const Child::Answer &answer) {
                 isDone = answer.message.kind == Message::Kind::done;
                 if (isDone)
                     return;
@@ -278,10 +278,10 @@ void Decoder::archive(const fs::path &path,
                     isInFile = !isLast;
                     take({files[0], answer.data, isFirst, isLast, isDamaged});
                 }
-                child->askForNext();
+                child->requestNext();
             });
         }
-        takeBack(std::move(child));
+        release(std::move(child));
     });
 }
 
@@ -290,9 +290,9 @@ VolumeLayout Decoder::layout(const fs::path &path, const task::Progress &progres
     return naming(path, [&] {
         auto child =
             ask({Message::Kind::layout, 0, file.bytes, 0}, file.descriptor.get(), progress);
-        VolumeLayout layout = answered(
+        VolumeLayout layout = answerOf(
             child, progress, [](const Child::Answer &answer) { return unpackLayout(answer.body); });
-        takeBack(std::move(child));
+        release(std::move(child));
         return layout;
     });
 }
@@ -310,10 +310,11 @@ bool Decoder::samples(const fs::path &path, const SampleRange &samples,
                 file.descriptor.get(), progress);
         std::uint64_t left = samples.bytes;
         for (bool isDone = false; !isDone;) {
-            answered(child, progress, [&](const Child::Answer &answer) {
+            answerOf(child, progress, [&](const Child::Answer &answer) {
                 isDone = answer.message.kind == Message::Kind::done;
                 const std::uint64_t bytes = answer.data.size();
-                // Some of them each time, none too many, and all of them.
+                // Each part must bring some of the bytes, never too many, and the last one
+                // completes them.
                 if (isDone ? left != 0
                            : bytes == 0 || bytes > left ||
                                  bytes % std::uint64_t(samples.bytesEach) != 0)
@@ -323,18 +324,18 @@ bool Decoder::samples(const fs::path &path, const SampleRange &samples,
                 left -= bytes;
                 hasMore = (answer.message.code & moreFollows) != 0;
                 take(answer.data);
-                child->askForNext();
+                child->requestNext();
             });
         }
-        takeBack(std::move(child));
+        release(std::move(child));
     });
     return hasMore;
 }
 
 int Decoder::confinement() {
-    auto child = lend({});
+    auto child = acquire({});
     const int confinement = child->confinement();
-    takeBack(std::move(child));
+    release(std::move(child));
     return confinement;
 }
 

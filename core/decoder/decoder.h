@@ -18,7 +18,7 @@ namespace pellucid::decoder {
 
 class Child;
 
-/// A decoded file. As long as it is there its decoder decodes nothing else.
+/// A decoded file. Its decoder is not used for other files while this object exists.
 class DecodedFile {
 public:
     DecodedFile(InstanceHeader header, std::span<const std::uint16_t> samples,
@@ -27,8 +27,8 @@ public:
     DecodedFile(DecodedFile &&other) noexcept;
 
     InstanceHeader header;
-    /// As of DecodedImage. A decoder that a file has taken over may change them while they are
-    /// read: each is to be read once.
+    /// As in DecodedImage. A compromised decoder may change them while they are read, so read each
+    /// sample only once.
     std::span<const std::uint16_t> samples;
 
 private:
@@ -36,28 +36,29 @@ private:
     class Decoder *m_decoder;
 };
 
-/// What an archive gives, file by file; `data` comes in parts, the last with `isLast`.
+/// The contents of an archive, file by file; `data` comes in parts, the last with `isLast`.
 struct ArchivePart {
     const ArchiveFile &file;
     std::span<const std::byte> data;
     bool isFirst, isLast;
-    bool isDamaged; ///< the last: `data` is a packed reason, and the file is not what came before
+    bool isDamaged; ///< in the last part: `data` is a packed reason, and the earlier parts are not
+                    ///< the file
 };
 
-/// Reads files whose bytes nobody vouches for, in processes of their own (`pellucid-decode`) that
-/// may do nothing but compute: no file, no network, no process; what they give back is checked. A
-/// file whose decoder crashes, hangs or asks for too much is named, and the next one gets a new
-/// decoder. Safe from any thread; each call has a decoder of its own, which is kept for the next.
+/// Reads untrusted files in separate processes (`pellucid-decode`) that can only compute: no file,
+/// no network, no process. Their answers are validated. A file whose decoder crashes, hangs or asks
+/// for too much memory is reported, and the next file gets a new decoder. Thread-safe; each call
+/// uses a decoder of its own, which is kept for the next call.
 class Decoder {
 public:
-    /// `program`: what is run; *throws* nothing, the calls do.
+    /// `program`: the executable. Does not throw if it is missing; the calls do.
     explicit Decoder(std::filesystem::path program);
     ~Decoder();
     Decoder(const Decoder &) = delete;
     Decoder &operator=(const Decoder &) = delete;
 
-    /// The one of this program: `pellucid-decode` beside it or where packages keep it, or what
-    /// PELLUCID_DECODER names.
+    /// The decoder of this program: `pellucid-decode` next to it or where packages install it, or
+    /// the value of PELLUCID_DECODER.
     static Decoder &shared();
 
     /// All *throw* Error{unusable} with path and reason, Error{outOfMemory}, Error{internal} if
@@ -65,37 +66,38 @@ public:
     InstanceHeader header(const std::filesystem::path &path, const task::Progress &progress = {});
     DecodedFile image(const std::filesystem::path &path, const task::Progress &progress = {});
     DirectoryFile directory(const std::filesystem::path &path, const task::Progress &progress = {});
-    /// Twice: first the names and sizes of all files, then their data. The callback may throw.
+    /// Calls `announce` with the names and sizes of all files first, then passes on their data.
+    /// Callbacks may throw.
     void archive(const std::filesystem::path &path,
                  const std::function<void(const ArchiveFile &)> &announce,
                  const std::function<void(const ArchivePart &)> &take,
                  const task::Progress &progress = {});
 
-    /// Of a file that `volume::isVolumeFile`.
+    /// The layout of a file for which `volume::isVolumeFile` is true.
     VolumeLayout layout(const std::filesystem::path &path, const task::Progress &progress = {});
-    /// Exactly so many bytes, in parts of whole samples. True if the file holds more. The callback
+    /// Reads exactly this range, in parts of whole samples. True if the file has more. The callback
     /// may throw.
     bool samples(const std::filesystem::path &path, const SampleRange &samples,
                  const std::function<void(std::span<const std::byte>)> &take,
                  const task::Progress &progress = {});
 
-    /// Other files come, of somebody else perhaps: decoders that have read the former ones read
-    /// none of these. One that a file has taken over could give wrong headers and pixels for what
-    /// it reads next.
+    /// Called before files from another source are opened: decoders that have read earlier files
+    /// are not used for them. A compromised decoder could give wrong headers and pixels for the
+    /// files that it reads next.
     void beginOpening();
 
-    /// What holds decoders back here, see `Confinement`; of one that is started for it if need be.
+    /// The confinement of decoders on this machine, see `Confinement`. Starts one if necessary.
     int confinement();
 
 private:
     friend class DecodedFile;
-    std::unique_ptr<Child> lend(const task::Progress &progress);
-    std::unique_ptr<Child> started(const task::Progress &progress) const;
-    void takeBack(std::unique_ptr<Child> child);
+    std::unique_ptr<Child> acquire(const task::Progress &progress);
+    std::unique_ptr<Child> startChild(const task::Progress &progress) const;
+    void release(std::unique_ptr<Child> child);
     std::unique_ptr<Child> ask(const struct Message &request, int file,
                                const task::Progress &progress);
     template <class F>
-    auto answered(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack);
+    auto answerOf(std::unique_ptr<Child> &child, const task::Progress &progress, F &&unpack);
 
     std::filesystem::path m_program;
     std::mutex m_mutex;
@@ -103,7 +105,7 @@ private:
     std::uint64_t m_opening = 0;
 };
 
-/// Whether a file begins as DICOM files do, with a preamble or without.
+/// Whether a file starts like a DICOM file, with or without a preamble.
 bool looksLikeDicom(std::span<const std::byte> start);
 
 } // namespace pellucid::decoder

@@ -56,12 +56,12 @@ std::optional<task::Reason> whyUnusable(const InstanceHeader &h) {
 }
 
 bool isHuge(const InstanceHeader &h, std::uint64_t fileBytes) {
-    constexpr double manyBytes = 512e6, manyTimes = 1000.0;
+    constexpr double hugeBytes = 512e6, hugeFactor = 1000.0;
     constexpr int largestSide = 16384;
     const int side = std::max(1, h.mosaicSide);
     const double pixels = 2.0 * h.rows * h.columns * double(h.frames.size());
     return std::max(h.rows, h.columns) * side > largestSide ||
-           (pixels > manyBytes && pixels > manyTimes * double(fileBytes));
+           (pixels > hugeBytes && pixels > hugeFactor * double(fileBytes));
 }
 
 bool hasSurplusPixels(const InstanceHeader &h) {

@@ -16,16 +16,16 @@ namespace pellucid::decoder {
 
 namespace {
 
-// Longer ones are cut where they are read from a file.
+// The parser truncates longer ones.
 constexpr std::uint64_t longestString = 1 << 16;
-constexpr std::uint64_t mostElements = 1'000'000;
-constexpr std::size_t longestReason = 2000; // a text of a header is up to 1024 bytes long
+constexpr std::uint64_t maxElements = 1'000'000;
+constexpr std::size_t longestReason = 2000; // a text of a header has up to 1024 bytes
 
 [[noreturn]] void fail() {
     throw task::Error(task::ErrorCode::unusable, task::because::decodedToNonsense);
 }
 
-// Writer and reader go through the same fields in the same order.
+// Writer and reader visit the same fields in the same order.
 class Writer {
 public:
     static constexpr bool isReading = false;
@@ -59,7 +59,7 @@ public:
     template <class T>
     requires std::is_arithmetic_v<T>
     void number(T &value) {
-        if constexpr (std::same_as<T, bool>) { // of another byte a bool may be neither
+        if constexpr (std::same_as<T, bool>) { // any other byte is not a valid bool
             unsigned char byte = 0;
             number(byte);
             value = byte != 0;
@@ -80,11 +80,11 @@ public:
         value.assign(reinterpret_cast<const char *>(m_rest.data()), size);
         m_rest = m_rest.subspan(size);
     }
-    // Nothing is reserved for it: elements are made as their bytes are there.
+    // Nothing is reserved: elements are created only as their bytes are present.
     std::uint64_t count(std::uint64_t) {
         std::uint64_t size = 0;
         number(size);
-        if (size > std::min<std::uint64_t>(mostElements, m_rest.size()))
+        if (size > std::min<std::uint64_t>(maxElements, m_rest.size()))
             fail();
         return size;
     }
@@ -185,7 +185,7 @@ template <class A> void pass(A &archive, VolumeLayout &layout) {
     pass(archive, layout.intercept);
     pass(archive, layout.isDeflated);
     pass(archive, layout.isSwapped);
-    pass(archive, layout.isOfPatient);
+    pass(archive, layout.hasPatientSpace);
     pass(archive, layout.dataFile);
     pass(archive, layout.at);
     pass(archive, layout.skip);
@@ -228,7 +228,7 @@ template <class A, class K, class V> void pass(A &archive, std::map<K, V> &value
 
 template <class T> std::string packed(const T &value) {
     Writer writer;
-    T copy = value; // the reader's fields are written to
+    T copy = value; // a reader assigns to the fields
     pass(writer, copy);
     return std::move(writer.bytes);
 }
@@ -249,12 +249,12 @@ std::string pack(const InstanceHeader &header) {
 
 InstanceHeader unpackHeader(std::span<const std::byte> body) {
     auto header = unpacked<InstanceHeader>(body);
-    // What everybody relies on.
+    // Ranges that all other code relies on.
     const auto isWithin = [](double value, double most) { return std::abs(value) <= most; };
     const auto isUnit = [](const std::optional<glm::dvec3> &axis) {
         return !axis || std::abs(glm::length(*axis) - 1.0) < 1e-6;
     };
-    if (header.frames.empty() || header.frames.size() > mostFrames ||
+    if (header.frames.empty() || header.frames.size() > maxFrames ||
         header.modalityTable.size() > 65536 || header.windows.size() > 100 ||
         !isWithin(header.modalityTableFirst, 65536) || header.oddities > allOddities ||
         header.mosaicSide < 0 || header.mosaicSide > 100 ||
@@ -299,9 +299,9 @@ std::string pack(const VolumeLayout &layout) {
 VolumeLayout unpackLayout(std::span<const std::byte> body) {
     const auto layout = unpacked<VolumeLayout>(body);
     const volume::GridSize n = layout.size;
-    constexpr std::uint64_t mostSkipped = std::uint64_t(1) << 40;
-    if (std::min({n.i, n.j, n.k}) < 1 || layout.volumes < 1 || layout.volumes > mostVolumes ||
-        layout.at > mostSkipped || layout.skip > mostSkipped ||
+    constexpr std::uint64_t maxSkipped = std::uint64_t(1) << 40;
+    if (std::min({n.i, n.j, n.k}) < 1 || layout.volumes < 1 || layout.volumes > maxVolumes ||
+        layout.at > maxSkipped || layout.skip > maxSkipped ||
         std::abs(layout.slope) > largestRescale || std::abs(layout.intercept) > largestRescale ||
         layout.slope == 0.0 || layout.scalar < StoredScalar::i8 ||
         layout.scalar > StoredScalar::f64)
@@ -322,7 +322,7 @@ task::Reason unpackReason(std::span<const std::byte> body) {
     if (body.size() > longestReason)
         fail();
     std::string text(reinterpret_cast<const char *>(body.data()), body.size());
-    // The encoding itself has no such bytes, and counts those of the texts.
+    // The encoding has no such bytes itself, and counts those of the texts.
     std::replace_if(
         text.begin(), text.end(), [](char c) { return (unsigned char)(c) < 0x20; }, ' ');
     auto reason = task::Reason::decoded(text);

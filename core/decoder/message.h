@@ -13,21 +13,21 @@
 
 namespace pellucid::decoder {
 
-/// What goes through the socket between the program and its decoder: a few numbers, and at times a
-/// file descriptor. All else lies in the arena.
+/// The messages between the program and its decoder, through a socket: a few numbers and sometimes
+/// a file descriptor. All other data are in the arena.
 struct Message {
     enum class Kind : std::uint32_t {
-        // to the decoder; `size`: of the file, whose descriptor comes along
+        // sent to the decoder; `size` is that of the file, whose descriptor is attached
         header = 1,
         image,
         directory,
         archive,
         layout,  ///< the header of a file that holds volumes
-        samples, ///< `dataBytes`: all of them, `code`: the size of one and bits of `SampleFlag`
+        samples, ///< `dataBytes`: in total; `code`: bytes each, and bits of `SampleFlag`
         granted, ///< `size`: of the arena now
         refused,
         next, ///< part of an archive or of samples
-        // from it
+        // sent by the decoder
         ready = 100, ///< it is confined, see `Confinement`, in `code`
         need,        ///< `size`: of the arena
         part,        ///< `size` bytes of body, then `dataBytes`; of an archive with bits of
@@ -37,8 +37,8 @@ struct Message {
     Kind kind = Kind::ready;
     std::int32_t code = 0;       ///< of `done`: 0, or a `Refusal` whose reason is the body
     std::uint64_t size = 0;      ///< of the body
-    std::uint64_t dataBytes = 0; ///< of what lies after it
-    /// Of samples: where they begin in the file, and what is to be skipped once it is inflated.
+    std::uint64_t dataBytes = 0; ///< of the data after the body
+    /// For samples: the offset in the file, and the number of bytes to skip after inflating.
     std::uint64_t at = 0, skip = 0;
 };
 
@@ -48,26 +48,26 @@ enum Refusal : std::int32_t { isUnusable = 1, needsMemory = 2 };
 /// Bits of `Message::code` of `ready`.
 enum Confinement : std::int32_t { limitsHold = 1, callsAreFiltered = 2 };
 
-/// Bits of `Message::code` of `part`. An announcement has a list of files for a body, the others
-/// the file that the data are of.
+/// Bits of `Message::code` of `part`. The body of an announcement is a list of files, that of other
+/// parts the file that the data belong to.
 enum ArchiveFlag : std::int32_t { announcement = 1, firstPart = 2, lastPart = 4, damagedPart = 8 };
 
-/// A bit of `Message::code` of the last `part` of samples: the file holds more of them.
+/// A bit of `Message::code` of the last `part` of samples: the file has more of them.
 inline constexpr std::int32_t moreFollows = 8;
 
-/// Bits of `Message::code` of `samples`, beside the size of a sample.
+/// Bits of `Message::code` of `samples`, in addition to the size of a sample.
 enum SampleFlag : std::int32_t { deflated = 16, swapped = 32 };
 
-/// A part that is not the last of its file is full; so is an announcement that is not the last.
+/// Every part except the last of a file is full, and so is every announcement except the last.
 inline constexpr std::size_t archivePartBytes = 1 << 20, filesAnnouncedAtOnce = 500;
 
-/// Where the data begin in the arena: after the body, on a page.
+/// The offset of the data in the arena: the first page after the body.
 constexpr std::uint64_t dataOffset(std::uint64_t bodyBytes) {
     return (bodyBytes + 4095U) / 4096U * 4096U;
 }
 
-/// Bodies. Reading *throws* Error{unusable} if the bytes are not such a body, whatever they are: a
-/// decoder that a file has taken over may send anything.
+/// Packing of message bodies. Unpacking *throws* Error{unusable} if the bytes are not such a body,
+/// whatever they are: a compromised decoder may send anything.
 std::string pack(const InstanceHeader &header);
 InstanceHeader unpackHeader(std::span<const std::byte> body);
 std::string pack(const DirectoryFile &directory);
@@ -76,7 +76,8 @@ std::string pack(const std::vector<ArchiveFile> &files);
 std::vector<ArchiveFile> unpackArchiveFiles(std::span<const std::byte> body);
 std::string pack(const VolumeLayout &layout);
 VolumeLayout unpackLayout(std::span<const std::byte> body);
-/// As `task::Reason::encoded` gives it, unless it is endless; its texts become one printable line.
+/// Reads the format of `task::Reason::encoded`, with a limit on its length. Texts are made one
+/// printable line.
 task::Reason unpackReason(std::span<const std::byte> body);
 
 } // namespace pellucid::decoder

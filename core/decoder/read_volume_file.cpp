@@ -27,14 +27,14 @@ using volume::Lattice;
 using volume::Volume;
 using volume::VolumeNotes;
 
-// Of a file beside the header or below: one that names others is after something else.
+// Must be next to the header or below: a header that names another file is malicious.
 fs::path detachedData(const fs::path &header, const std::string &name) {
     const fs::path relative = fs::path(name).lexically_normal();
     if (name.find('\0') != std::string::npos || relative.is_absolute() || relative.empty() ||
         *relative.begin() == "..")
         throw Error(ErrorCode::unusable, because::listsAFileOutside, header);
     const fs::path data = header.parent_path() / relative;
-    // A link leads elsewhere, too.
+    // A link may lead elsewhere.
     std::error_code unknown;
     const fs::path folder = fs::weakly_canonical(
         header.parent_path().empty() ? fs::path(".") : header.parent_path(), unknown);
@@ -60,14 +60,14 @@ OpenVolume open(const fs::path &path, const task::Progress &progress) {
     file.header.volumes = layout.volumes;
     const std::string name = path.filename().string();
     file.header.notes.title = name.substr(0, name.size() - volume::volumeSuffix(path).size());
-    if (!layout.isOfPatient)
+    if (!layout.hasPatientSpace)
         file.header.notes.warnings.emplace_back(because::namesNoSpace);
     file.header.samplesFile = layout.dataFile.empty() ? path : detachedData(path, layout.dataFile);
     return file;
 }
 
-// Before memory is asked for: a file cannot hold more than its bytes, deflated ones 1032 times
-// that (RFC 1951).
+// Checked before memory is allocated: a file cannot contain more than its bytes, or 1032 times as
+// much if deflated (RFC 1951).
 void checkSize(const fs::path &path, const SampleRange &samples) {
     std::error_code unknown;
     const std::uint64_t there = fs::file_size(path, unknown);
@@ -91,10 +91,10 @@ SampleRange rangeOf(const OpenVolume &file, int volume) {
     return samples;
 }
 
-// Values of samples that are stored as type Stored, appended part by part.
+// Values of samples that are stored as `Stored`, appended part by part.
 template <class Stored> class Values {
 public:
-    // What fits 16 bits stays so; of the unsigned ones that is known at the end.
+    // Values that fit 16 bits are kept so; for unsigned ones that is known only at the end.
     using Kept = std::conditional_t<
         sizeof(Stored) == 1 || std::is_same_v<Stored, std::int16_t>, std::int16_t,
         std::conditional_t<std::is_same_v<Stored, std::uint16_t>, std::uint16_t, float>>;
@@ -138,7 +138,7 @@ private:
     volume::Narrowing m_narrowing;
 };
 
-// The same, rescaled.
+// The same for rescaled values.
 template <class Stored> class RescaledValues : public Values<double> {
 public:
     RescaledValues(std::size_t count, double slope, double intercept)
@@ -151,14 +151,14 @@ public:
             narrow(m_slope * double(value) + m_intercept);
         }
     }
-    // Hounsfield units, as a rule: whole numbers of 16 bits.
+    // Usually Hounsfield units: 16-bit integers.
     Volume volume(const Lattice &lattice, VolumeNotes notes) {
-        const bool areShort = std::is_integral_v<Stored> &&
+        const bool fitInt16 = std::is_integral_v<Stored> &&
                               std::all_of(m_values.begin(), m_values.end(), [](float v) {
                                   return std::abs(v) <= std::numeric_limits<std::int16_t>::max() &&
                                          v == std::round(v);
                               });
-        if (!areShort)
+        if (!fitInt16)
             return Values<double>::volume(lattice, std::move(notes));
         return Volume(lattice, std::vector<std::int16_t>(m_values.begin(), m_values.end()),
                       volume::ValueUnit::none, std::move(notes));
@@ -169,7 +169,7 @@ private:
 };
 
 template <class Stored, class Taken>
-Volume taken(const OpenVolume &file, int which, Taken values, const task::Progress &progress) {
+Volume volumeFrom(const OpenVolume &file, int which, Taken values, const task::Progress &progress) {
     const VolumeLayout &layout = file.layout;
     const SampleRange samples = rangeOf(file, which);
     checkSize(file.header.samplesFile, samples);
@@ -200,15 +200,15 @@ Volume read(const OpenVolume &file, int which, const task::Progress &progress) {
     const std::size_t count = file.header.lattice.size().count();
     using Kept = typename Values<Stored>::Kept;
     const bool isRescaled = layout.slope != 1.0 || layout.intercept != 0.0;
-    // Values that may turn out to be of 16 bits are there twice, at the end.
+    // Values that may turn out to fit 16 bits exist twice at the end.
     const double bytesEach = isRescaled
                                  ? sizeof(float) + 2.0
                                  : sizeof(Kept) + (std::is_same_v<Kept, std::uint16_t> ? 4.0 : 0.0);
     system::requireMemory(double(count) * bytesEach);
     if (isRescaled)
-        return taken<Stored>(
+        return volumeFrom<Stored>(
             file, which, RescaledValues<Stored>(count, layout.slope, layout.intercept), progress);
-    return taken<Stored>(file, which, Values<Stored>(count), progress);
+    return volumeFrom<Stored>(file, which, Values<Stored>(count), progress);
 }
 
 Volume read(const OpenVolume &file, int which, const task::Progress &progress) {
@@ -250,7 +250,7 @@ VolumeFileHeader readVolumeFileHeader(const fs::path &path, const task::Progress
 }
 
 Volume readVolumeFile(const fs::path &path, const task::Progress &progress, int volume) {
-    // Header and samples are read one after the other, perhaps from two files.
+    // Header and samples are read separately, perhaps from two files.
     const auto stateOf = [](const fs::path &file) {
         std::error_code unknown;
         return std::pair(fs::last_write_time(file, unknown), fs::file_size(file, unknown));

@@ -9,22 +9,22 @@
 namespace pellucid::decoder {
 
 /// Reads a volume of a NRRD, NIfTI or MetaImage file: any scalar type, either endianness, raw or
-/// deflated, attached or detached, any three directions; other spaces are converted to LPS, a
-/// missing origin is 0. `volume`: which of several. 8 and 16 bits become int16 where every value
-/// fits, everything else float32.
-/// *Throws* Error{unusable} naming the file and what it does not support, also values that float32
-/// cannot tell apart, Error{outOfMemory}, Error{internal} if there is no decoder, Cancelled.
+/// deflated, attached or detached, any three directions. Other spaces are converted to LPS; a
+/// missing origin is 0. `volume`: the index if the file has several. 8 and 16 bits become int16 if
+/// every value fits; everything else becomes float32. *Throws* Error{unusable} naming the file and
+/// the unsupported feature, also for values that float32 cannot distinguish; Error{outOfMemory};
+/// Error{internal} if there is no decoder; Cancelled.
 volume::Volume readVolumeFile(const std::filesystem::path &path,
                               const task::Progress &progress = {}, int volume = 0);
 
-/// What such a file says before its samples. *Throws* as readVolumeFile.
+/// The header of such a file. *Throws* as readVolumeFile.
 struct VolumeFileHeader {
     volume::Lattice lattice;
-    int volumes = 1; ///< one after the other
+    int volumes = 1; ///< stored one after the other
     volume::VolumeNotes notes;
-    std::filesystem::path samplesFile; ///< the file itself, or another one that it names
+    std::filesystem::path samplesFile; ///< the file itself, or the file that it names
 };
-/// *Throws* Error{unusable}, also where the samples of the first volume cannot all be there.
+/// *Throws* Error{unusable}, also if the file is too short for the samples of the first volume.
 VolumeFileHeader readVolumeFileHeader(const std::filesystem::path &path,
                                       const task::Progress &progress = {});
 

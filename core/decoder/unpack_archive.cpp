@@ -27,13 +27,14 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-constexpr std::size_t longestName = 255; // of what usual file systems take
+constexpr std::size_t longestName = 255; // in common file systems
 
 std::string sizeText(std::uintmax_t bytes) {
     return fmt::format("{:.1f} GB", double(bytes) / 1e9);
 }
 
-// Below the folder whatever the archive says: no root, no way up, no name too long to write.
+// The path below the folder, whatever the archive says: no root, no parent directories, no
+// component too long to write.
 fs::path inside(const fs::path &folder, const std::string &name, std::size_t number) {
     fs::path below;
     for (const fs::path &part : fs::path(name).relative_path()) {
@@ -45,9 +46,9 @@ fs::path inside(const fs::path &folder, const std::string &name, std::size_t num
     return folder / (below.empty() ? fs::path(std::to_string(number)) : below);
 }
 
-// Two names may differ in what was taken from them; a file may have the folder's name; what lies
-// too deep or has too long a path goes into a folder of its number.
-fs::path freePlace(const fs::path &folder, const std::string &name, std::size_t number) {
+// A free path: two names may become equal, or equal to the folder's name. A path that is too deep
+// or too long is replaced by a folder named after its number.
+fs::path freePath(const fs::path &folder, const std::string &name, std::size_t number) {
     constexpr std::size_t longestPath = 3000;
     constexpr std::ptrdiff_t deepest = 32;
     fs::path to = inside(folder, name, number);
@@ -80,7 +81,7 @@ bool isArchive(const fs::path &path) {
         return ::pread(file.get(), start.data(), start.size(), 0) == 4 &&
                std::memcmp(start.data(), "PK\3\4", 4) == 0;
     } catch (const Error &) {
-        return false; // whoever reads it says why it cannot be
+        return false; // reading it will report why
     }
 }
 
@@ -101,7 +102,7 @@ std::vector<LeftOutFile> unpackArchive(Decoder &decoder, const fs::path &path,
         [&](const ArchiveFile &file) {
             if (file.isEncrypted)
                 throw Error(ErrorCode::unusable, because::isEncrypted, path);
-            // Sizes are up to 2^63: no sum may wrap before it is looked at.
+            // Sizes are up to 2^63, and no sum may overflow before it is checked.
             if (file.bytes > most || announced + file.bytes > most)
                 throw Error(ErrorCode::unusable,
                             because::unpacksToMoreThanThereIsRoom(sizeText(most)), path);
@@ -116,7 +117,7 @@ std::vector<LeftOutFile> unpackArchive(Decoder &decoder, const fs::path &path,
             if (part.isFirst) {
                 if (++number > files)
                     throw Error(ErrorCode::unusable, because::holdsMoreFilesThanAnnounced, path);
-                to = freePlace(folder, part.file.name, number);
+                to = freePath(folder, part.file.name, number);
                 out.close();
                 out.clear();
                 out.open(to, std::ios::binary);

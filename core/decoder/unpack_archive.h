@@ -12,27 +12,27 @@ namespace pellucid::decoder {
 
 class Decoder;
 
-/// What an archive may become, so that a small file cannot fill a disk.
+/// Limits on unpacking, so that a small file cannot fill a disk.
 struct UnpackLimits {
-    std::uintmax_t bytes = std::uintmax_t(64) << 30; ///< never more than half of what is free
+    std::uintmax_t bytes = std::uintmax_t(64) << 30; ///< and never more than half of the free space
     std::size_t files = 500'000;
 };
 
-/// A file of an archive that is not unpacked, under its name there, and why.
+/// A file that was not unpacked, under its name in the archive, and why.
 struct LeftOutFile {
     std::string name;
     task::Reason reason;
     bool operator==(const LeftOutFile &) const = default;
 };
 
-/// Whether a file begins as a ZIP archive does.
+/// Whether a file starts like a ZIP archive.
 bool isArchive(const std::filesystem::path &path);
 
 /// Writes the regular files of a ZIP archive below a folder, under their names in the archive.
-/// Names that lead out of the folder lose what leads out. *Returns* what is left out: links, and
-/// files whose data are damaged. *Throws* Error{unusable} if the archive itself is damaged, holds
-/// very many damaged files, is encrypted, or announces or gives more than the limits allow (it is
-/// refused by its directory, before anything is written); Error{output}; Cancelled.
+/// Parts of names that lead out of the folder are removed. *Returns* the files that were left out:
+/// links, and files with damaged data. *Throws* Error{unusable} if the archive itself is damaged,
+/// has very many damaged files, is encrypted, or exceeds the limits (if its directory does, before
+/// anything is written); Error{output}; Cancelled.
 std::vector<LeftOutFile> unpackArchive(Decoder &decoder, const std::filesystem::path &archive,
                                        const std::filesystem::path &folder,
                                        const task::Progress &progress = {},

@@ -31,32 +31,32 @@ constexpr std::size_t bytesOf(StoredScalar scalar) {
     }
 }
 
-/// What a NRRD, NIfTI or MetaImage file says before its samples.
+/// The header of a NRRD, NIfTI or MetaImage file.
 struct VolumeLayout {
-    /// In DICOM's space, whatever the file's is: a volume's lattice can be made of them.
+    /// In DICOM's space, whatever the file's is; valid for a volume's lattice.
     volume::GridSize size;
-    int volumes = 1; ///< one after the other: a fourth axis
+    int volumes = 1; ///< stored one after the other: a fourth axis
     glm::dvec3 originMm{0.0};
     std::array<glm::dvec3, 3> stepsMm{};
     StoredScalar scalar = StoredScalar::u8;
     /// value = slope * stored + intercept.
     double slope = 1.0, intercept = 0.0;
-    bool isDeflated = false; ///< as gzip or zlib do
+    bool isDeflated = false; ///< by gzip or zlib
     bool isSwapped = false;  ///< not in this machine's byte order
-    /// The header says how its space lies in the patient; else it is taken for DICOM's.
-    bool isOfPatient = true;
-    std::string dataFile; ///< as it stands there; empty: the samples are in the same file
-    /// Where the samples begin, or what they are deflated to; and how much is to be skipped once it
-    /// is inflated, as where the header is deflated with them.
+    /// Whether the header gives the orientation of its space; otherwise DICOM's is assumed.
+    bool hasPatientSpace = true;
+    std::string dataFile; ///< as written in the header; empty: the samples are in the same file
+    /// The offset of the samples or of their deflated data, and the number of bytes to skip after
+    /// inflating, for example a header that is deflated with them.
     std::uint64_t at = 0, skip = 0;
 };
 
-/// Which samples of a file are wanted.
+/// The requested samples of a file.
 struct SampleRange {
     std::uint64_t bytes = 0; ///< of all samples
     std::int32_t bytesEach = 1;
     bool isDeflated = false, isSwapped = false;
-    std::uint64_t at = 0, skip = 0; ///< as of `VolumeLayout`
+    std::uint64_t at = 0, skip = 0; ///< as in `VolumeLayout`
 };
 
 } // namespace pellucid::decoder

@@ -13,8 +13,8 @@ namespace {
 
 namespace because = task::because;
 
-// A large single image is no volume beside a stack, a file of labels is none beside the series that
-// they are of, and what was scanned comes before what was filled in.
+// A stack precedes a large single image, a series precedes a file of labels for it, and scanned
+// slices precede interpolated ones.
 const Selection &largest(const std::vector<Selection> &candidates) {
     const auto rank = [](const Selection &s) {
         const VolumeEntry &v = *s.volume;
@@ -26,7 +26,7 @@ const Selection &largest(const std::vector<Selection> &candidates) {
         [&](const Selection &a, const Selection &b) { return rank(a) < rank(b); });
 }
 
-// Where a series has a volume with its holes filled, that alone, if it is asked for.
+// With Holes::fill, a series that has a filled volume contributes only that one.
 std::vector<Selection> choose(std::vector<Selection> all, Holes holes) {
     if (holes == Holes::fill) {
         std::set<const Series *> filled;
@@ -40,7 +40,7 @@ std::vector<Selection> choose(std::vector<Selection> all, Holes holes) {
     return all;
 }
 
-// Nothing where the file is not below the folder.
+// Empty if the file is not below the folder.
 std::optional<std::filesystem::path> below(const std::filesystem::path &folder,
                                            const std::filesystem::path &file) {
     const std::filesystem::path inside = file.lexically_relative(folder);
@@ -99,7 +99,7 @@ Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUi
         if ((", " + known + ",").find(", " + number + ",") == std::string::npos)
             known += (known.empty() ? "" : ", ") + number;
     }
-    // There is no other word for it, even where it is said of two patients.
+    // A UID identifies the series uniquely, even if two patients share it.
     if (!byUid.empty())
         return largest(byUid);
     std::set<const Series *> series;

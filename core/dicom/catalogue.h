@@ -13,45 +13,45 @@
 
 namespace pellucid::dicom {
 
-/// A file that is not used, and why.
+/// A file that is not used, and the reason.
 struct Skipped {
     std::filesystem::path path;
-    task::Reason reason; ///< `because::needsTooMuchMemory` is not its fault
-    bool isHuge = false; ///< it is used if that is asked for, see `ScanOptions`
+    task::Reason reason; ///< `because::needsTooMuchMemory` does not mean that the file is bad
+    bool isHuge = false; ///< can be used on request, see `ScanOptions`
 };
 
 /// One image plane: a file, or one frame of a multi-frame file.
 struct FrameReference {
     std::filesystem::path path;
     int frame = 0;
-    /// Of what the scan found there, as `digestOf` says: anything else is not what was meant.
+    /// Digest of what the scan found there, see `digestOf`: loading refuses anything else.
     std::size_t digest = 0;
     bool operator==(const FrameReference &) const = default;
 };
 
-/// Where the planes of a stack lie and where the volume's slices will be.
+/// The positions of a stack's planes, and of the volume's slices.
 struct StackGeometry {
     volume::Lattice lattice;
-    /// For an uneven stack: distance of every frame from the lattice's first slice, along the
-    /// slices' normal, mm; the lattice's slices are interpolated between them. Empty if every frame
+    /// For an uneven stack: the distance of every frame from the lattice's first slice along the
+    /// slices' normal, mm. The lattice's slices are interpolated between them. Empty if every frame
     /// is a slice.
     std::vector<double> frameOffsetsMm;
 };
 
-/// Frames that make one volume, or, without positions, a set of images.
+/// Frames that make one volume or, without positions, a set of images.
 struct VolumeEntry {
-    /// What tells it from the other volumes of its series; empty if it is alone.
+    /// Distinguishes it from the other volumes of its series; empty if it is the only one.
     std::vector<task::Reason> label;
-    std::vector<FrameReference> frames; ///< in the order of the stack
+    std::vector<FrameReference> frames; ///< in stack order
     StackGeometry geometry;
-    bool placed = true; ///< false: images only, not a volume
-    /// Holes of several slices are interpolated; the runs between them are volumes of their own.
+    bool placed = true; ///< false: images, not a volume
+    /// Holes of several slices are interpolated; the runs between them are also separate volumes.
     bool fillsHoles = false;
     std::optional<task::Reason> notPlacedReason; ///< set if it is not placed
     volume::ValueUnit unit = volume::ValueUnit::none;
     volume::VolumeNotes notes;
-    std::filesystem::path volumeFile; ///< set instead of frames for a file of one volume or several
-    int fileVolume = 0;               ///< which of them
+    std::filesystem::path volumeFile; ///< set instead of `frames` for a file of volumes
+    int fileVolume = 0;               ///< the index of the volume in that file
 
     std::size_t voxels() const { return geometry.lattice.size().count(); }
 };
@@ -59,7 +59,7 @@ struct VolumeEntry {
 /// A volume's label in English.
 std::string labelText(const std::vector<task::Reason> &label);
 
-/// A file of a series; its UID tells copies of one instance. A NRRD file has none.
+/// A file of a series. Its UID identifies copies of one instance; a NRRD file has none.
 struct InstanceFile {
     std::filesystem::path path;
     std::string sopInstanceUid;
@@ -82,19 +82,20 @@ struct Patient {
     std::vector<Study> studies;
 };
 
-/// An archive, and where its files are as long as somebody may load from them.
+/// An archive, and the folder with its files, which exists as long as they may be loaded.
 struct Unpacked {
     std::shared_ptr<const files::SessionFolder> folder;
     std::filesystem::path archive;
 };
 
-/// What a scan found.
+/// The result of a scan.
 struct Catalogue {
     std::vector<Patient> patients;
     std::vector<Skipped> skipped;
-    /// What archives were unpacked to; it is there as long as somebody may load from it.
+    /// The unpacked archives, kept as long as their files may be loaded.
     std::vector<Unpacked> unpacked;
-    /// Where a file is for people: what archives were unpacked to is gone when they look.
+    /// The path to show to users: for a file from an archive, one within the archive, since the
+    /// unpacked file is temporary.
     std::filesystem::path named(const std::filesystem::path &file) const;
     /// The archive that a file is in, or nothing.
     std::optional<std::filesystem::path> archiveOf(const std::filesystem::path &file) const;
@@ -102,7 +103,7 @@ struct Catalogue {
     bool empty() const { return patients.empty(); }
 };
 
-/// A volume's place in a catalogue.
+/// A volume's position in a catalogue.
 struct Selection {
     const Patient *patient = nullptr;
     const Study *study = nullptr;
@@ -110,25 +111,24 @@ struct Selection {
     const VolumeEntry *volume = nullptr;
 };
 
-/// Every volume, in the catalogue's order.
+/// All volumes, in the catalogue's order.
 std::vector<Selection> selections(const Catalogue &catalogue);
 
-/// What becomes of holes of several slices: the longest run is taken, or the whole with its holes
-/// interpolated.
+/// What to do about holes of several slices: take the longest run, or the whole stack with
+/// interpolated holes.
 enum class Holes { split, fill };
 
-/// The volume with most voxels; single images come after stacks, other files after DICOM series,
-/// sets of images after every volume.
-/// *Throws* Error{unusable} if there is none.
+/// The volume with the most voxels. Stacks precede single images, DICOM series other files, and
+/// volumes sets of images. *Throws* Error{unusable} if there is none.
 Selection defaultSelection(const Catalogue &catalogue, Holes holes = Holes::split);
 
-/// A series by its UID or number, its volume as of `defaultSelection`. *Throws* Error{unusable},
-/// also where several series have the number.
+/// A series by its UID or number, with its volume chosen as by `defaultSelection`. *Throws*
+/// Error{unusable}, also if several series have the number.
 Selection selectSeries(const Catalogue &catalogue, const std::string &numberOrUid,
                        Holes holes = Holes::split);
 
-/// Volume `number` of the selection's series, counted from 1 as `info` does.
-/// *Throws* Error{unusable} if there is none.
+/// Volume `number` of the selection's series, counted from 1 as in the output of `info`. *Throws*
+/// Error{unusable} if there is none.
 Selection selectVolume(const Selection &selection, int number);
 
 } // namespace pellucid::dicom

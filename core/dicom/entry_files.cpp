@@ -20,10 +20,10 @@ std::vector<EntryFile> filesOf(const VolumeEntry &entry) {
     return files;
 }
 
-bool isStillThere(const FrameReference &meant, const decoder::InstanceHeader &found) {
-    return meant.frame < int(found.frames.size()) &&
-           meant.digest == digestOf(found.sopInstanceUid, found.frameOfReferenceUid, found.modality,
-                                    found.frames[std::size_t(meant.frame)]);
+bool stillContains(const FrameReference &expected, const decoder::InstanceHeader &found) {
+    return expected.frame < int(found.frames.size()) &&
+           expected.digest == digestOf(found.sopInstanceUid, found.frameOfReferenceUid,
+                                       found.modality, found.frames[std::size_t(expected.frame)]);
 }
 
 } // namespace pellucid::dicom

@@ -10,16 +10,16 @@
 
 namespace pellucid::dicom {
 
-/// A file of a volume, and which of the volume's frames are in it.
+/// A file of a volume, and the frames of the volume that it contains.
 struct EntryFile {
     std::filesystem::path path;
-    std::vector<std::size_t> frames; ///< indices of `VolumeEntry::frames`, ascending
+    std::vector<std::size_t> frames; ///< indices in `VolumeEntry::frames`, ascending
 };
 
 /// The files of a volume, each once, in the order of their first frames.
 std::vector<EntryFile> filesOf(const VolumeEntry &entry);
 
-/// Whether a file that was read again still holds the frame that the scan found in it.
-bool isStillThere(const FrameReference &meant, const decoder::InstanceHeader &found);
+/// Whether a file that was read again still contains the frame that the scan found.
+bool stillContains(const FrameReference &expected, const decoder::InstanceHeader &found);
 
 } // namespace pellucid::dicom

@@ -23,7 +23,7 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-// CDs are written in capitals and mounted in lower case: an entry matches whatever its case. Each
+// Entries match in any case, because CDs are written in capitals and mounted in lower case. Each
 // folder is read once.
 class CaselessFolders {
 public:
@@ -91,7 +91,7 @@ void FileList::addArchive(const fs::path &path) {
     unpacked.push_back({std::move(folder), path});
 }
 
-// What is no DICOM file at all is said when it is read.
+// A file that is not DICOM at all is reported when it is read.
 decoder::DirectoryFile FileList::directoryAt(const fs::path &path) const {
     return volume::isVolumeFile(path) ? decoder::DirectoryFile()
                                       : decoder::Decoder::shared().directory(path, m_progress);
@@ -105,7 +105,7 @@ void FileList::addDirectory(const fs::path &path, const decoder::DirectoryFile &
         m_progress.check();
         fs::path listed = path.parent_path();
         for (const std::string &part : parts) {
-            // A part must be a plain name: an index may not lead out of its own folder.
+            // A component must be a plain name: an index must not lead out of its own folder.
             if (part == ".." || part.find_first_of(std::string_view("/\0", 2)) != part.npos)
                 throw Error(ErrorCode::unusable, because::listsAFileOutside, path);
             listed = folders.childOf(listed, part);
@@ -115,7 +115,7 @@ void FileList::addDirectory(const fs::path &path, const decoder::DirectoryFile &
             skipped.push_back({listed, because::isListedButMissing});
             continue;
         }
-        // A link leads elsewhere, too.
+        // A link may lead elsewhere.
         const fs::path meant =
             fs::weakly_canonical(fs::absolute(listed), ignored).lexically_relative(folder);
         if (meant.empty() || *meant.begin() == "..")
@@ -156,7 +156,7 @@ void FileList::addFolder(const fs::path &folder) {
                     {entry.path(), link ? because::isABrokenLink : because::isNotARegularFile});
             }
         }
-        if (error) // a share or a CD that fails half way
+        if (error) // a network share or a CD that fails midway
             skipped.push_back({current, task::systemReason(error)});
     }
     std::sort(below.begin(), below.end());

@@ -11,11 +11,11 @@
 
 namespace pellucid::dicom {
 
-/// The same for every path to a file, as far as the system tells.
+/// The same path for every path to a file, as far as the system can tell.
 std::filesystem::path resolved(const std::filesystem::path &path);
 
-/// The files that paths lead to, each once: files, those of folders, those that a DICOMDIR lists,
-/// and those of archives, which are unpacked.
+/// The files that paths refer to, each once: files, files in folders, files listed by a DICOMDIR,
+/// and files in archives, which are unpacked.
 class FileList {
 public:
     /// *Requires*: `progress` outlives the list.
@@ -26,7 +26,7 @@ public:
     void add(const std::filesystem::path &path);
 
     std::vector<std::filesystem::path> found;
-    std::vector<Skipped> skipped; ///< what was found on the way and is not used
+    std::vector<Skipped> skipped; ///< files that were found but are not used
     std::vector<Unpacked> unpacked;
 
 private:

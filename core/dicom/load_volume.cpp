@@ -35,10 +35,10 @@ using task::Error;
 using task::ErrorCode;
 using Clock = std::chrono::steady_clock;
 
-// Previews copy the volume; more often than this they would cost more than the decoding.
+// A preview copies the volume; at shorter intervals that would cost more than decoding.
 constexpr auto previewInterval = std::chrono::milliseconds(400);
 
-// Decodes the files of an entry, from any thread.
+// Decodes the files of an entry. Thread-safe.
 class EntryDecoder {
 public:
     EntryDecoder(const VolumeEntry &entry, const task::Progress &progress)
@@ -46,8 +46,8 @@ public:
 
     const std::vector<EntryFile> &files() const { return m_files; }
 
-    // The first file that is readable; it is kept for `decode`. *Throws* what the last file does if
-    // there is none.
+    // The first readable file, which is kept for `decode`. *Throws* the last file's error if there
+    // is none.
     const InstanceHeader *firstReadable() {
         for (m_keptFile = 0; m_keptFile < m_files.size(); ++m_keptFile) {
             try {
@@ -57,15 +57,15 @@ public:
                 if (error.code() != ErrorCode::unusable)
                     throw;
                 if (m_keptFile + 1 == m_files.size())
-                    throw Error(codeWithoutAny(), error.reason(), error.path());
+                    throw Error(codeIfNoneReadable(), error.reason(), error.path());
             }
         }
         return nullptr;
     }
     std::size_t keptBytes() const { return m_kept ? m_kept->samples.size_bytes() : 0; }
 
-    // No file by several threads at a time. *Throws* Error{unusable} also for a file that asks for
-    // too much memory: it costs itself, as one that is damaged.
+    // *Requires*: no two threads decode the same file. *Throws* Error{unusable} also for a file
+    // that asks for too much memory: it is skipped like a damaged one.
     decoder::DecodedFile decode(std::size_t file) {
         if (file != m_keptFile || !m_kept)
             return decoded(m_files[file].path);
@@ -74,8 +74,8 @@ public:
         return kept;
     }
 
-    // Where no file is left that could be read.
-    ErrorCode codeWithoutAny() const {
+    // The error code if no file could be read.
+    ErrorCode codeIfNoneReadable() const {
         return m_lacksMemory ? ErrorCode::outOfMemory : ErrorCode::unusable;
     }
 
@@ -102,29 +102,29 @@ private:
     std::optional<decoder::DecodedFile> m_kept;
 };
 
-// What files turned out to be only when they were decoded.
+// Properties of files that are known only after decoding.
 class DecodingNotes {
 public:
     void add(const InstanceHeader &header, const std::filesystem::path &path) {
         const std::lock_guard lock(m_guard);
         if ((header.oddities & decoder::otherPrecision) != 0)
-            ++m_otherwisePrecise;
+            ++m_otherPrecision;
         if (header.hasDamagedPixels)
             m_damaged.insert(path.filename().string());
     }
 
     std::vector<task::Reason> warnings() const {
-        constexpr std::size_t mostNamed = 5;
+        constexpr std::size_t maxNamed = 5;
         std::vector<task::Reason> warnings;
         for (const std::string &name : m_damaged)
-            if (warnings.size() < mostNamed)
+            if (warnings.size() < maxNamed)
                 warnings.push_back(because::damagedPixelsOf(name));
-        if (m_damaged.size() > mostNamed)
+        if (m_damaged.size() > maxNamed)
             warnings.push_back(because::damagedPixels(m_damaged.size()));
-        if (m_otherwisePrecise > 0) {
+        if (m_otherPrecision > 0) {
             InstanceHeader header;
             header.oddities = decoder::otherPrecision;
-            const std::vector<const InstanceHeader *> all(m_otherwisePrecise, &header);
+            const std::vector<const InstanceHeader *> all(m_otherPrecision, &header);
             for (const task::Reason &warning : warningsOfValues(all))
                 warnings.push_back(warning);
         }
@@ -133,11 +133,11 @@ public:
 
 private:
     std::mutex m_guard;
-    std::set<std::string> m_damaged; ///< and decoded all the same
-    std::size_t m_otherwisePrecise = 0;
+    std::set<std::string> m_damaged; ///< but decoded
+    std::size_t m_otherPrecision = 0;
 };
 
-// A volume whose samples are of type T, int16 or float, while its files are decoded.
+// A volume with samples of type T, int16 or float, while its files are decoded.
 template <class T> class Assembly {
 public:
     Assembly(const VolumeEntry &entry, EntryDecoder &decoder, const task::Progress &progress,
@@ -157,7 +157,8 @@ public:
             }
             if (!report())
                 return;
-            // Without the lock: inside, this thread may be given other slices to read.
+            // Called without the lock: within the call this thread may be given other slices to
+            // read.
             m_observer.preview(preview());
             const std::lock_guard lock(m_guard);
             m_lastPreview = Clock::now();
@@ -166,21 +167,21 @@ public:
         return m_fits;
     }
 
-    // Why files could not be read. *Shape*: one entry for each file.
+    // Why files could not be read. *Shape*: one entry per file.
     const std::vector<std::optional<task::Reason>> &failures() const { return m_failures; }
     bool isComplete() const {
         return std::none_of(m_failures.begin(), m_failures.end(),
                             [](const auto &failure) { return failure.has_value(); });
     }
 
-    // The volume, of which nothing is left here.
-    volume::Volume taken() {
+    // Moves the volume out.
+    volume::Volume takeVolume() {
         m_narrowing.requireDistinct();
         volume::VolumeNotes notes = m_entry.notes;
         std::vector<task::Reason> ofValues = m_notes.warnings();
         if (const auto warning = m_narrowing.warning())
             ofValues.push_back(*warning);
-        // Why images are no volume stays the last.
+        // The reason why images are not a volume remains last.
         notes.warnings.insert(notes.warnings.end() -
                                   (m_entry.placed || notes.warnings.empty() ? 0 : 1),
                               ofValues.begin(), ofValues.end());
@@ -188,8 +189,8 @@ public:
     }
 
 private:
-    // Asks for the memory first. A preview, or the resampled stack, will be there as well, but not
-    // what is decoded already.
+    // Checks the memory first. A preview or the resampled stack will exist as well; the file
+    // that is already decoded needs no more memory.
     std::size_t requiredSamples() const {
         const double slices =
             std::max<double>(m_entry.geometry.lattice.size().k, double(m_entry.frames.size()));
@@ -203,13 +204,13 @@ private:
         const EntryFile &file = m_decoder.files()[n];
         try {
             const decoder::DecodedFile image = m_decoder.decode(n);
-            if (std::is_same_v<T, std::int16_t> && !fitsShort(image.header, m_entry.unit))
+            if (std::is_same_v<T, std::int16_t> && !fitsInt16(image.header, m_entry.unit))
                 return false;
             m_notes.add(image.header, file.path);
             volume::Narrowing ofFile(m_samples.size(), file.frames.front() * m_plane);
             for (const std::size_t slice : file.frames) {
                 const FrameReference &frame = m_entry.frames[slice];
-                if (!isStillThere(frame, image.header))
+                if (!stillContains(frame, image.header))
                     throw Error(ErrorCode::unusable, because::changedWhileRead);
                 if (!writeValues(image, frame.frame, m_entry.unit,
                                  m_samples.data() + slice * m_plane, ofFile))
@@ -226,7 +227,7 @@ private:
         return true;
     }
 
-    // Counts a file. Returns whether a preview is due, which nobody else makes then.
+    // Counts a file. Returns whether the caller must make a preview; no other thread makes it then.
     bool report() {
         const std::lock_guard lock(m_guard);
         const std::size_t all = m_decoder.files().size();
@@ -260,13 +261,13 @@ private:
     const LoadObserver &m_observer;
     std::size_t m_plane;
     std::vector<T> m_samples; ///< by frame of the entry
-    /// Set when a frame is complete, so that a preview copies no half-written one.
+    /// Set when a frame is complete, so that a preview copies no partly written one.
     std::vector<std::atomic<bool>> m_arrived;
     std::vector<std::optional<task::Reason>> m_failures;
     DecodingNotes m_notes;
     std::atomic<bool> m_fits = true;
 
-    std::mutex m_guard; ///< of what follows
+    std::mutex m_guard; ///< of the members below
     volume::Narrowing m_narrowing;
     std::size_t m_done = 0;
     bool m_isPreviewing = false;
@@ -278,17 +279,17 @@ public:
     Loader(const VolumeEntry &entry, const task::Progress &progress, const LoadObserver &observer)
         : m_entry(entry), m_decoder(entry, progress), m_progress(progress), m_observer(observer) {}
 
-    // The first readable file decides the type; a value that does not fit sends all to float.
+    // The first readable file decides the type; a value that does not fit switches to float.
     LoadedVolume load() {
         const InstanceHeader *const first = m_decoder.firstReadable();
-        if (first == nullptr || fitsShort(*first, m_entry.unit))
+        if (first == nullptr || fitsInt16(*first, m_entry.unit))
             if (auto loaded = loadAs<std::int16_t>())
                 return std::move(*loaded);
         return std::move(*loadAs<float>());
     }
 
 private:
-    // Nothing if a value does not fit T.
+    // Empty if a value does not fit T.
     template <class T> std::optional<LoadedVolume> loadAs() {
         std::vector<std::optional<task::Reason>> failures;
         {
@@ -296,14 +297,14 @@ private:
             if (!assembly.read())
                 return std::nullopt;
             if (assembly.isComplete()) {
-                LoadedVolume loaded{assembly.taken(), {}};
+                LoadedVolume loaded{assembly.takeVolume(), {}};
                 m_progress.report(1.0);
                 return loaded;
             }
             failures = assembly.failures();
-        } // the samples are freed before the rest is loaded
+        } // frees the samples before the rest is loaded
         const RemainingStack rest = remainingStack(m_entry, m_decoder.files(), failures,
-                                                   m_decoder.codeWithoutAny(), m_progress);
+                                                   m_decoder.codeIfNoneReadable(), m_progress);
         LoadedVolume loaded = loadVolume(rest.entry, m_progress, m_observer);
         loaded.skipped.insert(loaded.skipped.begin(), rest.skipped.begin(), rest.skipped.end());
         return loaded;

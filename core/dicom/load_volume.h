@@ -9,23 +9,22 @@
 
 namespace pellucid::dicom {
 
-/// What loading may tell while it runs. Called from worker threads, never two at a time.
+/// Callbacks during loading. They are called from worker threads, one at a time.
 struct LoadObserver {
-    /// The volume so far: slices that have not arrived are at the lowest value. Called now and
-    /// then.
+    /// The volume so far; missing slices have the lowest value. Called from time to time.
     std::function<void(const volume::Volume &)> preview;
 };
 
 struct LoadedVolume {
     volume::Volume volume;
-    /// Files that turned out unreadable only when decoded; the stack was made without them.
+    /// Files that turned out to be unreadable when decoded; the volume lacks them.
     std::vector<Skipped> skipped;
 };
 
-/// Decodes and assembles a volume: rescale per frame, padding replaced by the lowest real value,
-/// uneven stacks resampled along the stack. Samples are int16 where every value fits, else float32.
-/// *Throws* Error{unusable} if nothing can be decoded or what is left makes no volume,
-/// Error{outOfMemory}, Cancelled.
+/// Decodes and assembles a volume: applies the rescale of each frame, replaces padding by the
+/// lowest real value, and resamples uneven stacks along the stack. Samples are int16 if every value
+/// fits, else float32. *Throws* Error{unusable} if nothing can be decoded or the rest makes no
+/// volume, Error{outOfMemory}, Cancelled.
 LoadedVolume loadVolume(const VolumeEntry &entry, const task::Progress &progress = {},
                         const LoadObserver &observer = {});
 

@@ -15,8 +15,8 @@ using decoder::FrameHeader;
 using decoder::InstanceHeader;
 using decoder::Rescale;
 
-// Padding must not be taken for tissue, but some scanners write a padding value that is also a
-// value of tissue (0 in a CT of signed HU): between these bounds it is believed to be tissue.
+// Padding must not count as tissue, but some scanners write a padding value that is also a tissue
+// value (0 in a CT of signed HU). Between these bounds it counts as tissue.
 constexpr double lowestTissueHu = -900.0, highestTissueHu = 4000.0;
 
 template <class T> bool isMissing(T value) {
@@ -45,7 +45,7 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
     if (!h.paddingValue)
         return std::nullopt;
     int value = *h.paddingValue, limit = h.paddingLimit.value_or(value);
-    if (h.isSigned()) { // written as unsigned by some
+    if (h.isSigned()) { // some writers store it as unsigned
         value = value > 32767 ? value - 65536 : value;
         limit = limit > 32767 ? limit - 65536 : limit;
     }
@@ -59,7 +59,7 @@ std::optional<Padding> paddingOf(const InstanceHeader &h, volume::ValueUnit unit
 
 } // namespace
 
-bool fitsShort(const InstanceHeader &h, volume::ValueUnit unit) {
+bool fitsInt16(const InstanceHeader &h, volume::ValueUnit unit) {
     if (!h.modalityTable.empty())
         return *std::max_element(h.modalityTable.begin(), h.modalityTable.end()) <= 32767;
     const double top = h.isSigned() ? std::exp2(h.bitsStored - 1) - 1 : std::exp2(h.bitsStored) - 1;
@@ -80,7 +80,7 @@ bool writeValues(const decoder::DecodedFile &image, int frame, volume::ValueUnit
                  volume::Narrowing &narrowing) {
     const InstanceHeader &h = image.header;
     const std::size_t plane = std::size_t(h.rows) * h.columns;
-    // Read once each: what decoded them may change them still.
+    // Read each sample once: the decoder may still change it.
     const volatile std::uint16_t *in = image.samples.data() + plane * std::size_t(frame);
     const auto padding = paddingOf(h, unit);
     for (std::size_t n = 0; n < plane; ++n) {

@@ -10,8 +10,8 @@
 
 namespace pellucid::dicom {
 
-// From the values that are stored in files to those of the modality, such as HU: by the rescale or
-// the modality table of each file. A volume's samples are of type T, int16 or float.
+// Converts stored values to modality values such as HU, by the rescale or the modality table of
+// each file. A volume's samples are of type T, int16 or float.
 
 /// Marks samples that have no value: padding, and slices that have not arrived.
 template <class T> constexpr T missingValue() {
@@ -19,17 +19,17 @@ template <class T> constexpr T missingValue() {
                                                  : std::numeric_limits<T>::lowest();
 }
 
-/// Whether the values of a file are likely to fit int16 without loss. HU hardly ever use all of the
-/// 16 bits that their header announces, so they are tried.
-bool fitsShort(const decoder::InstanceHeader &header, volume::ValueUnit unit);
+/// Whether the values of a file probably fit int16 without loss. HU hardly ever use the full 16
+/// bits that their header declares, so int16 is tried.
+bool fitsInt16(const decoder::InstanceHeader &header, volume::ValueUnit unit);
 
-/// Writes the values of one frame; padding becomes `missingValue`. False if a value does not fit T,
-/// and `out` is written in part. *Shape*: out: rows x columns.
+/// Writes the values of one frame; padding becomes `missingValue`. False if a value does not fit T;
+/// `out` is then partly written. *Shape*: out: rows x columns.
 template <class T>
 bool writeValues(const decoder::DecodedFile &image, int frame, volume::ValueUnit unit, T *out,
                  volume::Narrowing &narrowing);
 
-/// Replaces missing values by the lowest of the others, or by 0 if there are none.
+/// Replaces missing values by the lowest other value, or by 0 if there is none.
 template <class T> void fillMissing(std::vector<T> &samples);
 
 } // namespace pellucid::dicom

@@ -49,7 +49,7 @@ public:
         rest.placed = found.placed;
         rest.notes.placed = rest.placed;
         rest.notes.filled = found.notes.filled;
-        renewWarnings(found, rest);
+        updateWarnings(found, rest);
         return rest;
     }
 
@@ -57,7 +57,7 @@ private:
     void keep(const EntryFile &meant, const task::Progress &progress) {
         SeriesFile file{meant.path, decoder::Decoder::shared().header(meant.path, progress)};
         if (!std::all_of(meant.frames.begin(), meant.frames.end(), [&](std::size_t frame) {
-                return isStillThere(m_entry.frames[frame], file.header);
+                return stillContains(m_entry.frames[frame], file.header);
             })) {
             m_skipped.push_back({meant.path, because::changedWhileRead});
             return;
@@ -69,12 +69,12 @@ private:
             m_original[meant.path].push_back(frame);
         }
         file.header.frames = std::move(kept);
-        // All slices together were found to be one volume; fewer must not be split by it.
+        // All slices together were one volume, so the rest must not be split by this attribute.
         file.header.frameOfReferenceUid.clear();
         m_files.push_back(std::move(file));
     }
 
-    // Several slices that are missing side by side leave runs; or all of it, as was asked for.
+    // Several adjacent missing slices leave runs, or the whole with holes, if that was requested.
     const VolumeEntry &largest(const std::vector<VolumeEntry> &volumes) const {
         const auto rank = [&](const VolumeEntry &e) {
             return std::tuple(e.placed, e.fillsHoles == m_entry.fillsHoles, e.frames.size());
@@ -84,11 +84,11 @@ private:
             [&](const VolumeEntry &a, const VolumeEntry &b) { return rank(a) < rank(b); });
     }
 
-    // What was said of all slices no longer holds.
-    void renewWarnings(const VolumeEntry &found, VolumeEntry &rest) const {
+    // Warnings about the complete stack no longer apply.
+    void updateWarnings(const VolumeEntry &found, VolumeEntry &rest) const {
         std::vector<task::Reason> &warnings = rest.notes.warnings;
         std::erase_if(warnings,
-                      [](const task::Reason &w) { return isOfStack(w) || isOfValues(w); });
+                      [](const task::Reason &w) { return isStackWarning(w) || isValueWarning(w); });
         std::vector<const InstanceHeader *> headers;
         for (const SeriesFile &file : m_files)
             headers.push_back(&file.header);
@@ -106,7 +106,7 @@ private:
     const VolumeEntry &m_entry;
     std::vector<SeriesFile> m_files;
     std::vector<Skipped> m_skipped;
-    /// Grouping sees the frames of this volume only, renumbered; this leads back.
+    /// Grouping sees only the frames of this volume, renumbered; this maps them back.
     std::map<std::filesystem::path, std::vector<FrameReference>> m_original;
 };
 

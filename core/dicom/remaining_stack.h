@@ -10,16 +10,16 @@
 
 namespace pellucid::dicom {
 
-/// What is left of a volume without the files that turned out unusable.
+/// The rest of a volume without files that turned out to be unusable.
 struct RemainingStack {
     VolumeEntry entry;
     std::vector<Skipped> skipped;
 };
 
-/// Slices that cannot be decoded are missing slices: the geometry is worked out again without them,
-/// as if they had never been in the folder. *Shape*: `files` as of `filesOf`; `failures`: why each
-/// is unusable, or nothing. *Throws* Error{unusable} if what is left makes no volume, an error of
-/// code `noneLeft` if nothing is left; Cancelled.
+/// Computes the geometry again without the slices that cannot be decoded, as if they had never been
+/// in the folder. *Shape*: `files` as by `filesOf`; `failures`: why each is unusable, or empty.
+/// *Throws* Error{unusable} if the rest makes no volume, an error with code `noneLeft` if nothing
+/// is left; Cancelled.
 RemainingStack remainingStack(const VolumeEntry &entry, const std::vector<EntryFile> &files,
                               const std::vector<std::optional<task::Reason>> &failures,
                               task::ErrorCode noneLeft, const task::Progress &progress);

@@ -8,9 +8,9 @@
 
 namespace pellucid::dicom {
 
-/// The slices of an uneven stack, interpolated linearly along the stack from where the frames are
-/// to where the slices shall be. *Shape*: `frames` are complete planes of the lattice, int16 or
-/// float; the geometry has their offsets. *Throws* Cancelled.
+/// Interpolates the slices of an uneven stack linearly along the stack, from the frames' positions
+/// to the lattice's. *Shape*: `frames` are complete planes of the lattice, int16 or float; the
+/// geometry has their offsets. *Throws* Cancelled.
 template <class T>
 std::vector<T> resampled(const std::vector<T> &frames, const StackGeometry &geometry,
                          const task::Progress &progress);

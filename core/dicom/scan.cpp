@@ -34,8 +34,8 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-// What the frames of a file take while they are sorted into volumes: as they were read, as they are
-// sorted, and as they are referred to; each with its texts and its path.
+// The memory of a file's frames while they are sorted into volumes: as read, as sorted, and as
+// references, each with its texts and path.
 std::size_t bytesToGroup(const InstanceHeader &header) {
     constexpr std::size_t copies = 5, pathBytes = 256;
     std::size_t bytes = 0;
@@ -54,12 +54,12 @@ task::Reason hugeReason(const InstanceHeader &h, std::uint64_t fileBytes) {
 
 using HeadersByPath = std::map<fs::path, const InstanceHeader *>;
 
-// What the volume's values and notes are, from the first file of a series' entry.
+// Sets the type of the values and the notes, from the first file of an entry.
 void describe(VolumeEntry &entry, const HeadersByPath &headers) {
     const InstanceHeader &h = *headers.at(entry.frames.front().path);
     entry.notes.title = h.seriesDescription.empty() ? h.modality : h.seriesDescription;
     entry.notes.modality = h.modality;
-    // Of series whose images state windows of their own, the middle one's: the first is often
+    // If images have their own windows, the middle image's are used: the first image is often
     // noise.
     entry.notes.windows = headers.at(entry.frames[entry.frames.size() / 2].path)->windows;
     if (entry.notes.windows.empty())
@@ -74,7 +74,7 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
         each.push_back(header);
     for (const task::Reason &warning : warningsOfValues(each))
         entry.notes.warnings.push_back(warning);
-    if (!entry.placed) // the last: it is what the view says
+    if (!entry.placed) // last, because the view shows that one
         entry.notes.warnings.push_back(because::imagesOnly(*entry.notPlacedReason));
     entry.notes.lossy =
         std::any_of(entry.frames.begin(), entry.frames.end(),
@@ -84,13 +84,13 @@ void describe(VolumeEntry &entry, const HeadersByPath &headers) {
         (h.modality == "CT" && (h.rescaleType.empty() || h.rescaleType == "US"));
     entry.unit = hounsfield && entry.placed && h.modality == "CT" ? volume::ValueUnit::hounsfield
                                                                   : volume::ValueUnit::none;
-    // Tilt as the table needs it, so that nobody wonders about the leaning stack.
+    // The tilt of the gantry, which explains the sheared stack.
     const double tilt = entry.geometry.lattice.shearRad() * 180.0 / 3.14159265358979323846;
     if (entry.placed && tilt > 0.1 && entry.geometry.lattice.size().k > 1)
         entry.notes.warnings.push_back(because::tilted(fmt::format("{:.1f}", tilt)));
 }
 
-// Instance UIDs that several images share tell none of them.
+// Instance UIDs that several images share identify none of them.
 void addFiles(Series &series, const std::vector<SeriesFile> &files) {
     std::map<std::string, std::size_t> images;
     std::set<fs::path> used;
@@ -105,7 +105,7 @@ void addFiles(Series &series, const std::vector<SeriesFile> &files) {
     }
 }
 
-// Where in a catalogue the studies are that series belong to; new ones are added.
+// Maps series to studies in a catalogue, and adds new studies.
 class Studies {
 public:
     explicit Studies(Catalogue &catalogue) : m_catalogue(catalogue) {}
@@ -151,8 +151,8 @@ void addVolumeFile(Catalogue &catalogue, const fs::path &path,
     catalogue.patients.back().studies[0].series.push_back(std::move(series));
 }
 
-// What headers take that are held until all of them are grouped. One that is refused takes nothing
-// from the others.
+// The memory of headers that are held until all are grouped. A refused one takes no memory from the
+// others.
 class HeldMemory {
 public:
     explicit HeldMemory(std::size_t most) : m_most(most) {}
@@ -169,12 +169,12 @@ private:
     std::atomic<std::size_t> m_held = 0;
 };
 
-// Of a file that is left out: that there is no memory is not its fault.
+// Why a file is left out: lack of memory does not mean that the file is bad.
 task::Reason reasonOf(const Error &error) {
     return error.code() == ErrorCode::outOfMemory ? because::needsTooMuchMemory : error.reason();
 }
 
-// What was read of a file: one of the headers, or why there is none.
+// The result of reading a file: one of the headers, or why there is none.
 struct FileContents {
     InstanceHeader header;
     std::optional<decoder::VolumeFileHeader> volumeFile;
@@ -182,7 +182,8 @@ struct FileContents {
     bool isHuge = false;
 };
 
-// Files that hold the samples of a header are no images by themselves, and nobody's loss.
+// Files that hold the samples of a header are not images themselves, and are not reported as
+// skipped.
 std::set<fs::path> samplesOf(const std::vector<FileContents> &contents) {
     std::set<fs::path> samples;
     for (const FileContents &file : contents)
@@ -191,7 +192,7 @@ std::set<fs::path> samplesOf(const std::vector<FileContents> &contents) {
     return samples;
 }
 
-// Reads the headers of files, many at a time.
+// Reads the headers of files in parallel.
 class HeaderReader {
 public:
     HeaderReader(const ScanOptions &options, const task::Progress &progress)
@@ -212,7 +213,7 @@ public:
     }
 
 private:
-    // A small file may announce very many frames: all of them are held until they are grouped.
+    // A small file may declare very many frames, and all of them are held until they are grouped.
     static constexpr std::size_t bytesOfTypicalSeries = std::size_t(32) << 20;
 
     void readOne(const fs::path &path, FileContents &contents) {
@@ -222,7 +223,7 @@ private:
             else
                 readInstance(path, contents);
         } catch (const Error &error) {
-            if (error.code() == ErrorCode::internal) // without a decoder nothing can be read
+            if (error.code() == ErrorCode::internal) // nothing can be read without a decoder
                 throw;
             contents.reason = error.code() != ErrorCode::outOfMemory && decoder::isArchive(path)
                                   ? because::isAnArchive
@@ -252,9 +253,9 @@ private:
     HeldMemory m_held;
 };
 
-// The files of each series, in the order of their first files. Never two series in one volume: the
-// key is the series with its patient. The study counts only for images that name no series: some
-// writers give each slice a study of its own.
+// The files of each series, in the order of their first files. A volume never mixes series: the key
+// is the series with its patient. The study counts only for images without a series, because some
+// writers give each slice its own study.
 class SeriesSorter {
 public:
     void add(SeriesFile file) {
@@ -280,7 +281,7 @@ FileList listFiles(const std::vector<fs::path> &paths, const task::Progress &pro
         try {
             list.add(path);
         } catch (const Error &error) {
-            // One of several paths does not keep the others from being opened; a full disk does.
+            // One bad path among several does not stop the scan; a full disk does.
             if (paths.size() == 1 || error.code() == ErrorCode::output)
                 throw;
             list.skipped.push_back({path, reasonOf(error)});
@@ -289,8 +290,7 @@ FileList listFiles(const std::vector<fs::path> &paths, const task::Progress &pro
     return list;
 }
 
-// Volume files go into the catalogue as they come, and what is not used too; the others into
-// series.
+// Adds volume files and skipped files to the catalogue directly, and sorts all others into series.
 SeriesSorter sortFiles(const std::vector<fs::path> &paths, std::vector<FileContents> contents,
                        Catalogue &catalogue) {
     SeriesSorter sorter;

@@ -16,17 +16,17 @@ namespace {
 namespace because = task::because;
 using Frames = std::vector<PlacedFrame>;
 
-bool samePlace(const PlacedFrame &a, const PlacedFrame &b) {
+bool samePosition(const PlacedFrame &a, const PlacedFrame &b) {
     return std::abs(a.depthMm - b.depthMm) < 0.01;
 }
 
-// What can tell volumes at the same places apart.
+// An attribute that can distinguish volumes at the same positions.
 struct Attribute {
     task::Because<1> label;
     std::function<std::string(const PlacedFrame &)> valueOf;
 };
 
-// Those of the header, as `FrameHeader::dimensions` names them.
+// Attributes of the header, named as in `FrameHeader::dimensions`.
 constexpr std::array<std::pair<const char *, task::Because<1>>, 8> dimensions{{
     {"temporal position", because::temporalPosition},
     {"echo", because::echo},
@@ -39,7 +39,7 @@ constexpr std::array<std::pair<const char *, task::Because<1>>, 8> dimensions{{
 }};
 
 // The attributes in the order in which they are tried.
-std::vector<Attribute> attributesInTurn() {
+std::vector<Attribute> attributesByPriority() {
     std::vector<Attribute> attributes;
     for (const auto &[name, label] : dimensions)
         attributes.push_back({label, [name = name](const PlacedFrame &frame) {
@@ -54,7 +54,7 @@ std::vector<Attribute> attributesInTurn() {
     return attributes;
 }
 
-// By a value that every frame has, in the order in which the values first come.
+// Splits by a value that every frame has, in the order of first occurrence.
 std::vector<Part> splitBy(const Frames &sorted, const Attribute &attribute,
                           const task::Progress &progress) {
     std::vector<Part> parts;
@@ -69,27 +69,27 @@ std::vector<Part> splitBy(const Frames &sorted, const Attribute &attribute,
     return parts;
 }
 
-// A split is right if every part has each place exactly once.
+// A split is right if every part has each position exactly once.
 bool separates(const std::vector<Part> &parts, std::size_t places) {
     return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
                return part.frames.size() == places && !placesRepeat(part.frames);
            });
 }
 
-// Good enough where slices are missing: no place twice, and no part a splinter.
-bool separatesUnevenly(const std::vector<Part> &parts, std::size_t places) {
+// Good enough if slices are missing: no position twice, and no very small part.
+bool nearlySeparates(const std::vector<Part> &parts, std::size_t places) {
     return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
                return 2 * part.frames.size() > places && !placesRepeat(part.frames);
            });
 }
 
-// Nothing in the headers tells them apart: the first image of every place, then the second, ...
+// If no attribute distinguishes them: the first image of every position, then the second, ...
 std::vector<Part> splitByNumber(const Frames &sorted, const task::Progress &progress) {
     std::vector<Part> parts;
     for (auto place = sorted.begin(); place != sorted.end();) {
         progress.check();
         const auto last = std::adjacent_find(
-            place, sorted.end(), [](const auto &a, const auto &b) { return !samePlace(a, b); });
+            place, sorted.end(), [](const auto &a, const auto &b) { return !samePosition(a, b); });
         Frames here(place, last == sorted.end() ? last : last + 1);
         place += std::ptrdiff_t(here.size());
         std::stable_sort(here.begin(), here.end(), [](const PlacedFrame &a, const PlacedFrame &b) {
@@ -109,19 +109,19 @@ std::vector<Part> splitByNumber(const Frames &sorted, const task::Progress &prog
 } // namespace
 
 bool placesRepeat(const Frames &sorted) {
-    return std::adjacent_find(sorted.begin(), sorted.end(), samePlace) != sorted.end();
+    return std::adjacent_find(sorted.begin(), sorted.end(), samePosition) != sorted.end();
 }
 
 std::vector<Part> splitRepeats(const Frames &sorted, const task::Progress &progress) {
     std::size_t places = 1;
     for (std::size_t n = 1; n < sorted.size(); ++n)
-        places += samePlace(sorted[n - 1], sorted[n]) ? 0 : 1;
+        places += samePosition(sorted[n - 1], sorted[n]) ? 0 : 1;
     std::vector<Part> uneven;
-    for (const Attribute &attribute : attributesInTurn()) {
+    for (const Attribute &attribute : attributesByPriority()) {
         std::vector<Part> parts = splitBy(sorted, attribute, progress);
         if (separates(parts, places))
             return parts;
-        if (uneven.empty() && separatesUnevenly(parts, places))
+        if (uneven.empty() && nearlySeparates(parts, places))
             uneven = std::move(parts);
     }
     return !uneven.empty() ? uneven : splitByNumber(sorted, progress);

@@ -8,19 +8,19 @@
 
 namespace pellucid::dicom {
 
-/// Frames that make one volume, and what tells them from the others of their stack.
+/// Frames that make one volume, and what distinguishes them from the rest of their stack.
 struct Part {
     std::vector<task::Reason> label;
     std::vector<PlacedFrame> frames;
 };
 
-/// Whether several frames have one place. *Shape*: sorted by depth.
+/// Whether several frames have the same position. *Shape*: sorted by depth.
 bool placesRepeat(const std::vector<PlacedFrame> &sorted);
 
-/// Splits a stack whose places repeat into parts that have each place once: by the first attribute
-/// that tells them apart (temporal position, acquisition, echo, b-value, ...), or, if slices are
-/// missing, nearly does; at last by the order of the files. *Shape*: sorted by depth. *Throws*
-/// Cancelled.
+/// Splits a stack with repeated positions into parts that have each position once. Uses the first
+/// attribute that separates them (temporal position, acquisition, echo, b-value, ...), or nearly
+/// does so if slices are missing; otherwise the order of the files. *Shape*: sorted by depth.
+/// *Throws* Cancelled.
 std::vector<Part> splitRepeats(const std::vector<PlacedFrame> &sorted,
                                const task::Progress &progress);
 

@@ -17,10 +17,10 @@ namespace {
 
 namespace because = task::because;
 
-// A gap wider than this many medians is a hole in the patient, not a change of spacing.
+// A gap of more than this many medians is a hole, not a change of spacing.
 constexpr double largestGapRatio = 2.5;
 
-// The mean, exactly the first value where all are the same.
+// The mean, which is exactly the first value if all are equal.
 template <class T, class F> T meanOf(const std::vector<PlacedFrame> &frames, F &&value) {
     const T first = value(frames.front().header);
     T sum(0.0);
@@ -29,7 +29,7 @@ template <class T, class F> T meanOf(const std::vector<PlacedFrame> &frames, F &
     return first + sum / double(frames.size());
 }
 
-// What the planes of a stack have in common.
+// The common plane parameters of a stack.
 struct Plane {
     glm::dvec3 row, column, normal;
     glm::dvec2 spacingMm;
@@ -43,7 +43,7 @@ Plane meanPlane(const std::vector<PlacedFrame> &frames) {
     const auto isFirst = [&](const FrameHeader &h) {
         return plane.row == *h.rowAxis && plane.column == *h.columnAxis;
     };
-    if (!isFirst(frames.front().header)) { // means of unit vectors are a little short
+    if (!isFirst(frames.front().header)) { // means of unit vectors are slightly short
         plane.row = glm::normalize(plane.row);
         plane.column = glm::normalize(plane.column - glm::dot(plane.row, plane.column) * plane.row);
     }
@@ -88,16 +88,16 @@ task::Reason unevenWarning(const std::vector<PlacedFrame> &frames, const std::ve
     return because::unevenSlices(fmt::format("{:.3f}", step), std::move(changes));
 }
 
-// Slices that lie inside gaps, and what is said of them.
+// Finds the slices within gaps, and adds the warnings about them.
 void fillGaps(const std::vector<PlacedFrame> &frames, const std::vector<double> &gaps,
-              double leastGapMm, StackResult &result) {
+              double minGapMm, StackResult &result) {
     const std::vector<double> &at = result.geometry.frameOffsetsMm;
     const double step = result.geometry.lattice.sliceDistanceMm();
     const double near = evennessToleranceMm(step);
     int listed = 0;
     std::vector<task::Reason> places;
     for (std::size_t n = 0; n < gaps.size(); ++n) {
-        if (gaps[n] <= leastGapMm)
+        if (gaps[n] <= minGapMm)
             continue;
         const int first = int(std::floor((at[n] + near) / step)) + 1,
                   last = int(std::ceil((at[n + 1] - near) / step)) - 1;
@@ -115,10 +115,10 @@ void fillGaps(const std::vector<PlacedFrame> &frames, const std::vector<double> 
         result.warnings.push_back(because::missingSlices(std::move(places)));
 }
 
-// The direction of the stack: one millimetre along the normal moves it by this much. Along the
-// normal for a plain scan, askew for a tilted gantry.
+// The direction of the stack, as the shift per millimetre along the normal: along the normal itself
+// for a plain scan, oblique for a tilted gantry.
 struct Axis {
-    glm::dvec3 startMm{0.0}, perMm{0.0}; ///< where depth is 0, counted from the first frame
+    glm::dvec3 startMm{0.0}, perMm{0.0}; ///< startMm: at depth 0, relative to the first frame
 };
 
 Axis axisThrough(const std::vector<PlacedFrame> &frames, const std::vector<double> &depths) {
@@ -139,13 +139,13 @@ Axis axisThrough(const std::vector<PlacedFrame> &frames, const std::vector<doubl
     return {first + mean - meanDepth * perMm, perMm};
 }
 
-// Where nothing is rounded the first and the last position say it to the last digit.
+// If nothing is rounded, the first and the last position define it to the last digit.
 Axis axisThroughEnds(const std::vector<PlacedFrame> &frames, double totalMm) {
     const glm::dvec3 first = *frames.front().header.positionMm;
     return {first, (*frames.back().header.positionMm - first) / totalMm};
 }
 
-// Places the frames of a stack, or says why they make none.
+// Computes the lattice of a stack, or the reason why there is none.
 class StackPlacement {
 public:
     StackPlacement(const std::vector<PlacedFrame> &frames, const Plane &plane, StackResult &result)
@@ -168,7 +168,7 @@ public:
         else if (const auto line = anchoredLine(m_depths))
             resampleOnto(*line);
         else
-            m_result.refusal = withoutCommonStep();
+            m_result.refusal = noCommonStep();
     }
 
 private:
@@ -178,33 +178,33 @@ private:
         m_result.geometry.lattice = latticeOf(*only.positionMm, thickness * m_plane.normal, 1);
     }
 
-    // Returns why there is none.
+    // Returns the reason if there is none.
     std::optional<task::Reason> findAxis() {
         const double total = m_depths.back();
         if (!std::isfinite(total) || !(total > 0.0))
             return because::slicesAtOnePosition;
         m_axis = axisThrough(m_frames, m_depths);
-        const double stray =
+        const double tolerance =
             std::max(0.15, 0.1 * std::min(m_plane.spacingMm.x, m_plane.spacingMm.y));
         double worst = 0.0;
-        const PlacedFrame *strayed = nullptr;
+        const PlacedFrame *outlier = nullptr;
         for (std::size_t n = 0; n < m_frames.size(); ++n) {
             const double off = glm::distance(*m_frames[n].header.positionMm,
                                              m_axis.startMm + m_depths[n] * m_axis.perMm);
             if (!(off <= worst)) {
                 worst = off;
-                strayed = &m_frames[n];
+                outlier = &m_frames[n];
             }
         }
-        if (!(worst <= stray))
-            return because::sliceOffTheLine(strayed->reference.path.filename().string(),
+        if (!(worst <= tolerance))
+            return because::sliceOffTheLine(outlier->reference.path.filename().string(),
                                             fmt::format("{:.2f}", worst));
         if (worst < exactMm)
             m_axis = axisThroughEnds(m_frames, total);
         return std::nullopt;
     }
 
-    // Frames are taken for what their place on the grid is: they stay as they are.
+    // Frames count as being at their grid positions: their samples are not changed.
     void placeOnGrid(EvenGrid grid) {
         const long last = grid.indices.back();
         if (grid.line.worstMm < exactMm)
@@ -218,7 +218,7 @@ private:
         fillGaps(m_frames, m_gaps, 1.5 * step, m_result);
     }
 
-    // Both ends are inside: what lies beyond the outermost frame repeats it.
+    // Both ends are within the stack: slices beyond the outermost frame would repeat it.
     void resampleOnto(const SliceLine &line) {
         const double slack = evennessToleranceMm(line.stepMm) / line.stepMm;
         const double below = std::ceil(line.startMm / line.stepMm - slack),
@@ -228,7 +228,7 @@ private:
         const double step = m_result.geometry.lattice.sliceDistanceMm();
         std::vector<double> &at = m_result.geometry.frameOffsetsMm;
         for (const double depth : m_depths) {
-            // A frame that is a slice stays as it is.
+            // A frame at a slice's position is used unchanged.
             const double off = depth - start, whole = std::round(off / step) * step;
             const bool isSlice = std::abs(off - whole) <= evennessToleranceMm(step) &&
                                  (at.empty() || whole > at.back());
@@ -238,7 +238,7 @@ private:
         fillGaps(m_frames, m_gaps, largestGapRatio * median(m_gaps), m_result);
     }
 
-    task::Reason withoutCommonStep() const {
+    task::Reason noCommonStep() const {
         const auto [least, most] = std::minmax_element(m_gaps.begin(), m_gaps.end());
         return because::slicesWithoutCommonStep(fmt::format("{:.3f}", *least),
                                                 fmt::format("{:.1f}", *most));
@@ -259,7 +259,7 @@ private:
     const std::vector<PlacedFrame> &m_frames;
     const Plane &m_plane;
     StackResult &m_result;
-    std::vector<double> m_depths, m_gaps; ///< from the first frame, mm
+    std::vector<double> m_depths, m_gaps; ///< relative to the first frame, mm
     Axis m_axis;
 };
 
@@ -291,7 +291,7 @@ std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<Placed
     return runs;
 }
 
-bool isOfStack(const task::Reason &warning) {
+bool isStackWarning(const task::Reason &warning) {
     return warning.is(because::unevenSlices) || warning.is(because::missingSlices) ||
            warning.is(because::orientationsDiffer) || warning.is(because::pixelSpacingsDiffer);
 }

@@ -15,7 +15,7 @@ using decoder::FrameHeader;
 using decoder::InstanceHeader;
 using decoder::Rescale;
 
-/// A frame together with where it comes from.
+/// A frame and its source.
 struct PlacedFrame {
     FrameReference reference;
     FrameHeader header;
@@ -23,45 +23,44 @@ struct PlacedFrame {
     int instanceNumber = 0;
     int framesOfFile = 1;
     std::string sopInstanceUid;
-    bool sharesUid = false; ///< another image has its instance UID
-    /// Frames of one volume share them: positions of one space, values of one kind.
+    bool sharesUid = false; ///< another image has the same instance UID
+    /// The same for all frames of a volume: one patient space, one kind of values.
     std::string frameOfReferenceUid, modality;
 
-    /// Position along the normal of the block it belongs to, mm; one normal for the whole block,
-    /// because axes that differ in their last digit would move a distant image by many slices'
-    /// tolerance.
+    /// Position along the mean normal of its block, mm. The block has one normal, because axes that
+    /// differ in their last digit would move a distant image by many times the slice tolerance.
     double depthMm = 0.0;
 };
 
 struct StackResult {
     StackGeometry geometry;
-    std::vector<volume::SliceRange> filled; ///< slices of the lattice inside a hole
+    std::vector<volume::SliceRange> filled; ///< slices of the lattice within a hole
     std::vector<task::Reason> warnings;
     /// Set if the frames make no volume.
     std::optional<task::Reason> refusal;
 };
 
-/// Axes and pixel spacings of two images of one stack may differ by this much, in radians and
-/// relatively: against their mean, less than half a pixel at the edge of 512. The volume has a
-/// warning if an axis deviates from the mean by `jitterToReport`, or if two spacings differ by it.
+/// How much the axes (radians) and pixel spacings (relative) of two images of one stack may differ:
+/// relative to the mean, this is less than half a pixel at the edge of 512. The volume gets a
+/// warning if an axis deviates from the mean by `jitterToReport`, or two spacings differ by it.
 inline constexpr double largestJitter = 3e-3, jitterToReport = 1e-3;
 
 /// Sets the depths along the frames' mean normal and sorts by them. Every frame needs a position
 /// and an orientation.
 void sortByDepth(std::vector<PlacedFrame> &frames);
 
-/// Ranges [first, last) of sorted frames between holes; a hole is a gap of more than 2.5 times the
-/// median. One range if there is none.
+/// Ranges [first, last) of sorted frames between holes, which are gaps of more than 2.5 times the
+/// median; a single range if there are no holes.
 std::vector<std::pair<std::size_t, std::size_t>> runsOf(const std::vector<PlacedFrame> &frames);
 
-/// The lattice of frames that are sorted by depth and share size, and orientation and pixel spacing
-/// up to `largestJitter`. Spacing and tilt come from the positions alone, by least squares.
-/// Missing slices are interpolated linearly. Uneven distances are resampled onto the smallest gap
-/// that occurs more than once, on a grid through the longest run of such gaps, with a warning that
-/// names the files where the distance changes.
+/// The lattice of frames that are sorted by depth and have the same size, and the same orientation
+/// and pixel spacing within `largestJitter`. Spacing and tilt come from the positions alone, by
+/// least squares. Missing slices are interpolated linearly. Uneven stacks are resampled to the
+/// smallest gap that occurs more than once, on a grid through the longest run of such gaps, with a
+/// warning that names the files where the distance changes.
 StackResult stackGeometry(const std::vector<PlacedFrame> &frames);
 
-/// Whether a warning is one of those of `stackGeometry`.
-bool isOfStack(const task::Reason &warning);
+/// Whether a warning comes from `stackGeometry`.
+bool isStackWarning(const task::Reason &warning);
 
 } // namespace pellucid::dicom

@@ -42,7 +42,7 @@ std::vector<task::Reason> warningsOfValues(const std::vector<const InstanceHeade
     return warnings;
 }
 
-bool isOfValues(const task::Reason &warning) {
+bool isValueWarning(const task::Reason &warning) {
     return warning.is(because::surplusPixels) || warning.is(because::zeroSlopes) ||
            std::any_of(oddities.begin(), oddities.end(),
                        [&](const auto &odd) { return warning.is(odd.second); });

@@ -8,12 +8,12 @@
 
 namespace pellucid::dicom {
 
-/// What is wrong with the values of files, and how many files have it: pixels beyond those that the
-/// header describes, a rescale slope of 0, and what the standard forbids.
+/// Problems with the values of files, and how many files have them: more pixels than the header
+/// describes, a rescale slope of 0, and violations of the standard.
 std::vector<task::Reason>
 warningsOfValues(const std::vector<const decoder::InstanceHeader *> &files);
 
-/// Whether a warning is one of those.
-bool isOfValues(const task::Reason &warning);
+/// Whether a warning comes from `warningsOfValues`.
+bool isValueWarning(const task::Reason &warning);
 
 } // namespace pellucid::dicom

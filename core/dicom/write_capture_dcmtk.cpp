@@ -32,7 +32,7 @@ bool isGrey(std::span<const std::uint8_t> rgba) {
     return true;
 }
 
-// Even in length, as DICOM asks.
+// Padded to an even length, as DICOM requires.
 std::vector<std::uint8_t> samples(std::span<const std::uint8_t> rgba, bool grey) {
     std::vector<std::uint8_t> out;
     out.reserve(rgba.size() + 1);
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> samples(std::span<const std::uint8_t> rgba, bool grey)
     return out;
 }
 
-// By its code (PS3.16, CID 7050).
+// The profile's code (PS3.16, CID 7050).
 void putProfile(DcmDataset &d) {
     DcmItem *code = nullptr;
     if (d.findOrCreateSequenceItem(DCM_DeidentificationMethodCodeSequence, code).bad())
@@ -56,7 +56,7 @@ void putProfile(DcmDataset &d) {
     put(*code, DCM_CodeMeaning, "Basic Application Confidentiality Profile");
 }
 
-// Whose picture it is, and what of.
+// Patient and study.
 void putIdentity(DcmDataset &d, const CaptureLabels &labels) {
     put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
     put(d, DCM_ImageType, "DERIVED\\SECONDARY");
@@ -64,7 +64,7 @@ void putIdentity(DcmDataset &d, const CaptureLabels &labels) {
     put(d, DCM_SOPInstanceUID, labels.isDeidentified ? randomUid() : newUid(UidKind::instance));
     put(d, DCM_StudyDate, labels.studyDate);
     put(d, DCM_StudyTime, "");
-    // The day of the picture tells the day of the patient's visit.
+    // The date of the picture would reveal the date of the visit.
     put(d, DCM_ContentDate, labels.isDeidentified ? "" : now("%Y%m%d"));
     put(d, DCM_ContentTime, labels.isDeidentified ? "" : now("%H%M%S"));
     if (labels.isDeidentified) {
@@ -121,7 +121,7 @@ CaptureLabels captureLabels(const Selection &s) {
     CaptureLabels labels;
     labels.studyUid = s.study->uid;
     if (!s.volume->volumeFile.empty())
-        return labels; // a file is nobody's
+        return labels; // a file has no patient
     labels.patientId = s.patient->id;
     labels.patientName = s.patient->name;
     labels.birthDate = s.patient->birthDate;
@@ -132,14 +132,15 @@ CaptureLabels captureLabels(const Selection &s) {
 }
 
 CaptureLabels deidentified(const CaptureLabels &labels) {
-    CaptureLabels nobody = labels;
-    for (std::string *const text : {&nobody.patientId, &nobody.patientName, &nobody.birthDate,
-                                    &nobody.sex, &nobody.studyDate, &nobody.studyDescription})
+    CaptureLabels anonymous = labels;
+    for (std::string *const text :
+         {&anonymous.patientId, &anonymous.patientName, &anonymous.birthDate, &anonymous.sex,
+          &anonymous.studyDate, &anonymous.studyDescription})
         text->clear();
-    nobody.studyUid = randomUid();
-    nobody.seriesUid = randomUid();
-    nobody.isDeidentified = true;
-    return nobody;
+    anonymous.studyUid = randomUid();
+    anonymous.seriesUid = randomUid();
+    anonymous.isDeidentified = true;
+    return anonymous;
 }
 
 std::string newSeriesUid() {

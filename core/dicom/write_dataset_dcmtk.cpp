@@ -50,7 +50,7 @@ std::string newUid(UidKind kind) {
 
 std::string randomUid() {
     std::random_device random;
-    std::string digits; // decimal, of 125 bits: no digit is lost, and none leads with 0
+    std::string digits; // in decimal, from 125 bits: no digit is lost, and the first is not 0
     for (int n = 0; n < 37; ++n)
         digits += char('0' + (n == 0 ? 1 + random() % 9 : random() % 10));
     return "2.25." + digits;
@@ -62,7 +62,7 @@ void put(DcmItem &dataset, const DcmTagKey &tag, const std::string &value) {
                                              "{:04x},{:04x}", tag.getGroup(), tag.getElement())));
 }
 
-// DCMTK's own file output does not notice a disk that fills at the last flush.
+// DCMTK's own file output does not notice a disk that becomes full at the last flush.
 void writeDataset(DcmFileFormat &file, int transferSyntax, const std::filesystem::path &path) {
     files::AtomicFile target(path);
     std::vector<std::byte> buffer(1 << 20);
@@ -85,7 +85,7 @@ void writeDataset(DcmFileFormat &file, int transferSyntax, const std::filesystem
     file.transferEnd();
     if (written.bad())
         throw Error(ErrorCode::output, because::cannotBeEncoded(written.text()), path);
-    do // a deflating stream still holds its end back
+    do // a deflating stream still holds data back
         stream.flush();
     while (drain() > 0 || !stream.isFlushed());
     target.commit();

@@ -25,17 +25,17 @@ enum class TransferSyntax {
 TransferSyntax transferSyntaxFromName(const std::string &name);
 std::vector<std::string> transferSyntaxNames();
 
-/// What a written series says about itself.
+/// The attributes of a written series.
 struct SeriesLabels {
     std::string patientName, patientId, studyDescription, seriesDescription, bodyPart;
     int seriesNumber = 1;
     std::vector<volume::ValueWindow> windows;
 };
 
-/// Writes a CT volume of int16 HU as one file per slice, IM0001.dcm and on, signed 16 bits, without
-/// loss. The folder is made if needed; a file of such a name that is there is an error. Either all
-/// files are written or none is left.
-/// *Throws* Error{output}, Error{usage} if the volume is not int16, Cancelled.
+/// Writes a CT volume of int16 HU losslessly as one file per slice, IM0001.dcm and so on, signed 16
+/// bits. Creates the folder if necessary; an existing file of such a name is an error. Writes
+/// either all files or none. *Throws* Error{output}, Error{usage} if the volume is not int16,
+/// Cancelled.
 void writeCtSeries(const std::filesystem::path &folder, const volume::Volume &volume,
                    const SeriesLabels &labels, TransferSyntax syntax,
                    const task::Progress &progress = {});

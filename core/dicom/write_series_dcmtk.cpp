@@ -52,7 +52,7 @@ const std::array<Syntax, 8> &syntaxes() {
     return all;
 }
 
-// Moves pixels that were set uncompressed into a JPEG 2000 codestream, which DCMTK does not write.
+// Converts uncompressed pixels to a JPEG 2000 codestream, which DCMTK cannot write.
 void compressJpeg2000(DcmDataset &dataset, const std::int16_t *slice, volume::GridSize size) {
     const dcmtk::Jpeg2000Image image{
         size.j, size.i, 16, true,
@@ -81,7 +81,7 @@ public:
         DcmFileFormat file;
         DcmDataset &d = *file.getDataset();
         putIdentity(d, slice);
-        putPlace(d, slice);
+        putPosition(d, slice);
         putValues(d);
         if (m_syntax == EXS_JPEG2000LosslessOnly) {
             compressJpeg2000(d, samples, m_volume.lattice().size());
@@ -95,7 +95,7 @@ public:
     }
 
 private:
-    // Whose image it is, and what of.
+    // Patient, study and series.
     void putIdentity(DcmDataset &d, int slice) const {
         put(d, DCM_SpecificCharacterSet, "ISO_IR 192");
         put(d, DCM_ImageType, "ORIGINAL\\PRIMARY\\AXIAL");
@@ -123,8 +123,8 @@ private:
         put(d, DCM_InstanceNumber, std::to_string(slice + 1));
     }
 
-    // Where the slice lies.
-    void putPlace(DcmDataset &d, int slice) const {
+    // The position of the slice.
+    void putPosition(DcmDataset &d, int slice) const {
         const volume::Lattice &lattice = m_volume.lattice();
         const glm::dvec3 position = lattice.patient(volume::VoxelIndex{0, 0, slice}).mm;
         const glm::dvec3 row = lattice.step(0) / lattice.spacingMm(0),
@@ -138,7 +138,7 @@ private:
         put(d, DCM_SliceThickness, decimal(lattice.sliceDistanceMm()));
     }
 
-    // How its values are stored and shown.
+    // The storage and display of its values.
     void putValues(DcmDataset &d) const {
         const volume::GridSize size = m_volume.lattice().size();
         d.putAndInsertUint16(DCM_SamplesPerPixel, 1);

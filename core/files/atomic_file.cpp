@@ -20,7 +20,7 @@ namespace pellucid::files {
 
 namespace {
 
-// A dot in front keeps an unfinished file out of listings and of folder scans.
+// The leading dot hides an unfinished file from listings and folder scans.
 std::string hiddenNameFor(const std::filesystem::path &path, const std::string &ending = "XXXXXX") {
     return (path.parent_path() / ("." + path.filename().string() + "." + ending)).string();
 }
@@ -31,7 +31,7 @@ mode_t currentMask() {
     return mask;
 }
 
-// A file without a name that can be given one; -1 where there is no such thing.
+// A nameless file that can get a name later; -1 if the file system has none.
 int openNameless(const std::filesystem::path &folder) {
 #ifdef O_TMPFILE
     const int descriptor =
@@ -68,7 +68,7 @@ AtomicFile::AtomicFile(const std::filesystem::path &path) : m_path(targetOf(path
         if (descriptor < 0)
             fail(errno);
         m_temporary = name;
-        // mkstemp makes files private; a finished result has the permissions of any new file.
+        // mkstemp creates private files; the result gets the permissions of any new file.
         fchmod(descriptor, 0666 & ~currentMask());
     }
     m_file = fdopen(descriptor, "wb");
@@ -93,16 +93,17 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
         fail(errno);
 }
 
-// Gives a file without a name that of the path, if nothing has it, else a hidden one: a link
+// Links a nameless file to its path, or to a hidden name if the path exists, because a link
 // replaces nothing.
-void AtomicFile::takeName() {
+void AtomicFile::linkToPath() {
     const std::string self = "/proc/self/fd/" + std::to_string(fileno(m_file));
     const auto link = [&](const std::filesystem::path &path) {
         return linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0;
     };
     if (link(m_path))
         return;
-    // From here until it is renamed a kill leaves it behind: nothing else happens in between.
+    // A kill between here and the rename leaves the hidden file behind, so nothing else happens in
+    // between.
     int error = errno;
     while (error == EEXIST) {
         std::uint32_t number = 0;
@@ -114,14 +115,14 @@ void AtomicFile::takeName() {
         }
         error = errno;
     }
-    // Some file systems have files without names that never get one.
+    // Some file systems have nameless files that cannot be linked.
     if (error == ENOSPC || error == EDQUOT)
         fail(error);
-    m_temporary = copyUnder(hiddenNameFor(m_path));
+    m_temporary = copyTo(hiddenNameFor(m_path));
 }
 
-// The bytes once more, in a file with a name.
-std::string AtomicFile::copyUnder(std::string name) {
+// Copies the bytes to a file with a name.
+std::string AtomicFile::copyTo(std::string name) {
     const Descriptor copy(mkstemp(name.data()));
     if (!copy)
         fail(errno);
@@ -140,10 +141,10 @@ std::string AtomicFile::copyUnder(std::string name) {
 void AtomicFile::commit() {
     if (std::fflush(m_file) != 0 || fsync(fileno(m_file)) != 0)
         fail(errno);
-    // All of it is on the disk. A share may refuse to rename what is open; a file without a name
-    // is lost if it is closed.
+    // All bytes are on the disk. A network share may refuse to rename an open file; a nameless file
+    // is lost when it is closed.
     if (m_temporary.empty())
-        takeName();
+        linkToPath();
     std::fclose(m_file);
     m_file = nullptr;
     if (!m_temporary.empty() && std::rename(m_temporary.c_str(), m_path.c_str()) != 0)

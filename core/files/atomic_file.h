@@ -10,13 +10,13 @@
 
 namespace pellucid::files {
 
-/// The file that is meant where something is written: through a link, what it points at. *Throws*
-/// Error{output} where a device or a pipe would become a file.
+/// The file that writing to a path affects: the target if it is a link. *Throws* Error{output} if a
+/// file would replace a device or a pipe.
 std::filesystem::path targetOf(const std::filesystem::path &path);
 
-/// A file that appears under its name only when it is complete: until `commit` has flushed it to
-/// the disk its bytes are in a file without a name, which is gone with a program that is killed; on
-/// file systems without such files, in a hidden one in the same folder.
+/// A file that appears under its name only when it is complete. Until `commit` has flushed them to
+/// the disk, its bytes are in a nameless file, which disappears if the program is killed; on file
+/// systems without such files, in a hidden file in the same folder.
 class AtomicFile {
 public:
     /// *Throws* Error{output} if the folder cannot be written.
@@ -25,31 +25,31 @@ public:
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &operator=(const AtomicFile &) = delete;
 
-    /// *Throws* Error{output}, for instance when the disk is full.
+    /// *Throws* Error{output}, for example if the disk is full.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-    /// *Throws* Error{output}; the former file of that name, if any, is then untouched.
+    /// *Throws* Error{output}; an existing file of that name is then unchanged.
     void commit();
 
 private:
     [[noreturn]] void fail(int error) const;
-    void takeName();
-    std::string copyUnder(std::string name);
+    void linkToPath();
+    std::string copyTo(std::string name);
 
     std::filesystem::path m_path;
-    std::filesystem::path m_temporary; ///< empty if it has no name
+    std::filesystem::path m_temporary; ///< empty while it has no name
     std::FILE *m_file = nullptr;
 };
 
-/// Gives a finished file its name, on the same file system, when its bytes are on the disk.
-/// *Throws* Error{output}; what was there is then untouched.
+/// Renames a complete file within a file system after its bytes are on the disk. *Throws*
+/// Error{output}; an existing target is then unchanged.
 void rename(const std::filesystem::path &from, const std::filesystem::path &to);
 
-/// Has everything that was written in a folder's file system on the disk. *Throws* Error{output}.
+/// Flushes the file system of a folder to the disk. *Throws* Error{output}.
 void flush(const std::filesystem::path &folder);
 
-/// Looked at before long work begins: *throws* Error{output} with path and reason if nothing can be
-/// made in a folder, or the folder itself cannot.
+/// Checks before long work: *throws* Error{output} with path and reason if a folder cannot be
+/// written to or created.
 void requireWritable(const std::filesystem::path &folder);
 
 } // namespace pellucid::files

@@ -24,8 +24,9 @@ private:
     int m_fd = -1;
 };
 
-/// Opens a file to read it. What is, or has just become, a pipe or a device is not waited for.
-/// *Throws* Error{unusable} with path and reason if it cannot be opened or is no regular file.
+/// Opens a file for reading. Does not block on a pipe or a device, even if the path has just become
+/// one. *Throws* Error{unusable} with path and reason if it cannot be opened or is not a regular
+/// file.
 Descriptor openRegular(const std::filesystem::path &path);
 
 } // namespace pellucid::files

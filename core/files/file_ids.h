@@ -11,13 +11,14 @@
 
 namespace pellucid::files {
 
-/// Files by what the system knows them by: a file has many paths, through links of either kind.
+/// Files identified by device and inode, because a file has many paths through links of either
+/// kind.
 class FileIds {
 public:
-    /// Those that are there.
+    /// Ignores files that do not exist.
     explicit FileIds(const std::vector<std::filesystem::path> &files);
     bool isEmpty() const { return m_files.empty(); }
-    /// The one of them that a path leads to.
+    /// The file among them that a path refers to.
     std::optional<std::filesystem::path> find(const std::filesystem::path &path) const;
 
 private:

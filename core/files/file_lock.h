@@ -7,14 +7,14 @@
 
 namespace pellucid::files {
 
-/// Held by one program at a time, as long as the object is there; others wait for it, or do
-/// without. Where a file cannot be locked (a share without locks, a folder that cannot be written)
-/// nobody is kept out.
+/// A lock that one program at a time holds while the object exists; others wait for it or continue
+/// without it. If a file cannot be locked (a network share without locks, a read-only folder),
+/// nobody is excluded.
 class FileLock {
 public:
     enum class Mode { wait, tryLock };
     explicit FileLock(const std::filesystem::path &file, Mode mode = Mode::wait);
-    /// False: another one holds it.
+    /// False if another program holds it.
     bool isHeld() const { return m_isHeld; }
 
 private:

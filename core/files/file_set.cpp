@@ -13,11 +13,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path nameAside(std::size_t number, const fs::path &file) {
+fs::path temporaryName(std::size_t number, const fs::path &file) {
     return std::to_string(number) + file.extension().string();
 }
 
-// A folder that is not there is not made: its name may be a slip.
+// A missing folder is not created, because its name may be a typing error.
 SessionFolder folderFor(const fs::path &file) {
     std::error_code failed;
     if (!fs::is_directory(file.parent_path().empty() ? "." : file.parent_path(), failed))
@@ -37,15 +37,15 @@ FileSet::FileSet(const fs::path &file) : m_folder(folderFor(file)) {}
 
 fs::path FileSet::aside(const fs::path &file) {
     m_files.push_back(targetOf(file));
-    return m_folder.path() / nameAside(m_files.size() - 1, file);
+    return m_folder.path() / temporaryName(m_files.size() - 1, file);
 }
 
 void FileSet::commit() {
-    // All bytes are on the disk before the first name is given: that takes a moment only.
+    // Flushes all bytes before the first rename, so that the renames take only a moment.
     flush(m_folder.path());
     for (std::size_t n = 0; n < m_files.size(); ++n) {
         std::error_code failed;
-        fs::rename(m_folder.path() / nameAside(n, m_files[n]), m_files[n], failed);
+        fs::rename(m_folder.path() / temporaryName(n, m_files[n]), m_files[n], failed);
         if (failed)
             throw task::Error(task::ErrorCode::output,
                               task::because::cannotBeWritten(task::systemReason(failed)),

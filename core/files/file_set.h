@@ -8,19 +8,20 @@
 
 namespace pellucid::files {
 
-/// Files of one folder that belong together, as the frames of a turn: they take their names, one
-/// after the other, when all are on the disk. What was written before under those names stays till
-/// then; of files that are given up none is left, and a kill leaves a hidden folder that the next
-/// set there removes. One in the moment of the names leaves some with the new, some with the old.
+/// Files of one folder that belong together, such as the frames of a turntable. They get their
+/// names one after the other when all are on the disk; until then existing files of those names
+/// remain. Discarded files leave nothing behind, and a kill leaves a hidden folder, which the next
+/// set in that folder removes. A kill during the renames leaves some new and some old files.
 class FileSet {
 public:
-    /// `file`: one of them. *Throws* Error{output}.
+    /// `file`: one of the set. *Throws* Error{output}.
     explicit FileSet(const std::filesystem::path &file);
-    /// Where to write meanwhile what will have that name, or is what a link of that name points at.
-    /// *Shape*: with its extension. *Throws* Error{output} where the name is a device's or a
-    /// pipe's.
+    /// The temporary path for the file with this name, or for the target if the name is a link.
+    /// *Shape*: with the same extension. *Throws* Error{output} if the name is that of a device or
+    /// a pipe.
     std::filesystem::path aside(const std::filesystem::path &file);
-    /// *Throws* Error{output}: what has its name by then keeps it, in place of what was there.
+    /// *Throws* Error{output}; files that already have their names keep them, and replace the old
+    /// ones.
     void commit();
 
 private:

@@ -9,9 +9,9 @@
 
 namespace pellucid::files {
 
-std::string readText(const std::filesystem::path &path, std::size_t most) {
+std::string readText(const std::filesystem::path &path, std::size_t maxBytes) {
     const Descriptor file = openRegular(path);
-    // What the file says of its size may change: what comes is counted.
+    // The file's size may change, so the bytes read are counted.
     constexpr std::size_t block = 1 << 16;
     std::string text;
     for (;;) {
@@ -23,9 +23,9 @@ std::string readText(const std::filesystem::path &path, std::size_t most) {
         text.resize(before + std::size_t(got < 0 ? 0 : got));
         if (got == 0)
             return text;
-        if (text.size() > most)
+        if (text.size() > maxBytes)
             throw task::Error(task::ErrorCode::unusable,
-                              task::because::isTooLargeForItsKind(most >> 20), path);
+                              task::because::isTooLargeForItsKind(maxBytes >> 20), path);
     }
 }
 

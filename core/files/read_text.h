@@ -7,11 +7,11 @@
 
 namespace pellucid::files {
 
-/// Larger presets and scenes are none.
+/// Larger files are not presets or scenes.
 inline constexpr std::size_t mostOfPreset = std::size_t(1) << 20;
 
-/// All bytes of a file. *Throws* Error{unusable} with path and reason if it is no regular file,
-/// cannot be read or holds more than `most` bytes.
-std::string readText(const std::filesystem::path &path, std::size_t most);
+/// All bytes of a file. *Throws* Error{unusable} with path and reason if it is not a regular file,
+/// cannot be read or has more than `maxBytes` bytes.
+std::string readText(const std::filesystem::path &path, std::size_t maxBytes);
 
 } // namespace pellucid::files

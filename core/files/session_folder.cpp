@@ -32,19 +32,19 @@ fs::path lockOf(const fs::path &folder) {
     return folder.string() + ".lock";
 }
 
-// The lock of a file if nobody else holds it. The system lets go of it when a program ends,
-// however.
+// Locks a file unless another program holds the lock. The system releases it when the program ends,
+// however that happens.
 Descriptor takeLock(const fs::path &lock) {
     Descriptor file(::open(lock.c_str(), O_RDWR | O_CLOEXEC));
     struct stat about {};
-    // One that was removed meanwhile locks nothing.
+    // A lock file that was removed meanwhile locks nothing.
     if (file && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 && ::fstat(file.get(), &about) == 0 &&
         about.st_nlink > 0)
         return file;
     return Descriptor();
 }
 
-// Of a share without locks: nobody can take it, and nobody will tidy up there.
+// For a network share without locks: nobody can lock the file, so nobody will clean up there.
 Descriptor takeLockOrFile(const fs::path &lock) {
     Descriptor taken = takeLock(lock);
     if (!taken && (errno == ENOLCK || errno == EOPNOTSUPP || errno == ENOSYS))
@@ -68,19 +68,19 @@ SessionFolder::SessionFolder(const fs::path &parent, Parent then) : m_parent(the
 void SessionFolder::make(const fs::path &parent) {
     std::error_code failed;
     fs::create_directories(parent, failed);
-    // The lock first: there is never a folder without the lock of its program.
+    // The lock comes first: no folder exists without the lock of its program.
     for (int attempts = 0; attempts < 100; ++attempts) {
         std::string name = (parent / "XXXXXX.lock").string();
         const Descriptor made(::mkstemps(name.data(), int(std::string_view(".lock").size())));
         if (!made && errno == ENOENT && fs::create_directories(parent, failed))
-            continue; // somebody removed an empty one
+            continue; // an empty parent was removed meanwhile
         if (!made)
             break;
         m_lock = takeLockOrFile(name);
-        if (!m_lock) // somebody who tidies up was faster
+        if (!m_lock) // a cleanup was faster
             continue;
         m_path = name.substr(0, name.rfind('.'));
-        if (::mkdir(m_path.c_str(), 0700) == 0) // for the user alone
+        if (::mkdir(m_path.c_str(), 0700) == 0) // private to the user
             return;
         const int error = errno;
         ::unlink(name.c_str());
@@ -92,11 +92,11 @@ void SessionFolder::make(const fs::path &parent) {
 }
 
 SessionFolder::~SessionFolder() {
-    if (m_isLeft)
+    if (m_isAbandoned)
         return;
     std::error_code failed, ignored;
     fs::remove_all(m_path, failed);
-    if (!failed) // else the next program tries again
+    if (!failed) // otherwise the next program tries again
         fs::remove(lockOf(m_path), ignored);
     if (m_parent == Parent::goes)
         fs::remove(m_path.parent_path(), ignored); // if it is empty

@@ -8,19 +8,19 @@
 
 namespace pellucid::files {
 
-/// A private folder for what a running program unpacks or has not finished, gone with the object.
-/// The program holds a lock beside it as long as it runs, so that what a killed program left is
-/// found by `removeAbandonedSessionFolders`.
+/// A private folder for files that a running program unpacks or has not finished. It is removed
+/// with the object. The program holds a lock next to it, so that `removeAbandonedSessionFolders`
+/// recognises the folders of killed programs.
 class SessionFolder {
 public:
-    /// Below the user's cache. *Throws* Error{output} if there is no place for it.
+    /// Creates it in the user's cache. *Throws* Error{output} if that is impossible.
     SessionFolder();
-    /// Below a folder, which is made; one that `goes` is removed with the last one in there.
-    /// *Throws* Error{output}.
+    /// Creates it in `parent`, which is created if necessary. A parent that `goes` is removed with
+    /// its last session folder. *Throws* Error{output}.
     enum class Parent { stays, goes };
     explicit SessionFolder(const std::filesystem::path &parent, Parent then = Parent::stays);
-    /// On the same file system as a file that is to be written: in a hidden folder next to it,
-    /// which is removed with the last one in there. What killed programs left there goes first.
+    /// Creates it on the same file system as an output file: in a hidden folder next to the file,
+    /// which is removed with its last session folder. First removes abandoned folders there.
     /// *Throws* Error{output}.
     static SessionFolder beside(const std::filesystem::path &file);
     ~SessionFolder();
@@ -28,9 +28,8 @@ public:
     SessionFolder &operator=(const SessionFolder &) = delete;
 
     const std::filesystem::path &path() const { return m_path; }
-    /// What is in it is for the next program that removes abandoned folders, unless it is taken
-    /// back.
-    void setLeft(bool isLeft) { m_isLeft = isLeft; }
+    /// If set, the folder stays and is removed as an abandoned one by the next program.
+    void setLeft(bool isAbandoned) { m_isAbandoned = isAbandoned; }
 
 private:
     void make(const std::filesystem::path &parent);
@@ -38,15 +37,15 @@ private:
     std::filesystem::path m_path;
     Descriptor m_lock;
     Parent m_parent = Parent::stays;
-    bool m_isLeft = false;
+    bool m_isAbandoned = false;
 };
 
-/// Whether a file is in a folder below the user's cache that will be gone with a program that runs.
+/// Whether a file is in a session folder of the user's cache, which will be removed.
 bool isInSessionFolder(const std::filesystem::path &path);
 
-/// Removes the folders of programs that no longer run, below the user's cache.
+/// Removes the session folders of programs that no longer run from the user's cache.
 void removeAbandonedSessionFolders();
-/// Below a folder; `before` is given each while it is still there.
+/// The same below `parent`; `before` is called with each folder before it is removed.
 void removeAbandonedSessionFolders(
     const std::filesystem::path &parent,
     const std::function<void(const std::filesystem::path &)> &before = {});

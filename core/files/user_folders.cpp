@@ -13,12 +13,12 @@ struct Candidate {
     const char *variable, *below;
 };
 
-// The folder below the first of the variables that is set.
+// The folder below the first variable that is set.
 std::optional<std::filesystem::path> folderBelow(std::initializer_list<Candidate> candidates) {
     std::filesystem::path folder;
     for (const auto &[variable, below] : candidates) {
         const char *const value = std::getenv(variable);
-        // Relative paths in these variables are to be ignored, says the standard that defines them.
+        // The XDG specification says to ignore relative paths in these variables.
         if (folder.empty() && value != nullptr && std::filesystem::path(value).is_absolute())
             folder = std::filesystem::path(value) / below;
     }
@@ -28,7 +28,7 @@ std::optional<std::filesystem::path> folderBelow(std::initializer_list<Candidate
     const bool isNew = std::filesystem::create_directories(folder, failed);
     if (failed)
         return std::nullopt;
-    if (isNew) // names of patients are nobody else's to read
+    if (isNew) // patients' names are private
         std::filesystem::permissions(folder, std::filesystem::perms::owner_all, ignored);
     return folder;
 }

@@ -16,7 +16,7 @@ void writeNpy(const std::filesystem::path &path, std::span<const float> samples,
         fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': {}, }}",
                     channels == 1 ? fmt::format("({}, {})", height, width)
                                   : fmt::format("({}, {}, {})", height, width, channels));
-    // Magic, version and length take 10 bytes; the format wants the data at a multiple of 64.
+    // Magic, version and length take 10 bytes; the format requires the data at a multiple of 64.
     header.append(63 - (10 + header.size()) % 64, ' ');
     header.push_back('\n');
     const std::string start = std::string("\x93NUMPY\x01\x00", 8) + char(header.size() & 0xFF) +

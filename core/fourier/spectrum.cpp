@@ -53,7 +53,7 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
     spectrum.m_moments = sums.moments;
     CellOutput out{spectrum.m_cells.get()};
     if (layout.storage == Storage::binary16) {
-        // No cell can exceed the sum of the magnitudes; a power of two scales without rounding.
+        // The sum of the magnitudes bounds every cell; a power of two scales without rounding.
         double scale = 1.0;
         if (sums.magnitudes > 0.0)
             scale = std::exp2(std::floor(std::log2(32768.0 / sums.magnitudes)));

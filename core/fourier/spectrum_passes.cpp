@@ -24,7 +24,7 @@ namespace {
 using volume::GridSize;
 using Complex = std::complex<float>;
 
-// Scratch that each thread keeps; uninitialised, 64-byte aligned.
+// Scratch memory per thread; uninitialised, 64-byte aligned.
 template <class T> class Scratch {
 public:
     explicit Scratch(std::size_t count)
@@ -41,7 +41,7 @@ int blocksOf(GridSize padded) {
     return (padded.i / 2 + stripLanes) / stripLanes;
 }
 
-// 1/h along one axis for the samples of the box, the wrap voxel being the middle one.
+// 1/h along one axis for the samples of the box, with the wrap voxel in the middle.
 std::vector<float> premultiplier(const Kernel &kernel, int samples, int padded) {
     std::vector<float> factors(samples);
     for (int n = 0; n < samples; ++n)
@@ -53,7 +53,7 @@ int modulo(int index, int period) {
     return (index % period + period) % period;
 }
 
-// Fills strips with those of `from`, the middle one at index 0, and zero between.
+// Fills strips with those of `from`, with the middle one at index 0 and zeros in between.
 void placeStrips(const float *from, int count, float *strips, int padded) {
     const int middle = count / 2, after = count - middle;
     std::memcpy(strips, from + std::size_t(middle) * stripFloats,
@@ -78,8 +78,8 @@ Complex asComplex(Complex cell) {
     return cell;
 }
 
-// The transforms along x and y plane by plane, which stays in the cache; rows and planes of padding
-// are not transformed. Sample n goes to (n - middle) modulo padded.
+// Transforms along x and y plane by plane, so that a plane stays in the cache; rows and planes of
+// padding are skipped. Sample n goes to (n - middle) modulo padded.
 class PlaneTransform {
 public:
     PlaneTransform(const volume::Lattice &lattice, const SpectrumLayout &layout,
@@ -94,14 +94,14 @@ public:
           m_planes(std::size_t(m_size.j) * m_rowCells),
           m_strips((std::size_t(m_size.j) + 2 * std::size_t(m_padded.j)) * stripFloats) {}
 
-    // Plane k of the box, from any thread.
+    // Transforms plane k of the box. Thread-safe.
     template <class T> void run(const T *samples, int k) {
         Complex *const plane = m_planes.local();
         transformAlongX(samples, k, plane);
         transformAlongY(plane, k);
     }
 
-    // Of all planes that have run.
+    // The sums of all planes so far.
     FieldSums sums() const {
         FieldSums sums;
         for (int k = 0; k < m_size.k; ++k) {
@@ -199,7 +199,7 @@ private:
     Scratch<float> m_strips;
 };
 
-// The transform along z of the rows y and -y, which give each other's cells beyond the half, and
+// The transform along z of the rows y and -y, which contain each other's cells beyond the half, and
 // their lines in the final layout.
 template <class Cell> class RowPair {
 public:
@@ -245,7 +245,7 @@ private:
         }
     }
 
-    // Each row has a place of its own.
+    // Each row has its own range of the output.
     void keepRounding(int y, const float *exact, const Cell *rows) const {
         constexpr int reach = Spectrum::roundingReach, side = 2 * reach + 1;
         const int q = y <= m_layout.padded.j / 2 ? y : y - m_layout.padded.j;
@@ -254,17 +254,17 @@ private:
         for (int r = -reach; r <= reach; ++r) {
             const int z = modulo(r, m_layout.padded.k);
             for (int p = 0; p <= reach; ++p) {
-                const float *const of = exact + std::size_t(z) * stripFloats + p;
+                const float *const cell = exact + std::size_t(z) * stripFloats + p;
                 const std::complex<float> stored =
                     asComplex(rows[std::size_t(z) * m_rowCells + m_cells.halo + p]);
+                // Real and imaginary parts are swapped.
                 m_out.rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
-                    stored -
-                    m_out.scale * std::complex<float>(of[stripLanes], of[0]); // they are exchanged
+                    stored - m_out.scale * std::complex<float>(cell[stripLanes], cell[0]);
             }
         }
     }
 
-    // F(-s) = conj F(s) gives the cells left of the half and right of it.
+    // F(-s) = conj F(s) gives the cells to the left and right of the half.
     void addHalo(Cell *rows, const Cell *mirrored) const {
         const int half = m_layout.padded.i / 2, depth = m_layout.padded.k, halo = m_cells.halo;
         for (int z = 0; z < depth; ++z) {

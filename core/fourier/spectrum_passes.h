@@ -12,15 +12,16 @@ namespace pellucid::fourier {
 // A spectrum is prepared in two passes: planes of the field along x and y, then rows of the result
 // along z.
 
-/// The size of what the first pass leaves to the second: [y][block of 16 x][k][strip], so that the
-/// transform along z reads one run. It has planes of the field only: the padding along z is zero.
+/// The size of the intermediate result of the first pass: [y][block of 16 x][k][strip], so that the
+/// transform along z reads one contiguous run. It contains planes of the field only: the padding
+/// along z is zero.
 std::size_t intermediateBytes(const SpectrumLayout &layout);
 
-/// What is summed while a field is transformed.
+/// Sums that are computed while a field is transformed.
 struct FieldSums {
     double dc = 0.0;
     std::array<double, 3> moments{}; ///< first moments about the wrap voxel, by axis
-    double magnitudes = 0.0;         ///< of what is transformed: no cell exceeds their sum
+    double magnitudes = 0.0;         ///< of the transformed samples: an upper bound on every cell
 };
 
 /// The first pass. *Shape*: the field is float32; `intermediate`: see `intermediateBytes`.
@@ -28,11 +29,11 @@ struct FieldSums {
 FieldSums transformPlanes(const volume::Volume &field, const SpectrumLayout &layout,
                           float *intermediate, const task::Progress &progress);
 
-/// What the second pass writes.
+/// The output of the second pass.
 struct CellOutput {
     std::byte *cells;
-    float scale = 1.0F; ///< cells are multiplied by it before they are stored
-    /// The rounding of the cells about frequency 0, see `Spectrum`; none if nothing is rounded.
+    float scale = 1.0F; ///< the factor of cells before they are stored
+    /// The rounding of the cells around frequency 0, see `Spectrum`; null if nothing is rounded.
     std::complex<float> *rounding = nullptr;
 };
 

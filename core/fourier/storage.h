@@ -6,8 +6,8 @@
 
 namespace pellucid::fourier {
 
-/// How a complex number of a spectrum is kept: two floats, or two IEEE binary16 numbers scaled by
-/// a power of two so that the largest fits.
+/// The representation of a complex number in a spectrum: two floats, or two IEEE binary16 numbers
+/// scaled by a power of two so that the largest fits.
 enum class Storage { binary16, float32 };
 
 std::size_t bytesPerCell(Storage storage);

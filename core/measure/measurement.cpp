@@ -17,7 +17,7 @@ namespace pellucid::measure {
 
 namespace {
 
-// Where a region lies in its plane. *Units*: mm from its centre, along the plane's axes.
+// A region within its plane. *Units*: mm from its centre, along the plane's axes.
 struct Region {
     Region(const Measurement &m)
         : center(0.5 * (m.pointsMm[0] + m.pointsMm[1])), axes(m.axes),
@@ -39,8 +39,8 @@ struct Region {
     bool isEllipse;
 };
 
-// Mean and spread in one pass that does not cancel (Welford).
-class Gathered {
+// Mean and standard deviation in one pass without cancellation (Welford).
+class Accumulator {
 public:
     void add(double value) {
         if (std::isnan(value))
@@ -67,7 +67,7 @@ private:
     double m_squares = 0.0;
 };
 
-// The samples of the slice nearest to the region whose centres it holds.
+// The samples with their centres in the region, from the slice nearest to it.
 std::optional<RegionValues> samplesIn(const Region &region, const volume::Volume &volume,
                                       int across) {
     const volume::Lattice &lattice = volume.lattice();
@@ -84,7 +84,8 @@ std::optional<RegionValues> samplesIn(const Region &region, const volume::Volume
             for (const double v : {-region.b, region.b}) {
                 glm::dvec3 corner =
                     lattice.voxel({region.center + u * region.axes.right + v * region.axes.up}).v;
-                // Of a skewed stack the place in the slice depends on the way to it.
+                // In a skewed stack a move to the slice along the normal also changes the position
+                // in it.
                 corner += (slice - corner[across]) / normal[across] * normal;
                 least = std::min(least, corner[d]);
                 most = std::max(most, corner[d]);
@@ -93,16 +94,16 @@ std::optional<RegionValues> samplesIn(const Region &region, const volume::Volume
         high[d] = int(std::clamp(std::ceil(most), -1.0, n[d] - 1.0));
     }
     low[across] = high[across] = int(slice);
-    Gathered gathered;
+    Accumulator accumulator;
     for (int k = low[2]; k <= high[2]; ++k)
         for (int j = low[1]; j <= high[1]; ++j)
             for (int i = low[0]; i <= high[0]; ++i) {
                 const glm::dvec3 d =
                     lattice.patient(volume::VoxelIndex{i, j, k}).mm - region.center;
                 if (region.holds({glm::dot(d, region.axes.right), glm::dot(d, region.axes.up)}))
-                    gathered.add(volume.value({i, j, k}));
+                    accumulator.add(volume.value({i, j, k}));
             }
-    return gathered.result(true);
+    return accumulator.result(true);
 }
 
 std::optional<RegionValues> valuesIn(const Region &region, const volume::Volume &volume) {
@@ -116,10 +117,10 @@ std::optional<RegionValues> valuesIn(const Region &region, const volume::Volume 
                 across = d;
         if (const auto samples = samplesIn(region, volume, across))
             return samples;
-        // A region between sample centres still has values.
+        // A region between sample centres still has interpolated values.
     }
     const double step = lattice.shortestStepMm();
-    // No farther than the volume reaches, however large the region is.
+    // Limited to the extent of the volume, however large the region is.
     const glm::dvec3 toVolume = lattice.center().mm - region.center;
     const auto steps = [&](double half, const glm::dvec3 &axis) {
         const double middle = glm::dot(toVolume, axis), reach = lattice.radiusMm();
@@ -128,13 +129,13 @@ std::optional<RegionValues> valuesIn(const Region &region, const volume::Volume 
     };
     const auto [firstColumn, lastColumn] = steps(region.a, region.axes.right);
     const auto [firstRow, lastRow] = steps(region.b, region.axes.up);
-    Gathered gathered;
+    Accumulator accumulator;
     for (int r = firstRow; r <= lastRow; ++r)
         for (int c = firstColumn; c <= lastColumn; ++c)
             if (const glm::dvec2 p(c * step, r * step); region.holds(p))
-                gathered.add(double(mpr::valueAt(
+                accumulator.add(double(mpr::valueAt(
                     volume, {region.center + p.x * region.axes.right + p.y * region.axes.up})));
-    return gathered.result(false);
+    return accumulator.result(false);
 }
 
 std::string figure(const std::optional<double> &value) {
@@ -170,7 +171,7 @@ Result measure(const Measurement &m, const volume::Volume &volume) {
         break;
     case Kind::angle: {
         const glm::dvec3 a = m.pointsMm[0] - m.pointsMm[1], b = m.pointsMm[2] - m.pointsMm[1];
-        // Of the two forms the one that keeps its digits near 0 and 180 degrees.
+        // This form stays precise near 0 and 180 degrees.
         result.angleDegrees =
             std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180.0 / std::numbers::pi;
         break;

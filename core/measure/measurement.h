@@ -10,53 +10,54 @@
 
 namespace pellucid::measure {
 
-/// `projectedDistance`: in the plane of a projection, where nothing says how deep its ends lie.
+/// `projectedDistance`: in the plane of a projection; the depth of its ends is unknown.
 enum class Kind { distance, angle, ellipse, rectangle, projectedDistance };
 
-/// What somebody drew on a plane of the patient.
+/// A measurement drawn on a plane in patient space.
 struct Measurement {
     Kind kind = Kind::distance;
     std::string name;
-    /// *Shape*: the ends of a distance; the first leg's end, the vertex and the second leg's end of
-    /// an angle; two opposite corners of the box around an ellipse or of a rectangle.
+    /// *Shape*: for a distance, its ends; for an angle, the first leg's end, the vertex and the
+    /// second leg's end; for an ellipse or a rectangle, two opposite corners of its box.
     std::vector<glm::dvec3> pointsMm;
-    /// Of the plane that it was drawn on; sides and half axes of a region lie along them.
+    /// The axes of the plane that it was drawn on; the sides or half axes of a region are parallel
+    /// to them.
     mpr::Axes axes;
 
     bool operator==(const Measurement &) const = default;
 };
 
-/// How many points a measurement of this kind has.
+/// The number of points of a kind.
 std::size_t pointCount(Kind kind);
 bool isRegion(Kind kind);
 
-/// The values in a region. Where its plane is one of the lattice's own, they are those of the
-/// samples of the nearest slice whose centres lie in it; else values between samples (linear), a
-/// shortest step of the lattice apart. The standard deviation is that of a sample (n - 1).
+/// The values in a region. If its plane is parallel to one of the lattice's own: those samples of
+/// the nearest slice whose centres are in the region. Otherwise values interpolated linearly, the
+/// lattice's shortest step apart. The standard deviation is the sample's (n - 1).
 struct RegionValues {
     std::size_t count = 0;
     double mean = 0.0, standardDeviation = 0.0, minimum = 0.0, maximum = 0.0;
-    bool areSamples = true; ///< of one slice; else between samples
+    bool areSamples = true; ///< samples of one slice, not interpolated values
 };
 
 /// *Units*: mm, degrees, mm^2, value units.
 struct Result {
     std::optional<double> lengthMm, angleDegrees, areaMm2;
-    std::optional<RegionValues> values; ///< none where the region holds no part of the volume
+    std::optional<RegionValues> values; ///< not set if the region is outside the volume
 };
 
 Result measure(const Measurement &measurement, const volume::Volume &volume);
 
-/// *Throws* Error{unusable} for what is not a list of measurements.
+/// *Throws* Error{unusable} if the text is not a list of measurements.
 std::vector<Measurement> measurementsFromJson(const std::string &text);
 std::string toJson(const std::vector<Measurement> &measurements);
 
-/// A table with a row for each measurement, its result, and its points. Decimal points, commas
-/// between columns, texts in quotes, lines end with CR LF (RFC 4180).
-/// Lengths of images without a pixel spacing are in pixels, and the headings say so.
+/// A table with a row for each measurement, its result and its points. Decimal points, columns
+/// separated by commas, quoted texts, lines ended by CR LF (RFC 4180). Lengths in images without a
+/// pixel spacing are in pixels, and the headings say so.
 std::string toCsv(const std::vector<Measurement> &measurements, const volume::Volume &volume);
 
-/// The word of a kind in files.
+/// The name of a kind in files.
 std::string kindName(Kind kind);
 
 } // namespace pellucid::measure

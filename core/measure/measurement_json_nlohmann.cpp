@@ -44,7 +44,7 @@ Measurement measurementFrom(const JsonValue &in) {
     for (const JsonValue &p : points.elements())
         m.pointsMm.push_back(vectorFrom(p));
     m.axes = {vectorFrom(in.at("right")), vectorFrom(in.at("up"))};
-    // As far as numbers written with all digits may be off.
+    // A tolerance for the rounding of numbers written with all digits.
     if (std::abs(glm::length(m.axes.right) - 1.0) > 1e-6 ||
         std::abs(glm::length(m.axes.up) - 1.0) > 1e-6 ||
         std::abs(glm::dot(m.axes.right, m.axes.up)) > 1e-6)

@@ -5,17 +5,18 @@ namespace pellucid::mpr {
 
 namespace {
 
-// A face on the very border of the picture is a face, whatever the rounding. *Units*: pixels.
+// So that a face exactly at the picture's border counts as a face despite rounding. *Units*:
+// pixels.
 constexpr double margin = 2.0;
 
-// A corner of the outline and the face that the edge after it belongs to.
+// A corner of the outline, and the face of the edge after it.
 struct Corner {
     glm::dvec2 at{0.0};
     int axis = -1;
     bool isHigh = false;
 };
 
-// Keeps what lies where value >= 0; `value` is linear over the picture. *Source*: Sutherland and
+// Keeps the part where value >= 0; `value` is linear over the picture. *Source*: Sutherland and
 // Hodgman 1974, one side of the clipping.
 template <class Value>
 std::vector<Corner> clipped(const std::vector<Corner> &outline, int axis, bool isHigh,
@@ -27,7 +28,7 @@ std::vector<Corner> clipped(const std::vector<Corner> &outline, int axis, bool i
         const auto crossing = [&] { return from.at + (to.at - from.at) * (a / (a - b)); };
         if (a >= 0.0) {
             kept.push_back(from);
-            if (b < 0.0) // the edge along the face begins
+            if (b < 0.0) // the edge along the face starts
                 kept.push_back({crossing(), axis, isHigh});
         } else if (b >= 0.0) {
             kept.push_back({crossing(), from.axis, from.isHigh});

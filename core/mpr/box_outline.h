@@ -7,22 +7,21 @@
 
 namespace pellucid::mpr {
 
-/// A box of a lattice, in voxel coordinates: faces may lie between samples.
+/// A box of a lattice in voxel coordinates; faces may be between samples.
 struct LatticeBox {
     glm::dvec3 low{0.0}, high{0.0};
 };
 
-/// Where a face of a box cuts a plane. *Units*: pixels of the plane, column and row.
+/// The intersection of a face of a box with a plane. *Units*: pixels of the plane, column and row.
 struct BoxEdge {
     glm::dvec2 from{0.0}, to{0.0};
-    /// Of the face; -1: the border of the picture.
+    /// The axis of the face; -1: the border of the picture.
     int axis = -1;
     bool isHigh = false;
 };
 
-/// The outline of what a plane cuts out of a box, within the picture and two pixels
-/// around it, all the way round once; empty where
-/// the plane misses the box.
+/// The closed outline of a box's cross-section with a plane, within the picture and two pixels
+/// around it; empty if the plane misses the box.
 std::vector<BoxEdge> boxOutline(const volume::Lattice &lattice, const LatticeBox &box,
                                 const Plane &plane);
 

@@ -2,7 +2,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/mpr/linear_samples_hwy.cpp"
 #include <hwy/foreach_target.h>
-// foreach_target comes first.
+// foreach_target must come first.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -19,13 +19,13 @@ using IndexTag = hn::RebindToSigned<Tag>;
 using Vector = hn::Vec<Tag>;
 using Index = hn::Vec<IndexTag>;
 
-// Where points lie along one axis, counted from a sample near the first of them.
+// The points' positions along one axis, relative to a sample near the first point.
 struct Along {
     int base;
     float first, step, low, high, lastCell;
 
     Along(double start, double by, int size) {
-        const int cell = std::max(0, size - 2); // the last one that has a next sample, if any has
+        const int cell = std::max(0, size - 2); // the last sample with a successor, if there is one
         base = int(std::clamp(std::floor(start), 0.0, double(cell)));
         first = float(start - base);
         step = float(by);
@@ -44,7 +44,7 @@ struct Along {
     }
 };
 
-// Two neighbours along a row, interpolated. A load of 32 bits has both.
+// Interpolates two neighbours of a row, which one 32-bit load reads.
 HWY_INLINE Vector between(const std::int16_t *row, Index at, Vector fraction) {
     const IndexTag di;
     const auto pair =

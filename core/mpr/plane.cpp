@@ -38,7 +38,7 @@ PlaneAxes::PlaneAxes() {
 }
 
 PlaneAxes::PlaneAxes(const std::array<Axes, 3> &axes) : m_axes(axes) {
-    // Of many small turns, written with all digits.
+    // A tolerance for many small rotations, written with all digits.
     constexpr double rounding = 1e-6;
     double worst = 0.0;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -61,7 +61,7 @@ PlaneAxes PlaneAxes::turned(Orientation about, double angleRad) const {
     for (const Orientation o : allOrientations) {
         if (o == about)
             continue;
-        // Many small turns add up: the axes are made orthonormal anew each time.
+        // Makes the axes orthonormal again, because the errors of many small rotations add up.
         Axes &axes = out.m_axes[std::size_t(o)];
         axes.right = glm::normalize(turn * axes.right);
         const glm::dvec3 up = turn * axes.up;
@@ -92,7 +92,8 @@ PlaneAxes PlaneAxes::along(const volume::Lattice &lattice) {
     const glm::dvec3 across = lattice.step(1) - glm::dot(lattice.step(1), row) * row;
     const glm::dvec3 column = glm::normalize(across);
     PlaneAxes out = PlaneAxes().facing({row, column});
-    // The plane that faces the slices now is turned in itself till a row lies along one of its own.
+    // Rotates the plane parallel to the slices about its normal, so that its rows follow an axis
+    // of the scan.
     for (const Axes &axes : out.m_axes) {
         const glm::dvec3 normal = axes.toViewer();
         if (std::abs(glm::dot(normal, glm::cross(row, column))) < 0.9)
@@ -139,12 +140,12 @@ ScrollRange scrollRange(const volume::Lattice &lattice, const glm::dvec3 &normal
         const double along = glm::dot(lattice.step(d), normal);
         const double reach = (n[d] - 1) * along;
         (reach < 0.0 ? range.lowMm : range.highMm) += reach;
-        // A step that stays in the plane, up to the rounding of directions in files.
+        // A step within the plane, up to the rounding of directions in files.
         if (std::abs(along) < 1e-5 * lattice.spacingMm(d))
             ++within;
         else
             across = d;
-        // The step most nearly along the normal decides; the others move within the slice.
+        // The step closest to the normal counts; the others are within the slice.
         if (std::abs(along) >= 0.7 * lattice.spacingMm(d))
             range.stepMm = std::max(range.stepMm, std::abs(along));
     }

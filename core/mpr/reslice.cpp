@@ -19,7 +19,7 @@ namespace {
 
 constexpr float outside = std::numeric_limits<float>::quiet_NaN();
 
-// The samples of a volume with what a lookup needs of its lattice.
+// The samples of a volume, with the parts of its lattice that a lookup needs.
 template <class T> class Samples {
 public:
     Samples(const T *samples, const volume::GridSize &n)
@@ -28,7 +28,7 @@ public:
           m_row(std::ptrdiff_t(n.i)), m_slice(std::ptrdiff_t(n.i) * n.j), m_nextX(n.i > 1 ? 1 : 0),
           m_nextY(n.j > 1 ? m_row : 0), m_nextZ(n.k > 1 ? m_slice : 0) {}
 
-    // The first and the one after the last of `count` points p + c step that lie within.
+    // The range [first, end) of the `count` points p + c step that are inside.
     void within(const glm::dvec3 &p, const glm::dvec3 &step, int count, int &first,
                 int &end) const {
         double low = 0.0, high = count - 1.0;
@@ -42,7 +42,7 @@ public:
             low = std::max(low, std::min(a, b));
             high = std::min(high, std::max(a, b));
         }
-        if (!(low <= high)) { // also what is not a number
+        if (!(low <= high)) { // also false for NaN
             first = end = 0;
             return;
         }
@@ -50,7 +50,7 @@ public:
         end = int(std::floor(high)) + 1;
     }
 
-    // Of a point within.
+    // *Requires*: the point is inside.
     float linear(const glm::dvec3 &p) const {
         const double x = std::clamp(p.x, 0.0, m_last.x), y = std::clamp(p.y, 0.0, m_last.y),
                      z = std::clamp(p.z, 0.0, m_last.z);
@@ -82,8 +82,8 @@ private:
     std::ptrdiff_t m_row, m_slice, m_nextX, m_nextY, m_nextZ;
 };
 
-// Distances from the middle of a slab at which it is sampled, and the share of each in its mean:
-// the trapezoidal rule.
+// Offsets from the middle of a slab at which it is sampled, and their weights in its mean by the
+// trapezoidal rule.
 struct Node {
     double mm, weight;
 };
@@ -92,7 +92,7 @@ std::vector<Node> nodesOf(double thicknessMm, double stepMm) {
         return {{0.0, 1.0}};
     const double half = 0.5 * thicknessMm;
     std::vector<double> at{-half};
-    const int steps = int(std::ceil(half / stepMm - 1e-9)) - 1; // strictly within
+    const int steps = int(std::ceil(half / stepMm - 1e-9)) - 1; // excluding the faces
     for (int k = -steps; k <= steps; ++k)
         at.push_back(k * stepMm);
     at.push_back(half);
@@ -105,7 +105,7 @@ std::vector<Node> nodesOf(double thicknessMm, double stepMm) {
     return nodes;
 }
 
-// Part of a row: the points of a slab, node by node.
+// A part of a row: the slab at its points, node by node.
 class SlabRun {
 public:
     static constexpr int most = SampleLine::mostPoints;
@@ -114,7 +114,7 @@ public:
         m_values.fill(empty());
         m_weights.fill(0.0F);
     }
-    // Values of the points from `first` on; one that is no number counts as outside.
+    // Adds the values of the points from `first` on; NaN counts as outside.
     void add(const float *values, int first, int end, float weight) {
         float *const held = m_values.data() + first, *const weights = m_weights.data() + first;
         const int count = end - first;
@@ -132,7 +132,7 @@ public:
             }
         }
     }
-    // Values of one point at several nodes.
+    // Adds the values of one point at several nodes.
     void addTo(int point, const float *values, const Node *nodes, int count) {
         float held = m_values[std::size_t(point)], weight = m_weights[std::size_t(point)];
         for (int n = 0; n < count; ++n) {
@@ -152,7 +152,7 @@ public:
     void store(float *out, std::ptrdiff_t gap) const {
         for (int c = 0; c < m_count; ++c, out += gap) {
             const float held = m_values[std::size_t(c)];
-            // Nothing of nothing is no number.
+            // A point without values becomes NaN.
             *out = m_mode == SlabMode::mean ? held / m_weights[std::size_t(c)]
                    : held == empty()        ? outside
                                             : held;
@@ -172,21 +172,21 @@ private:
     std::array<float, most> m_values, m_weights;
 };
 
-// Values along lines through a volume, by vector code where that can count its samples.
+// Values along lines through a volume, by vector code if 32-bit indices are enough for its samples.
 template <class T> class Lines {
 public:
     Lines(std::span<const T> samples, const volume::GridSize &size, Interpolation interpolation)
         : m_data(samples.data()), m_size(size), m_samples(samples.data(), size),
           m_interpolation(interpolation) {}
 
-    // Of `count` points, as many as a line may have; those of [first, end) are within.
+    // *Requires*: `count` is at most mostPoints. The points of [first, end) are inside.
     void sample(const glm::dvec3 &start, const glm::dvec3 &step, int count, float *values,
                 int &first, int &end) const {
         m_samples.within(start, step, count, first, end);
         if (first >= end)
             return;
         const glm::dvec3 from = start + double(first) * step;
-        // 32 bits count the samples of a line, and neighbours along rows are read in pairs.
+        // 32-bit indices count the samples of a line, and neighbours along rows are read in pairs.
         const double reach = SampleLine::mostPoints * (std::abs(step.z) + std::abs(step.y)) + 4.0;
         if (m_interpolation == Interpolation::linear && m_size.i > 1 &&
             reach * m_size.i * m_size.j < double(1 << 29)) {
@@ -207,11 +207,11 @@ private:
     Interpolation m_interpolation;
 };
 
-// A picture as an array of runs, each along `lane`. *Units*: voxels for a pixel, and for a mm.
+// A picture as an array of runs, each along `lane`. *Units*: voxels per pixel and per mm.
 struct Grid {
     glm::dvec3 first, lane, next, perMm;
     int lanes = 0, runs = 0;
-    std::ptrdiff_t laneGap = 0, runGap = 0; ///< in the picture
+    std::ptrdiff_t laneGap = 0, runGap = 0; ///< strides in the picture
 };
 
 Grid gridOf(const volume::Lattice &lattice, const Plane &plane) {
@@ -220,7 +220,8 @@ Grid gridOf(const volume::Lattice &lattice, const Plane &plane) {
     const glm::dvec3 right = lattice.voxel(plane.at(1, 0)).v - grid.first,
                      down = lattice.voxel(plane.at(0, 1)).v - grid.first;
     grid.perMm = lattice.voxel({plane.at(0, 0).mm + plane.axes.toViewer()}).v - grid.first;
-    // Lanes run along the volume's rows as far as may be: their samples lie side by side.
+    // Lanes follow the volume's rows as far as possible, because their samples are adjacent in
+    // memory.
     if (std::abs(right.x) >= std::abs(down.x)) {
         grid.lane = right;
         grid.next = down;
@@ -239,7 +240,7 @@ Grid gridOf(const volume::Lattice &lattice, const Plane &plane) {
     return grid;
 }
 
-// Adds what a run of points gives at the nodes of a slab.
+// Adds the values of a run of points at the nodes of a slab.
 template <class T>
 void addNodes(SlabRun &run, const Lines<T> &lines, const glm::dvec3 &start, int lanes,
               const Grid &grid, const std::vector<Node> &nodes) {
@@ -249,14 +250,14 @@ void addNodes(SlabRun &run, const Lines<T> &lines, const glm::dvec3 &start, int 
         lines.sample(start + node.mm * grid.perMm, grid.lane, lanes, values.data(), first, end);
         run.add(values.data(), first, end, float(node.weight));
     };
-    const int inner = int(nodes.size()) - 2; // those between the faces are evenly spaced
+    const int inner = int(nodes.size()) - 2; // nodes between the faces are evenly spaced
     const glm::dvec3 step = inner > 1 ? (nodes[2].mm - nodes[1].mm) * grid.perMm : glm::dvec3(0.0);
     if (inner <= 1 || std::abs(step.x) <= std::abs(grid.lane.x)) {
         for (const Node &node : nodes)
             addRun(node);
         return;
     }
-    // The slab's thickness lies along the rows of the volume: so do the lanes.
+    // The slab's thickness is along the rows of the volume, so nodes become lanes.
     addRun(nodes.front());
     addRun(nodes.back());
     for (int c = 0; c < lanes; ++c)
@@ -268,8 +269,8 @@ void addNodes(SlabRun &run, const Lines<T> &lines, const glm::dvec3 &start, int 
         }
 }
 
-// Tiles, so that what the nodes of a slab share is read once: their samples lie close together
-// whatever the direction.
+// Works in tiles, so that samples shared by the nodes of a slab are read once: they are close
+// together in every direction.
 constexpr int tileLanes = SlabRun::most, tileRuns = 16;
 
 template <class T>
@@ -297,7 +298,7 @@ SliceImage reslice(const volume::Volume &volume, const Plane &plane,
     SliceImage image{plane.width, plane.height,
                      std::vector<float>(std::size_t(plane.width) * plane.height)};
     const Grid grid = gridOf(lattice, plane);
-    // Across the slices of a stack from slice to slice; else no farther than to the next sample.
+    // Across the slices of a stack: from slice to slice; otherwise at most to the next sample.
     const ScrollRange range = scrollRange(lattice, plane.axes.toViewer());
     const glm::dvec3 perMm = glm::abs(grid.perMm);
     const std::vector<Node> nodes =

@@ -8,13 +8,13 @@
 
 namespace pellucid::mpr {
 
-/// What is between samples: a straight line, or the nearest sample.
+/// The value between samples: linear, or that of the nearest sample.
 enum class Interpolation { linear, nearest };
 
-/// What a slab shows of the values along its thickness.
+/// The value of a slab, from the values along its thickness.
 enum class SlabMode { mean, maximum, minimum };
 
-/// A plane with a thickness, half of it on either side. Thin: the plane itself.
+/// A plane with a thickness, half of it on each side. Thickness 0: the plane itself.
 struct Slab {
     double thicknessMm = 0.0;
     SlabMode mode = SlabMode::mean;
@@ -34,16 +34,17 @@ struct SliceImage {
     std::vector<float> values;
 };
 
-/// Samples on the volume's own lattice, tilted or not. A point belongs to the volume up to half a
-/// sample beyond the outer sample centres, where the outer samples go on.
+/// Samples on the volume's own lattice, tilted or not. The volume extends half a sample beyond the
+/// outer sample centres, with the outer samples' values.
 ///
-/// A slab is sampled at both faces and, from its middle, at every step of the lattice along its
-/// normal: where planes lie on slices, its extremes are those of the samples and its mean the
-/// integral of what is between them. Of a slab that is partly outside, the part inside counts.
+/// A slab is sampled at both faces and, starting from its middle, at every step of the lattice
+/// along its normal. If its planes coincide with slices, its extremes are those of the samples, and
+/// its mean is the integral of the interpolated values. Of a slab that is partly outside, only the
+/// inner part counts.
 SliceImage reslice(const volume::Volume &volume, const Plane &plane,
                    const ResliceOptions &options = {});
 
-/// The value at a point, as reslice gives it.
+/// The value at a point, as in a slice.
 float valueAt(const volume::Volume &volume, volume::PatientPoint point,
               Interpolation interpolation = Interpolation::linear);
 

@@ -14,10 +14,10 @@ namespace pellucid::parse {
 
 namespace {
 
-// Long values are shown nowhere.
-constexpr std::size_t longestText = 1024; // bytes; DICOM's longest texts have 10240 letters
+// Long values are not shown anywhere.
+constexpr std::size_t longestText = 1024; // in bytes; DICOM's longest texts have 10240 characters
 
-// All of the text, or it is none: half of one, as of "2,5", is another number.
+// Empty unless all of the text is a number: a part, as of "2,5", is a different number.
 std::optional<double> numberIn(std::string_view text) {
     const auto isPadding = [](char c) { return c == ' ' || c == '\0'; };
     while (!text.empty() && isPadding(text.front()))
@@ -38,7 +38,7 @@ std::optional<double> numberIn(std::string_view text) {
 std::string oneLine(std::string text) {
     if (text.size() > longestText) {
         std::size_t end = longestText;
-        while (end > 0 && (text[end] & 0xC0) == 0x80) // not within a letter
+        while (end > 0 && (text[end] & 0xC0) == 0x80) // not within a character
             --end;
         text.resize(end);
     }
@@ -61,14 +61,15 @@ std::string readText(DcmItem *item, const DcmTagKey &tag, const CharacterSets *s
     return oneLine(sets != nullptr ? sets->utf8(written, tag == DCM_PatientName) : written);
 }
 
-std::vector<double> readNumbers(DcmItem *item, const DcmTagKey &tag, std::size_t most) {
-    // As text, whatever the type: DCMTK's typed getters each take one value representation only.
+std::vector<double> readNumbers(DcmItem *item, const DcmTagKey &tag, std::size_t maxCount) {
+    // Read as text, whatever the type: each typed getter of DCMTK accepts only one value
+    // representation.
     std::vector<double> values;
     DcmElement *element = nullptr;
     if (item == nullptr || item->findAndGetElement(tag, element).bad())
         return values;
     OFString value;
-    while (values.size() < most &&
+    while (values.size() < maxCount &&
            element->getOFString(value, static_cast<unsigned long>(values.size())).good()) {
         const auto parsed = numberIn({value.data(), value.size()});
         if (!parsed)
@@ -83,9 +84,9 @@ std::optional<double> readNumber(DcmItem *item, const DcmTagKey &tag) {
     return values.empty() ? std::nullopt : std::optional(values[0]);
 }
 
-int readInteger(DcmItem *item, const DcmTagKey &tag, int otherwise) {
+int readInteger(DcmItem *item, const DcmTagKey &tag, int fallback) {
     const auto value = readNumber(item, tag);
-    return value && std::abs(*value) < 2e9 ? int(*value) : otherwise;
+    return value && std::abs(*value) < 2e9 ? int(*value) : fallback;
 }
 
 DcmItem *sequenceItem(DcmItem *item, const DcmTagKey &tag) {

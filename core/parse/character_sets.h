@@ -10,26 +10,26 @@ class DcmSpecificCharacterSet;
 
 namespace pellucid::parse {
 
-/// What turns the texts of a dataset into UTF-8, each by itself: one that is not what the character
-/// sets say keeps no other from being read (PS3.5, 6.1 and annexes H to K).
+/// Converts the texts of a dataset to UTF-8, each separately: one that violates the character sets
+/// does not affect the others (PS3.5, 6.1 and annexes H to K).
 class CharacterSets {
 public:
-    /// Those that the dataset names.
+    /// The character sets that the dataset names.
     explicit CharacterSets(DcmItem &dataset);
     ~CharacterSets();
     CharacterSets(const CharacterSets &) = delete;
     CharacterSets &operator=(const CharacterSets &) = delete;
 
-    /// *Shape*: `isName`: a person's, in which ^ and = begin a new part. A text that is not what
-    /// the character sets say stays as it is; those of iso2022.h get question marks for what is no
-    /// letter.
+    /// *Shape*: `isName`: a person name, in which ^ and = separate components. A text that violates
+    /// the character sets is returned unchanged; in those of iso2022.h invalid characters become
+    /// question marks.
     std::string utf8(const std::string &text, bool isName) const;
 
 private:
     enum class Way { none, dcmtk, iso2022 };
-    Way m_way = Way::none;
+    Way m_converter = Way::none;
     std::set<std::string> m_terms;
-    std::string m_first; ///< of them
+    std::string m_first; ///< the first one
     std::unique_ptr<DcmSpecificCharacterSet> m_dcmtk;
 };
 

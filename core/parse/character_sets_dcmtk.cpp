@@ -35,20 +35,20 @@ CharacterSets::CharacterSets(DcmItem &dataset) {
         return;
     const auto terms = termsOf({sets.data(), sets.size()});
     m_terms = {terms.begin(), terms.end()};
-    if (isOfIso2022(m_terms)) {
+    if (usesIso2022(m_terms)) {
         m_first = terms.front();
-        m_way = Way::iso2022;
+        m_converter = Way::iso2022;
     } else {
         m_dcmtk = std::make_unique<DcmSpecificCharacterSet>();
         if (m_dcmtk->selectCharacterSet(sets).good())
-            m_way = Way::dcmtk;
+            m_converter = Way::dcmtk;
     }
 }
 
 CharacterSets::~CharacterSets() = default;
 
 std::string CharacterSets::utf8(const std::string &text, bool isName) const {
-    switch (m_way) {
+    switch (m_converter) {
     case Way::iso2022:
         return utf8OfIso2022(text, m_terms, m_first);
     case Way::dcmtk: {

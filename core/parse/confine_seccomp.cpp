@@ -23,8 +23,8 @@ bool limit(int what, std::uint64_t most) {
     return ::setrlimit(__rlimit_resource_t(what), &both) == 0;
 }
 
-// Where memory ends all the same, this goes before the program that asked.
-void goFirst() {
+// If memory runs out all the same, this process is killed before the program that started it.
+void preferOutOfMemoryKill() {
     const int fd = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
     if (fd < 0)
         return;
@@ -33,18 +33,18 @@ void goFirst() {
 }
 
 bool limitResources() {
-    goFirst();
+    preferOutOfMemoryKill();
     bool holds = limit(RLIMIT_CORE, 0) && limit(RLIMIT_NPROC, 0) && limit(RLIMIT_MEMLOCK, 0);
-#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes, and write reports
+#ifndef PELLUCID_SANITIZED // sanitizers reserve terabytes and write reports
     holds = limit(RLIMIT_FSIZE, 0) && holds;
-    // What is its own: neither files nor the arena, which its parent fills, count.
+    // Limits private memory; files and the arena, which the parent fills, do not count.
     holds = limit(RLIMIT_DATA, system::freeMemoryBytes()) && holds;
-    ::prctl(PR_SET_DUMPABLE, 0); // no debugger but root's
+    ::prctl(PR_SET_DUMPABLE, 0); // only root may debug it
 #endif
     return holds;
 }
 
-// Each returns 0 if the filter took all of its rules.
+// Each call returns 0 if the filter accepted all of its rules.
 int allowCalls(scmp_filter_ctx filter) {
     int failed = 0;
     for (const int call : {SCMP_SYS(read),          SCMP_SYS(write),
@@ -68,8 +68,7 @@ int allowCalls(scmp_filter_ctx filter) {
     return failed;
 }
 
-// Memory, but none that could be run; and none that the limit does not count: private, or shared of
-// a file.
+// Allows memory that is not executable and that the limit counts, or shared memory of a file.
 int allowMemory(scmp_filter_ctx filter) {
     int failed = 0;
     failed |= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(mprotect), 1,
@@ -83,8 +82,8 @@ int allowMemory(scmp_filter_ctx filter) {
     return failed;
 }
 
-// No decoder ever tries these: somebody else does.
-int killIntruders(scmp_filter_ctx filter) {
+// No decoder ever makes these calls; an attempt means that it is compromised.
+int killForbiddenCalls(scmp_filter_ctx filter) {
     int failed = 0;
     for (const int call : {SCMP_SYS(execve),
                            SCMP_SYS(execveat),
@@ -115,15 +114,15 @@ int killIntruders(scmp_filter_ctx filter) {
     return failed;
 }
 
-// What is not named fails with EPERM: a library that tries to read a table goes on without it.
+// All other calls fail with EPERM, so a library that tries to read a table continues without it.
 bool filterCalls() {
     const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
     if (filter == nullptr)
         return false;
     int failed = allowCalls(filter);
     failed |= allowMemory(filter);
-    failed |= killIntruders(filter);
-    failed |= ::seccomp_load(filter); // forbids new privileges, too
+    failed |= killForbiddenCalls(filter);
+    failed |= ::seccomp_load(filter); // also forbids new privileges
     ::seccomp_release(filter);
     return failed == 0;
 }

@@ -8,8 +8,8 @@
 
 namespace pellucid::parse {
 
-/// Runs what a damaged file may surprise: DCMTK and OpenJPEG let exceptions of the standard library
-/// through. *Throws* task::Error only.
+/// Runs code that damaged files may break: DCMTK and OpenJPEG let exceptions of the standard
+/// library through. *Throws* task::Error only.
 template <class F> auto orDamaged(F &&f) {
     try {
         return f();

@@ -11,15 +11,15 @@ class DcmItem;
 
 namespace pellucid::parse {
 
-/// Drops all values that the file does not hold to their end, or that are longer than any that is
-/// read; not the pixels. DCMTK gives what is in memory already for the rest of such a value: of
-/// another file, perhaps, and gigabytes of it.
+/// Drops all values, except the pixels, that the file truncates or that are longer than any that is
+/// read. DCMTK would fill the rest of a truncated value with old memory contents: perhaps of
+/// another file, perhaps gigabytes.
 void dropUnreadable(DcmItem &dataset);
 
-/// The header of a loaded dataset; a mosaic is still one image. `fileBytes` bounds how many frames
-/// are believed: each takes a byte at least.
+/// The header of a loaded dataset; a mosaic is still one image. `fileBytes` limits the number of
+/// frames: each takes at least one byte.
 decoder::InstanceHeader headerOf(DcmDataset &dataset, std::size_t fileBytes);
-/// With what else the file says.
+/// The same, with the rest of the file's information.
 decoder::InstanceHeader headerOf(const LoadedFile &file, std::size_t fileBytes);
 
 } // namespace pellucid::parse

@@ -32,7 +32,7 @@ using task::ErrorCode;
     throw Error(ErrorCode::unusable, reason);
 }
 
-// Keeps `bits` low bits and spreads the sign over 16.
+// Keeps the `bits` low bits and extends the sign to 16.
 std::uint16_t extended(std::uint32_t value, int bits, bool isSigned) {
     const std::uint32_t mask = (1U << bits) - 1U;
     value &= mask;
@@ -41,8 +41,8 @@ std::uint16_t extended(std::uint32_t value, int bits, bool isSigned) {
     return std::uint16_t(value);
 }
 
-// The header decides whether values are signed; where the codestream disagrees its bits are the
-// two's complement of its own precision.
+// The header decides whether values are signed. If the codestream disagrees, its bits are the two's
+// complement at its own precision.
 template <class T>
 void takeFrame(const std::vector<T> &samples, int precision, std::size_t frame,
                DecodedImage &image) {
@@ -68,12 +68,13 @@ void decodeJpegXlFrames(const CompressedFrames &frames, DecodedImage &image) {
     }
 }
 
-// DCMTK decodes what does not fit its header to something. The most bits of all frames.
+// Checks the frames, because DCMTK also decodes what does not match its header. Returns the largest
+// precision of all frames.
 int checkJpegFrames(const CompressedFrames &frames, const InstanceHeader &h,
                     const std::string &syntaxUid) {
     const auto syntax = DcmXfer(syntaxUid.c_str()).getXfer();
-    // By the syntax: markers that its frames may begin with (ISO/IEC 10918-1, table B.1).
-    const auto isOfSyntax = [&](int process) {
+    // Markers that frames of the syntax may start with (ISO/IEC 10918-1, table B.1).
+    const auto matchesSyntax = [&](int process) {
         switch (syntax) {
         case EXS_JPEGLSLossless:
         case EXS_JPEGLSLossy:
@@ -83,7 +84,7 @@ int checkJpegFrames(const CompressedFrames &frames, const InstanceHeader &h,
             return process == 0xC3;
         case EXS_JPEGProcess1:
             return process == 0xC0;
-        default: // extended and progressive are told apart by their decoder
+        default: // the decoder distinguishes extended and progressive
             return process >= 0xC0 && process <= 0xC2;
         }
     };
@@ -94,7 +95,7 @@ int checkJpegFrames(const CompressedFrames &frames, const InstanceHeader &h,
             fail(because::frameHasNoHeader);
         requireMatchesHeader(frame->rows == 0 ? h.rows : frame->rows, frame->columns,
                              frame->components, frame->precision, h);
-        if (!isOfSyntax(frame->process))
+        if (!matchesSyntax(frame->process))
             fail(because::frameHasOtherCoding(fmt::format("FF{:02X}", frame->process),
                                               syntaxName(syntaxUid)));
         precision = std::max(precision, frame->precision);
@@ -109,8 +110,8 @@ void checkRleFrames(const CompressedFrames &frames, const InstanceHeader &h) {
             fail(*why);
 }
 
-// Whether the decoder's words hold more bits than the header's samples have. In a stream as wide as
-// the words, what lies above them may be left at 0, signed or not, as in plain samples.
+// Whether the decoder's words use more bits than the header's samples have. In a stream as wide as
+// the words, the bits above may be 0, signed or not, as in plain samples.
 bool exceedsStored(DcmDataset &dataset, const InstanceHeader &h, int precision) {
     if (h.bitsAllocated != 16)
         return false;
@@ -130,7 +131,7 @@ bool exceedsStored(DcmDataset &dataset, const InstanceHeader &h, int precision) 
     return false;
 }
 
-// By DCMTK's coders, which the data set then holds the samples of.
+// Decodes with DCMTK's codecs; the data set then holds the samples.
 void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::size_t fileBytes,
                    InstanceHeader &h) {
     DcmDataset &dataset = file.dataset();
@@ -145,7 +146,7 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
     const OFCondition decoded = dataset.chooseRepresentation(EXS_LittleEndianExplicit, nullptr);
     if (decoded.bad())
         fail(because::codecReports(transfer.getXferName(), decoded.text()));
-    h.hasDamagedPixels = warnings.sayDamaged();
+    h.hasDamagedPixels = warnings.foundDamage();
     // The decoder may have widened or narrowed the samples.
     const InstanceHeader after = headerOf(dataset, fileBytes);
     h.bitsAllocated = after.bitsAllocated;
@@ -157,13 +158,14 @@ void decodeByDcmtk(const LoadedFile &file, const CompressedFrames &frames, std::
         fail(because::compressedImageContradictsHeader);
     if (precision > h.bitsStored && exceedsStored(dataset, h, precision)) {
         h.oddities |= decoder::otherPrecision;
-        // A stream as wide as the words says nothing of their bits: plain samples are masked, too.
+        // A stream as wide as the words does not tell their bits: its samples are masked like plain
+        // ones.
         if (precision < h.bitsAllocated) {
             h.bitsStored = precision;
             h.highBit = precision - 1;
         }
     } else if (!isRle && precision <= h.highBit) {
-        // The codestream has no bit as high as the header says: its samples fill the low bits.
+        // The codestream has fewer bits than the header's high bit: its samples fill the low bits.
         h.highBit = h.bitsStored - 1;
     }
 }
@@ -187,7 +189,7 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
             take(data);
             return;
         }
-        // 8 bits stored as words (OW): two samples a word, the first in the low byte.
+        // 8 bits stored as words (OW): two samples per word, the first in the low byte.
         const Uint16 *words = nullptr;
         dataset.findAndGetUint16Array(DCM_PixelData, words, &count);
         count *= 2;
@@ -203,8 +205,7 @@ void decodePlainFrames(DcmDataset &dataset, DecodedImage &image) {
     take(data);
 }
 
-// Compressed pixels of a length that is said are what a compressed frame begins with, or they are
-// plain after all.
+// Compressed pixels with a defined length start like a compressed frame; otherwise they are plain.
 bool isPlain(const LoadedFile &file, const InstanceHeader &h) {
     if (isNative(file.syntaxUid))
         return true;
@@ -218,11 +219,11 @@ bool isPlain(const LoadedFile &file, const InstanceHeader &h) {
     return !beginsCodestream({reinterpret_cast<const std::byte *>(data), element->getLength()});
 }
 
-// No coder in use packs more samples into a byte, not even of an empty image; what announces more
-// is refused before memory is asked for.
+// No codec in use packs more samples into a byte, not even of an empty image. A file that declares
+// more is refused before memory is allocated.
 void requireRoom(std::size_t samples, bool isPlainAndWhole, std::size_t fileBytes) {
-    constexpr std::size_t mostSamplesPerByte = 20000;
-    if (samples / (isPlainAndWhole ? 1 : mostSamplesPerByte) > fileBytes)
+    constexpr std::size_t maxSamplesPerByte = 20000;
+    if (samples / (isPlainAndWhole ? 1 : maxSamplesPerByte) > fileBytes)
         fail(because::pixelsTruncated);
 }
 
@@ -253,7 +254,7 @@ DecodedImage decoded(std::span<const std::byte> bytes) {
     if (const auto reason = whyUnusable(h))
         fail(*reason);
     const auto mosaic = mosaicOf(file.dataset(), h);
-    // DCMTK keeps what it has of an element that the file does not finish, and fills the rest.
+    // For an element that the file truncates, DCMTK keeps the part that exists and fills the rest.
     DcmElement *pixels = nullptr;
     if (!file.isComplete && file.dataset().findAndGetElement(DCM_PixelData, pixels).good() &&
         pixels->transferState() != ERW_ready && (h.oddities & decoder::missingDelimiter) == 0)
@@ -267,7 +268,7 @@ DecodedImage decoded(std::span<const std::byte> bytes) {
     image.samples.resize(samples);
     decodeFrames(file, bytes.size(), image);
     if (mosaic) {
-        takeApart(h, *mosaic);
+        splitTiles(h, *mosaic);
         image.samples = tilesOf(image.samples, *mosaic, h.rows, h.columns);
     }
     return image;

@@ -9,8 +9,8 @@
 
 namespace pellucid::parse {
 
-/// Decodes a codestream or JP2 file of one component.
-/// *Throws* Error{unusable}, also if it is not what the data set's header says.
+/// Decodes a codestream or JP2 file of one component. *Throws* Error{unusable}, also if it does not
+/// match the data set's header.
 dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
                                     const decoder::InstanceHeader &expected);
 

@@ -50,8 +50,8 @@ OPJ_BOOL seekBytes(OPJ_OFF_T to, void *user) {
     return OPJ_TRUE;
 }
 
-// The marker that ends a codestream, before what makes the length even: zeros, or the bytes of
-// erased memory. A codestream in a JP2 file may have boxes after it.
+// Finds the marker that ends a codestream. It may be followed by padding to an even length: zeros,
+// or the bytes of erased memory. A codestream in a JP2 file may have boxes after it.
 bool hasEnd(std::span<const std::byte> data) {
     while (!data.empty() && (data.back() == std::byte(0) || data.back() == std::byte(0xFF)))
         data = data.first(data.size() - 1);
@@ -86,10 +86,10 @@ dcmtk::Jpeg2000Image decodeJpeg2000(std::span<const std::byte> data,
     const Image image(raw);
     if (header == OPJ_FALSE || !image || image->numcomps < 1)
         fail(because::damagedHeader);
-    // The sizes are checked before the decoder asks for memory.
+    // The sizes are checked before the decoder allocates memory.
     requireMatchesHeader(std::int64_t(image->y1) - image->y0, std::int64_t(image->x1) - image->x0,
                          int(image->numcomps), int(image->comps[0].prec), expected);
-    // Damaged blocks are decoded to something, and so is what has lost its end.
+    // The decoder also decodes damaged blocks and truncated streams.
     bool hasWarned = false;
     opj_set_warning_handler(
         codec.get(), [](const char *, void *warned) { *static_cast<bool *>(warned) = true; },

@@ -3,8 +3,8 @@
 
 namespace pellucid::parse {
 
-/// Listens, as long as it lives, to what DCMTK's decoders of pixels say on their log alone: they go
-/// on with damaged data. One at a time.
+/// While it exists, captures the warnings that DCMTK's pixel decoders only log before they continue
+/// with damaged data. One at a time.
 class DecoderWarnings {
 public:
     DecoderWarnings();
@@ -12,8 +12,8 @@ public:
     DecoderWarnings(const DecoderWarnings &) = delete;
     DecoderWarnings &operator=(const DecoderWarnings &) = delete;
 
-    /// Whether one of them found its data damaged or too short.
-    bool sayDamaged() const;
+    /// Whether a decoder found its data damaged or truncated.
+    bool foundDamage() const;
 };
 
 } // namespace pellucid::parse

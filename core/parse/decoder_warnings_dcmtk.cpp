@@ -20,16 +20,17 @@ bool isDamaged = false;
 
 class Listener : public log::NullAppender {
     void append(const log::spi::InternalLoggingEvent &event) override {
-        const OFString &said = event.getMessage();
-        // A byte or two between the end of the pixels and the next marker is padding; more is what
-        // a decoder that lost its way leaves.
-        constexpr int mostPadding = 3;
+        const OFString &message = event.getMessage();
+        // A byte or two between the end of the pixels and the next marker is padding; more means
+        // that the decoder lost synchronisation.
+        constexpr int maxPadding = 3;
         int extraneous = 0;
-        if (std::sscanf(said.c_str(), "Corrupt JPEG data: %d extraneous", &extraneous) == 1 &&
-            extraneous <= mostPadding)
+        if (std::sscanf(message.c_str(), "Corrupt JPEG data: %d extraneous", &extraneous) == 1 &&
+            extraneous <= maxPadding)
             return;
-        for (const char *const what : {"Corrupt JPEG", "Premature end"}) // of the JPEG library
-            isDamaged = isDamaged || said.find(what) != OFString_npos;
+        for (const char *const text :
+             {"Corrupt JPEG", "Premature end"}) // messages of the JPEG library
+            isDamaged = isDamaged || message.find(text) != OFString_npos;
     }
 };
 
@@ -47,7 +48,7 @@ DecoderWarnings::~DecoderWarnings() {
     log::Logger::getRoot().setLogLevel(OFLogger::OFF_LOG_LEVEL);
 }
 
-bool DecoderWarnings::sayDamaged() const {
+bool DecoderWarnings::foundDamage() const {
     return isDamaged;
 }
 

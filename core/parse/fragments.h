@@ -12,26 +12,26 @@ namespace pellucid::parse {
 
 using Bytes = std::span<const std::byte>;
 
-/// The compressed pixels of a data set, frame by frame: one fragment a frame, or several of which
-/// the offset table or how a frame begins tells the first. One of another length than undefined is
-/// one fragment.
+/// The compressed pixels of a data set by frame. A frame is one fragment, or several if the offset
+/// table or the start of a frame shows where it begins. An element of defined length is one
+/// fragment.
 class CompressedFrames {
 public:
-    /// *Throws* Error{unusable} if there are none, or other than announced. The data set must
-    /// outlive this. `begins`: whether a fragment begins a frame.
+    /// *Throws* Error{unusable} if there are no frames, or not as many as declared. *Requires*: the
+    /// data set outlives this object. `startsFrame`: whether a fragment starts a frame.
     CompressedFrames(DcmDataset &dataset, std::size_t frames,
-                     const std::function<bool(Bytes)> &begins);
+                     const std::function<bool(Bytes)> &startsFrame);
 
     std::size_t count() const { return m_starts.size() - 1; }
-    /// Joined where it is of several fragments.
+    /// The frame's data, joined if it has several fragments.
     std::vector<std::byte> frame(std::size_t n) const;
 
 private:
     std::vector<Bytes> m_fragments;
-    std::vector<std::size_t> m_starts; ///< of each frame, and the end
+    std::vector<std::size_t> m_starts; ///< first fragment of each frame, and the end
 };
 
-/// Whether a fragment begins a codestream of JPEG, JPEG-LS, JPEG 2000 or JPEG XL, or a file of it.
+/// Whether a fragment starts a JPEG, JPEG-LS, JPEG 2000 or JPEG XL codestream or file.
 bool beginsCodestream(Bytes fragment);
 
 } // namespace pellucid::parse

@@ -39,7 +39,7 @@ DcmPixelSequence *sequenceOf(DcmDataset &dataset, DcmElement *&element) {
     return sequence;
 }
 
-// Offsets count from the first byte after the table: each fragment has eight before it.
+// Offsets count from the first byte after the table; each fragment is preceded by eight bytes.
 std::vector<std::size_t> startsByTable(Bytes table, const std::vector<Bytes> &fragments) {
     std::map<std::uint32_t, std::size_t> places;
     std::uint64_t at = 0;
@@ -63,12 +63,12 @@ std::vector<std::size_t> startsByTable(Bytes table, const std::vector<Bytes> &fr
 } // namespace
 
 CompressedFrames::CompressedFrames(DcmDataset &dataset, std::size_t frames,
-                                   const std::function<bool(Bytes)> &begins) {
+                                   const std::function<bool(Bytes)> &startsFrame) {
     DcmElement *element = nullptr;
     DcmPixelSequence *const sequence = sequenceOf(dataset, element);
     Bytes table;
     if (sequence != nullptr) {
-        // From item to item: asked for by its number, each would be counted from the first.
+        // Iterates, because access by index counts from the first item each time.
         for (DcmObject *object = sequence->nextInContainer(nullptr); object != nullptr;
              object = sequence->nextInContainer(object)) {
             auto *const item = dynamic_cast<DcmPixelItem *>(object);
@@ -89,7 +89,7 @@ CompressedFrames::CompressedFrames(DcmDataset &dataset, std::size_t frames,
             fail(because::compressedPixelsNotReadable);
         m_fragments.emplace_back(reinterpret_cast<const std::byte *>(data), element->getLength());
     }
-    if (frames == 1 && !m_fragments.empty()) { // whatever its fragments begin with
+    if (frames == 1 && !m_fragments.empty()) { // whatever its fragments start with
         m_starts = {0};
     } else if (m_fragments.size() == frames) {
         for (std::size_t n = 0; n < frames; ++n)
@@ -99,7 +99,7 @@ CompressedFrames::CompressedFrames(DcmDataset &dataset, std::size_t frames,
         if (m_starts.size() != frames) {
             m_starts.clear();
             for (std::size_t n = 0; n < m_fragments.size(); ++n)
-                if (begins(m_fragments[n]))
+                if (startsFrame(m_fragments[n]))
                     m_starts.push_back(n);
         }
     }

@@ -26,17 +26,17 @@ std::size_t littleEndian32(std::span<const std::byte> bytes, std::size_t at) {
     return value;
 }
 
-// The bytes that a segment gives, as far as they are wanted; `rest`: of it that is left over.
+// The number of bytes that a segment unpacks to, up to `wanted`; `rest`: its unused bytes.
 std::size_t unpackedBytes(std::span<const std::byte> segment, std::size_t wanted,
                           std::size_t &rest) {
     std::size_t at = 0, given = 0;
     while (given < wanted && at < segment.size()) {
         const int control = byteAt(segment, at++);
-        if (control < 128) { // so many and one literal bytes
+        if (control < 128) { // control + 1 literal bytes follow
             const std::size_t literal = std::min(std::size_t(control) + 1, segment.size() - at);
             given += literal;
             at += literal;
-        } else if (control > 128 && at < segment.size()) { // the next byte, repeated
+        } else if (control > 128 && at < segment.size()) { // the next byte is repeated
             given += std::size_t(257 - control);
             ++at;
         }
@@ -64,20 +64,20 @@ std::optional<JpegFrame> jpegFrame(std::span<const std::byte> frame) {
     std::size_t at = 0;
     while (at + 4 <= frame.size()) {
         if (byteAt(frame, at) != 0xFF) {
-            ++at; // what some writers put before a marker
+            ++at; // some writers put it before a marker
             continue;
         }
         const int marker = byteAt(frame, at + 1);
-        if (marker == 0xFF) { // fill bytes
+        if (marker == 0xFF) { // fill byte
             ++at;
             continue;
         }
         at += 2;
-        const bool standsAlone =
+        const bool hasNoLength =
             marker == 0xD8 || marker == 0x01 || (marker >= 0xD0 && marker <= 0xD7);
-        if (standsAlone || marker == 0x00)
+        if (hasNoLength || marker == 0x00)
             continue;
-        if (marker == 0xDA || marker == 0xD9) // the pixels, or the end
+        if (marker == 0xDA || marker == 0xD9) // start of the pixels, or the end
             return std::nullopt;
         const bool isFrame = (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 &&
                               marker != 0xC8 && marker != 0xCC) ||
@@ -108,7 +108,7 @@ std::optional<task::Reason> whyIncompleteRle(std::span<const std::byte> frame, i
         const std::size_t given = unpackedBytes(frame.subspan(begin, end - begin), wanted, rest);
         if (given != wanted)
             return because::runSegmentIsShort(given, wanted);
-        // A segment of an odd length is padded, and some writers pad to more.
+        // A segment of odd length is padded, and some writers add more.
         const auto padding = frame.subspan(end - rest, rest);
         if (std::any_of(padding.begin(), padding.end(),
                         [](std::byte b) { return b != std::byte(0) && b != std::byte(128); }))

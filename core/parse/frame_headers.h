@@ -12,13 +12,13 @@ class DcmItem;
 
 namespace pellucid::parse {
 
-/// The display windows that an item states, each once.
+/// The display windows in an item, each once.
 std::vector<volume::ValueWindow> readWindows(DcmItem &item, const CharacterSets &sets);
 
-/// Reads the frames of a data set into its header: place, rescale and dimensions of each, from the
-/// top of the data set, the groups that frames share, and those of each frame. Windows and the type
-/// of the rescale come from the groups only if the header has none yet. `fileBytes` bounds how many
-/// frames are believed: each takes a byte at least.
+/// Reads the frames of a data set into its header: position, rescale and dimensions of each, from
+/// the top level, the shared functional groups and those of each frame. Windows and the rescale
+/// type come from the groups only if the header has none yet. `fileBytes` limits the number of
+/// frames: each takes at least one byte.
 void readFrames(DcmDataset &dataset, const CharacterSets &sets, std::size_t fileBytes,
                 decoder::InstanceHeader &header);
 

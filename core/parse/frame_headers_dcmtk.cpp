@@ -29,12 +29,13 @@ std::optional<glm::dvec3> vector3(const std::vector<double> &v, std::size_t at) 
     return glm::dvec3(v[at], v[at + 1], v[at + 2]);
 }
 
-// Everything that can stand at the top of a file, in the shared groups, or in the groups of a
+// Each of these may be at the top level of a file, in the shared groups, or in the groups of a
 // frame.
 void readOrientation(DcmItem *item, FrameHeader &frame) {
     const auto cosines = readNumbers(item, DCM_ImageOrientationPatient, 6);
     const auto row = vector3(cosines, 0), column = vector3(cosines, 3);
-    // Both axes must be about unit length and about orthogonal, or the attribute is rubbish.
+    // Both axes must be about unit length and about orthogonal, otherwise the attribute is
+    // nonsense.
     if (row && column && std::abs(glm::length(*row) - 1.0) < 0.05 &&
         std::abs(glm::length(*column) - 1.0) < 0.05 && std::abs(glm::dot(*row, *column)) < 0.05) {
         frame.rowAxis = glm::normalize(*row);
@@ -50,7 +51,7 @@ void readPosition(DcmItem *item, FrameHeader &frame) {
 
 void readMeasures(DcmItem *item, FrameHeader &frame) {
     const auto spacing = readNumbers(item, DCM_PixelSpacing, 2);
-    // The attribute gives the distance of rows first.
+    // The attribute gives the distance between rows first.
     if (spacing.size() == 2 && std::min(spacing[0], spacing[1]) >= decoder::smallestSpacingMm &&
         std::max(spacing[0], spacing[1]) <= decoder::largestSpacingMm)
         frame.spacingMm = glm::dvec2(spacing[1], spacing[0]);
@@ -59,7 +60,7 @@ void readMeasures(DcmItem *item, FrameHeader &frame) {
             frame.sliceThicknessMm = *mm;
 }
 
-// Below, values would all be the same.
+// Below this, all values would be equal.
 constexpr double smallestRescale = 1e-30;
 
 bool isMultiple(DcmItem *item, const DcmTagKey &tag) {
@@ -67,11 +68,11 @@ bool isMultiple(DcmItem *item, const DcmTagKey &tag) {
     return item->findAndGetElement(tag, element).good() && element->getVM() > 1;
 }
 
-// What is there and cannot be used is remembered: without it the values would be others.
+// An unusable value is recorded, because ignoring it changes the values.
 void readRescale(DcmItem *item, FrameHeader &frame) {
     decoder::Rescale &rescale = frame.rescale;
     const auto take = [&](const DcmTagKey &tag, double &into, bool &isReadable) {
-        if (readText(item, tag).empty()) // blanked, or not there
+        if (readText(item, tag).empty()) // empty or missing
             return;
         const auto value = readNumber(item, tag);
         isReadable = value && std::abs(*value) <= decoder::largestRescale &&
@@ -95,7 +96,7 @@ void readDimensions(DcmItem *item, FrameHeader &frame) {
         {"echo", DCM_EchoNumbers},
         {"echo", DCM_EchoTime},
         {"b-value", DCM_DiffusionBValue},
-        {"b-value", DcmTagKey(0x0043, 0x1039)}, // GE's private place for it
+        {"b-value", DcmTagKey(0x0043, 0x1039)}, // GE's private attribute
         {"trigger time", DCM_TriggerTime},
         {"stack", DCM_StackID},
         {"acquisition time", DCM_AcquisitionTime},
@@ -124,7 +125,7 @@ void readFunctionalGroups(DcmItem *groups, FrameHeader &frame) {
             frame.dimensions["echo"] = value;
 }
 
-// What the top of a data set says of all its frames.
+// The top-level attributes, which apply to all frames.
 FrameHeader frameAtTop(DcmDataset &dataset) {
     FrameHeader frame;
     frame.imageType = readText(&dataset, DCM_ImageType);
@@ -143,10 +144,10 @@ void readMissingWindows(DcmItem *groups, const CharacterSets &sets, InstanceHead
         header.windows = readWindows(*lut, sets);
 }
 
-// Each frame as all of them, `shared`, but for what its own groups say.
+// Each frame is a copy of `shared`, changed by its own groups.
 void readPerFrame(DcmDataset &dataset, const CharacterSets &sets, const FrameHeader &shared,
                   int frames, InstanceHeader &header) {
-    // From item to item: asked for by its number, each would be counted from the first.
+    // Iterates, because access by index counts from the first item each time.
     DcmSequenceOfItems *perFrame = nullptr;
     dataset.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, perFrame);
     DcmObject *item = perFrame != nullptr ? perFrame->nextInContainer(nullptr) : nullptr;
@@ -154,12 +155,13 @@ void readPerFrame(DcmDataset &dataset, const CharacterSets &sets, const FrameHea
         FrameHeader frame = shared;
         if (auto *const groups = dynamic_cast<DcmItem *>(item)) {
             readFunctionalGroups(groups, frame);
-            // The middle one has what a study is about; of the ends that is not sure.
+            // The middle frame shows the subject of the study; the first and last may not.
             if (n == frames / 2)
                 readMissingWindows(groups, sets, header);
             item = perFrame->nextInContainer(item);
         } else if (frames > 1) {
-            // A multi-frame image without groups of its own repeats one position: it says nothing.
+            // A multi-frame image without functional groups repeats one position, which is
+            // meaningless.
             frame.positionMm.reset();
         }
         header.frames.push_back(std::move(frame));
@@ -196,10 +198,10 @@ void readFrames(DcmDataset &dataset, const CharacterSets &sets, std::size_t file
         readMissingWindows(sharedGroups, sets, header);
     }
     const auto count = readNumber(&dataset, DCM_NumberOfFrames);
-    const bool isCounted = count && *count >= 1.0;
-    const double most = std::min(double(decoder::mostFrames), double(fileBytes));
-    header.announcedFrames = isCounted ? int(std::min(*count, 2147483647.0)) : 1;
-    readPerFrame(dataset, sets, shared, isCounted ? int(std::min(*count, most)) : 1, header);
+    const bool hasCount = count && *count >= 1.0;
+    const double most = std::min(double(decoder::maxFrames), double(fileBytes));
+    header.announcedFrames = hasCount ? int(std::min(*count, 2147483647.0)) : 1;
+    readPerFrame(dataset, sets, shared, hasCount ? int(std::min(*count, most)) : 1, header);
     if (DcmItem *transform = sequenceItem(sharedGroups, DCM_PixelValueTransformationSequence);
         transform != nullptr && header.rescaleType.empty())
         header.rescaleType = readText(transform, DCM_RescaleType);

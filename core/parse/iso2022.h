@@ -7,13 +7,13 @@
 
 namespace pellucid::parse {
 
-/// Whether a text of these character sets (the terms of SpecificCharacterSet) is converted here:
-/// Japanese (ISO 2022 IR 13, 87, 159) and Latin 9 (203), which DCMTK leaves to an iconv that need
-/// not know them; others of one byte beside them, too.
-bool isOfIso2022(const std::set<std::string> &terms);
+/// Whether texts of these character sets (the terms of SpecificCharacterSet) are converted here:
+/// Japanese (ISO 2022 IR 13, 87, 159) and Latin 9 (203), which DCMTK leaves to an iconv that may
+/// not know them, also in combination with other single-byte sets.
+bool usesIso2022(const std::set<std::string> &terms);
 
-/// As UTF-8; what is no letter becomes a question mark. *Source*: PS3.5, 6.1.2.5 and annex H.
-/// `first`: the first term, whose letters need no designation; or empty.
+/// Converts to UTF-8; invalid characters become question marks. *Source*: PS3.5, 6.1.2.5 and annex
+/// H. `first`: the first term, whose characters need no designation; or empty.
 std::string utf8OfIso2022(std::string_view text, const std::set<std::string> &terms,
                           const std::string &first);
 

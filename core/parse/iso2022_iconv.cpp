@@ -13,13 +13,13 @@ namespace pellucid::parse {
 
 namespace {
 
-// What bytes from 0x80 are of, beside letters of ASCII.
+// The set of bytes from 0x80 up, besides ASCII.
 enum class High { none, katakana, table };
 
 struct Set {
     std::string_view number; ///< "100" of ISO_IR 100 and ISO 2022 IR 100
-    char designation;        ///< behind ESC -
-    const char *name;        ///< for iconv
+    char designation;        ///< after ESC -
+    const char *name;        ///< name for iconv
 };
 constexpr std::array sets{
     Set{"100", 'A', "ISO-8859-1"},  Set{"101", 'B', "ISO-8859-2"}, Set{"109", 'C', "ISO-8859-3"},
@@ -27,7 +27,7 @@ constexpr std::array sets{
     Set{"126", 'F', "ISO-8859-7"},  Set{"138", 'H', "ISO-8859-8"}, Set{"148", 'M', "ISO-8859-9"},
     Set{"203", 'b', "ISO-8859-15"}, Set{"166", 'T', "TIS-620"}};
 
-// What letters of two bytes are of, until the next designation.
+// The set of two-byte characters, until the next designation.
 enum class Designated { single, jis0208, jis0212 };
 
 struct Escape {
@@ -39,29 +39,29 @@ constexpr std::array escapes{
     Escape{"\x1b$B", Designated::jis0208}, Escape{"\x1b$@", Designated::jis0208},
     Escape{"\x1b$(D", Designated::jis0212}};
 
-// What is no letter becomes a question mark, and the next ones are read. `width`: bytes of a
-// letter.
+// An invalid character becomes a question mark, and reading continues. `width`: bytes per
+// character.
 std::string converted(std::string bytes, const char *from, std::size_t width) {
     const iconv_t converter = ::iconv_open("UTF-8", from);
     if (reinterpret_cast<std::intptr_t>(converter) == -1)
         return "?";
     std::string out(4 * bytes.size() + 8, '\0');
     char *in = bytes.data(), *to = out.data();
-    std::size_t left = bytes.size(), room = out.size();
-    while (::iconv(converter, &in, &left, &to, &room) == std::size_t(-1) && room > 0) {
+    std::size_t left = bytes.size(), space = out.size();
+    while (::iconv(converter, &in, &left, &to, &space) == std::size_t(-1) && space > 0) {
         *to++ = '?';
-        --room;
+        --space;
         if (errno != EILSEQ || left < width)
             break;
         in += width;
         left -= width;
     }
     ::iconv_close(converter);
-    out.resize(out.size() - room);
+    out.resize(out.size() - space);
     return out;
 }
 
-// Katakana of half width (JIS X 0201) lie in one row, here and in Unicode from U+FF61.
+// Half-width katakana (JIS X 0201) are contiguous, here and in Unicode from U+FF61.
 std::string katakana(unsigned char byte) {
     if (byte < 0xA1 || byte > 0xDF)
         return "?";
@@ -74,21 +74,21 @@ bool hasTerm(const std::set<std::string> &terms, std::string_view number) {
            terms.contains("ISO 2022 IR " + std::string(number));
 }
 
-// What a text that is being read has designated.
+// The sets designated so far in a text.
 class Reader {
 public:
     Reader(const std::set<std::string> &terms, const std::string &first) {
         for (const Set &set : sets)
             if (hasTerm({first}, set.number))
                 setHigh(High::table, set.name);
-        // Writers leave the designation of katakana out.
+        // Some writers omit the designation of katakana.
         if (m_high == High::none && hasTerm(terms, "13"))
             setHigh(High::katakana, nullptr);
         m_initial = m_high;
         m_initialTable = m_table;
     }
 
-    // Of bytes up to the next designation: one of two may look like a delimiter.
+    // Reads up to the next designation: the second byte of a character may look like a delimiter.
     std::string read(const std::string &part) {
         if (m_designated == Designated::jis0208)
             return converted("\x1b$B" + part + "\x1b(B", "ISO-2022-JP-2", 2);
@@ -96,7 +96,8 @@ public:
             return converted("\x1b$(D" + part + "\x1b(B", "ISO-2022-JP-2", 2);
         std::string out;
         for (std::size_t at = 0; at < part.size();) {
-            if (part[at] == '^' || part[at] == '=') // each part of a name begins anew
+            if (part[at] == '^' ||
+                part[at] == '=') // designations end with each component of a name
                 setHigh(m_initial, m_initialTable);
             const std::size_t end = std::min(part.find_first_of("^=", at + 1), part.size());
             out += readSingle(part.substr(at, end - at));
@@ -105,7 +106,7 @@ public:
         return out;
     }
 
-    // The length of the designation that a text begins with; 0: it begins with none.
+    // The length of the designation at the start of a text; 0: none.
     std::size_t designate(std::string_view text) {
         for (const Escape &escape : escapes)
             if (text.starts_with(escape.bytes)) {
@@ -150,7 +151,7 @@ private:
 
 } // namespace
 
-bool isOfIso2022(const std::set<std::string> &terms) {
+bool usesIso2022(const std::set<std::string> &terms) {
     const auto numbers = {"13", "87", "159", "203"};
     return std::any_of(numbers.begin(), numbers.end(),
                        [&](const char *number) { return hasTerm(terms, number); });

@@ -16,8 +16,8 @@ struct JpegXlImage {
     std::vector<std::uint16_t> samples;
 };
 
-/// Decodes a codestream or a container of one component.
-/// *Throws* Error{unusable}, also if it is not what the data set's header says.
+/// Decodes a codestream or a container of one component. *Throws* Error{unusable}, also if it does
+/// not match the data set's header.
 JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::InstanceHeader &expected);
 
 } // namespace pellucid::parse

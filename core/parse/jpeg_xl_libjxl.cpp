@@ -30,24 +30,25 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::Instanc
     const std::unique_ptr<JxlDecoder, Destroy> decoder(JxlDecoderCreate(nullptr));
     if (!decoder)
         throw std::bad_alloc();
-    const auto must = [](JxlDecoderStatus status) {
+    const auto requireSuccess = [](JxlDecoderStatus status) {
         if (status != JXL_DEC_SUCCESS)
             fail(because::decoderCannotBeSetUp);
     };
-    must(JxlDecoderSubscribeEvents(decoder.get(), JXL_DEC_BASIC_INFO | JXL_DEC_FULL_IMAGE));
-    // Turning is the viewer's, as for all other syntaxes.
-    must(JxlDecoderSetKeepOrientation(decoder.get(), JXL_TRUE));
-    must(JxlDecoderSetInput(decoder.get(), reinterpret_cast<const std::uint8_t *>(data.data()),
-                            data.size()));
+    requireSuccess(
+        JxlDecoderSubscribeEvents(decoder.get(), JXL_DEC_BASIC_INFO | JXL_DEC_FULL_IMAGE));
+    // Rotation is left to the viewer, as for all other syntaxes.
+    requireSuccess(JxlDecoderSetKeepOrientation(decoder.get(), JXL_TRUE));
+    requireSuccess(JxlDecoderSetInput(
+        decoder.get(), reinterpret_cast<const std::uint8_t *>(data.data()), data.size()));
     JxlDecoderCloseInput(decoder.get());
     const JxlPixelFormat format{1, JXL_TYPE_UINT16, JXL_NATIVE_ENDIAN, 0};
     JpegXlImage image;
     for (;;) {
         switch (JxlDecoderProcessInput(decoder.get())) {
         case JXL_DEC_BASIC_INFO: {
-            // The sizes are checked before the decoder asks for memory.
+            // The sizes are checked before the decoder allocates memory.
             JxlBasicInfo info{};
-            must(JxlDecoderGetBasicInfo(decoder.get(), &info));
+            requireSuccess(JxlDecoderGetBasicInfo(decoder.get(), &info));
             requireMatchesHeader(info.ysize, info.xsize,
                                  int(info.num_color_channels + info.num_extra_channels),
                                  int(info.bits_per_sample), expected);
@@ -59,15 +60,16 @@ JpegXlImage decodeJpegXl(std::span<const std::byte> data, const decoder::Instanc
         }
         case JXL_DEC_NEED_IMAGE_OUT_BUFFER:
             image.samples.resize(std::size_t(expected.rows) * std::size_t(expected.columns));
-            must(JxlDecoderSetImageOutBuffer(decoder.get(), &format, image.samples.data(),
-                                             image.samples.size() * sizeof(std::uint16_t)));
+            requireSuccess(
+                JxlDecoderSetImageOutBuffer(decoder.get(), &format, image.samples.data(),
+                                            image.samples.size() * sizeof(std::uint16_t)));
             break;
         case JXL_DEC_FULL_IMAGE:
             break;
         case JXL_DEC_SUCCESS: {
             if (image.samples.empty())
                 fail(because::holdsNoImage);
-            // Integers come scaled to 16 bits.
+            // The decoder returns integers scaled to 16 bits.
             const double top = std::exp2(image.precision) - 1.0;
             if (image.precision < 16)
                 for (std::uint16_t &sample : image.samples)

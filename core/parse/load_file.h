@@ -12,7 +12,7 @@ class DcmDataset;
 
 namespace pellucid::parse {
 
-/// A file as DCMTK read it.
+/// A file as read by DCMTK.
 struct LoadedFile {
     LoadedFile();
     ~LoadedFile();
@@ -21,27 +21,27 @@ struct LoadedFile {
     DcmDataset &dataset() const;
 
     std::unique_ptr<DcmFileFormat> format;
-    std::string syntaxUid;      ///< as the file states it; empty if it states none
+    std::string syntaxUid;      ///< as stated in the file; empty if missing
     std::uint32_t oddities = 0; ///< of decoder::Oddity
-    bool isComplete = true;     ///< false: something in it ended the reading
-    std::string failure;        ///< and what
+    bool isComplete = true;     ///< false: reading ended early
+    std::string failure;        ///< why it ended
 };
 
-/// How much of a deflated file is inflated: a header ends where the pixels begin. Values above 4
-/// KiB of other files stay where they are for a header.
+/// How much of a deflated file is inflated: a header ends where the pixels start. For a header,
+/// values above 4 KiB of other files are not loaded.
 enum class Extent { header, everything };
 
 /// *Throws* Error{unusable} if there is no DICOM data set, Error{outOfMemory}.
 LoadedFile loadFile(std::span<const std::byte> bytes, Extent extent);
 
-/// Transfer syntaxes by UID, whether or not DCMTK knows them.
+/// Transfer syntaxes by UID, including those that DCMTK does not know.
 bool isJpeg2000(const std::string &syntaxUid); ///< or High-Throughput JPEG 2000
 bool isJpegXl(const std::string &syntaxUid);
-/// Whether its pixels are plain samples, deflated or not; what is not known is compressed.
+/// Whether pixels are plain samples, deflated or not; unknown syntaxes count as compressed.
 bool isNative(const std::string &syntaxUid);
-/// Whether pixels of a syntax can be decoded.
+/// Whether this program can decode the pixels of a syntax.
 bool isDecodable(const std::string &syntaxUid);
-/// A name for people, or the UID where it has none.
+/// A readable name, or the UID if there is none.
 std::string syntaxName(const std::string &syntaxUid);
 
 } // namespace pellucid::parse

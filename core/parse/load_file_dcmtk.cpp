@@ -24,8 +24,8 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-// What DCMTK 3.6.7 has no name for (PS3.6, table A-1).
-constexpr std::pair<const char *, const char *> unnamed[] = {
+// Syntaxes without a name in DCMTK 3.6.7 (PS3.6, table A-1).
+constexpr std::pair<const char *, const char *> otherSyntaxNames[] = {
     {"1.2.840.10008.1.2.4.110", "JPEG XL Lossless"},
     {"1.2.840.10008.1.2.4.111", "JPEG XL JPEG Recompression"},
     {"1.2.840.10008.1.2.4.112", "JPEG XL"},
@@ -34,7 +34,7 @@ constexpr std::pair<const char *, const char *> unnamed[] = {
     {"1.2.840.10008.1.2.4.203", "High-Throughput JPEG 2000"},
 };
 
-// Where the data set begins and what the meta header says of it; nothing without one.
+// The offset of the data set, and what the meta header says about it; empty without a meta header.
 struct Meta {
     std::string syntaxUid;
     std::size_t end = 0;
@@ -44,7 +44,7 @@ std::optional<Meta> metaOf(std::span<const std::byte> file) {
     constexpr std::size_t preamble = 132;
     if (file.size() < preamble || std::memcmp(file.data() + 128, "DICM", 4) != 0)
         return std::nullopt;
-    // The meta header is little endian with explicit representations, whatever follows.
+    // The meta header is always explicit little endian.
     const auto number = [&](std::size_t at, int bytes) {
         std::size_t value = 0;
         for (int n = 0; n < bytes; ++n)
@@ -71,8 +71,8 @@ std::optional<Meta> metaOf(std::span<const std::byte> file) {
     return meta.end > 0 ? std::optional(meta) : std::nullopt;
 }
 
-// Whether a data set that is said to name its representations does not. Its first element tells:
-// little endian, of a low group, and two capitals or a length.
+// Whether a data set that is declared to be explicit is implicit. The first element tells: little
+// endian, of a low group, followed by two capitals or a length.
 bool looksImplicit(std::span<const std::byte> file, const Meta &meta) {
     if (meta.end + 8 > file.size() || meta.syntaxUid == UID_LittleEndianImplicitTransferSyntax ||
         meta.syntaxUid == UID_BigEndianExplicitTransferSyntax ||
@@ -109,7 +109,7 @@ LoadedFile loadFile(std::span<const std::byte> bytes, Extent extent) {
     OFCondition read = EC_Normal;
     if (meta && looksImplicit(bytes, *meta)) {
         loaded.oddities |= decoder::mislabelledEncoding;
-        // The meta header has the class of the object, which data sets may lack.
+        // The meta header contains the SOP class, which data sets may lack.
         const auto head = memoryInput(bytes.first(meta->end));
         loaded.format->transferInit();
         (void)loaded.format->read(*head, EXS_Unknown, EGL_noChange, longest);
@@ -175,7 +175,7 @@ bool isDecodable(const std::string &uid) {
 }
 
 std::string syntaxName(const std::string &uid) {
-    for (const auto &[known, name] : unnamed)
+    for (const auto &[known, name] : otherSyntaxNames)
         if (uid == known)
             return name;
     const DcmXfer transfer(uid.c_str());

@@ -9,9 +9,9 @@ class DcmInputStream;
 
 namespace pellucid::parse {
 
-/// A file in memory as DCMTK reads files: large values stay where they are until they are wanted.
-/// Reading *throws* Error{unusable} where sequences lie in each other deeper than half of the stack
-/// allows: DCMTK descends into each.
+/// Makes DCMTK read a file in memory like a file on disk: large values are loaded only on demand.
+/// Reading *throws* Error{unusable} if sequences are nested so deeply that DCMTK's recursion would
+/// use more than half of the stack.
 std::unique_ptr<DcmInputStream> memoryInput(std::span<const std::byte> file);
 
 } // namespace pellucid::parse

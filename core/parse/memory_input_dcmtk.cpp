@@ -17,7 +17,7 @@ namespace pellucid::parse {
 
 namespace {
 
-// Half of the stack of this thread, if it is the first one; others have as much by default.
+// Half of the stack of the main thread; other threads have as much by default.
 std::size_t stackToUse() {
     constexpr std::size_t typical = std::size_t(8) << 20;
     rlimit limit{};
@@ -25,11 +25,11 @@ std::size_t stackToUse() {
     return std::min<std::size_t>(typical, isKnown ? limit.rlim_cur : typical) / 2;
 }
 
-// An element takes about five reads and some 250 bytes of DCMTK's: four million elements, 10 000
-// frames of 400 each, and a gigabyte.
-constexpr std::size_t mostReads = 20'000'000;
+// An element takes about five reads, and 250 bytes in DCMTK. The limit is four million elements, or
+// 10 000 frames of 400 each, and a gigabyte.
+constexpr std::size_t maxReads = 20'000'000;
 
-std::uintptr_t stackPlace() {
+std::uintptr_t stackPosition() {
     return reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
 }
 
@@ -72,27 +72,27 @@ public:
     explicit MemoryInput(std::span<const std::byte> file, std::size_t at = 0)
         : DcmInputStream(&m_producer), m_file(file), m_producer(file, at) {}
     DcmInputStreamFactory *newFactory() const override;
-    // Through a decompressor or not: it is elements that are read here.
+    // Counts reads after decompression, because elements are read there.
     offile_off_t read(void *to, offile_off_t bytes) override {
         checkStack();
-        // A gigabyte of zeros is a hundred million elements, deflated to next to nothing.
-        if (++m_reads > mostReads)
+        // A gigabyte of zeros, a hundred million elements, deflates to almost nothing.
+        if (++m_reads > maxReads)
             throw task::Error(task::ErrorCode::unusable, task::because::hasTooManyElements);
         return DcmInputStream::read(to, bytes);
     }
 
 private:
     void checkStack() const {
-        const std::uintptr_t here = stackPlace();
+        const std::uintptr_t here = stackPosition();
         const std::uintptr_t used = here < m_base ? m_base - here : here - m_base;
-        if (used > m_most && used < 4 * m_most) // beyond it is another thread's
+        if (used > m_most && used < 4 * m_most) // farther away it is another thread's stack
             throw task::Error(task::ErrorCode::unusable, task::because::isNestedTooDeeply);
     }
 
     std::span<const std::byte> m_file;
     std::size_t m_reads = 0;
     std::size_t m_most = stackToUse();
-    std::uintptr_t m_base = stackPlace(); ///< where the reading began
+    std::uintptr_t m_base = stackPosition(); ///< where reading started
     MemoryProducer m_producer;
 };
 
@@ -101,7 +101,7 @@ public:
     MemoryFactory(std::span<const std::byte> file, std::size_t at) : m_file(file), m_at(at) {}
     DcmInputStream *create() const override { return new MemoryInput(m_file, m_at); }
     DcmInputStreamFactory *clone() const override { return new MemoryFactory(*this); }
-    // DCMTK asks only whether it is a temporary file, which it would delete.
+    // DCMTK only asks whether it is a temporary file, which it would delete.
     DcmInputStreamFactoryType ident() const override { return DFT_DcmInputFileStreamFactory; }
 
 private:
@@ -110,7 +110,7 @@ private:
 };
 
 DcmInputStreamFactory *MemoryInput::newFactory() const {
-    // A place in a deflated stream is none in the file.
+    // A position in a deflated stream is not one in the file.
     return currentProducer() == &m_producer ? new MemoryFactory(m_file, std::size_t(tell()))
                                             : nullptr;
 }

@@ -18,8 +18,8 @@ namespace pellucid::parse {
 
 namespace {
 
-// Siemens' private header: named values, each a list of texts, little endian. Version 2 begins with
-// "SV10"; in version 1 the lengths of values are counted from that of the first.
+// Siemens' private header: named values, each a list of texts, little endian. Version 2 starts with
+// "SV10"; in version 1 the lengths of values are relative to that of the first.
 class CsaHeader {
 public:
     explicit CsaHeader(std::span<const Uint8> bytes) : m_bytes(bytes) {}
@@ -29,16 +29,16 @@ public:
         std::size_t at = isVersion2 ? 8 : 0;
         const std::int64_t tags = integer(at);
         at += 8;
-        constexpr std::int64_t mostTags = 1000, mostItems = 10000;
+        constexpr std::int64_t maxTags = 1000, maxItems = 10000;
         std::int64_t counted = 0;
-        for (std::int64_t tag = 0; tag < std::min(tags, mostTags) && at + 84 <= m_bytes.size();
+        for (std::int64_t tag = 0; tag < std::min(tags, maxTags) && at + 84 <= m_bytes.size();
              ++tag) {
             const auto *const text = reinterpret_cast<const char *>(m_bytes.data() + at);
             const std::string_view found(text, ::strnlen(text, 64));
             const std::int64_t items = integer(at + 76);
             at += 84;
             std::vector<double> values;
-            for (std::int64_t item = 0; item < std::min(items, mostItems); ++item) {
+            for (std::int64_t item = 0; item < std::min(items, maxItems); ++item) {
                 if (at + 16 > m_bytes.size())
                     return {};
                 std::int64_t bytes = isVersion2 ? integer(at + 4) : integer(at);
@@ -118,7 +118,7 @@ std::optional<Mosaic> mosaicOf(DcmItem &dataset, const decoder::InstanceHeader &
     return mosaic;
 }
 
-void takeApart(decoder::InstanceHeader &header, const Mosaic &mosaic) {
+void splitTiles(decoder::InstanceHeader &header, const Mosaic &mosaic) {
     const int rows = header.rows / mosaic.side, columns = header.columns / mosaic.side;
     decoder::FrameHeader first = header.frames[0];
     if (first.positionMm && first.rowAxis && first.columnAxis && first.spacingMm)

@@ -37,9 +37,9 @@ DirectoryFile parsed(std::span<const std::byte> bytes) {
     if (loaded.bad() || file.getDataset() == nullptr)
         throw task::Error(task::ErrorCode::unusable, task::because::isNotReadable(loaded.text()));
     dropUnreadable(*file.getDataset());
-    // Every record of the flat sequence is looked at; the offsets that make it a tree are often
-    // wrong and not needed to find the files.
-    constexpr unsigned long deepest = 16; // DICOM: 8
+    // Reads every record of the flat sequence; the offsets that make it a tree are often wrong, and
+    // not needed to find the files.
+    constexpr unsigned long deepest = 16; // DICOM needs 8
     DcmSequenceOfItems *records = nullptr;
     if (file.getDataset()->findAndGetSequence(DCM_DirectoryRecordSequence, records).bad() ||
         records == nullptr)

@@ -23,10 +23,10 @@ namespace {
 using task::Error;
 using task::ErrorCode;
 
-// Of any attribute that is read: a table of 65536 entries.
+// The longest value of any attribute that is read: a table of 65536 entries.
 constexpr Uint32 longestValue = 2 * 65536;
 
-// Compressed ones say no size.
+// Compressed pixels have no known size.
 std::uint32_t pixelBytes(DcmDataset &dataset) {
     DcmElement *element = nullptr;
     if (dataset.findAndGetElement(DCM_PixelData, element).bad())
@@ -46,7 +46,8 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
         !(std::abs(descriptor[1]) <= 65536.0) ||
         item->findAndGetUint16Array(DCM_LUTData, data, &count).bad() || data == nullptr)
         return;
-    // The descriptor's first value 0 means 65536 entries; the second is signed as the pixels are.
+    // The descriptor's first value 0 means 65536 entries; the second has the signedness of the
+    // pixels.
     const std::size_t entries = descriptor[0] == 0.0 ? 65536 : std::size_t(descriptor[0]);
     header.modalityTable.assign(data, data + std::min<std::size_t>(entries, count));
     header.modalityTableFirst = int(descriptor[1]);
@@ -54,7 +55,7 @@ void readModalityTable(DcmItem &dataset, InstanceHeader &header) {
         header.modalityTableFirst -= 65536;
 }
 
-// Whose image it is, and what of.
+// Patient, study and series.
 void readIdentity(DcmDataset &dataset, const CharacterSets &sets, InstanceHeader &h) {
     h.sopClassUid = readText(&dataset, DCM_SOPClassUID);
     h.sopInstanceUid = readText(&dataset, DCM_SOPInstanceUID);
@@ -76,7 +77,7 @@ void readIdentity(DcmDataset &dataset, const CharacterSets &sets, InstanceHeader
     h.instanceNumber = readInteger(&dataset, DCM_InstanceNumber);
 }
 
-// How the pixels are stored, and what their values are.
+// The storage of the pixels, and the meaning of their values.
 void readPixelDescription(DcmDataset &dataset, InstanceHeader &h) {
     h.hasPixels = dataset.tagExists(DCM_PixelData) == OFTrue;
     h.floatPixels =
@@ -101,7 +102,7 @@ void readPixelDescription(DcmDataset &dataset, InstanceHeader &h) {
 } // namespace
 
 void dropUnreadable(DcmItem &dataset) {
-    // How the reading of an element ended is known to its class alone.
+    // Gives access to an element's transfer state, which is protected.
     struct Outcome : DcmObject {
         static OFCondition of(const DcmObject &object) { return object.*&Outcome::errorFlag; }
     };
@@ -160,7 +161,8 @@ InstanceHeader parsed(std::span<const std::byte> bytes) {
     DcmDataset &dataset = file.dataset();
     InstanceHeader header = headerOf(file, bytes.size());
     const bool isDeflated = file.syntaxUid == UID_DeflatedExplicitVRLittleEndianTransferSyntax;
-    // Inflated up to the pixels only: whether there are any is seen when they are wanted.
+    // A deflated file is inflated only up to the pixels: whether they exist is found out when they
+    // are read.
     header.hasPixels =
         header.hasPixels || (isDeflated && header.rows > 0 && header.bitsAllocated > 0);
     // Plain pixels have a known size; a file that is shorter cannot hold them.
@@ -169,11 +171,11 @@ InstanceHeader parsed(std::span<const std::byte> bytes) {
     if (header.hasPixels && !isDeflated && !whyUnusable(header) && isNative(file.syntaxUid) &&
         needed > double(bytes.size()))
         throw Error(ErrorCode::unusable, task::because::pixelsTruncated);
-    // What follows damaged elements is lost, but a complete image in front of them is not.
+    // Attributes after damaged elements are lost, but a complete image before them is not.
     if (!file.isComplete && !(header.hasPixels && header.rows > 0))
         throw Error(ErrorCode::unusable, task::because::isDamagedBy(file.failure));
     if (const auto mosaic = mosaicOf(dataset, header))
-        takeApart(header, *mosaic);
+        splitTiles(header, *mosaic);
     else if (isMosaic(header))
         header.oddities |= decoder::unreadMosaic;
     return header;

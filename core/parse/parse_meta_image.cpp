@@ -21,7 +21,7 @@ namespace because = task::because;
     throw task::Error(task::ErrorCode::unusable, reason);
 }
 
-// Names of fields, in lower case, and their texts; the samples follow after the last of them.
+// Fields by lower-case name; the samples follow the last field.
 struct Header {
     std::map<std::string, std::string> fields;
     std::size_t bytes = 0;
@@ -68,7 +68,7 @@ Header readHeader(std::span<const std::byte> file) {
             fail(because::metaImageLineWithoutEquals);
         const std::string name = system::lowered(trimmed(line.substr(0, equals)));
         header.fields[name] = trimmed(line.substr(equals + 1));
-        if (name == "elementdatafile") // the last, whatever follows
+        if (name == "elementdatafile") // always the last field
             return header;
     }
     fail(because::metaImageHasNo("ElementDataFile"));
@@ -88,7 +88,8 @@ StoredScalar scalarOf(const std::string &name) {
     return it->second;
 }
 
-// Axes stand one after the other; places are DICOM's, whatever AnatomicalOrientation says (ITK).
+// Axes are listed one after the other; positions are DICOM's, whatever AnatomicalOrientation says
+// (ITK).
 void place(const Header &header, std::size_t dimensions, VolumeLayout &layout) {
     const std::size_t n = dimensions;
     const auto spacing = header.numbers<double>({"elementspacing", "elementsize"}, n)
@@ -96,7 +97,7 @@ void place(const Header &header, std::size_t dimensions, VolumeLayout &layout) {
     const auto origin = header.numbers<double>({"offset", "position", "origin"}, n);
     const auto matrix =
         header.numbers<double>({"transformmatrix", "rotation", "orientation"}, n * n);
-    layout.isOfPatient = origin.has_value() || matrix.has_value();
+    layout.hasPatientSpace = origin.has_value() || matrix.has_value();
     for (std::size_t d = 0; d < 3; ++d)
         for (std::size_t along = 0; along < 3; ++along) {
             const double cosine = matrix ? (*matrix)[d * n + along] : d == along ? 1.0 : 0.0;
@@ -119,7 +120,7 @@ VolumeLayout parseMetaImage(std::span<const std::byte> file) {
     VolumeLayout layout;
     layout.size = gridSize({(*sizes)[0], (*sizes)[1], (*sizes)[2]});
     if (dimensions == 4) {
-        if ((*sizes)[3] < 1 || (*sizes)[3] > decoder::mostVolumes)
+        if ((*sizes)[3] < 1 || (*sizes)[3] > decoder::maxVolumes)
             fail(because::holdsTooManyVolumes);
         layout.volumes = int((*sizes)[3]);
     }
@@ -137,14 +138,14 @@ VolumeLayout parseMetaImage(std::span<const std::byte> file) {
         fail(because::listsAFileOutside);
     if (where == "LIST" || where.find('%') != std::string::npos)
         fail(because::metaImageList);
-    const bool isHere = system::lowered(where) == "local";
-    if (!isHere)
+    const bool isAttached = system::lowered(where) == "local";
+    if (!isAttached)
         layout.dataFile = where;
-    const long long inFront =
+    const long long headerSize =
         header.numbers<long long>({"headersize"}, 1).value_or(std::vector<long long>{0})[0];
-    if (inFront < 0)
+    if (headerSize < 0)
         fail(because::metaImageHeaderSize);
-    layout.at = isHere ? header.bytes : std::uint64_t(inFront);
+    layout.at = isAttached ? header.bytes : std::uint64_t(headerSize);
     place(header, std::size_t(dimensions), layout);
     requireLattice(layout);
     return layout;

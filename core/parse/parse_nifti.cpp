@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NIfTI-1 and NIfTI-2 headers: https://nifti.nimh.nih.gov. Offsets are bytes, of version 1 and 2.
+// NIfTI-1 and NIfTI-2 headers: https://nifti.nimh.nih.gov. Offsets are in bytes, for version 1 and
+// version 2.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -53,11 +54,11 @@ public:
             fail(because::isTruncated);
     }
 
-    // A number that is a T1 in version 1 and a T2 in version 2.
+    // A number that is of type T1 in version 1 and of type T2 in version 2.
     template <class T1, class T2> double number(std::size_t at1, std::size_t at2) const {
         return isVersion2 ? double(read<T2>(at2)) : double(read<T1>(at1));
     }
-    // Of a list of them.
+    // The same for an element of an array.
     template <class T1, class T2>
     double number(std::size_t at1, std::size_t at2, std::size_t n) const {
         return number<T1, T2>(at1 + n * sizeof(T1), at2 + n * sizeof(T2));
@@ -107,7 +108,7 @@ StoredScalar scalarOf(int datatype) {
     }
 }
 
-// From voxels to the patient, right-anterior-superior.
+// Voxels to patient space, which is right-anterior-superior.
 struct Transform {
     std::array<glm::dvec3, 3> steps{};
     glm::dvec3 origin{0.0};
@@ -150,10 +151,10 @@ Transform quaternion(const Header &h) {
     return t;
 }
 
-// The affine transform where there is one, the rotation where not, else the spacings alone.
+// Uses the affine transform if there is one, else the rotation, else only the spacings.
 void place(const Header &h, VolumeLayout &layout) {
     Transform t;
-    layout.isOfPatient = true;
+    layout.hasPatientSpace = true;
     const bool hasAffine = h.number<std::int16_t, std::int32_t>(254, 348) > 0,
                hasRotation = h.number<std::int16_t, std::int32_t>(252, 344) > 0;
     if (hasAffine)
@@ -161,7 +162,7 @@ void place(const Header &h, VolumeLayout &layout) {
     if ((!hasAffine || !t.spansVolume()) && hasRotation)
         t = quaternion(h);
     if ((!hasAffine && !hasRotation) || !t.spansVolume()) {
-        layout.isOfPatient = false;
+        layout.hasPatientSpace = false;
         for (int d = 0; d < 3; ++d) {
             const double mm = std::abs(h.number<float, double>(76, 104, std::size_t(d) + 1));
             t.steps[std::size_t(d)] = glm::dvec3(0.0);
@@ -172,8 +173,8 @@ void place(const Header &h, VolumeLayout &layout) {
     constexpr int lengths = 7, metres = 1, micrometres = 3;
     const int unit = int(h.number<std::int8_t, std::int32_t>(123, 500)) & lengths;
     const double scale = unit == metres ? 1000.0 : unit == micrometres ? 1e-3 : 1.0;
-    // Right and anterior to left and posterior.
-    const glm::dvec3 toLps = layout.isOfPatient ? glm::dvec3(-1.0, -1.0, 1.0) : glm::dvec3(1.0);
+    // From right and anterior to left and posterior.
+    const glm::dvec3 toLps = layout.hasPatientSpace ? glm::dvec3(-1.0, -1.0, 1.0) : glm::dvec3(1.0);
     for (std::size_t d = 0; d < 3; ++d)
         layout.stepsMm[d] = scale * toLps * t.steps[d];
     layout.originMm = scale * toLps * t.origin;
@@ -196,12 +197,12 @@ VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated) {
     VolumeLayout layout;
     layout.size = gridSize(
         {(long long)(size(1)), (long long)(size(2)), dimensions >= 3.0 ? (long long)(size(3)) : 1});
-    // Times one after the other; more axes than that are vectors and tensors.
+    // Time points follow each other; further axes are vectors and tensors.
     const double volumes = dimensions >= 4.0 ? std::max(1.0, size(4)) : 1.0;
     for (std::size_t n = 5; double(n) <= dimensions; ++n)
         if (size(n) > 1.0)
             fail(because::holdsSeveralValues);
-    if (volumes > decoder::mostVolumes)
+    if (volumes > decoder::maxVolumes)
         fail(because::holdsTooManyVolumes);
     layout.volumes = int(volumes);
     layout.scalar = scalarOf(int(h.number<std::int16_t, std::int16_t>(70, 12)));
@@ -209,7 +210,8 @@ VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated) {
     layout.isDeflated = isDeflated;
     const double slope = h.number<float, double>(112, 176),
                  intercept = h.number<float, double>(116, 184);
-    if (slope != 0.0 && std::isfinite(slope) && std::isfinite(intercept)) { // 0: none
+    if (slope != 0.0 && std::isfinite(slope) &&
+        std::isfinite(intercept)) { // a slope of 0 means none
         if (std::abs(slope) > decoder::largestRescale ||
             std::abs(intercept) > decoder::largestRescale)
             fail(because::rescaleGivesNoValues);
@@ -217,15 +219,15 @@ VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated) {
         layout.intercept = intercept;
     }
     const double offset = h.number<float, std::int64_t>(108, 168);
-    constexpr double mostOffset = 1e12;
+    constexpr double maxOffset = 1e12;
     const double least = h.isVersion2 ? bytesOfVersion2 + 4 : bytesOfVersion1 + 4;
-    if (!(offset <= mostOffset))
+    if (!(offset <= maxOffset))
         fail(because::niftiSaysNoPlace);
     const std::size_t magic = h.isVersion2 ? 4 : 344;
     if (header.size() > magic + 1 && header[magic] == std::byte('n') &&
         header[magic + 1] == std::byte('i'))
         fail(because::niftiSamplesElsewhere);
-    // Some writers leave 0 where the samples follow the header.
+    // Some writers write 0 if the samples follow the header.
     (isDeflated ? layout.skip : layout.at) = std::uint64_t(std::max(offset, least));
     place(h, layout);
     requireLattice(layout);

@@ -27,7 +27,7 @@ using task::Error;
 using task::ErrorCode;
 
 constexpr std::size_t maxHeaderBytes = 1 << 20; // larger ones are not headers
-constexpr std::size_t longestSaid = 60;         // of what a field holds
+constexpr std::size_t maxQuotedLength = 60;     // of a field's text, in reasons
 
 struct Header {
     std::map<std::string, std::string> fields;
@@ -35,7 +35,7 @@ struct Header {
     bool hasEnd = false;
 };
 
-// Of a file without an end of the header, or of a line, no more is read than a header may have.
+// Reads at most the largest header, in case the header or a line does not end.
 Header readHeader(std::span<const std::byte> file) {
     std::string_view rest(reinterpret_cast<const char *>(file.data()),
                           std::min(file.size(), maxHeaderBytes));
@@ -60,7 +60,8 @@ Header readHeader(std::span<const std::byte> file) {
             throw Error(ErrorCode::unusable, because::nrrdLineWithoutColon);
         const std::string name = system::lowered(trimmed(line.substr(0, colon)));
         if (!header.fields.try_emplace(name, trimmed(line.substr(colon + 1))).second)
-            throw Error(ErrorCode::unusable, because::nrrdHasTwice(name.substr(0, longestSaid)));
+            throw Error(ErrorCode::unusable,
+                        because::nrrdHasTwice(name.substr(0, maxQuotedLength)));
     }
     if (!header.hasEnd && file.size() > maxHeaderBytes)
         throw Error(ErrorCode::unusable, because::nrrdHasNoEnd);
@@ -86,7 +87,7 @@ public:
         std::vector<T> values(count);
         for (T &value : values)
             if (!(in >> value))
-                fail(because::nrrdNumbers(text.substr(0, longestSaid)));
+                fail(because::nrrdNumbers(text.substr(0, maxQuotedLength)));
         return values;
     }
     [[noreturn]] void fail(const task::Reason &reason) const {
@@ -145,7 +146,7 @@ std::optional<StoredScalar> scalarOf(const std::string &name) {
 
 struct Space {
     glm::dvec3 toLps{1.0}; ///< signs
-    bool isOfPatient = true;
+    bool hasPatientSpace = true;
 };
 
 Space spaceOf(const Fields &fields) {
@@ -160,8 +161,8 @@ Space spaceOf(const Fields &fields) {
     if (name == "left-anterior-superior" || name == "las")
         return {{1.0, -1.0, 1.0}};
     if (name == "scanner-xyz" || name == "3d-right-handed")
-        return {glm::dvec3(1.0), false}; // of the scanner, or of nothing
-    fields.fail(because::nrrdSpace(space->substr(0, longestSaid)));
+        return {glm::dvec3(1.0), false}; // scanner space, or no space
+    fields.fail(because::nrrdSpace(space->substr(0, maxQuotedLength)));
 }
 
 std::vector<glm::dvec3> parseVectors(const Fields &fields, const std::string &text) {
@@ -170,7 +171,7 @@ std::vector<glm::dvec3> parseVectors(const Fields &fields, const std::string &te
          open = text.find('(', open + 1)) {
         const std::size_t close = text.find(')', open);
         if (close == std::string::npos)
-            fields.fail(because::nrrdVectorWithoutEnd(text.substr(0, longestSaid)));
+            fields.fail(because::nrrdVectorWithoutEnd(text.substr(0, maxQuotedLength)));
         std::string inside = text.substr(open + 1, close - open - 1);
         std::replace(inside.begin(), inside.end(), ',', ' ');
         const auto v = fields.numbers<double>(inside, 3);
@@ -179,7 +180,8 @@ std::vector<glm::dvec3> parseVectors(const Fields &fields, const std::string &te
     return vectors;
 }
 
-// "mm" "mm" "mm", or nothing of an axis; micrometres or metres would be another patient.
+// Every spatial axis must be in "mm" or without a unit: micrometres or metres would be the wrong
+// scale.
 void requireMillimetres(const Fields &fields, task::Because<1> otherwise, std::string units) {
     std::replace(units.begin(), units.end(), '"', ' ');
     std::istringstream each(units);
@@ -218,7 +220,7 @@ void parseLattice(const Fields &fields, VolumeLayout &layout) {
     }
     layout.originMm = origin;
     layout.stepsMm = steps;
-    layout.isOfPatient = space.isOfPatient;
+    layout.hasPatientSpace = space.hasPatientSpace;
     requireLattice(layout);
 }
 
@@ -235,16 +237,16 @@ VolumeLayout parseNrrd(std::span<const std::byte> file) {
     const std::string typeName = fields.get({"type"});
     const auto scalar = scalarOf(typeName);
     if (!scalar)
-        fields.fail(because::nrrdType(typeName.substr(0, longestSaid)));
+        fields.fail(because::nrrdType(typeName.substr(0, maxQuotedLength)));
     layout.scalar = *scalar;
     const std::string encoding = system::lowered(fields.get({"encoding"}));
     layout.isDeflated = encoding == "gzip" || encoding == "gz";
     if (!layout.isDeflated && encoding != "raw")
-        fields.fail(because::nrrdEncoding(encoding.substr(0, longestSaid)));
+        fields.fail(because::nrrdEncoding(encoding.substr(0, maxQuotedLength)));
     if (decoder::bytesOf(*scalar) > 1) {
         const std::string endian = system::lowered(fields.get({"endian"}));
         if (endian != "little" && endian != "big")
-            fields.fail(because::nrrdEndian(endian.substr(0, longestSaid)));
+            fields.fail(because::nrrdEndian(endian.substr(0, maxQuotedLength)));
         layout.isSwapped = (endian == "big") == (std::endian::native == std::endian::little);
     }
     for (const auto *skip : {"byte skip", "byteskip", "line skip", "lineskip"})

@@ -18,8 +18,8 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-bool begins(std::span<const std::byte> file, std::string_view with) {
-    return file.size() >= with.size() && std::memcmp(file.data(), with.data(), with.size()) == 0;
+bool startsWith(std::span<const std::byte> file, std::string_view start) {
+    return file.size() >= start.size() && std::memcmp(file.data(), start.data(), start.size()) == 0;
 }
 
 } // namespace
@@ -45,7 +45,7 @@ volume::GridSize gridSize(const std::array<long long, 3> &sizes) {
 }
 
 void requireLattice(const VolumeLayout &layout) {
-    // Which says what is wrong.
+    // It throws the reason.
     (void)volume::Lattice::make(layout.size, {layout.originMm}, layout.stepsMm);
     if (glm::length(layout.originMm) > decoder::farthestMm)
         throw Error(ErrorCode::unusable, because::originTooFar);
@@ -56,15 +56,16 @@ void requireLattice(const VolumeLayout &layout) {
 }
 
 VolumeLayout parseVolumeLayout(std::span<const std::byte> file) {
-    if (begins(file, "NRRD000"))
+    if (startsWith(file, "NRRD000"))
         return parseNrrd(file);
-    if (begins(file, "\x1F\x8B")) {
+    if (startsWith(file, "\x1F\x8B")) {
         const auto start = inflatedStart(file, niftiHeaderBytes);
         if (looksLikeNifti(start))
             return parseNifti(start, true);
     } else if (looksLikeNifti(file)) {
         return parseNifti(file, false);
-    } else if (begins(file, "ObjectType") || begins(file, "NDims") || begins(file, "Comment")) {
+    } else if (startsWith(file, "ObjectType") || startsWith(file, "NDims") ||
+               startsWith(file, "Comment")) {
         return parseMetaImage(file);
     }
     throw Error(ErrorCode::unusable, because::isNoVolumeFile);

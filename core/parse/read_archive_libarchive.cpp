@@ -50,17 +50,17 @@ ArchiveFile fileOf(struct archive_entry *entry) {
             archive_entry_is_encrypted(entry) != 0, archive_entry_filetype(entry) == AE_IFLNK};
 }
 
-// A damaged file may leave the reader of no use; each of those costs a new one.
-constexpr int mostDamaged = 100;
+// A damaged file may make the reader unusable, and each one costs a new reader.
+constexpr int maxDamaged = 100;
 
-// False: `f` asked for the end.
+// Returns false if `f` ended the iteration.
 bool forEachFile(struct archive *reader, const std::function<bool(const ArchiveFile &)> &f) {
     for (;;) {
         struct archive_entry *entry = nullptr;
         const int status = archive_read_next_header(reader, &entry);
         if (status == ARCHIVE_EOF)
             return true;
-        // A warning is about names in another character set.
+        // Warnings are about names in other character sets.
         if (status != ARCHIVE_OK && status != ARCHIVE_WARN)
             failReading(reader);
         const auto type = archive_entry_filetype(entry);
@@ -69,7 +69,7 @@ bool forEachFile(struct archive *reader, const std::function<bool(const ArchiveF
     }
 }
 
-// False: the reader is of no more use.
+// Returns false if the reader is no longer usable.
 bool readFile(struct archive *reader, const ArchiveFile &file, std::span<std::byte> part,
               const TakeData &take) {
     for (std::int32_t flags = decoder::firstPart; (flags & decoder::lastPart) == 0;) {
@@ -110,7 +110,7 @@ void readArchive(std::span<const std::byte> archive, const TakeData &take) {
     std::vector<std::byte> part(decoder::archivePartBytes);
     std::size_t done = 0;
     bool isDone = false;
-    for (int damaged = 0; !isDone && damaged <= mostDamaged; ++damaged) {
+    for (int damaged = 0; !isDone && damaged <= maxDamaged; ++damaged) {
         const Reader reader = open(archive);
         std::size_t n = 0;
         isDone = forEachFile(reader.get(), [&](const ArchiveFile &file) {

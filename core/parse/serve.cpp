@@ -27,14 +27,14 @@ using decoder::Message;
 using task::Error;
 using task::ErrorCode;
 
-// The other side went away, or says so: there is nobody to work for.
-struct Gone {};
+// Thrown when the other side has closed the connection or refuses.
+struct Disconnected {};
 
 class Server {
 public:
     Server(int socket, int arena) : m_socket(socket), m_arena(arena) {}
 
-    // False when the other side has gone.
+    // Returns false when the other side is gone.
     bool serveNext() {
         const auto request = decoder::receive(m_socket, decoder::Takes::descriptor);
         if (!request)
@@ -47,7 +47,7 @@ public:
                                                           : decoder::isUnusable,
                    error.reason().encoded(), {});
         }
-        m_watch.rest();
+        m_watch.pause();
         return true;
     }
 
@@ -56,7 +56,7 @@ private:
         const Mapping file(request.descriptor.get(), request.message.size, Mapping::Access::read);
         switch (request.message.kind) {
         case Message::Kind::header:
-            // What lies beside the header is not wanted: discs and shares are slow.
+            // Only the header is needed, without read-ahead: discs and network shares are slow.
             ::madvise(file.data(), file.size(), MADV_RANDOM);
             finish(0, decoder::pack(parseHeader(file.bytes())), {});
             break;
@@ -111,14 +111,14 @@ private:
         finish(0, {}, {});
     }
 
-    // Whoever is asked may take as long as it likes.
+    // The time that the other side takes to answer does not count.
     Message ask(const Message &message) {
-        m_watch.rest();
+        m_watch.pause();
         if (!decoder::send(m_socket, message))
-            throw Gone();
+            throw Disconnected();
         const auto reply = decoder::receive(m_socket, decoder::Takes::descriptor);
         if (!reply)
-            throw Gone();
+            throw Disconnected();
         m_watch.resume();
         return reply->message;
     }
@@ -141,23 +141,23 @@ private:
     void part(int flags, const std::string &body, std::span<const std::byte> data) {
         put(body, data);
         if (ask({Message::Kind::part, flags, body.size(), data.size()}).kind != Message::Kind::next)
-            throw Gone();
+            throw Disconnected();
     }
 
     void finish(int code, const std::string &body, std::span<const std::byte> data) {
         put(body, data);
         if (!decoder::send(m_socket, {Message::Kind::done, code, body.size(), data.size()}))
-            throw Gone();
+            throw Disconnected();
     }
 
     int m_socket, m_arena;
     Mapping m_mapped;
-    std::uint64_t m_arenaBytes = 1; // not known before the first answer; it asks
+    std::uint64_t m_arenaBytes = 1; // unknown before the first answer, which requests it
     Watch m_watch;
 };
 
-// The character sets of DICOM (PS3.3, C.12.1.1.2) as glibc names them: their tables are libraries,
-// which stay loaded as long as a converter is open.
+// DICOM's character sets (PS3.3, C.12.1.1.2) under glibc's names. Their tables are libraries, which
+// stay loaded as long as a converter is open.
 constexpr std::array characterSets{
     "ISO-IR-6",      "ISO-8859-1",  "ISO-8859-2",  "ISO-8859-3", "ISO-8859-4",    "ISO-8859-5",
     "ISO-8859-6",    "ISO-8859-7",  "ISO-8859-8",  "ISO-8859-9", "ISO-8859-15",   "TIS-620",
@@ -170,7 +170,7 @@ constexpr std::array characterSets{
 void prepareToServe() {
     dcmtk::prepareDcmtk();
     for (const char *const set : characterSets)
-        (void)::iconv_open("UTF-8", set); // kept open on purpose; unknown ones are not used
+        (void)::iconv_open("UTF-8", set); // left open on purpose; unknown sets are not used
 }
 
 int serve(int socket, int arena, int confinement) {
@@ -179,7 +179,7 @@ int serve(int socket, int arena, int confinement) {
     try {
         for (Server server(socket, arena); server.serveNext();) {
         }
-    } catch (const Gone &) {
+    } catch (const Disconnected &) {
     }
     return 0;
 }

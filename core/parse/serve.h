@@ -3,16 +3,16 @@
 
 namespace pellucid::parse {
 
-/// Gives up all that decoding does not need: memory above what there is, files, processes, the
-/// network, debuggers. *Shape*: bits of decoder::Confinement that hold. For good.
+/// Gives up for good whatever decoding does not need: memory above what is free, files, processes,
+/// the network, debuggers. *Shape*: the bits of decoder::Confinement that are in force.
 int confine();
 
-/// Loads what decoding opens files for: dictionary, codecs, tables of characters. Before `confine`.
-/// *Throws* Error{internal}.
+/// Loads everything that decoding opens files for: dictionary, codecs, character tables. Call it
+/// before `confine`. *Throws* Error{internal}.
 void prepareToServe();
 
-/// Answers what a `decoder::Decoder` asks through the socket until it goes away. *Shape*: the exit
-/// status.
+/// Answers the requests of a `decoder::Decoder` through the socket until it closes. *Shape*: the
+/// exit status.
 int serve(int socket, int arena, int confinement);
 
 } // namespace pellucid::parse

@@ -27,7 +27,7 @@ void swapEach(std::span<std::byte> bytes, int bytesEach) {
                      bytes.begin() + std::ptrdiff_t(at) + bytesEach);
 }
 
-// One member of a gzip file after the other, as tools append them.
+// Reads consecutive members of a gzip file, which tools append to each other.
 class Inflated {
 public:
     explicit Inflated(std::span<const std::byte> deflated) : m_rest(deflated) {
@@ -39,14 +39,14 @@ public:
     Inflated(const Inflated &) = delete;
     Inflated &operator=(const Inflated &) = delete;
 
-    // As much as there is.
+    // Reads as much as there is.
     std::size_t readStart(std::span<std::byte> out) {
         m_stream.next_out = reinterpret_cast<Bytef *>(out.data());
         m_stream.avail_out = uInt(out.size());
         try {
             while (m_stream.avail_out > 0)
                 inflateMore();
-        } catch (const Error &) { // it ends
+        } catch (const Error &) { // the data end here
         }
         return out.size() - m_stream.avail_out;
     }
@@ -67,8 +67,8 @@ public:
             inflateMore();
     }
 
-    // All that was wanted is there: what follows is read as far as the sum of a gzip member, which
-    // tells whether its bytes are those that were deflated. True if there is more instead.
+    // After all wanted bytes: reads on to the checksum of the gzip member, which verifies them.
+    // True if there are more bytes instead.
     bool hasMore() {
         std::byte beyond{};
         m_stream.next_out = reinterpret_cast<Bytef *>(&beyond);
@@ -77,7 +77,7 @@ public:
             inflateMore();
         if (m_stream.avail_out == 0)
             return true;
-        // Another member, or padding of whoever stored it.
+        // Another member; otherwise it is padding.
         return m_stream.avail_in > 1 && m_stream.next_in[0] == 0x1F && m_stream.next_in[1] == 0x8B;
     }
 
@@ -96,7 +96,7 @@ private:
         const int status = inflate(&m_stream, Z_NO_FLUSH);
         if (status == Z_MEM_ERROR)
             throw std::bad_alloc();
-        // Without any input left there is no progress, which is an error, too.
+        // Without input there is no progress, which is also an error.
         if (status != Z_OK && status != Z_STREAM_END)
             throw Error(ErrorCode::unusable, because::compressedDataDamaged);
         m_isAtEnd = status == Z_STREAM_END;
@@ -109,8 +109,8 @@ private:
 
 } // namespace
 
-std::vector<std::byte> inflatedStart(std::span<const std::byte> deflated, std::size_t most) {
-    std::vector<std::byte> start(most);
+std::vector<std::byte> inflatedStart(std::span<const std::byte> deflated, std::size_t maxBytes) {
+    std::vector<std::byte> start(maxBytes);
     start.resize(Inflated(deflated).readStart(start));
     return start;
 }

@@ -11,12 +11,12 @@ namespace pellucid::parse {
 
 namespace {
 
-const pid_t program = ::getppid(); // before anything takes its time
+const pid_t program = ::getppid(); // first, before the program can end
 volatile std::sig_atomic_t secondsLeft = 0;
 
 void tick(time_t seconds) {
     const itimerval each{{seconds, 0}, {seconds, 0}};
-    // Time on the processor: a disc that starts to turn, or a share that is far away, costs none.
+    // Counts processor time, so that a slow disc or network share does not count.
     ::setitimer(ITIMER_PROF, &each, nullptr);
 }
 
@@ -38,7 +38,7 @@ Watch::Watch() {
 }
 
 void Watch::allow(double seconds) {
-    constexpr double years = 1e8; // a file of holes has any size
+    constexpr double years = 1e8; // a sparse file can have any size
     m_seconds = int(std::ceil(std::min(seconds, years)));
     resume();
 }
@@ -48,7 +48,7 @@ void Watch::resume() {
     tick(1);
 }
 
-void Watch::rest() {
+void Watch::pause() {
     tick(0);
 }
 

@@ -3,17 +3,17 @@
 
 namespace pellucid::parse {
 
-/// Ends this process where a request takes longer than anybody waits, and where the program that
-/// asked has ended meanwhile: one that is killed says nothing. One for a process.
+/// Ends this process if a request takes longer than the program waits, or if the program has ended:
+/// a program that is killed cannot tell. One per process.
 class Watch {
 public:
     Watch();
-    /// For a request that begins. *Units*: seconds.
+    /// Starts the time limit of a request. *Units*: seconds.
     void allow(double seconds);
-    /// The same time again, for its next part.
+    /// Starts the same limit again for the next part of a request.
     void resume();
-    /// Whoever waits sees the other end go.
-    void rest();
+    /// No limit while waiting for the other side.
+    void pause();
 
 private:
     int m_seconds = 0;

@@ -6,7 +6,7 @@
 #include "core/phantom/painter.h"
 
 // A chest in LPS millimetres about its middle: x left, y posterior, z superior. The scan cuts it
-// above and below, as scans do.
+// off above and below.
 
 namespace pellucid::phantom {
 
@@ -126,7 +126,7 @@ private:
                 sac.low, sac.high};
     }
 
-    // Vessels fork from the hilum into ever thinner branches.
+    // Vessels branch from the hilum and become thinner.
     void branch(const Shape &within, dvec3 from, dvec3 direction, double length, double radius,
                 int depth, std::uint32_t seed) {
         const dvec3 to = from + length * direction;

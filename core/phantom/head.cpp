@@ -7,7 +7,7 @@
 #include "core/phantom/painter.h"
 
 // An adult head in LPS millimetres about a point between the ears: x left, y posterior, z superior.
-// Measures are those of anatomy books, rounded.
+// Dimensions are rounded values from anatomy books.
 
 namespace pellucid::phantom {
 
@@ -69,7 +69,7 @@ private:
                                       ellipsoid({81, 14, -3}, {6, 11, 19}, tilt));
         m.paint(skin, skinHu);
         m.paint(grown(skin, -2.0), fatHu);
-        // Less fat over the vault than over cheek and neck.
+        // There is less fat over the vault than over cheek and neck.
         m.paint(grown(skin, -4.5), [](const dvec3 &p) { return p.z > 10 ? 30.0 : muscleHu; });
         // Fatty planes between the muscles of cheek and neck.
         const Shape muscles =
@@ -103,19 +103,18 @@ private:
             m.paint(rod({0, y + 29, z - 4}, {0, y + 43, z - 10}, 3.5, 4), compactHu * 0.65);
             m.paint(ellipsoid({0, y, z - 8.5}, {12, 9, 2}), 90.0);
         }
-        // The atlas is a ring, the dens stands in it.
+        // The atlas is a ring around the dens.
         paintBoth(
             tube({{0, 8, -46}, {14, 12, -46}, {22, 24, -46}, {15, 40, -46}, {0, 45, -46}}, 4.2),
             compactHu * 0.75);
         m.paint(rod({0, 17, -60}, {0, 16, -41}, 5.5, 4.5), compactHu * 0.7);
-        // Cord in its fluid.
+        // The spinal cord in cerebrospinal fluid.
         m.paint(tube({{0, 31, -34}, {0, 33, -60}, {0, 38, -140}}, 8.5), csfHu);
         m.paint(tube({{0, 31, -34}, {0, 33, -60}, {0, 38, -140}}, 5.2), 34.0);
     }
 
-    // The floor of the skull, stepping down from the anterior to the posterior fossa.
-    // It rises over the orbits and falls beside the middle: seen from the side it is no straight
-    // line.
+    // The floor of the skull, which steps down from the anterior to the posterior fossa. It rises
+    // over the orbits and falls beside the midline, so its lateral view is not a straight line.
     static double floorZ(double x, double y) {
         const auto step = [](double at, double width) {
             return 0.5 * (1.0 + std::tanh(at / width));
@@ -209,8 +208,8 @@ private:
         m.paint(inside, csfHu);
         const Shape cerebrum = intersected(
             grown(inside, -2.2),
-            // Behind, the cerebrum rests on the tentorium; in front it fills the fossae of the
-            // base.
+            // The cerebrum rests on the tentorium posteriorly, and fills the fossae of the base
+            // anteriorly.
             {[](const dvec3 &p) {
                  const double behind = std::clamp((p.y - 8.0) / 14.0, 0.0, 1.0);
                  return 0.8 * (-60.0 + 46.0 * behind + 0.35 * std::max(0.0, p.y - 20.0) - p.z);
@@ -219,7 +218,8 @@ private:
              {80, 110, 110}});
         const auto tissue = [cerebrum](const dvec3 &p) {
             const double depth = -cerebrum(p);
-            const double fold = std::abs(gyri(p)) * 4.6; // about mm from the middle of a sulcus
+            const double fold =
+                std::abs(gyri(p)) * 4.6; // approximate distance in mm from the middle of a sulcus
             const double reach = std::clamp((22.0 - depth) / 6.0, 0.0, 1.0);
             if (reach > 0.0 && fold < 1.1 * reach)
                 return csfHu + 4.0;
@@ -243,7 +243,7 @@ private:
         paintBoth(tube({{22, 36, 20}, {21, 52, 16}, {19, 62, 14}}, 4.0), fluidHu);
         paintBoth(tube({{22, 36, 20}, {30, 28, 4}, {33, 10, -4}, {31, -6, -6}}, 3.0), fluidHu);
         m.paint(roundedBox({0, -4, 14}, {2.2, 16, 9}, 1.5), fluidHu);
-        paintBoth(ellipsoid({22, 36, 22}, {2.5, 5, 4}), 90.0); // choroid plexus, a little calcified
+        paintBoth(ellipsoid({22, 36, 22}, {2.5, 5, 4}), 90.0); // choroid plexus, slightly calcified
         m.paint(ellipsoid({0, 26, 14}, {2.5, 3, 2.5}), 180.0); // pineal
         // Cerebellum with its folia, brain stem, fourth ventricle.
         const Shape cerebellum =
@@ -256,7 +256,7 @@ private:
         m.paint(rod({0, 14, 4}, {0, 30, -44}, 13, 7), whiteHu + 3);
         m.paint(ellipsoid({0, 17, -16}, {15, 12, 12}), whiteHu + 3);
         m.paint(ellipsoid({0, 33, -18}, {6, 4, 9}), fluidHu);
-        // Basilar artery and Willis' circle.
+        // Basilar artery and circle of Willis.
         m.paint(rod({0, 2, -28}, {0, 0, -4}, 2, 2), 60.0);
         paintBoth(tube({{0, -10, -2}, {10, -14, -2}, {24, -14, -1}, {38, -10, 2}}, 1.8), 60.0);
     }
@@ -315,7 +315,7 @@ private:
     }
 
     void paintTeeth() {
-        // Widths from the middle incisor to the second molar, along the dental arches.
+        // Widths from the central incisor to the second molar, along the dental arches.
         const std::initializer_list<double> widths{8.2, 6.8, 7.6, 7.0, 6.8, 9.6, 9.4};
         for (const bool upper : {true, false}) {
             double along = 0.0;
@@ -324,7 +324,7 @@ private:
                 const double scale = upper ? 1.0 : 0.92;
                 const double at = (along + 0.5 * width) * scale;
                 along += width;
-                // The arch: a parabola, entered by its arc length.
+                // The arch: a parabola, parametrised by arc length.
                 const double curve = 0.028;
                 double x = 0.0;
                 for (double length = 0.0; length < at; x += 0.1)
@@ -352,7 +352,7 @@ private:
                 ++number;
             }
         }
-        // One filling, so that the brightest thing in the head is small, as in life.
+        // One filling, so that the brightest object in the head is small, as in patients.
         m.paint(ellipsoid({-28.5, -64, -56}, {2.0, 2.2, 1.6}), 3000.0);
     }
 

@@ -115,8 +115,7 @@ void Painter::paint(const Shape &shape, double hu) {
 
 void Painter::paint(const Shape &shape, const Texture &hu) {
     m_progress.check();
-    // The shape's box in voxels: the box's corners bound it on any lattice, since the map is
-    // linear.
+    // The shape's box in voxels. The map is linear, so the box's corners bound it on any lattice.
     dvec3 low(std::numeric_limits<double>::infinity()),
         high(-std::numeric_limits<double>::infinity());
     for (int corner = 0; corner < 8; ++corner) {

@@ -12,8 +12,8 @@
 
 namespace pellucid::phantom {
 
-/// A solid: the signed distance from its surface (negative inside, mm) near the surface, and a box
-/// in the patient outside of which it is not evaluated.
+/// A solid: the signed distance from its surface near the surface (negative inside, mm), and a box
+/// in patient space; it is not evaluated outside the box.
 struct Shape {
     std::function<double(const glm::dvec3 &mm)> distance;
     glm::dvec3 low{0.0}, high{0.0};
@@ -33,14 +33,14 @@ Shape roundedBox(glm::dvec3 center, glm::dvec3 halfSize, double rounding,
 Shape united(const Shape &a, const Shape &b, double fillet = 0.0);
 Shape intersected(const Shape &a, const Shape &b);
 Shape without(const Shape &a, const Shape &b);
-/// Grown by a distance; shrunk if negative.
+/// Grown by a distance, or shrunk if negative.
 Shape grown(const Shape &shape, double mm);
 /// The same shape reflected in the patient's median plane.
 Shape mirrored(const Shape &shape);
 
-/// Fills a volume with shapes, later ones over earlier ones, edges softened over about one voxel as
-/// a scanner does. The shapes live in the patient, so any lattice, tilted ones too, samples the
-/// same anatomy.
+/// Fills a volume with shapes, later ones over earlier ones, with edges softened over about one
+/// voxel as by a scanner. The shapes are defined in patient space, so that any lattice, tilted ones
+/// too, samples the same anatomy.
 class Painter {
 public:
     using Texture = std::function<double(const glm::dvec3 &mm)>;

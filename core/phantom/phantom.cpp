@@ -74,7 +74,7 @@ volume::Lattice phantomLattice(Kind kind, const Sampling &sampling) {
     for (int d = 0; d < 3; ++d)
         if (!(size[d] >= 1 && size[d] <= 4096) || !(s[d] > 0.0 && s[d] < 1e6))
             throw task::Error(task::ErrorCode::usage, task::because::phantomSizeOutOfRange);
-    // The table moves along z, so that the distance along the normal is the move times cos(tilt).
+    // The table moves along z, so the distance along the normal is the movement times cos(tilt).
     const std::array<glm::dvec3, 3> steps{s.x * glm::dvec3(1, 0, 0),
                                           s.y * glm::dvec3(0, std::cos(tilt), -std::sin(tilt)),
                                           s.z / std::cos(tilt) * glm::dvec3(0, 0, 1)};

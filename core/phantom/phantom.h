@@ -12,12 +12,12 @@ namespace pellucid::phantom {
 
 enum class Kind { head, chest, ellipsoids, metal, cube, bars, sphere };
 
-/// What a phantom is sampled on. Absent entries are the kind's own.
+/// The grid of a phantom. Missing entries use the kind's defaults.
 struct Sampling {
     std::optional<volume::GridSize> size = std::nullopt;
-    /// Column, row and slice distance; the last is measured along the slices' normal.
+    /// Distances of columns, rows and slices; the last is measured along the slices' normal.
     std::optional<glm::dvec3> spacingMm = std::nullopt;
-    /// Gantry tilt: slices turned about the patient's x axis, stacked along z.
+    /// Gantry tilt: slices rotated about the patient's x axis, stacked along z.
     double tiltRad = 0.0;
 };
 
@@ -26,7 +26,7 @@ Kind kindFromName(const std::string &name);
 std::string nameOf(Kind kind);
 std::vector<std::string> kindNames();
 
-/// *Throws* Error{usage} for sizes, spacings or tilts that make no lattice.
+/// *Throws* Error{usage} for sizes, spacings or tilts that do not make a lattice.
 volume::Lattice phantomLattice(Kind kind, const Sampling &sampling);
 
 /// The phantom as a CT volume in HU. *Throws* Cancelled, Error{outOfMemory}.

@@ -47,8 +47,8 @@ volume::Volume makeCube(const volume::Lattice &lattice, const task::Progress &pr
 }
 
 volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &progress) {
-    // Sampled, not painted: bars are cut at whole voxels, so that a pattern of one voxel is the
-    // highest frequency that the lattice can hold.
+    // Sampled, not painted: bars are cut at voxel boundaries, so that a pattern of one voxel is the
+    // highest frequency of the lattice.
     const volume::GridSize size = lattice.size();
     std::vector<std::int16_t> samples(size.count(), -1000);
     const auto margin = [](int n) { return n / 10; };
@@ -59,8 +59,8 @@ volume::Volume makeBars(const volume::Lattice &lattice, const task::Progress &pr
             for (int i = 0; i < size.i; ++i) {
                 if (!inside(i, size.i) || !inside(j, size.j) || !inside(k, size.k))
                     continue;
-                // Six slabs along z, each with bars of 1..6 voxels, turned from x to y half way
-                // along y.
+                // Six slabs along z, with bars of 1 to 6 voxels that change from the x to the y
+                // direction half way along y.
                 const int bar =
                     1 + 6 * (k - margin(size.k)) / std::max(1, size.k - 2 * margin(size.k));
                 const int along = j < size.j / 2 ? i : j;

@@ -18,7 +18,7 @@ void AutomaticTone::adopt(const ToneRange &range, const scene::Scene &scene) {
 
 bool AutomaticTone::outlivesVolume(bool hasNext) {
     if (m_isHeld) {
-        m_isHeld = !hasNext; // closing the former phase comes before
+        m_isHeld = !hasNext; // the previous phase is closed first
         return true;
     }
     *this = {};
@@ -30,7 +30,7 @@ void AutomaticTone::beginFields(const scene::Scene &scene) {
 }
 
 void AutomaticTone::follow(const shading::Shading &drawn) {
-    // What the hand drags keeps the brightness.
+    // Strengths, which the user drags, keep the brightness.
     m_isWanted = m_isWanted || drawn.lights.size() != m_lights || drawn.cue.kind != m_cue;
     m_lights = drawn.lights.size();
     m_cue = drawn.cue.kind;

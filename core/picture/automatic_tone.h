@@ -9,31 +9,32 @@
 
 namespace pellucid::picture {
 
-/// The brightness of a projection where the user has fixed none. It is taken once, from a frame:
-/// one that followed the view would flicker. Weights that move keep it, and so do phases that
-/// follow each other, because their brightness is what is to be seen; what is seen again has the
-/// one that it had. Other fields, another number of lights, another kind of cue and another volume
-/// have one of their own.
+/// The brightness of a projection for which the user has set none. It is measured once, from a
+/// frame: if it followed the view, the picture would flicker. It is kept while weights change, and
+/// for consecutive phases, because their differences in brightness are significant; a scene that is
+/// shown again gets its former brightness. It is measured again for other fields, a different
+/// number of lights, a different kind of cue, and another volume.
 class AutomaticTone {
 public:
     /// The next frame sets a new brightness; the current one stays until it arrives.
     bool isWanted() const { return m_isWanted; }
     void retake() { m_isWanted = true; }
     void take(const ToneRange &range);
-    /// The scene is seen again, with the brightness that it had: the fields that come for it, a
-    /// coarse picture's and then the full ones, keep it.
+    /// The scene is shown again with its former brightness, which its next fields (those of a
+    /// coarse picture, then the full ones) keep.
     void adopt(const ToneRange &range, const scene::Scene &scene);
-    /// The next volume is another phase: brightness and picture stay until its own are there.
+    /// The next volume is another phase: brightness and picture stay until its own arrive.
     void hold() { m_isHeld = true; }
-    /// The volume changes; `hasNext`: to another one. False: the brightness goes with it.
+    /// The volume is closed; `hasNext`: to be replaced by another. False if the brightness ends
+    /// with it.
     bool outlivesVolume(bool hasNext);
-    /// Fields other than those of the last frame are projected, for a scene.
+    /// The next frame projects different fields, for this scene.
     void beginFields(const scene::Scene &scene);
-    /// The next frame is drawn with cue and lights like these.
+    /// The next frame is drawn with this cue and these lights.
     void follow(const shading::Shading &drawn);
 
     const ToneRange &range() const { return m_range; }
-    /// With both ends: those that the user fixed, and for the rest the brightness that was taken.
+    /// The tone with both ends: the user's where set, otherwise the automatic ones.
     scene::Tone completed(scene::Tone tone) const;
 
 private:

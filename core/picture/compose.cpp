@@ -23,7 +23,7 @@ std::vector<float> brightness(const ProjectionImage &image) {
 ToneRange rangeOf(const std::vector<float> &pixels, const scene::Tone &tone) {
     ToneRange range{tone.low.value_or(0.0), tone.high.value_or(0.0)};
     if (!tone.high) {
-        // Pixels outside the patient say nothing about the patient's brightness.
+        // Pixels outside the patient are no measure of the patient's brightness.
         float brightest = 0.0F;
         for (const float p : pixels)
             brightest = std::max(brightest, p);
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> compose(const ProjectionImage &image, const scene::Ton
         const float largest = std::max(0.0F, pixels[n]);
         for (int c = 0; c < 3; ++c) {
             float x = most;
-            // A range that begins below zero lifts what is empty: to grey, which has no hue.
+            // A range that starts below zero raises empty pixels to a grey without hue.
             if (image.channels == 3 && largest > lift)
                 x *= (std::max(0.0F, image.samples[3 * n + std::size_t(c)]) - lift) /
                      (largest - lift);

@@ -5,8 +5,8 @@
 
 namespace pellucid::picture {
 
-/// A projection: signed, *Units*: field times mm. *Shape*: height x width, rows from the top, or
-/// height x width x 3 in linear red, green and blue.
+/// A projection; values may be negative. *Units*: field times mm. *Shape*: height x width, rows
+/// from the top, or height x width x 3 in linear red, green and blue.
 struct ProjectionImage {
     int width = 0, height = 0;
     double pixelMm = 1.0;
@@ -14,7 +14,7 @@ struct ProjectionImage {
     int channels = 1;
 };
 
-/// Where the time of a frame went, milliseconds.
+/// The durations of a frame's steps, milliseconds.
 struct FrameTimes {
     double sliceMs = 0.0, transformMs = 0.0;
     double totalMs() const { return sliceMs + transformMs; }

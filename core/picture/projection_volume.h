@@ -7,8 +7,8 @@
 
 namespace pellucid::picture {
 
-/// A projection without colour as a volume of one slice, which lies in the patient where the plane
-/// of the picture does. *Shape*: `patient`: of the volume that was projected.
+/// A grey projection as a volume of one slice, positioned at the picture's plane in patient space.
+/// *Shape*: `patient`: that of the projected volume.
 volume::Volume projectionVolume(const ProjectionImage &image, const scene::Camera &camera,
                                 const volume::Lattice &patient);
 

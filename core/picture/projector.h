@@ -9,16 +9,16 @@
 
 namespace pellucid::picture {
 
-/// Makes projections of the fields that it was made for: an engine that slices their spectra
-/// (`render::ProjectionEngine`), or the exact reference (`reference::ExactEngine`), which has none
-/// to share.
+/// Makes projections of its fields: an engine that slices their spectra
+/// (`render::ProjectionEngine`), or the exact reference (`reference::ExactEngine`), which has no
+/// spectra to share.
 class Projector {
 public:
     virtual ~Projector() = default;
-    /// What makes the projections and what it runs on, one line.
+    /// One line: the method, and the device it runs on.
     virtual task::Reason description() const = 0;
-    /// Not safe to call from two threads at once. Lights shine only on what was prepared for them.
-    /// *Throws* Error{outOfMemory}; Cancelled, if it was made with a progress that is cancelled.
+    /// Not thread-safe. Lights are drawn only if the fields were prepared for them. *Throws*
+    /// Error{outOfMemory}; Cancelled, if the progress that it was made with is cancelled.
     virtual ProjectionImage render(const scene::Camera &camera, const scene::ImageDefinition &image,
                                    const shading::Shading &shading = {},
                                    FrameTimes *times = nullptr) = 0;

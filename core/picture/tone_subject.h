@@ -8,8 +8,9 @@
 
 namespace pellucid::picture {
 
-/// What an automatic brightness is of: whatever changes the projected values themselves. The view
-/// is not among it, nor the strength of a cue or a light, which the hand drags.
+/// The properties that an automatic brightness depends on: all that change the projected values
+/// themselves. The view is not one of them, nor is the strength of a cue or a light, which the user
+/// drags.
 struct ToneSubject {
     ToneSubject() = default;
     explicit ToneSubject(const scene::Scene &scene)

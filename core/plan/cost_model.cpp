@@ -9,13 +9,13 @@ namespace pellucid::plan {
 
 namespace {
 
-// Relative times of a frequency sample by kernel width when its cells lie in the cache, with
-// binary16 and with float cells, and of its part in the transforms.
+// Relative times per frequency sample whose cells are in the cache: by kernel width, the factor for
+// float cells, and the share of the transforms.
 constexpr std::array<double, 8> sampleTime{0.0, 0.4, 0.5, 0.7, 1.0, 1.7, 2.2, 2.9};
 constexpr double floatCells = 1.4;
 constexpr double transformTime = 0.2;
-// The time to bring in what a cell of the slice's area adds for a width of 4: 6 ns beside the 24 of
-// a sample.
+// The time to fetch one more cell of the slice's area from memory, for a width of 4: 6 ns, compared
+// with 24 ns per sample.
 constexpr double cellTime = 0.25;
 
 } // namespace
@@ -27,7 +27,7 @@ double timeInCache(int width, fourier::Storage storage) {
 
 double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volume::Lattice &lattice,
                  const fourier::SpectrumLayout &layout) {
-    // In cells, the slice of a view along an axis is as large as the other two axes are padded.
+    // A view along an axis has a slice of as many cells as the padded area of the other two axes.
     const double i = layout.padded.i * lattice.spacingMm(0) / camera.pixelMm,
                  j = layout.padded.j * lattice.spacingMm(1) / camera.pixelMm,
                  k = layout.padded.k * lattice.spacingMm(2) / camera.pixelMm;
@@ -35,7 +35,7 @@ double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volum
     const double frequencies = double(grid.columns) * grid.rows;
     const double inCells =
         cellTime * (0.25 * layout.width()) * (double(bytesPerCell(layout.storage)) / 4.0) * area;
-    // What is larger takes longer to prepare too: a twentieth for each doubling.
+    // Larger spectra also take longer to prepare: 5% more for each doubling.
     const double doublings = std::max(0.0, std::log2(double(layout.bytes()) / double(1 << 20)));
     return (frequencies * timeInCache(layout.width(), layout.storage) + inCells) *
            (1.0 + 0.05 * doublings);

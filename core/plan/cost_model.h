@@ -6,13 +6,13 @@
 
 namespace pellucid::plan {
 
-/// The time of a frequency sample whose cells lie in the cache: its taps and its part in the
+/// The time of a frequency sample whose cells are in the cache: its taps and its share of the
 /// transforms. *Units*: as `frameTime`.
 double timeInCache(int width, fourier::Storage storage);
 
-/// The time of a frame of a slice grid from a spectrum of a layout, by which plans are compared.
-/// *Units*: that of a sample of kernel width 4 from binary16 cells in the cache, without its part
-/// in the transforms, about 24 ns.
+/// The time of a frame with this slice grid from a spectrum with this layout. The planner compares
+/// plans by it. *Units*: one is the time of a sample of kernel width 4 from binary16 cells in the
+/// cache, without its share of the transforms: about 24 ns.
 double frameTime(const SliceGrid &grid, const scene::Camera &camera, const volume::Lattice &lattice,
                  const fourier::SpectrumLayout &layout);
 

@@ -20,7 +20,7 @@ namespace {
 
 // The largest number of blocks along an axis; layers of blocks are processed independently.
 constexpr int blocksAlong = 64;
-// The number of bins that distances from the centre are sorted into, up to the radius.
+// The number of bins for distances from the centre, up to the radius.
 constexpr int distanceSteps = 64;
 
 // A quarter of the surface of the box, or of the enclosing sphere if that is smaller.
@@ -28,7 +28,7 @@ double shadowOf(const volume::Lattice &lattice, const volume::VoxelBox &box, dou
     const volume::GridSize size = box.size();
     const double i = size.i * lattice.spacingMm(0), j = size.j * lattice.spacingMm(1),
                  k = size.k * lattice.spacingMm(2);
-    // A sample is as wide as a step, so it reaches half a step beyond its centre.
+    // A sample is as wide as a step, so it extends half a step beyond its centre.
     const double reach = radiusMm + 0.5 * lattice.longestStepMm();
     return std::min(0.5 * (i * j + j * k + k * i), std::numbers::pi * reach * reach);
 }
@@ -68,7 +68,7 @@ private:
 };
 
 // The statistics of a field, from sums over layers of cubic blocks. Layers are summed in parallel
-// and joined in their order, so no sum depends on the number of threads.
+// and joined in order: the sums do not depend on the number of threads.
 class FieldStatistics {
 public:
     FieldStatistics(const volume::Volume &field, const volume::VoxelBox &box)
@@ -77,12 +77,12 @@ public:
           m_side((std::max({m_size.i, m_size.j, m_size.k}) + blocksAlong - 1) / blocksAlong),
           m_across(blocksOf(m_size.i)), m_down(blocksOf(m_size.j)), m_layers(blocksOf(m_size.k)) {
         for (int d = 0; d < 3; ++d) {
-            LayerMaxima &of = m_maxima[std::size_t(d)];
-            of.samples = m_size[d];
-            of.columns = blocksOf(m_size[(d + 1) % 3]);
-            of.rows = blocksOf(m_size[(d + 2) % 3]);
-            of.most.resize(std::size_t(of.samples) * std::size_t(of.columns) *
-                           std::size_t(of.rows));
+            LayerMaxima &maxima = m_maxima[std::size_t(d)];
+            maxima.samples = m_size[d];
+            maxima.columns = blocksOf(m_size[(d + 1) % 3]);
+            maxima.rows = blocksOf(m_size[(d + 2) % 3]);
+            maxima.most.resize(std::size_t(maxima.samples) * std::size_t(maxima.columns) *
+                               std::size_t(maxima.rows));
             m_result.axis[std::size_t(d)].resize(std::size_t(m_size[d]));
         }
         m_spread.shortestStepMm = m_lattice.shortestStepMm();
@@ -114,13 +114,13 @@ private:
         std::vector<double> alongI, alongJ; // energies
         std::vector<double> blocks;         // energies, [block along j][block along i]
         std::vector<double> blockMass;
-        std::vector<float> mostOfRows; // [block along j][sample along i]
+        std::vector<float> rowMaxima; // [block along j][sample along i]
         double least = 0.0;
         double radiusMm = 0.0;
     };
 
     int blocksOf(int samples) const { return (samples + m_side - 1) / m_side; }
-    // Only a field without negative samples has bounds that hold in any view.
+    // Bounds that hold in every view exist only for fields without negative samples.
     bool isPositive() const { return m_least >= 0.0 && m_mass > 0.0; }
 
     template <class T> void sumLayer(const T *samples, int n) {
@@ -129,7 +129,7 @@ private:
         layer.alongJ.resize(m_size.j);
         layer.blocks.resize(std::size_t(m_across) * m_down);
         layer.blockMass.resize(layer.blocks.size());
-        layer.mostOfRows.resize(std::size_t(m_size.i) * m_down);
+        layer.rowMaxima.resize(std::size_t(m_size.i) * m_down);
         for (int k = n * m_side; k < std::min(m_size.k, (n + 1) * m_side); ++k)
             for (int j = 0; j < m_size.j; ++j) {
                 const T *const row =
@@ -142,18 +142,18 @@ private:
         for (int row = 0; row < m_down; ++row)
             for (int i = 0; i < m_size.i; ++i)
                 m_maxima[0].at(i, n, row) =
-                    layer.mostOfRows[std::size_t(row) * std::size_t(m_size.i) + i];
+                    layer.rowMaxima[std::size_t(row) * std::size_t(m_size.i) + i];
     }
 
-    // The sums and extremes of a row that are taken sample by sample.
+    // Sums and extremes of a row, sample by sample.
     template <class T> void sumSamples(const T *row, int j, int k, Layer &layer) const {
-        int first = m_size.i, last = -1; // the samples that are not zero
-        float *const mostOfRows =
-            layer.mostOfRows.data() + std::size_t(j / m_side) * std::size_t(m_size.i);
+        int first = m_size.i, last = -1; // the range of nonzero samples
+        float *const rowMaxima =
+            layer.rowMaxima.data() + std::size_t(j / m_side) * std::size_t(m_size.i);
         for (int i = 0; i < m_size.i; ++i) {
             const double f = double(row[i]);
             layer.alongI[i] += f * f;
-            mostOfRows[i] = std::max(mostOfRows[i], float(row[i]));
+            rowMaxima[i] = std::max(rowMaxima[i], float(row[i]));
             layer.least = std::min(layer.least, f);
             if (f != 0.0) {
                 first = std::min(first, i);
@@ -169,7 +169,7 @@ private:
         }
     }
 
-    // The sums and maxima of the blocks that a row runs through, and the row's energy.
+    // Sums and maxima of the blocks that a row crosses, and the row's energy.
     template <class T> double sumBlocks(const T *row, int j, int k, int n) {
         Layer &layer = m_layers[std::size_t(n)];
         double inRow = 0.0;
@@ -211,7 +211,7 @@ private:
                     e /= m_energy;
     }
 
-    // Where the energy of the blocks lies, and, of a field without negative samples, their mass.
+    // The energy of the blocks by distance and, for a field without negative samples, their mass.
     MassInBalls profileBlocks() {
         DistanceProfiles profiles(m_spread);
         MassInBalls balls;
@@ -236,18 +236,18 @@ private:
         return balls;
     }
 
-    // What no view of a field without negative samples exceeds.
+    // Bounds that hold in every view of a field without negative samples.
     void boundAnyView(const MassInBalls &balls) {
         const glm::dvec3 cell(m_lattice.spacingMm(0), m_lattice.spacingMm(1),
                               m_lattice.spacingMm(2));
-        const double inBall = 1.0 / balls.leastArea(0.5 * m_side * glm::length(cell));
+        const double ballBound = 1.0 / balls.minArea(0.5 * m_side * glm::length(cell));
         const double seen = leastProjectionEnergy(m_result.blocks, m_lattice, m_box);
-        const double leastEnergy = std::max(inBall, seen);
+        const double minEnergy = std::max(ballBound, seen);
         m_spread.peakedness = std::max(1.0, largestLineIntegral(m_maxima, m_side, m_lattice) /
-                                                (m_result.massMm3 * leastEnergy));
+                                                (m_result.massMm3 * minEnergy));
         const double depthMm = 2.0 * m_spread.radiusMm + m_lattice.longestStepMm();
         m_spread.roughestView = depthMm * m_spread.roughness * m_result.energyMm3 /
-                                (m_result.massMm3 * m_result.massMm3 * leastEnergy);
+                                (m_result.massMm3 * m_result.massMm3 * minEnergy);
     }
 
     const volume::Volume &m_field;
@@ -256,7 +256,7 @@ private:
     volume::GridSize m_size;
     glm::dvec3 m_center;
     int m_side;           ///< of a block, samples
-    int m_across, m_down; ///< blocks of a layer, along i and j
+    int m_across, m_down; ///< blocks in a layer, along i and j
     std::vector<Layer> m_layers;
     std::array<LayerMaxima, 3> m_maxima;
     double m_energy = 0.0, m_mass = 0.0, m_least = 0.0; ///< of the field's samples

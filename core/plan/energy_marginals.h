@@ -11,7 +11,7 @@
 
 namespace pellucid::plan {
 
-/// Distribution of a field's energy f^2: its distance from the centre and its concentration.
+/// How a field's energy f^2 is distributed around the centre, and how concentrated it is.
 struct EnergySpread {
     /// Shares of the energy by distance from the centre of the lattice, along 13 directions: the
     /// edges, face diagonals and body diagonals of a cube in patient space. Entry n holds the
@@ -19,36 +19,35 @@ struct EnergySpread {
     std::vector<std::vector<double>> byDistance;
     double distanceStepMm = 1.0;
     double shortestStepMm = 1.0, longestStepMm = 1.0; ///< of the lattice
-    /// The share of the field's energy that lies near the highest frequencies of the lattice, at
-    /// most: a sixteenth of the energy of the second differences along the three axes. A frequency
-    /// f passes them by sum_d sin^4(pi f_d).
+    /// An upper bound on the share of the field's energy near the highest frequencies of the
+    /// lattice: a sixteenth of the energy of the second differences along the three axes, which
+    /// weights a frequency f by sum_d sin^4(pi f_d).
     double roughness = 1.0;
-    /// The share of a projection's energy that these frequencies have, at most, in any view of a
-    /// field without negative samples: |P g|^2 <= depth |g|^2 for what passes, and |P f|^2 is at
-    /// least as below. Infinite for a field with negative samples.
+    /// An upper bound on the share of a projection's energy at these frequencies, in any view of a
+    /// field without negative samples: |P g|^2 <= depth |g|^2 for the part g that passes, and |P
+    /// f|^2 has the lower bounds below. Infinite for a field with negative samples.
     double roughestView = std::numeric_limits<double>::infinity();
-    /// The sum of the squared energy shares of blocks of samples: 1 for a point, 1 over the number
-    /// of blocks for a uniform field.
+    /// The sum of the squared energy shares of blocks of samples: 1 for a point, 1/blocks for a
+    /// uniform field.
     double concentration = 1.0;
     /// Distance from the centre of the lattice to the farthest nonzero sample, mm.
     double radiusMm = 0.0;
     /// An upper bound on the mean area of the field's shadow over all directions, mm^2: a quarter
-    /// of the surface of its box, or of the sphere that encloses it if that is smaller.
+    /// of the surface of its box, or of the enclosing sphere if that is smaller.
     double shadowMm2 = 0.0;
     /// For a field without negative samples: in any view, a part's share of the projection's energy
-    /// is at most this many times its share of the mass. With f_a the part,
-    /// <P f_a, P f> <= max(P f) * mass_a, and `largestLineIntegral` bounds max(P f). |P f|^2 has
-    /// two lower bounds, of which the larger counts: m(R)^2 / (pi R^2), where m(R) is the mass in
-    /// any ball of radius R, and a little less than the smallest energy of coarse projections from
-    /// all around. Infinite for a field with negative samples, which may cancel positive ones in
-    /// some view.
+    /// is at most this many times its share of the mass. With f_a the part, <P f_a, P f> <= max(P
+    /// f) * mass_a, and `largestLineIntegral` bounds max(P f). |P f|^2 has two lower bounds, and
+    /// the larger one counts: m(R)^2 / (pi R^2), where m(R) is the mass in any ball of radius R,
+    /// and a little less than the smallest energy of coarse projections in directions all around.
+    /// Infinite for a field with negative samples, which may cancel positive ones in some view.
     double peakedness = std::numeric_limits<double>::infinity();
 };
 
-/// The spread of noise that fills a box evenly.
+/// The spread of white noise that fills a box evenly.
 EnergySpread evenSpread(const volume::Lattice &lattice, const volume::VoxelBox &box);
 
-/// The statistics of a field from which the error of its images is predicted.
+/// The statistics of a field from which the planner predicts the error of its images.
 struct EnergyMarginals {
     /// Shares of the energy along each axis of the box; each axis sums to 1. *Shape*: one entry per
     /// sample of the box.
@@ -59,7 +58,7 @@ struct EnergyMarginals {
     std::shared_ptr<const EnergySpread> spread;
 };
 
-/// The statistics of a field in a box outside of which it is zero.
+/// The statistics of a field that is zero outside this box.
 EnergyMarginals energyMarginals(const volume::Volume &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::plan

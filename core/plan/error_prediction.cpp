@@ -15,21 +15,23 @@ namespace pellucid::plan {
 
 namespace {
 
-// Of fields with negative samples single views scatter about what is expected; this much more
-// energy was the worst of the views of the fields in the bench's hard suite.
+// Single views of fields with negative samples scatter around the expected error. This margin, as
+// energy, covers the worst view in the bench's hard suite.
 constexpr double viewMargin = 1.5;
-// The same of rounding, which a few cells can decide; of what is bounded already, less. All cells
-// of a field of a few samples are alike and round alike, so theirs averages out as little.
-constexpr double fewMargin = 12.0, boundedMargin = 1.5;
+// The same margins for rounding: few cells may dominate it, and a bounded field needs less margin.
+// All cells of a field of a few samples are alike and round alike, so their errors do not average
+// out.
+constexpr double sparseMargin = 12.0, boundedMargin = 1.5;
 
 double roundingMargin(const EnergySpread &spread) {
     const double alike =
         std::isinf(spread.peakedness) ? 1.0 : std::min(1.0, 2.5 * spread.concentration);
-    return boundedMargin + (fewMargin - boundedMargin) * alike;
+    return boundedMargin + (sparseMargin - boundedMargin) * alike;
 }
 
-// Calls use(e, brightest, x): some forty positions x (in periods) along an axis are enough, since
-// the amplitudes change slowly; e their energies, and the largest of a sample of each.
+// Calls use(e, brightest, x) for at most 40 positions x (in periods) along an axis, which are
+// enough because the amplitudes change slowly. e is the energy there; brightest is the largest
+// energy of a single sample.
 template <class F> void forPositions(const std::vector<double> &energy, int padded, const F &use) {
     const int samples = int(energy.size()), bins = std::min(samples, 40);
     for (int bin = 0; bin < bins; ++bin) {
@@ -45,8 +47,8 @@ template <class F> void forPositions(const std::vector<double> &energy, int padd
     }
 }
 
-// What the taps that a frequency t off the grid reads make of a sample at x. `Any`: a Kernel or a
-// MomentKernel.
+// The factor that a sample at x gets from the taps read at a frequency t off the grid. `Any`: a
+// Kernel or a MomentKernel.
 template <class Any> std::complex<double> offGrid(const Any &kernel, double x, double t) {
     const double half = 0.5 * kernel.width();
     std::complex<double> sum = 0.0;
@@ -58,7 +60,7 @@ template <class Any> std::complex<double> onGrid(const Any &kernel, double x) {
     return offGrid(kernel, x, 0.0);
 }
 
-// The kernels' transforms fall at least as 1/m beyond.
+// Beyond these periods the kernels' transforms fall at least as fast as 1/m.
 constexpr std::array<int, 6> aliasPeriods{-3, -2, -1, 1, 2, 3};
 
 } // namespace
@@ -67,23 +69,23 @@ namespace {
 
 BlockAmplitudes amplitudesAt(const fourier::Kernel &kernel, double x) {
     const double h = kernel.apodisation(x);
-    BlockAmplitudes of;
+    BlockAmplitudes amplitudes;
     for (const int m : aliasPeriods) {
         const double r = kernel.apodisation(x + m) / h;
-        of.aliases += r * r;
+        amplitudes.aliases += r * r;
     }
     const auto at = [&](double t) { return std::norm(offGrid(kernel, x, t) / h - 1.0); };
-    // Steps in common with the grid: every frequency on it, every second, every third.
+    // Frequencies that share steps with the grid: every one on it, every second, every third.
     const double whole = at(0.0);
-    of.inPhase =
-        std::max({of.aliases, whole, 0.5 * (whole + at(0.5)), (whole + 2.0 * at(1.0 / 3.0)) / 3.0});
-    of.inverse = 1.0 / (h * h);
-    return of;
+    amplitudes.inPhase = std::max(
+        {amplitudes.aliases, whole, 0.5 * (whole + at(0.5)), (whole + 2.0 * at(1.0 / 3.0)) / 3.0});
+    amplitudes.inverse = 1.0 / (h * h);
+    return amplitudes;
 }
 
-// The largest mean of a value over the parts of a field that their shares allow; or, with negative
-// samples, what is expected and a margin. The values are sorted into classes, each of which counts
-// as its largest.
+// The largest mean of a value over the parts of a field that their shares allow. For fields with
+// negative samples: the expected mean, times a margin. Values are sorted into classes, and each
+// class counts with its largest value.
 class LargestMean {
 public:
     LargestMean(const EnergyMarginals &field) : m_field(field) {}
@@ -123,13 +125,13 @@ private:
 
 AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
     const int samples = int(energy.size());
-    const double mostEnergy = *std::max_element(energy.begin(), energy.end());
+    const double maxEnergy = *std::max_element(energy.begin(), energy.end());
     AxisError error;
     for (const BlockRange &range : blockRanges(samples)) {
         double brightest = 0.0;
         for (int n = range.first; n <= range.last; ++n)
             brightest = std::max(brightest, energy[std::size_t(n)]);
-        // Amplitudes grow outward: both ends of a part bound it.
+        // Amplitudes grow outward, so both ends of a block bound it.
         BlockAmplitudes worst;
         for (const int n : {range.first, range.last}) {
             const BlockAmplitudes at =
@@ -138,9 +140,9 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
             worst.inPhase = std::max(worst.inPhase, at.inPhase);
             worst.inverse = std::max(worst.inverse, at.inverse);
         }
-        if (mostEnergy > 0.0)
+        if (maxEnergy > 0.0)
             error.brightest =
-                std::max(error.brightest, std::sqrt(worst.aliases * brightest / mostEnergy));
+                std::max(error.brightest, std::sqrt(worst.aliases * brightest / maxEnergy));
         error.blocks.push_back(worst);
     }
     error.kernelEnergy = kernel.energy();
@@ -150,7 +152,7 @@ AxisError axisError(const fourier::Kernel &kernel, int padded, const std::vector
 
 double filterError(const fourier::Kernel &kernel, int padded, const std::vector<double> &energy) {
     constexpr int offsets = 64;
-    constexpr double rounding = 1e-7; // of the taps themselves
+    constexpr double rounding = 1e-7; // of the taps
     double squares = 0.0;
     for (int n = 0; n < offsets; ++n) {
         const double c = (n + 0.5) / offsets - 0.5, middle = 0.5 * (kernel.width() - 1);
@@ -159,7 +161,7 @@ double filterError(const fourier::Kernel &kernel, int padded, const std::vector<
             const double second = k + 1 < kernel.width() ? kernel.value(c + k + 1 - middle) : 0.0;
             if (std::min(first, second) < -rounding)
                 return std::numeric_limits<double>::infinity();
-            // One tap alone is read at its middle.
+            // A tap without a partner is read at the middle of its cell.
             if (k + 1 < kernel.width())
                 squares += (first + second) * (first + second) / offsets;
         }
@@ -225,7 +227,7 @@ double cueRms(const shading::DepthCue &cue) {
 
 namespace {
 
-// How far the middle of the energy lies from the centre, mm.
+// Distance of the centre of the energy from the centre of the lattice, mm.
 double middleOffsetMm(const volume::Lattice &lattice, const volume::VoxelBox &box,
                       const EnergyMarginals &energy) {
     const std::array<int, 3> first{box.lo.i, box.lo.j, box.lo.k};
@@ -237,18 +239,18 @@ double middleOffsetMm(const volume::Lattice &lattice, const volume::VoxelBox &bo
             middle[d] += axis[n] * (double(n) + first[std::size_t(d)]);
             all += axis[n];
         }
-        if (!(all > 0.0)) // an empty field has no middle, and no error
+        if (!(all > 0.0)) // an empty field has no centre, and no error
             return 0.0;
         middle[d] /= all;
     }
     return glm::distance(lattice.patient(volume::VoxelPoint{middle}).mm, lattice.center().mm);
 }
 
-// The least root mean square of the cue over the depths of the energy, of the directions of its
-// profiles, which tell distances but not sides: both alike, or, of energy that lies at one side,
-// the darker one.
-double leastRms(const std::function<double(double)> &cue, const EnergySpread &spread,
-                double radiusMm, double offsetMm) {
+// The smallest root mean square of the cue over the depths of the energy, over the directions of
+// its profiles. The profiles contain distances but not sides: both sides count alike, or, if the
+// energy is on one side, only the darker one.
+double minRms(const std::function<double(double)> &cue, const EnergySpread &spread, double radiusMm,
+              double offsetMm) {
     double least = 1.0;
     for (const auto &shares : spread.byDistance) {
         double both = 0.0, darker = 0.0, all = 0.0, squares = 0.0;
@@ -261,14 +263,14 @@ double leastRms(const std::function<double(double)> &cue, const EnergySpread &sp
             squares += shares[n] * mm * mm;
         }
         if (all > 0.0) {
-            const bool oneSided = offsetMm > 0.5 * std::sqrt(squares / all);
-            least = std::min(least, std::sqrt((oneSided ? darker : both) / all));
+            const bool isOneSided = offsetMm > 0.5 * std::sqrt(squares / all);
+            least = std::min(least, std::sqrt((isOneSided ? darker : both) / all));
         }
     }
     return least;
 }
 
-// What is left where the cue is darkest: neighbours are brighter.
+// A floor for where the cue is darkest: neighbours are brighter.
 constexpr double darkest = 0.02;
 
 } // namespace
@@ -282,7 +284,7 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
     const double offset = middleOffsetMm(lattice, layout.box, energy);
     double least = 1.0;
     if (cue.kind == shading::CueKind::curve)
-        least = leastRms(value, *energy.spread, radiusMm, offset);
+        least = minRms(value, *energy.spread, radiusMm, offset);
     else
         for (const double t : {-offset / radiusMm, offset / radiusMm}) // both are monotonic
             least = std::min(least, value(t));
@@ -295,8 +297,8 @@ CueWeight cueWeight(const shading::DepthCue &cue, const volume::Lattice &lattice
     return weight;
 }
 
-// A rounding error is evenly spread up to half a unit in the last place, 2^-11 of the leading power
-// of two; over the mantissas that is 0.73 * 2^-11/sqrt(3).
+// Rounding errors are uniform up to half a unit in the last place, 2^-11 of the leading power of
+// two; over the mantissas that is 0.73 * 2^-11/sqrt(3).
 static double relativeRounding(fourier::Storage storage) {
     return storage == fourier::Storage::binary16 ? 2.1e-4 : 3e-7;
 }
@@ -336,12 +338,13 @@ double predictRelativeError(const std::array<AxisError, 3> &axes, fourier::Stora
     });
     double moment = 0.0;
     for (std::size_t d = 0; d < axes.size(); ++d) {
-        // Depth is along one direction, so that one axis's moment stands for all.
+        // Depth is measured along one direction, so the worst axis represents all.
         moment = std::max(moment, cue.moments[d] * cue.moments[d] * axes[d].moment);
     }
     const double weight = cue.aliases * cue.aliases;
     const double rounding = relativeRounding(storage);
-    // Rounding is spread as h^2 is, nearly all of it where the field is.
+    // Rounding errors are distributed like h^2, so nearly all of their energy is where the field
+    // is.
     return std::sqrt((weight * aliases + viewMargin * moment) / share +
                      weight * roundingMargin(*field.spread) * rounding * rounding *
                          roundingNoise(axes, field));

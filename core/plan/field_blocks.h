@@ -14,17 +14,17 @@ struct BlockRange {
     int first = 0, last = 0;
 };
 
-/// The blocks that an axis of so many samples is cut into.
+/// The blocks into which an axis of `samples` samples is divided.
 std::vector<BlockRange> blockRanges(int samples);
 
 /// A block's shares of the field's energy and mass.
 struct FieldBlock {
     std::array<std::uint8_t, 3> at{}; ///< index along each axis, see `blockRanges`
-    float energy = 0.0F, mass = 0.0F; ///< shares of the whole field's
+    float energy = 0.0F, mass = 0.0F; ///< shares of the whole field
 };
 
-/// The blocks of a field in a box, as `blockRanges` cuts it, that are not empty. They are few,
-/// because the planner visits all of them for each layout.
+/// The nonempty blocks of a field in a box divided by `blockRanges`. There are few of them, because
+/// the planner visits all of them for each layout.
 std::vector<FieldBlock> fieldBlocks(const volume::Volume &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::plan

@@ -10,10 +10,11 @@ namespace pellucid::plan {
 
 namespace {
 
-// A row of samples, the rows above and below it, and those of the planes before and after it.
+// A row of samples and its four neighbours: above and below in the same plane, before and after in
+// the adjacent planes.
 template <class T> struct RowAndNeighbours { const T *here, *above, *below, *before, *after; };
 
-// Adds the squares at the samples of a row, and at the two samples beside its ends.
+// Adds the squares at the samples of a row and at the two samples beyond its ends.
 template <class T> void addSquares(const RowAndNeighbours<T> &rows, int count, double &sum) {
     const T *const here = rows.here;
     float inRow = 0.0F;
@@ -35,7 +36,7 @@ template <class T> void addSquares(const RowAndNeighbours<T> &rows, int count, d
     }
 }
 
-// The squares of a plane, and of the rows beside its ends.
+// The sum of squares of a plane, including the rows beyond its ends.
 template <class Samples>
 double squaresOfPlane(const Samples &samples, const volume::GridSize &lattice,
                       const volume::VoxelBox &box, int k) {
@@ -59,16 +60,16 @@ double squaresOfPlane(const Samples &samples, const volume::GridSize &lattice,
 
 double squaredSecondDifferences(const volume::Volume &field, const volume::VoxelBox &box) {
     const volume::GridSize lattice = field.lattice().size(), size = box.size();
-    std::vector<double> ofPlane(std::size_t(size.k));
+    std::vector<double> planeSums(std::size_t(size.k));
     field.visit([&](auto samples) {
         tbb::parallel_for(0, size.k, [&](int k) {
-            ofPlane[std::size_t(k)] = squaresOfPlane(samples, lattice, box, k);
+            planeSums[std::size_t(k)] = squaresOfPlane(samples, lattice, box, k);
         });
     });
     double sum = 0.0;
-    for (const double of : ofPlane)
-        sum += of;
-    // Beyond the first and last plane.
+    for (const double planeSum : planeSums)
+        sum += planeSum;
+    // The planes beyond the first and last one.
     field.visit([&](auto samples) {
         for (const int k : {box.lo.k, box.hi.k - 1})
             for (int j = box.lo.j; j < box.hi.j; ++j)

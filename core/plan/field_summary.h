@@ -12,20 +12,20 @@
 
 namespace pellucid::plan {
 
-/// What the planner needs to know of a field.
+/// What the planner needs to know about a field.
 struct FieldSummary {
     volume::Lattice lattice;
     volume::VoxelBox support;
     EnergyMarginals energy;
-    /// For linear cues; without it the field is taken for noise.
+    /// For linear cues; without it the field is treated as noise.
     std::optional<std::array<SlabProducts, 3>> slabs;
-    /// What the depth of a cue is measured by; the lattice's own radius if absent.
+    /// The R of a depth cue; the lattice's own radius if absent.
     std::optional<double> depthRadiusMm;
 };
 
 /// The summary of a field in the box of its support.
 FieldSummary summarise(const classify::DensityField &field);
-/// Of fields on one lattice that share a plan: each in the box that holds all.
+/// Summaries of fields on one lattice that share a plan, each in the box that encloses all of them.
 std::vector<FieldSummary> summarise(std::span<const classify::DensityField> fields);
 
 } // namespace pellucid::plan

@@ -30,8 +30,8 @@ FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const F
     model.combination = hasChannels        ? Combination::channels
                         : fields.isColored ? Combination::tinted
                                            : Combination::one;
-    // The half of a disc; each tap is a real weight times a complex cell. A linear cue weighs the
-    // same cells a second time.
+    // Half of a disc; each tap is a real weight times a complex cell. A linear cue weights the same
+    // cells a second time.
     const double frequencies = double(grid.columns) * grid.rows,
                  sampled = std::numbers::pi / 8.0 * frequencies,
                  taps = std::pow(layout.width(), 3.0) * (slices.slope != 0.0 ? 2.0 : 1.0);
@@ -68,13 +68,14 @@ std::string spectrumText(SpectrumOf what) {
 std::string reasonText(SpectrumOf what) {
     switch (what) {
     case SpectrumOf::look:
-        return "everything shown has one colour, so it adds up to one field";
+        return "everything has the same colour, so it adds up to one field";
     case SpectrumOf::channel:
-        return "several colours are mixed, so each channel has a field of its own";
+        return "colours are mixed, so each channel has its own field";
     case SpectrumOf::layer:
-        return "the weights change, so each layer keeps its own spectrum and their slices add up";
+        return "the weights may change, so each layer has its own spectrum, and the slices are "
+               "added";
     case SpectrumOf::gradient:
-        return "light shines on the gradient, whose length is not linear in the density";
+        return "light depends on the length of the gradient, which is not linear in the density";
     }
     return {};
 }
@@ -82,13 +83,13 @@ std::string reasonText(SpectrumOf what) {
 std::string leftOutText(LeftOut what) {
     switch (what) {
     case LeftOut::secondHalf:
-        return "half of each spectrum: of real values it mirrors the other";
+        return "half of each spectrum: for real values it mirrors the other half";
     case LeftOut::emptySpace:
         return "the empty part of the volume";
     case LeftOut::light:
         return "spectra of gradients: there is no light";
     case LeftOut::depthCue:
-        return "further slices of each spectrum: there is no depth cue";
+        return "more slices of each spectrum: there is no depth cue";
     case LeftOut::color:
         return "two of three images: there is one colour";
     case LeftOut::cornersOfBand:
@@ -104,7 +105,7 @@ std::string combinationText(Combination how) {
     case Combination::tinted:
         return "one image, tinted pixel by pixel";
     case Combination::channels:
-        return "an image for each of red, green and blue";
+        return "one image each for red, green and blue";
     }
     return {};
 }

@@ -19,22 +19,22 @@ KernelCandidates::KernelCandidates(int axis, std::span<const FieldSummary> field
 }
 
 const KernelCandidate &KernelCandidates::at(const fourier::KernelChoice &choice, double padding) {
-    auto &slot = m_made[{fourier::kernelName(choice), padding}];
+    auto &slot = m_cache[{fourier::kernelName(choice), padding}];
     if (!slot)
-        slot = std::make_unique<KernelCandidate>(made(choice, padding));
+        slot = std::make_unique<KernelCandidate>(make(choice, padding));
     return *slot;
 }
 
-KernelCandidate KernelCandidates::made(const fourier::KernelChoice &choice, double padding) const {
+KernelCandidate KernelCandidates::make(const fourier::KernelChoice &choice, double padding) const {
     const int padded = fourier::paddedSize(m_samples, padding);
-    // Small axes are padded to more than they need: the kernel may know. Least aliases are sought
-    // for a field that leaves some room.
+    // Small axes get more padding than they need, and the kernel may use it. Kernels with the least
+    // aliasing are made for a field that leaves some margin.
     const double actual = std::clamp(double(padded) / m_samples, 1.05, std::max(2.5, padding));
     auto kernel = fourier::makeKernel(choice, actual, m_folded);
     std::optional<fourier::MomentKernel> moment;
     if (m_cue == LinearCue::present)
         moment.emplace(kernel, double(padded) / m_samples);
-    // The worst of the fields; the amplitudes of blocks are the kernel's alone.
+    // The worst of the fields; block amplitudes depend on the kernel only.
     AxisError error;
     for (const FieldSummary &field : m_fields) {
         AxisError e = axisError(kernel, padded, field.energy.axis[m_axis]);

@@ -13,7 +13,7 @@
 
 namespace pellucid::plan {
 
-/// A kernel for one axis of a layout, and the error that it leaves.
+/// A kernel for one axis of a layout, and its error.
 struct KernelCandidate {
     fourier::Kernel kernel;
     int padded; ///< size of the padded axis, samples
@@ -23,26 +23,26 @@ struct KernelCandidate {
 /// Whether the fields are rendered with a linear depth cue, which needs moment kernels.
 enum class LinearCue { none, present };
 
-/// The kernels of one axis by choice and padding. Each takes milliseconds, so it is made when it is
-/// first asked for.
+/// The kernels of one axis by choice and padding. Making one takes milliseconds, so each is made on
+/// first use.
 class KernelCandidates {
 public:
     /// *Requires*: the fields outlive this object.
     KernelCandidates(int axis, std::span<const FieldSummary> fields, LinearCue cue);
 
-    /// The kernel of a choice for at least the wanted padding, with the error of the worst field.
+    /// The kernel of a choice for at least this padding, with the error of the worst field.
     const KernelCandidate &at(const fourier::KernelChoice &choice, double padding);
 
 private:
-    KernelCandidate made(const fourier::KernelChoice &choice, double padding) const;
+    KernelCandidate make(const fourier::KernelChoice &choice, double padding) const;
 
     LinearCue m_cue;
     int m_samples;
     std::size_t m_axis;
     std::span<const FieldSummary> m_fields;
-    /// The energy of the axis by distance from the wrap voxel, the middle one.
+    /// The energy of the axis by distance from the wrap voxel in its middle.
     std::vector<double> m_folded;
-    std::map<std::pair<std::string, double>, std::unique_ptr<KernelCandidate>> m_made;
+    std::map<std::pair<std::string, double>, std::unique_ptr<KernelCandidate>> m_cache;
 };
 
 } // namespace pellucid::plan

@@ -15,13 +15,13 @@ namespace pellucid::plan {
 namespace {
 
 constexpr int views = 64;
-constexpr int mostPixels = 128; // along a side of a coarse projection
+constexpr int maxPixels = 128; // along a side of a coarse projection
 
 // Between the sampled directions the energy does not fall below this share of the minimum found:
-// aligned parts make narrow peaks of the energy, not narrow valleys.
-constexpr double leastSeen = 0.85;
+// aligned parts make narrow peaks in the energy, not narrow valleys.
+constexpr double sampledShare = 0.85;
 
-// Directions evenly over half a sphere, along a spiral.
+// Directions that cover half a sphere evenly, along a spiral.
 glm::dvec3 viewDirection(int view) {
     const double z = (view + 0.5) / views, angle = view * std::numbers::pi * (3.0 - std::sqrt(5.0)),
                  r = std::sqrt(1.0 - z * z);
@@ -30,9 +30,9 @@ glm::dvec3 viewDirection(int view) {
 
 // The masses of a field as points.
 struct PointMasses {
-    std::vector<glm::dvec3> placesMm; ///< from the middle of the box
+    std::vector<glm::dvec3> placesMm; ///< relative to the middle of the box
     std::vector<double> masses;
-    double radiusMm = 0.0; ///< the largest distance of a place
+    double radiusMm = 0.0; ///< the largest distance of a point
     double blockMm = 0.0;  ///< the longest side of a block
 };
 
@@ -64,8 +64,8 @@ PointMasses pointMasses(std::span<const FieldBlock> blocks, const volume::Lattic
     return points;
 }
 
-// The energy of the projection along w, each mass shared out between the nearest four pixels.
-// *Shape*: side x side pixels.
+// The energy of the projection along w, each mass shared between the nearest four pixels. *Shape*:
+// side x side pixels.
 double projectionEnergy(const PointMasses &points, const glm::dvec3 &w, double pixelMm, int side) {
     const glm::dvec3 u = glm::normalize(glm::cross(w, glm::dvec3(0.0, 1.0, 0.0))),
                      v = glm::cross(w, u);
@@ -95,7 +95,7 @@ void MassInBalls::add(const glm::dvec3 &middleMm, double share) {
     m_center += share * middleMm;
 }
 
-double MassInBalls::leastArea(double halfMm) const {
+double MassInBalls::minArea(double halfMm) const {
     double radius = 0.0;
     for (const Block &block : m_blocks)
         radius = std::max(radius, glm::distance(block.middleMm, m_center) + halfMm);
@@ -119,13 +119,13 @@ double MassInBalls::leastArea(double halfMm) const {
 double leastProjectionEnergy(std::span<const FieldBlock> blocks, const volume::Lattice &lattice,
                              const volume::VoxelBox &box) {
     const PointMasses points = pointMasses(blocks, lattice, box);
-    const double pixelMm = std::max(points.blockMm, 2.0 * points.radiusMm / (mostPixels - 3));
+    const double pixelMm = std::max(points.blockMm, 2.0 * points.radiusMm / (maxPixels - 3));
     const int side = int(2.0 * points.radiusMm / pixelMm) + 3;
     std::array<double, views> energies{};
     tbb::parallel_for(0, views, [&](int view) {
         energies[std::size_t(view)] = projectionEnergy(points, viewDirection(view), pixelMm, side);
     });
-    return leastSeen * *std::min_element(energies.begin(), energies.end());
+    return sampledShare * *std::min_element(energies.begin(), energies.end());
 }
 
 } // namespace pellucid::plan

@@ -23,7 +23,7 @@ public:
 
     /// The minimum of pi R^2/m(R)^2 over all R: one over the bound. No sample of a block is farther
     /// than `halfMm` from the block's middle.
-    double leastArea(double halfMm) const;
+    double minArea(double halfMm) const;
 
 private:
     struct Block {
@@ -34,9 +34,9 @@ private:
     glm::dvec3 m_center{0.0};
 };
 
-/// A little less than the smallest energy of coarse projections from all around. They are computed
-/// from the masses of blocks; spreading each mass over its block lowers the energy. *Shape*: the
-/// blocks of a field in a box of the lattice.
+/// A little less than the smallest energy of coarse projections in directions all around. They are
+/// computed from the masses of blocks; spreading each mass over its block lowers the energy.
+/// *Shape*: the blocks of a field in a box of the lattice.
 double leastProjectionEnergy(std::span<const FieldBlock> blocks, const volume::Lattice &lattice,
                              const volume::VoxelBox &box);
 

@@ -52,14 +52,14 @@ public:
     int columns() const { return m_columns; }
     int rows() const { return m_rows; }
 
-    // An upper bound on what a line gathers in a layer of blocks while it stays within these rows
-    // and columns, both ends included.
+    // An upper bound on the integral of a line in a layer of blocks while it stays within these
+    // rows and columns, both ends included.
     float most(int layer, int firstRow, int lastRow, int firstColumn, int lastColumn) const {
         if (firstRow >= m_rows || firstColumn >= m_columns || lastRow < 0 || lastColumn < 0)
             return 0.0F;
         firstRow = std::max(0, firstRow);
         firstColumn = std::max(0, firstColumn);
-        // Each sum also covers the next block.
+        // Each sum already covers the next block.
         lastRow = std::max(firstRow, std::min(m_rows - 1, lastRow) - 1);
         lastColumn = std::max(firstColumn, std::min(m_columns - 1, lastColumn) - 1);
         const int width = std::max(lastRow - firstRow, lastColumn - firstColumn) + 1;
@@ -115,7 +115,7 @@ public:
         return bundle;
     }
 
-    // Halves the interval that spreads the lines most at the ends of the box.
+    // Halves the interval over which the lines diverge most at the ends of the box.
     std::array<Bundle, 2> halves(const Bundle &bundle) const {
         std::array<Bundle, 2> both{bundle, bundle};
         double widest = -1.0;
@@ -140,7 +140,7 @@ public:
 
 private:
     void judge(Bundle &bundle) const {
-        double longest = 0.0; // of a line from one layer to the next, mm
+        double longest = 0.0; // of a line between two layers, mm
         for (const double a : {bundle.slope[0].lo, bundle.slope[0].hi})
             for (const double b : {bundle.slope[1].lo, bundle.slope[1].hi})
                 longest =

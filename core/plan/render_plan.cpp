@@ -21,7 +21,7 @@ namespace {
 
 namespace because = task::because;
 
-// A slice grid and what the tails that fold back into it leave.
+// A slice grid, and the error of the tails that fold back into it.
 struct PlannedGrid {
     SliceGrid grid;
     FieldOfView fieldOfView;
@@ -29,7 +29,7 @@ struct PlannedGrid {
     double cells() const { return double(grid.columns) * grid.rows; }
 };
 
-// The slice grids worth their time, smallest first.
+// The slice grids worth trying, smallest first.
 std::vector<PlannedGrid> planGrids(const scene::Scene &scene,
                                    std::span<const FieldSummary> fields) {
     const scene::Camera &camera = scene.camera;
@@ -51,7 +51,7 @@ std::vector<PlannedGrid> planGrids(const scene::Scene &scene,
     return grids;
 }
 
-// The worst of the fields.
+// The smallest share of any field.
 double imageShare(const scene::Camera &camera, std::span<const FieldSummary> fields) {
     double share = 1.0;
     for (const FieldSummary &field : fields)
@@ -94,18 +94,18 @@ public:
                                                                           {leastAliasing, 5},
                                                                           {leastAliasing, 6},
                                                                           {leastAliasing, 7}})),
-          // Below 1.2 the seam of a full lattice shows.
+          // Below 1.2 the seam of a full lattice becomes visible.
           m_paddings(choices(scene.interpolation.padding, {1.25, 1.375, 1.5, 1.625, 1.75, 2.0})),
           m_storages(choices(scene.interpolation.storage,
                              {fourier::Storage::binary16, fourier::Storage::float32})),
           m_axes{KernelCandidates(0, fields, cueOf(scene)),
                  KernelCandidates(1, fields, cueOf(scene)),
                  KernelCandidates(2, fields, cueOf(scene))},
-          m_grids(planGrids(scene, fields)), m_inImage(imageShare(scene.camera, fields)) {}
+          m_grids(planGrids(scene, fields)), m_imageShare(imageShare(scene.camera, fields)) {}
 
     RenderPlan plan() {
-        // Kernels that no padding makes good enough are left out at first: making one takes
-        // milliseconds.
+        // The first pass skips kernels that no padding makes good enough, because making a kernel
+        // takes milliseconds.
         for (const bool thorough : {false, true}) {
             if (thorough && !std::isinf(m_bestTime))
                 break;
@@ -115,14 +115,14 @@ public:
                         considerPaddings(choice, storage);
         }
         requirePlan();
-        m_best->filterError = errorOfCardFilter(m_best->spectrum);
+        m_best->filterError = cardFilterError(m_best->spectrum);
         m_best->reason = reasonFor(*m_best, m_scene, m_isOverBudget);
         return *m_best;
     }
 
 private:
     static constexpr auto leastAliasing = fourier::KernelFamily::leastAliasing;
-    using Levels = std::array<std::size_t, 3>; // of padding, by axis
+    using Levels = std::array<std::size_t, 3>; // of padding, per axis
 
     struct Layout {
         fourier::SpectrumLayout spectrum;
@@ -141,13 +141,13 @@ private:
                               &j = m_axes[1].at(choice, m_paddings[level[1]]),
                               &k = m_axes[2].at(choice, m_paddings[level[2]]);
         return {{{i.kernel, j.kernel, k.kernel},
-                 m_fields.front().support, // that of all fields
+                 m_fields.front().support, // the box of all fields
                  {i.padded, j.padded, k.padded},
                  storage},
                 {i.error, j.error, k.error}};
     }
 
-    // The worst of the fields.
+    // The largest weight of any field.
     CueWeight weightOf(const fourier::SpectrumLayout &layout) const {
         CueWeight worst;
         for (const FieldSummary &field : m_fields) {
@@ -165,7 +165,7 @@ private:
         double worst = 0.0;
         for (const FieldSummary &field : m_fields)
             worst = std::max(worst, predictRelativeError(layout.errors, layout.spectrum.storage,
-                                                         field.energy, m_inImage, weight));
+                                                         field.energy, m_imageShare, weight));
         return worst;
     }
     double maximumError(const Layout &layout) const {
@@ -176,7 +176,7 @@ private:
                                                    field.energy, weight));
         return worst;
     }
-    double errorOfCardFilter(const fourier::SpectrumLayout &layout) const {
+    double cardFilterError(const fourier::SpectrumLayout &layout) const {
         double added = 0.0;
         for (std::size_t d = 0; d < 3; ++d) {
             double worst = 0.0;
@@ -188,21 +188,21 @@ private:
         return std::sqrt(added);
     }
 
-    // More taps and wider cells cost time, whatever they save elsewhere.
+    // More taps and wider cells cost time that nothing else can save.
     bool mayBeFaster(const fourier::KernelChoice &choice, fourier::Storage storage) const {
         return m_grids.front().cells() * timeInCache(choice.width, storage) < m_bestTime;
     }
     bool isHopeless(const fourier::KernelChoice &choice, fourier::Storage storage) {
         const std::size_t most = m_paddings.size() - 1;
-        const double leastFolded =
+        const double minFolded =
             std::min_element(m_grids.begin(), m_grids.end(), [](const auto &a, const auto &b) {
                 return a.folded < b.folded;
             })->folded;
-        return std::hypot(relativeError(layoutAt(choice, storage, {most, most, most})),
-                          leastFolded) > m_scene.tolerance;
+        return std::hypot(relativeError(layoutAt(choice, storage, {most, most, most})), minFolded) >
+               m_scene.tolerance;
     }
 
-    // From the least padding up, an axis at a time.
+    // Starts with the least padding and adds to one axis at a time.
     void considerPaddings(const fourier::KernelChoice &choice, fourier::Storage storage) {
         for (Levels level{};;) {
             const Layout layout = layoutAt(choice, storage, level);
@@ -215,7 +215,7 @@ private:
         }
     }
 
-    // More padding where the aliases are strongest. Returns false where all axes have the most.
+    // Adds padding to the axis with the strongest aliases. Returns false if all axes have the most.
     bool addPadding(const std::array<AxisError, 3> &errors, Levels &level) const {
         int worst = -1;
         for (int d = 0; d < 3; ++d)
@@ -227,7 +227,7 @@ private:
         ++level[std::size_t(worst)];
         return true;
     }
-    // Of an axis's aliases where they are strongest.
+    // An axis's aliases where they are strongest.
     static double strength(const AxisError &error) {
         double most = 0.0;
         for (const BlockAmplitudes &block : error.blocks)
@@ -235,41 +235,41 @@ private:
         return most;
     }
 
-    // Returns whether more padding may lead to a better plan: not where this layout does not fit,
-    // or meets the tolerance with the smallest grid already.
+    // Returns whether more padding may lead to a better plan. It cannot if this layout does not fit
+    // in memory, or meets the tolerance with the smallest grid already.
     bool considerGrids(const Layout &layout) {
         bool fits = false;
-        const double ofAliases = relativeError(layout);
+        const double layoutError = relativeError(layout);
         for (const PlannedGrid &planned : m_grids) {
             const std::size_t bytes = bytesOf(layout.spectrum, planned.grid);
-            m_leastBytes = std::min(m_leastBytes, bytes);
+            m_minBytes = std::min(m_minBytes, bytes);
             if (bytes > m_budget.bytes) {
                 m_isOverBudget = true;
                 break; // wider grids take more
             }
             fits = true;
-            if (considerPlan(layout, ofAliases, planned, bytes))
+            if (considerPlan(layout, layoutError, planned, bytes))
                 return &planned != &m_grids.front(); // wider grids take longer
         }
         return fits;
     }
 
-    // All spectra but the last are there when the last is prepared.
+    // While the last spectrum is prepared, the others exist already.
     std::size_t bytesOf(const fourier::SpectrumLayout &layout, const SliceGrid &grid) const {
         const scene::Camera &camera = m_scene.camera;
         const auto channels = std::size_t(m_channels);
-        // Planes are joined into a picture of their own.
+        // Channels are joined into a separate picture.
         const std::size_t joined =
             channels > 1 ? channels * camera.width * camera.height * sizeof(float) : 0;
         return layout.peakBytes() + (m_fields.size() - 1) * layout.bytes() +
                channels * frameBytes(grid, camera) + joined;
     }
 
-    // Keeps the plan if it is the best so far: the fastest within the tolerance, or, until there is
-    // one, the most accurate. Returns whether it is within the tolerance.
-    bool considerPlan(const Layout &layout, double ofAliases, const PlannedGrid &planned,
+    // Keeps the plan if it is the best so far: the fastest within the tolerance, or, if there is
+    // none yet, the most accurate. Returns whether it is within the tolerance.
+    bool considerPlan(const Layout &layout, double layoutError, const PlannedGrid &planned,
                       std::size_t bytes) {
-        const double predicted = std::hypot(ofAliases, planned.folded);
+        const double predicted = std::hypot(layoutError, planned.folded);
         const double time =
             frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
         const bool meets = predicted <= m_scene.tolerance, unmet = std::isinf(m_bestTime);
@@ -289,11 +289,11 @@ private:
     void requirePlan() const {
         if (m_best)
             return;
-        if (m_leastBytes == std::numeric_limits<std::size_t>::max())
+        if (m_minBytes == std::numeric_limits<std::size_t>::max())
             throw task::Error(task::ErrorCode::outOfMemory, because::projectionNeedsTooManyCells);
         throw task::Error(
             task::ErrorCode::outOfMemory,
-            because::projectionNeedsMemory((m_leastBytes >> 20) + 1, m_budget.bytes >> 20));
+            because::projectionNeedsMemory((m_minBytes >> 20) + 1, m_budget.bytes >> 20));
     }
 
     const scene::Scene &m_scene;
@@ -305,12 +305,13 @@ private:
     std::vector<fourier::Storage> m_storages;
     std::array<KernelCandidates, 3> m_axes;
     std::vector<PlannedGrid> m_grids;
-    double m_inImage; ///< share of the projection's energy
+    double m_imageShare; ///< share of the projection's energy in the image
 
     std::optional<RenderPlan> m_best;
-    double m_bestTime = std::numeric_limits<double>::infinity(); ///< of those within the tolerance
-    bool m_isOverBudget = false;                                 ///< something did not fit
-    std::size_t m_leastBytes = std::numeric_limits<std::size_t>::max();
+    double m_bestTime =
+        std::numeric_limits<double>::infinity(); ///< of the plans within the tolerance
+    bool m_isOverBudget = false;                 ///< something did not fit
+    std::size_t m_minBytes = std::numeric_limits<std::size_t>::max();
 };
 
 } // namespace

@@ -14,40 +14,40 @@
 
 namespace pellucid::plan {
 
-/// The memory that a plan may ask for, bytes.
+/// The memory that a plan may use.
 struct Budget {
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
 };
 
-/// Says how an image of a scene is computed, what it costs and how far from the exact integral it
-/// will be. Pure: made and tested without rendering.
+/// How an image of a scene is computed, what it costs, and how far from the exact integral it will
+/// be. Pure: made and tested without rendering.
 struct RenderPlan {
     fourier::SpectrumLayout spectrum;
     FieldOfView fieldOfView;
-    /// Relative L2 error of the image, predicted from the field.
+    /// Relative L2 error of the image, predicted from the fields.
     double predictedError = 0.0;
-    /// Largest error of a pixel over the largest pixel, predicted, see predictMaximum.
+    /// Predicted largest error of a pixel over the largest pixel, see predictMaximum.
     double predictedMaximum = 0.0;
-    /// What a graphics card adds to the relative L2 error if it reads pairs of taps with its own
-    /// filter, see filterError; infinite if it cannot.
+    /// The relative L2 error that a graphics card adds if it reads pairs of taps with its linear
+    /// filter, see filterError. Infinite if it cannot.
     double filterError = 0.0;
-    /// Most bytes held at once by the spectrum, its preparation and the frames of the planned
-    /// camera.
+    /// The largest number of bytes held at once by the spectra, their preparation and the frames of
+    /// the planned camera.
     std::size_t bytes = 0;
-    /// Why it is this one, a line for the user.
+    /// Why this plan was chosen: one line for the user.
     task::Reason reason = task::because::mostAccurate;
 };
 
-/// The cheapest kernel, padding of each axis, storage and slice grid whose predicted error is
-/// within the scene's tolerance; if none is, or none of those fits the budget, the most accurate
-/// that fits. What the scene's `interpolation` fixes stays fixed.
-/// *Throws* Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
+/// The cheapest choice of kernel, padding of each axis, storage and slice grid whose predicted
+/// error is within the scene's tolerance. If none is, or none of those fits the budget: the most
+/// accurate that fits. Values that the scene's `interpolation` sets are not changed. *Throws*
+/// Error{outOfMemory} if nothing fits the budget, Error{usage} if the scene is invalid.
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
                       const Budget &budget = {});
 
-/// The same for fields whose spectra share a layout, so that a slice can be their weighted sum: the
-/// errors are those of the worst, the bytes are of all. *Shape*: `channels` images are made of
-/// them.
+/// The same for fields whose spectra share a layout, so that a slice can be their weighted sum. The
+/// errors are those of the worst field; the bytes are the sum. *Shape*: they make `channels`
+/// images.
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
                       const Budget &budget = {});
 

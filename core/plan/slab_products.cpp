@@ -11,10 +11,10 @@ namespace pellucid::plan {
 
 namespace {
 
-// Weights change slowly with the depth.
-constexpr int mostSlabs = 32;
+// Weights change slowly with depth.
+constexpr int maxSlabs = 32;
 
-// The sums of the samples of each slab across an axis, [slab][second of the other axes][first].
+// The sum of the samples of each slab across an axis, [slab][second other axis][first other axis].
 std::vector<std::vector<float>> slabsAcross(const volume::Volume &field,
                                             const volume::VoxelBox &box, int axis, int slabs) {
     const volume::GridSize lattice = field.lattice().size(), size = box.size();
@@ -27,7 +27,7 @@ std::vector<std::vector<float>> slabsAcross(const volume::Volume &field,
         const auto rowAt = [&](int j, int k) {
             return all.data() + lattice.offsetOf(box.lo.i, j + box.lo.j, k + box.lo.k);
         };
-        // Each task writes what no other does: a row of the sums.
+        // Each task writes its own row of the sums.
         tbb::parallel_for(0, second, [&](int row) {
             for (int slab = 0; slab < slabs; ++slab) {
                 float *const to = sums[std::size_t(slab)].data() + std::size_t(row) * first;
@@ -59,38 +59,38 @@ double SlabProducts::energy(std::span<const double> weights) const {
 }
 
 SlabProducts evenSlabProducts(std::span<const double> energy) {
-    SlabProducts of{int(energy.size()), std::min(mostSlabs, int(energy.size())), {}};
-    const auto count = std::size_t(of.slabs);
-    of.products.resize(count * count);
+    SlabProducts matrix{int(energy.size()), std::min(maxSlabs, int(energy.size())), {}};
+    const auto count = std::size_t(matrix.slabs);
+    matrix.products.resize(count * count);
     for (std::size_t n = 0; n < energy.size(); ++n) {
         const std::size_t slab = (n * count + count - 1) / energy.size();
-        of.products[slab * count + slab] += energy[n];
+        matrix.products[slab * count + slab] += energy[n];
     }
-    return of;
+    return matrix;
 }
 
 std::array<SlabProducts, 3> slabProducts(const volume::Volume &field, const volume::VoxelBox &box) {
     std::array<SlabProducts, 3> result;
     for (int axis = 0; axis < 3; ++axis) {
-        SlabProducts &of = result[std::size_t(axis)];
-        of.samples = box.size()[axis];
-        of.slabs = std::min(mostSlabs, of.samples);
-        const auto sums = slabsAcross(field, box, axis, of.slabs);
-        const auto count = std::size_t(of.slabs);
-        of.products.resize(count * count);
+        SlabProducts &matrix = result[std::size_t(axis)];
+        matrix.samples = box.size()[axis];
+        matrix.slabs = std::min(maxSlabs, matrix.samples);
+        const auto sums = slabsAcross(field, box, axis, matrix.slabs);
+        const auto count = std::size_t(matrix.slabs);
+        matrix.products.resize(count * count);
         tbb::parallel_for(std::size_t(0), count, [&](std::size_t a) {
             for (std::size_t b = a; b < count; ++b) {
                 double sum = 0.0;
                 for (std::size_t n = 0; n < sums[a].size(); ++n)
                     sum += double(sums[a][n]) * double(sums[b][n]);
-                of.products[a * count + b] = of.products[b * count + a] = sum;
+                matrix.products[a * count + b] = matrix.products[b * count + a] = sum;
             }
         });
         double all = 0.0;
-        for (const double product : of.products)
+        for (const double product : matrix.products)
             all += product;
         if (all > 0.0)
-            for (double &product : of.products)
+            for (double &product : matrix.products)
                 product /= all;
     }
     return result;

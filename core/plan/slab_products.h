@@ -12,7 +12,7 @@ namespace pellucid::plan {
 /// The correlation matrix C of a field's slabs across an axis. Entry (a, b) is a sum over all lines
 /// along the axis: the line's integral in slab a times its integral in slab b. If each slab has a
 /// weight w, the projection of the weighted field along the axis has the energy w^T C w. This gives
-/// the energy of an error that depends on depth, whether its slabs add up in phase or not.
+/// the energy of an error that depends on depth, whether or not its slabs add up in phase.
 struct SlabProducts {
     /// Slab n starts at sample n * samples / slabs.
     int samples = 1, slabs = 1;
@@ -27,7 +27,7 @@ struct SlabProducts {
 /// one entry per sample along the axis.
 SlabProducts evenSlabProducts(std::span<const double> energy);
 
-/// The products of a field for each axis of a box.
+/// The products of a field along each axis of a box.
 std::array<SlabProducts, 3> slabProducts(const volume::Volume &field, const volume::VoxelBox &box);
 
 } // namespace pellucid::plan

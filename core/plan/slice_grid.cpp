@@ -14,10 +14,10 @@ namespace pellucid::plan {
 
 namespace {
 
-// Larger slices take more memory than any image is worth.
+// Larger grids take more memory than any image is worth.
 constexpr int largestSliceGrid = 65536;
 
-// How far the projection reaches from the centre of rotation, in pixels, seen from any direction.
+// The largest distance of the projection from the centre of rotation in any view, in pixels.
 double reachPixels(const scene::Camera &camera, const FieldOfView &fieldOfView,
                    const volume::Lattice &lattice, const scene::ImageDefinition &image) {
     double radiusMm = 0.0;
@@ -52,7 +52,7 @@ SliceGrid sliceGrid(const scene::Camera &camera, const FieldOfView &fieldOfView,
                                                              fmt::format("{:.3g}", std::abs(panMm)),
                                                              largestSliceGrid));
         const auto keeps = [&](int period) {
-            // Half for each axis, of what the image holds of the projection.
+            // Each axis may use half of the limit, relative to the image's share of the projection.
             return std::all_of(
                 fieldOfView.spreads.begin(), fieldOfView.spreads.end(), [&](const auto &spread) {
                     return foldedTailEnergy(*spread, image, camera.pixelMm, period, side, pan) <=
@@ -66,7 +66,7 @@ SliceGrid sliceGrid(const scene::Camera &camera, const FieldOfView &fieldOfView,
             return least;
         if (!keeps(most))
             return fourier::smoothEvenSize(most);
-        int tooFew = least, enough = most; // tails fall with the period
+        int tooFew = least, enough = most; // the tails shrink as the period grows
         while (enough - tooFew > 1) {
             const int between = (tooFew + enough) / 2;
             (keeps(between) ? enough : tooFew) = between;

@@ -8,33 +8,33 @@
 
 namespace pellucid::plan {
 
-/// The frequency grid of one image: columns x rows frequencies, 1/(columns pixel) apart, so that
-/// the periodic image they make holds the whole projection beside the asked-for part.
+/// The frequency grid of one image: columns x rows frequencies, 1/(columns pixel) apart. Its
+/// periodic image holds the whole projection, not just the visible part.
 struct SliceGrid {
     int columns = 2, rows = 2;
     bool operator==(const SliceGrid &) const = default;
 };
 
-/// What a slice grid has to hold, and how much may fold back into the image.
+/// What a slice grid has to cover, and how much may fold back into the image.
 struct FieldOfView {
-    /// Where each of the fields is that the slice is summed from: what lies beyond its radius is
-    /// zero. At least one.
+    /// The extents of the fields whose spectra are summed: each is zero beyond its radius. At least
+    /// one.
     std::vector<std::shared_ptr<const EnergySpread>> spreads;
-    /// What the tails of the roll-off may leave when they fold back, relative L2.
+    /// The limit on the roll-off tails that fold back, relative L2.
     double aliasingLimit = 3e-4;
 };
 
-/// What the frames of a camera take beside the spectrum: the lines between the two transforms, and
+/// The memory of a camera's frames besides the spectra: the lines between the two transforms, and
 /// the image.
 std::size_t frameBytes(const SliceGrid &grid, const scene::Camera &camera);
 
-/// That of any field within a box.
+/// The field of view of any field within a box.
 FieldOfView fieldOfViewOf(const volume::Lattice &lattice, const volume::VoxelBox &box);
 
-/// The smallest smooth slice grid for a camera that no sample of any projection with its footprint
-/// along an axis, seen from any direction, wraps into, and whose folded tails are as asked for;
-/// where that takes more than three times the cells along an axis, and 1024, those. *Throws*
-/// Error{outOfMemory} for more than 65536 frequencies a side.
+/// The smallest smooth slice grid for a camera such that no sample of the projection, with its
+/// footprint, wraps into the image in any view, and the folded tails are within the limit. The
+/// tails may raise the size of an axis to at most three times, or to 1024 if that is more. *Throws*
+/// Error{outOfMemory} above 65536 frequencies a side.
 SliceGrid sliceGrid(const scene::Camera &camera, const FieldOfView &fieldOfView,
                     const volume::Lattice &lattice, const scene::ImageDefinition &image);
 

@@ -17,10 +17,10 @@ namespace pellucid::prepare {
 namespace {
 
 constexpr std::size_t mostSamples = std::size_t(1) << 25;
-constexpr int fewestSamples = 32;
+constexpr int minSamples = 32;
 constexpr render::ChannelShares none{0.0, 0.0, 0.0};
 
-int leastReduction(const volume::GridSize &size) {
+int minReduction(const volume::GridSize &size) {
     int reduction = 1;
     while (size.count() / (std::size_t(reduction) * reduction * reduction) > mostSamples)
         ++reduction;
@@ -40,9 +40,9 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
                                             const task::Progress &progress,
                                             const std::optional<shading::ShadingScale> &given) {
     std::vector<classify::DensityField> fields;
-    accuracy::AxisProjections fine; // of the layers before samples are joined
+    accuracy::AxisProjections fine; // of the layers before reduction
     int reduction = 1, longest = 0;
-    shading::ShadingScale scale; // of the volume, however coarse its layers become
+    shading::ShadingScale scale; // of the volume, whatever the reduction
     const auto reduce = [&](std::size_t n) {
         fields[n] = classify::coarseField(fields[n], (longest + reduction - 1) / reduction);
     };
@@ -59,13 +59,13 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
         if (n == 0) {
             longest = std::max({size.i, size.j, size.k});
             scale = given.value_or(shading::shadingScale(fields.back().values.lattice()));
-            reduction = leastReduction(size);
+            reduction = minReduction(size);
         }
         fine.add(fields.back(), progress);
         if (reduction > 1)
             reduce(n);
-        // The fields alone may not take what their spectra need.
-        while (held() > budget.bytes / 2 && longest / (reduction + 1) >= fewestSamples) {
+        // The fields alone must leave memory for their spectra.
+        while (held() > budget.bytes / 2 && longest / (reduction + 1) >= minSamples) {
             progress.check();
             ++reduction;
             for (std::size_t m = 0; m <= n; ++m)
@@ -80,7 +80,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
         try {
             const auto summaries = summarise({fields, {}, scale}, scene.shading.cue);
             plan::RenderPlan plan =
-                plan::planRender(scene, summaries, render::FrameJob::mostChannels,
+                plan::planRender(scene, summaries, render::FrameJob::maxChannels,
                                  {budget.bytes > taken ? budget.bytes - taken : 0});
             render::EngineSpectra spectra{{}, {}, scale};
             for (std::size_t n = 0; n < count; ++n) {
@@ -104,7 +104,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
                                                           std::move(loss)));
         } catch (const task::Error &error) {
             if (error.code() != task::ErrorCode::outOfMemory ||
-                longest / (reduction + 1) < fewestSamples)
+                longest / (reduction + 1) < minSamples)
                 throw;
         }
         ++reduction;
@@ -121,19 +121,18 @@ void LayerSet::keep(std::size_t layer) {
         std::move(m_engine->render(m_kept->camera, m_kept->image, m_kept->shading).samples);
 }
 
-picture::ProjectionImage
-LayerSet::sumOfKept(const std::vector<render::ChannelShares> &shares) const {
+picture::ProjectionImage LayerSet::sumKept(const std::vector<render::ChannelShares> &shares) const {
     const scene::Camera &camera = m_kept->camera;
     picture::ProjectionImage image{
         camera.width, camera.height, camera.pixelMm, {}, render::areGrey(shares) ? 1 : 3};
     const auto channels = std::size_t(image.channels);
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     image.samples.resize(pixels * channels);
-    // A block of sums stays in the first cache.
+    // A block of sums fits in the first-level cache.
     constexpr std::size_t block = 1024;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, (pixels + block - 1) / block, 16),
                       [&](const tbb::blocked_range<std::size_t> &range) {
-                          std::array<std::array<float, block>, render::FrameJob::mostChannels> sums;
+                          std::array<std::array<float, block>, render::FrameJob::maxChannels> sums;
                           for (std::size_t b = range.begin(); b != range.end(); ++b) {
                               const std::size_t first = b * block,
                                                 size = std::min(block, pixels - first);
@@ -167,7 +166,7 @@ picture::ProjectionImage LayerSet::render(const scene::Camera &camera,
     const bool sameView =
         m_kept && m_kept->camera == camera && m_kept->image == image && m_kept->shading == shading;
     if (!sameView) {
-        // The view moves: what would be kept now would not be asked for again.
+        // While the view moves, kept projections would not be reused.
         m_kept = Kept{camera, image, shading, std::vector<std::vector<float>>(count())};
         m_engine->setShares(shares);
         return m_engine->render(camera, image, shading, times);
@@ -177,7 +176,7 @@ picture::ProjectionImage LayerSet::render(const scene::Camera &camera,
         for (std::size_t n = 0; n < shares.size(); ++n)
             if (shares[n] != none && m_kept->projections[n].empty())
                 keep(n);
-        picture::ProjectionImage sum = sumOfKept(shares);
+        picture::ProjectionImage sum = sumKept(shares);
         if (times != nullptr)
             *times = {1e3 * (render::frameClockSeconds() - start), 0.0};
         return sum;

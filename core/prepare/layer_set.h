@@ -9,41 +9,41 @@
 
 namespace pellucid::prepare {
 
-/// The layers of a look with a spectrum each, shown with any weights and colours at once.
-/// Projecting is linear, which is used in two ways: while the view stands still the projections of
-/// the layers are kept, and a change of weights costs a sum over the pixels, no slice and no
-/// transform; while both move, one slice is the sum of the layers' slices and each channel is
-/// transformed once. The third, one spectrum of the sum while the weights stand still, is a
+/// The layers of a look, each with its own spectrum, shown with any weights and colours at once.
+/// Projection is linear, which is used in two ways. While the view does not move, the projections
+/// of the layers are kept: a change of weights costs a sum over the pixels, but no slice and no
+/// transform. While both change, one slice is the sum of the layers' slices, and each channel is
+/// transformed once. If the weights do not change, one spectrum of the sum is enough: that is a
 /// PreparedEngine.
 class LayerSet {
 public:
-    /// What makes the field of a layer.
+    /// Makes the field of a layer.
     using FieldOf = std::function<classify::DensityField(std::size_t, const task::Progress &)>;
 
-    /// Fields of more than 2^25 samples are halved until they are smaller, and further until all
-    /// spectra fit the budget: the layers serve the moving hand. `scale`: of the volume, if the
-    /// fields are of a coarser one. *Throws* Error{outOfMemory} if 32
-    /// samples a side do not fit, Cancelled.
+    /// Fields of more than 2^25 samples are reduced until they are smaller, and further until all
+    /// spectra fit the budget, because layers must render at interactive speed. `scale`: that of
+    /// the volume, if the fields come from a coarser one. *Throws* Error{outOfMemory} if 32 samples
+    /// a side do not fit, Cancelled.
     static std::shared_ptr<LayerSet>
     prepare(const scene::Scene &scene, std::size_t count, const FieldOf &fieldOf,
             const plan::Budget &budget, const task::Progress &progress = {},
             const std::optional<shading::ShadingScale> &scale = std::nullopt);
 
-    /// What holds for each layer alone, without what joining samples lost: the error is that of the
-    /// worst.
+    /// The plan of every layer, without the loss of detail from reduction; its error is that of the
+    /// worst layer.
     const plan::RenderPlan &plan() const { return m_plan; }
-    /// How many samples an axis are one here; 1: none were joined.
+    /// The number of original samples per sample along each axis; 1: not reduced.
     int reduction() const { return m_reduction; }
-    /// Tells the error of pictures of the layers that are held, and what joining samples lost, if
-    /// any were joined.
+    /// Predicts the error of pictures of the layers as they are held; and the loss of detail from
+    /// reduction, if any.
     const std::shared_ptr<const accuracy::ViewErrorModel> &viewError() const { return m_viewError; }
     const std::shared_ptr<const accuracy::DetailLoss> &detailLoss() const { return m_detailLoss; }
     std::size_t count() const { return m_engine->fieldCount(); }
     std::size_t bytes() const { return m_engine->bytes(); }
 
-    /// Not safe to call from two threads at once. Lights do not shine on layers, which light is not
-    /// linear in: the gradient of a sum is not as long as the sum of the gradients. *Shape*:
-    /// shares, one each layer. *Throws* Error{outOfMemory}.
+    /// Not thread-safe. Layers are not lit, because light is not linear in them: the length of the
+    /// gradient of a sum is not the sum of the gradients' lengths. *Shape*: `shares` has one entry
+    /// per layer. *Throws* Error{outOfMemory}.
     picture::ProjectionImage render(const scene::Camera &camera,
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading,
@@ -51,7 +51,7 @@ public:
                                     picture::FrameTimes *times = nullptr);
 
     task::Reason description() const { return m_engine->description(); }
-    /// With these shares; from any thread.
+    /// The engine parts with these channel weights. Thread-safe.
     render::EngineParts parts(const std::vector<render::ChannelShares> &shares) const;
 
 private:
@@ -59,14 +59,14 @@ private:
              std::shared_ptr<const accuracy::ViewErrorModel> viewError,
              std::shared_ptr<const accuracy::DetailLoss> detailLoss);
     void keep(std::size_t layer);
-    picture::ProjectionImage sumOfKept(const std::vector<render::ChannelShares> &shares) const;
+    picture::ProjectionImage sumKept(const std::vector<render::ChannelShares> &shares) const;
 
     std::shared_ptr<render::CpuEngine> m_engine;
     plan::RenderPlan m_plan;
     int m_reduction;
     std::shared_ptr<const accuracy::ViewErrorModel> m_viewError;
     std::shared_ptr<const accuracy::DetailLoss> m_detailLoss;
-    /// The view of the last frame, and the projections of the layers in it, those that were needed.
+    /// The view of the last frame, and the projections of the layers that it needed.
     struct Kept {
         scene::Camera camera;
         scene::ImageDefinition image;
@@ -76,7 +76,7 @@ private:
     std::optional<Kept> m_kept;
 };
 
-/// Layers with their shares, as an engine.
+/// Layers with fixed channel weights, as an engine.
 class MixtureEngine final : public render::ProjectionEngine {
 public:
     MixtureEngine(std::shared_ptr<LayerSet> layers, std::vector<render::ChannelShares> shares);

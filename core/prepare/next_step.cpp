@@ -11,42 +11,42 @@ bool isMaking(const Have &have, Underway::Makes makes) {
     return have.underway && have.underway->makes == makes;
 }
 
-bool isOnItsWay(const PreparedFor &look, const Have &have) {
+bool isUnderway(const PreparedFor &look, const Have &have) {
     return isMaking(have, Underway::Makes::engine) && have.underway->of == look;
 }
 
-// Whether the picture is only a stand-in for that of a full engine.
-bool isShownInPart(const Have &have) {
+// Whether the picture is only a placeholder for that of a full engine.
+bool isPlaceholderShown(const Have &have) {
     return have.shown == EngineStage::coarse || have.shown == EngineStage::live;
 }
 
-// Jobs do not overlap: the one underway is stopped first.
+// Jobs do not overlap: the current one is stopped first.
 Step start(Step step, const Have &have) {
     return have.underway ? Step::stopJob : step;
 }
 
 Step backToFull(const Have &have) {
-    // Layers underway are left to finish: the hand may need them in a moment.
+    // Layers underway may finish: the user may need them in a moment.
     if (isMaking(have, Underway::Makes::engine))
         return Step::stopJob;
-    return isShownInPart(have) ? Step::showFull : Step::hold;
+    return isPlaceholderShown(have) ? Step::showFull : Step::hold;
 }
 
 Step followCueAndLight(const PreparedFor &look, const Have &have) {
-    // An engine without its light may be all that is wanted.
+    // An engine without its light may be sufficient.
     if (have.full->isLit && !look.isLit)
         return have.underway ? Step::stopJob : Step::dropLight;
     // A light needs gradients, so a coarse engine comes first. A cue shows with any engine.
     if (look.isLit && !have.full->isLit)
         return start(Step::startCoarseFirst, have);
-    return isShownInPart(have) ? Step::showFull : start(Step::startFull, have);
+    return isPlaceholderShown(have) ? Step::showFull : start(Step::startFull, have);
 }
 
 Step followWeights(const PreparedFor &look, const Have &have) {
-    // Under light the picture is not a sum of layers: coarse engines follow the hand.
+    // Under light the picture is not a sum of layers: coarse engines serve the interaction.
     if (look.isLit)
         return start(Step::startCoarseFirst, have);
-    // The engine of an earlier sum is not wanted any more and would slow the hand down.
+    // The engine of an earlier sum is obsolete and would slow down the interaction.
     if (isMaking(have, Underway::Makes::engine))
         return Step::stopJob;
     if (have.layers && have.layers->hasLayersOf(look))
@@ -58,14 +58,14 @@ Step followWeights(const PreparedFor &look, const Have &have) {
 }
 
 Step follow(const PreparedFor &look, const Have &have) {
-    if (isOnItsWay(look, have) || look == have.givenUp)
+    if (isUnderway(look, have) || look == have.givenUp)
         return Step::nothing;
     if (have.isHeld)
         return have.full && look != have.full ? Step::awaitScan : Step::nothing;
     if (look == have.full)
         return backToFull(have);
-    // A coarse picture with other weights is about to arrive, and the next one follows it. A moving
-    // hand that stopped it would never see any.
+    // A coarse picture with other weights is about to arrive, and the next one follows it. If a
+    // continuing drag stopped it, the user would never see any.
     if (have.underway && have.underway->isCoarseToCome && look.hasLayersOf(have.underway->of))
         return Step::nothing;
     if (have.full && look.showsSameAs(*have.full))
@@ -76,10 +76,10 @@ Step follow(const PreparedFor &look, const Have &have) {
 }
 
 Step settle(const PreparedFor &look, const Have &have) {
-    // Layers finish first: they follow the hand.
+    // Layers finish first: they serve the interaction.
     if (isMaking(have, Underway::Makes::layers))
         return Step::awaitRest;
-    if (have.isHeld || look == have.full || isOnItsWay(look, have) || look == have.givenUp)
+    if (have.isHeld || look == have.full || isUnderway(look, have) || look == have.givenUp)
         return Step::nothing;
     return start(Step::startFull, have);
 }
@@ -99,8 +99,8 @@ Step next(const Wanted &wanted, const Have &have) {
     case Occasion::handRested:
         return settle(look, have);
     case Occasion::fullCame:
-        // A small volume has no coarse engine, so the hand waited for the full one. The look it has
-        // reached meanwhile gets a brightness of its own.
+        // A small volume has no coarse engine, so the user waited for the full one. If the look has
+        // changed meanwhile, it gets its own brightness.
         return have.isHeld || look == have.full ? Step::nothing
                                                 : start(Step::startCoarseFirst, have);
     case Occasion::layersCame:
@@ -108,7 +108,7 @@ Step next(const Wanted &wanted, const Have &have) {
                                                                                 : Step::nothing;
     case Occasion::gaveUp:
         // The previous full picture is better than a coarse one that will not be completed.
-        return have.full && isShownInPart(have) ? Step::showFull : Step::nothing;
+        return have.full && isPlaceholderShown(have) ? Step::showFull : Step::nothing;
     }
     return Step::nothing;
 }
@@ -128,7 +128,7 @@ Have afterStep(Step step, const PreparedFor &look, Have have) {
     case Step::awaitRest:
         break;
     case Step::hold:
-        have.givenUp.reset(); // it may be wanted again
+        have.givenUp.reset(); // it may be requested again
         break;
     case Step::stopJob:
         have.underway.reset();

@@ -11,7 +11,7 @@ namespace pellucid::prepare {
 
 namespace {
 
-constexpr int fewestSamples = 32;
+constexpr int minSamples = 32;
 
 double energy(const volume::Volume &field) {
     return field.visit([](auto samples) {
@@ -37,7 +37,7 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
     scene::validate(scene);
     const std::vector<classify::DensityField> &fields = shaded.fields;
     const int channels = imagesOf(fields.size(), scene.shading);
-    // An image too large for the memory stays so, however coarse the field.
+    // If the image itself is too large for the memory, a coarser field does not help.
     const plan::SliceGrid least =
         plan::sliceGrid(scene.camera, {{summaries.front().energy.spread}, 1.0},
                         summaries.front().lattice, scene.image);
@@ -53,9 +53,9 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
             throw;
         const volume::GridSize n = fields.front().values.lattice().size();
         const int longest = std::max({n.i, n.j, n.k});
-        for (int reduction = 2; longest / reduction >= fewestSamples; ++reduction) {
+        for (int reduction = 2; longest / reduction >= minSamples; ++reduction) {
             std::vector<classify::DensityField> reduced;
-            std::size_t held = 0; // samples need memory too
+            std::size_t held = 0; // the samples need memory too
             double lost = 0.0;
             for (const classify::DensityField &field : fields) {
                 progress.check();
@@ -63,12 +63,13 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                     classify::coarseField(field, (longest + reduction - 1) / reduction));
                 lost = std::max(lost, lostDetail(field, reduced.back()));
             }
-            // The gradient of the means, so that no sample turns darker than black.
+            // The gradient is that of the means, so that no sample becomes darker than black.
             ShadedFields coarse = shadedFields(std::move(reduced), scene.shading, shaded.scale);
             for (const auto *const samples : {&coarse.fields, &coarse.gradients})
                 for (const classify::DensityField &field : *samples)
                     held += field.values.bytes();
-            // A gradient over longer ways has less energy; a low pass leaves out no more than that.
+            // A gradient over a longer step has less energy; a low pass leaves out no more than
+            // that.
             for (std::size_t g = 0; g < coarse.gradients.size(); ++g)
                 lost = std::max(lost, lostDetail(shaded.gradients[g], coarse.gradients[g]));
             if (held >= budget.bytes)
@@ -163,23 +164,23 @@ std::optional<double> errorOf(const PreparedEngine &prepared,
     if (prepared.isCoarse && !prepared.detailLoss)
         return std::nullopt;
     const render::EngineParts parts = prepared.engine->parts();
-    const double ofFields =
+    const double fieldError =
         prepared.viewError
             ? prepared.viewError->errorOf(picture, camera, image, parts, shading).relative
             : prepared.plan.predictedError;
     return prepared.isCoarse
-               ? std::hypot(ofFields,
+               ? std::hypot(fieldError,
                             prepared.detailLoss->relativeError(picture, parts.shares, shading))
-               : ofFields;
+               : fieldError;
 }
 
-std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double ofFields,
+std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double fieldError,
                                         const shading::Shading &shading) {
     if (!prepared.isCoarse)
-        return ofFields;
+        return fieldError;
     if (!prepared.detailLoss)
         return std::nullopt;
-    return std::hypot(ofFields,
+    return std::hypot(fieldError,
                       prepared.detailLoss->relativeError(prepared.engine->parts().shares, shading));
 }
 

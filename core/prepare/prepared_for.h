@@ -7,27 +7,26 @@
 
 namespace pellucid::prepare {
 
-/// What of a scene an engine is made for; the rest changes from frame to frame.
+/// The part of a scene that an engine is made for; the rest may change from frame to frame.
 struct PreparedFor {
     PreparedFor() = default;
-    /// With the window only if the scene names one.
+    /// Has a window only if the scene has one.
     explicit PreparedFor(const scene::Scene &scene);
-    std::optional<classify::FieldWindow> window; ///< none: the volume's own
+    std::optional<classify::FieldWindow> window; ///< not set: the volume's own
     classify::Look look;
     classify::CropBox crop;
     double tolerance = 0.0;
     scene::Interpolation interpolation;
     scene::ImageDefinition image;
-    /// The cue that the error is planned for: as strong as it is, or a little stronger, so that not
-    /// every touch asks for a new plan.
+    /// The cue that the error is planned for. It is rounded up, so that not every small change
+    /// needs a new plan.
     shading::DepthCue cue;
     bool isLit = false;
     bool operator==(const PreparedFor &) const = default;
 
     /// Whether only weights, colours and control points differ: the layers are the same.
     bool hasLayersOf(const PreparedFor &other) const;
-    /// Whether only cue, light and what lies between samples differ, which are seen with any
-    /// engine.
+    /// Whether only cue, light and interpolation between samples differ, which any engine can show.
     bool showsSameAs(const PreparedFor &other) const;
 };
 

@@ -13,24 +13,26 @@ namespace pellucid::prepare {
 /// light the length of the gradient of each.
 struct ShadedFields {
     std::vector<classify::DensityField> fields;
-    std::vector<classify::DensityField> gradients; ///< as many, or none
+    std::vector<classify::DensityField> gradients; ///< one per field, or none
     shading::ShadingScale scale;
 };
 
-/// Without light the fields themselves. With it their gradients too, on the same lattice, one
-/// sample larger on every side if the gradients need it. *Throws* Error{outOfMemory}, Cancelled.
+/// Without light only the fields. With light also their gradients, on the same lattice, which is
+/// extended by one sample on every side if the gradients need it. *Throws* Error{outOfMemory},
+/// Cancelled.
 ShadedFields shadedFields(std::vector<classify::DensityField> fields,
                           const shading::Shading &shading, const shading::ShadingScale &scale,
                           const task::Progress &progress = {});
 
-/// Bytes held at once while they are made, beside the fields, at most.
+/// An upper bound on the bytes held at once while the gradients are made, besides the fields.
 std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSize &size,
                           std::size_t channels);
 
-/// Of fields, then gradients, with what the plan of a scene with this cue needs.
+/// Summaries of the fields, then of the gradients, with what a plan with this cue needs.
 std::vector<plan::FieldSummary> summarise(const ShadedFields &fields, const shading::DepthCue &cue);
 
-/// How many images a frame of so many fields takes: coloured light makes three of one.
+/// The number of images in a frame of this many fields: a single field in coloured light makes
+/// three.
 int imagesOf(std::size_t fields, const shading::Shading &shading);
 
 } // namespace pellucid::prepare

@@ -6,12 +6,12 @@
 
 namespace pellucid::presets {
 
-/// A preset of resources/presets: its file's name and text.
+/// A preset in resources/presets: its file name and text.
 struct BuiltInFile {
     std::string name, text;
 };
 
-/// In the order of their names, which begin with a number.
+/// Ordered by name; names start with a number.
 const std::vector<BuiltInFile> &builtInFiles();
 
 } // namespace pellucid::presets

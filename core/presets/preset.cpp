@@ -18,14 +18,14 @@ using classify::StepKind;
 using task::Error;
 using task::ErrorCode;
 
-// Which thresholds are carried over: those given, or also the defaults of edges and binarise, which
-// mean value units.
+// The thresholds to convert: only those set, or also the defaults of edges and binarise, which are
+// in units of the values.
 enum class Thresholds { given, all };
 
-// Ranges and thresholds with `offset` and `scale` applied to values, and `scale` to slopes.
+// Applies `offset` and `scale` to ranges and thresholds of values, and `scale` to those of slopes.
 Look mapped(Look look, double offset, double scale, Thresholds thresholds) {
     for (classify::TissueClass &tissue : look.classes) {
-        bool isSlope = false; // what the class looks at, after a gradient
+        bool isSlope = false; // the class uses a gradient instead of values
         const auto value = [&](double v) { return (isSlope ? 0.0 : offset) + scale * v; };
         for (classify::Step &step : tissue.steps) {
             for (const char *name : {"low", "high"}) {

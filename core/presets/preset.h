@@ -12,33 +12,35 @@
 
 namespace pellucid::presets {
 
-/// What the ranges of a preset's classes are measured in.
+/// The unit of a preset's class ranges.
 enum class RangeUnit {
-    value, ///< value units: HU for CT
-    window ///< shares of the field's window, 0 at its low end: for values without a scale, as of MR
+    value, ///< units of the values: HU for CT
+    window ///< fractions of the field's window from its low end, for values without a scale such as
+           ///< MR
 };
 
-/// A look that is kept under a name and used on other studies.
+/// A named look that can be applied to other studies.
 struct Preset {
     std::string name;
     std::string modality;                        ///< "CT", "MR", ...; empty: any
-    std::optional<classify::FieldWindow> window; ///< none: the volume's own
+    std::optional<classify::FieldWindow> window; ///< not set: the volume's own
     RangeUnit unit = RangeUnit::value;
     classify::Look look;
     shading::Shading shading;
     std::string notes;
-    /// The JSON that it was read from: keys that this version does not know are written again.
+    /// The JSON that it was read from, so that keys unknown to this version are preserved.
     std::string source = "{}";
 };
 
-/// The look of a preset for a volume whose field has a window: ranges and thresholds in value
-/// units.
+/// A preset's look for a volume whose field has this window: ranges and thresholds in units of the
+/// values.
 classify::Look lookFor(const Preset &preset, const classify::FieldWindow &window);
 
-/// Why a preset is not made for a volume, a line; empty if it is.
+/// Why a preset is not meant for a volume, in one line; empty if it is.
 std::optional<task::Reason> mismatch(const Preset &preset, const volume::Volume &volume);
 
-/// A look that is shown on a volume, as a preset: in HU for CT, by shares of the window otherwise.
+/// Makes a preset of a look that is shown on a volume: in HU for CT, else in fractions of the
+/// window.
 Preset presetOf(const std::string &name, const classify::Look &look,
                 const shading::Shading &shading, const classify::FieldWindow &window,
                 const volume::Volume &volume);
@@ -48,10 +50,10 @@ std::string toJson(const Preset &preset);
 /// *Throws* Error{unusable}: "line N: /classes/2/range: must be two numbers".
 Preset presetFromJson(const std::string &text);
 
-/// A preset file. *Throws* Error{unusable} naming the file, the line and the reason; files above a
-/// megabyte are refused unread.
+/// Reads a preset file. *Throws* Error{unusable} naming the file, the line and the reason; files
+/// above a megabyte are refused unread.
 Preset readPreset(const std::filesystem::path &path);
-/// The file appears when it is complete. *Throws* Error{output}.
+/// The file appears only when complete. *Throws* Error{output}.
 void writePreset(const std::filesystem::path &path, const Preset &preset);
 
 } // namespace pellucid::presets

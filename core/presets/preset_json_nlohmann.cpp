@@ -23,8 +23,8 @@ using task::ErrorCode;
 constexpr const char *schema = "pellucid-preset/1";
 constexpr int longestName = 80; // characters
 
-// Reads a text and knows the line of the last character read. The parser reads one character
-// beyond a number: a line ends where the first character of the next one is read.
+// Reads a text and counts lines. The parser reads one character beyond a number, so a line ends
+// only when the first character of the next one is read.
 struct LineReader {
     using iterator_category = std::forward_iterator_tag;
     using value_type = char;
@@ -58,7 +58,7 @@ public:
         json::sax_parse(LineReader{first, first, &m_line},
                         LineReader{first + text.size(), first, &m_line}, this);
     }
-    // Of a value, or of the nearest one around it.
+    // The line of a value, or of the nearest enclosing one.
     int of(std::string pointer) const {
         for (;;) {
             const auto found = m_lines.find(pointer);
@@ -70,7 +70,7 @@ public:
             pointer.resize(slash);
         }
     }
-    // Where parsing stopped, and why; empty if it did not.
+    // Where and why parsing stopped; empty if it did not.
     const std::string &failure() const { return m_failure; }
 
     bool null() override { return value(); }
@@ -119,7 +119,7 @@ private:
         return true;
     }
     bool open(bool isArray) {
-        // Nothing in a preset lies deeper.
+        // No preset is nested deeper.
         if (m_levels.size() >= 32) {
             m_failure = "it is nested too deeply";
             return false;
@@ -144,7 +144,7 @@ std::string textOrEmpty(const JsonValue &in) {
     return in ? in.text() : std::string();
 }
 
-// Bytes that begin a character of UTF-8.
+// Counts the bytes that start a UTF-8 character.
 std::ptrdiff_t characters(const std::string &text) {
     return std::count_if(text.begin(), text.end(),
                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
@@ -180,7 +180,7 @@ Preset parsed(const JsonValue &in, const std::string &source) {
     return preset;
 }
 
-// What is known of a class, over what its file said of it.
+// Overwrites a class as read from its file with the known keys.
 json joined(const json &former, json known) {
     if (!former.is_object())
         return known;

@@ -30,7 +30,7 @@ std::string fileNameOf(const std::string &presetName) {
         const bool safe = std::isalnum(byte) != 0 || c == '-' || c == '_' || byte >= 128;
         name += safe ? c : '_';
     }
-    // Names that differ in what is not safe must not share a file.
+    // Names that differ only in unsafe characters must not share a file.
     if (name != presetName)
         name += fmt::format("-{:08x}", std::uint32_t(std::hash<std::string>()(presetName)));
     return name + ".json";
@@ -57,7 +57,7 @@ void PresetLibrary::readUserFolder() {
     std::error_code failed;
     for (fs::directory_iterator it(m_folder, failed), end; !failed && it != end;
          it.increment(failed))
-        // What begins with a dot is a file that was never finished.
+        // A name with a leading dot belongs to an unfinished file.
         if (it->path().extension() == ".json" && it->path().filename().string()[0] != '.')
             files.push_back(it->path());
     std::sort(files.begin(), files.end());
@@ -101,11 +101,11 @@ void PresetLibrary::save(const Preset &preset) {
     const PresetEntry *const former = find(preset.name);
     if (former != nullptr && former->isBuiltIn())
         throw Error(ErrorCode::usage, because::builtInPresetNeedsAnotherName(former->preset.name));
-    // What is not well formed would be lost at the next start.
+    // A malformed preset would be lost at the next start.
     try {
         presetFromJson(toJson(preset));
     } catch (const Error &error) {
-        // The line of a text that nobody sees says nothing.
+        // The line number of a text that nobody sees is useless.
         const task::Reason &reason = error.reason();
         throw Error(ErrorCode::usage,
                     because::presetCannotBeKept(reason.is(because::atLine) ? reason.arguments()[1]
@@ -116,7 +116,7 @@ void PresetLibrary::save(const Preset &preset) {
     if (failed)
         throw Error(ErrorCode::output, because::cannotBeMade(task::systemReason(failed)), m_folder);
     fs::path path = former != nullptr ? former->path : m_folder / fileNameOf(preset.name);
-    // A file of that name that is no preset, or another one, stays what it is.
+    // Does not overwrite a file of that name that is not this preset.
     for (int n = 2; former == nullptr && fs::exists(path, failed); ++n)
         path = m_folder / fileNameOf(fmt::format("{} {}", preset.name, n));
     writePreset(path, preset);

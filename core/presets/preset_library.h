@@ -10,50 +10,50 @@
 
 namespace pellucid::presets {
 
-/// A preset and where it is kept.
+/// A preset and its location.
 struct PresetEntry {
     Preset preset;
     std::filesystem::path path; ///< empty: built in
     bool isBuiltIn() const { return path.empty(); }
 };
 
-/// A file of the user's folder that is no preset.
+/// A file in the user's folder that is not a preset.
 struct SkippedPreset {
     std::filesystem::path path;
     task::Reason reason;
 };
 
-/// The presets that come with the program, which stay as they are, and the user's own, a file each.
+/// The read-only presets that come with the program, and the user's own, one file each.
 class PresetLibrary {
 public:
-    /// What cannot be read is skipped; a folder that is not there is an empty one.
+    /// Unreadable files are skipped; a missing folder counts as empty.
     explicit PresetLibrary(std::filesystem::path userFolder);
-    /// Of the user's data folder; without one, of built-in presets only.
+    /// That of the user's data folder, or only built-in presets if there is none.
     static PresetLibrary ofUser();
 
     /// Built-in ones first, then the user's by name.
     const std::vector<PresetEntry> &entries() const { return m_entries; }
     const std::vector<SkippedPreset> &skipped() const { return m_skipped; }
-    /// By name, whatever its case; nullptr if there is none.
+    /// Finds a preset by name, ignoring case; nullptr if there is none.
     const PresetEntry *find(const std::string &name) const;
-    /// *Throws* Error{usage} naming the closest ones.
+    /// *Throws* Error{usage} listing the closest names.
     const PresetEntry &get(const std::string &name) const;
 
-    /// Keeps a preset, in place of the user's one of that name. *Throws* Error{usage} for the name
-    /// of a built-in one, Error{output}; the former file is then untouched.
+    /// Saves a preset, replacing the user's one of that name. *Throws* Error{usage} for the name of
+    /// a built-in one; Error{output}, and the old file is then unchanged.
     void save(const Preset &preset);
     /// *Throws* Error{usage} for a built-in one, Error{output}.
     void remove(const std::string &name);
 
 private:
-    /// Anew; the built-in presets stay.
+    /// Reads the user's presets again; the built-in ones stay.
     void readUserFolder();
     std::filesystem::path m_folder;
     std::vector<PresetEntry> m_entries;
     std::vector<SkippedPreset> m_skipped;
 };
 
-/// A file's name for a preset's: letters, digits and what else is safe everywhere.
+/// A file name for a preset's name: letters, digits and other characters that are safe everywhere.
 std::string fileNameOf(const std::string &presetName);
 
 } // namespace pellucid::presets

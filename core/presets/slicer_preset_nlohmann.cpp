@@ -35,7 +35,7 @@ using Points = std::vector<Point>;
     throw Error(ErrorCode::unusable, why);
 }
 
-// Line 7 of nine: twice the number of points, then value and opacity of each.
+// Line 7 of nine: twice the number of points, then value and opacity of each point.
 Points pointsOfText(const std::string &text) {
     constexpr int opacityLine = 7;
     std::istringstream in(text);
@@ -44,7 +44,7 @@ Points pointsOfText(const std::string &text) {
         if (!std::getline(in, line))
             refuse(because::atLine(n + 1, because::endsBeforeItsOpacity));
     std::istringstream numbers(line);
-    // The machine's language does not change a file's decimal sign.
+    // A file's decimal separator does not depend on the locale.
     numbers.imbue(std::locale::classic());
     int count = 0;
     if (!(numbers >> count) || count < 2 || count % 2 != 0 || count > 20000)
@@ -92,8 +92,8 @@ double opacityAt(const Points &points, double value) {
     return points.back().opacity;
 }
 
-// Opacity beyond the last change stays what it is: the window ends there, but for the values that
-// stand for "everything above".
+// The opacity is constant beyond its last change: the window ends there, ignoring sentinel values
+// that mean "everything above".
 classify::FieldWindow windowOf(const Points &points) {
     std::size_t first = 0, last = points.size() - 1;
     while (first + 1 < points.size() && points[first + 1].opacity == 0.0)
@@ -129,8 +129,8 @@ ImportedPreset importSlicerPreset(const fs::path &path, int points) {
         if (!(whole.low < whole.high))
             refuse(because::opacityDoesNotChange);
 
-        // A steep beginning needs density where it begins, since weights end at 2: the window may
-        // begin before the opacity does. The nearest fit is taken.
+        // A steep start needs density where it starts, because weights are at most 2. The window
+        // may therefore start before the opacity does. The best fit is used.
         ImportedPreset imported;
         Preset &preset = imported.preset;
         preset.name = path.stem().stem().string();
@@ -141,7 +141,7 @@ ImportedPreset importSlicerPreset(const fs::path &path, int points) {
             const auto opacity = [&](double f) {
                 return opacityAt(curve, window.low + f * (window.high - window.low));
             };
-            // What is shown is f B(f): errors count where there is density.
+            // The shown quantity is f B(f), so errors are weighted by density.
             const auto fitted = classify::fitTransferFunction(
                 [&](double f) { return f > 0.0 ? opacity(f) / f : 0.0; }, points,
                 [](double f) { return f * f; });
@@ -153,7 +153,7 @@ ImportedPreset importSlicerPreset(const fs::path &path, int points) {
                 square += error * error;
                 largest = std::max(largest, std::abs(error));
             }
-            if (square < 0.99 * least) { // the narrower window if there is hardly a difference
+            if (square < 0.99 * least) { // prefers the narrower window if the difference is small
                 least = square;
                 imported.largestError = largest;
                 preset.window = window;

@@ -10,7 +10,7 @@ namespace pellucid::reference {
 
 namespace {
 
-// Frequencies summed at a time, so that the inner loop runs over independent sums.
+// The number of frequencies summed at a time, so that the inner loop has independent sums.
 constexpr int batch = 8;
 using Lanes = std::array<double, batch>;
 

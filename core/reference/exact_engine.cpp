@@ -47,12 +47,12 @@ std::size_t ExactEngine::bytes(const volume::Lattice &lattice, const volume::Vox
                                std::size_t images, const scene::Camera &camera,
                                const scene::ImageDefinition &image,
                                const shading::Shading &shading) {
-    const std::size_t ofImages =
+    const std::size_t imageBytes =
         images * (WideKernel::bytes(box) + sliceBytes(lattice, camera, image));
     // The enlarged field and its shaded copy.
-    const std::size_t ofShading =
+    const std::size_t shadingBytes =
         shading.isPlain() ? 0 : 2 * lattice.size().count() * sizeof(float);
-    return ofImages + ofShading;
+    return imageBytes + shadingBytes;
 }
 
 } // namespace pellucid::reference

@@ -10,11 +10,11 @@
 
 namespace pellucid::reference {
 
-/// The exact pictures of a look, in double precision, for tolerances that no engine keeps.
+/// The exact pictures of a look, in double precision, for tolerances that no other engine meets.
 class ExactEngine final : public picture::Projector {
 public:
-    /// Without cue and light the spectra of the fields are made at once; with them each picture
-    /// shades the fields for its own view. `progress` cancels pictures too. *Throws*
+    /// Without cue and light the spectra of the fields are computed at once; otherwise each picture
+    /// shades the fields for its own view. `progress` also cancels pictures. *Throws*
     /// Error{outOfMemory}, Cancelled.
     ExactEngine(classify::ShownFields fields, const shading::Shading &shading,
                 const task::Progress &progress = {});
@@ -25,8 +25,8 @@ public:
                                     const shading::Shading &shading = {},
                                     picture::FrameTimes *times = nullptr) override;
 
-    /// Most bytes held at once, beside the fields, for pictures of so many images. *Shape*: the box
-    /// holds all of every field that is not zero.
+    /// The largest number of bytes held at once, besides the fields, for pictures of this many
+    /// images. *Shape*: the box contains all nonzero samples of every field.
     static std::size_t bytes(const volume::Lattice &lattice, const volume::VoxelBox &box,
                              std::size_t images, const scene::Camera &camera,
                              const scene::ImageDefinition &image, const shading::Shading &shading);
@@ -34,7 +34,7 @@ public:
 private:
     classify::ShownFields m_fields;
     task::Progress m_progress;
-    std::vector<WideKernel> m_spectra; ///< of each channel without cue and light, else none
+    std::vector<WideKernel> m_spectra; ///< of each channel if there is no cue or light, else empty
 };
 
 } // namespace pellucid::reference

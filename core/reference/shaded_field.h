@@ -13,17 +13,17 @@
 
 namespace pellucid::reference {
 
-/// The truth of cue and light: a channel's field shaded sample by sample as `shading::Shading`
-/// says, in double, for one view. Its plain image is the exact shaded image. On a lattice larger by
-/// one sample on every side, about the same centre. *Shape*: axes are [U V W]; channel 0 to 2 of
-/// the lights' colours. *Throws* Error{outOfMemory}, Cancelled.
+/// The reference for cue and light: a channel's field, shaded sample by sample in double as
+/// `shading::Shading` defines, for one view. Its plain image is the exact shaded image. The lattice
+/// is larger by one sample on every side, with the same centre. *Shape*: axes are [U V W]; channel
+/// 0 to 2 of the lights' colours. *Throws* Error{outOfMemory}, Cancelled.
 classify::DensityField shadedField(const classify::DensityField &field,
                                    const shading::Shading &shading, const glm::dmat3 &axes,
                                    int channel, const shading::ShadingScale &scale,
                                    const task::Progress &progress = {});
 
-/// The exact images of a look's channels as a picture: one image of a grey look, or red, green and
-/// blue of each pixel. *Shape*: one image, or three.
+/// The exact images of a look's channels as a picture: a single image if it is grey, else red,
+/// green and blue of each pixel. *Shape*: one image, or three.
 std::vector<double> joinedPlanes(std::vector<std::vector<double>> planes,
                                  const classify::ShownFields &fields);
 

@@ -14,10 +14,10 @@ namespace pellucid::reference {
 
 namespace {
 
-// The response of a raised cosine over the share F of the band falls as 1/(r (1 - (F r)^2)) r
-// samples of that band away (`scene::rollOffFactor`, transformed): at 4/F it is below a fifteenth
-// of what a sharp edge would leave, and falls as 1/r^3 from there on. A roll-off over less than a
-// sixty-fourth counts as that: of a sharp edge the response never fades.
+// The response of a raised cosine over the share F of the band falls as 1/(r (1 - (F r)^2)), at r
+// samples of that band (`scene::rollOffFactor`, transformed). At 4/F it is below a fifteenth of
+// that of a sharp edge, and falls as 1/r^3 from there. A roll-off over less than 1/64 counts as
+// 1/64, because the response of a sharp edge never fades.
 double fadingLength(double rollOff) {
     return 4.0 / std::max(1.0 / 64.0, rollOff);
 }
@@ -28,7 +28,7 @@ Period periodOf(const volume::Lattice &lattice, const scene::Camera &camera,
                 const scene::ImageDefinition &image) {
     const double extent = 2.0 * lattice.radiusMm() / camera.pixelMm;
     double margin = 6.0 * fadingLength(image.rollOff);
-    // The lattice's own band is tapered too: three times its length where that is longer.
+    // The lattice's own band is tapered too: allow three times its length if that is longer.
     if (image.reconstruction == scene::Reconstruction::bandLimited)
         margin *= std::max(1.0, 0.5 * lattice.longestStepMm() / camera.pixelMm);
     const auto pixels = [&](int size, double panMm) {
@@ -42,7 +42,7 @@ Period periodOf(const volume::Lattice &lattice, const scene::Camera &camera,
 std::size_t sliceBytes(const volume::Lattice &lattice, const scene::Camera &camera,
                        const scene::ImageDefinition &image) {
     const Period period = periodOf(lattice, camera, image);
-    // The slice, the plane it becomes, and the image.
+    // The slice, its transform on the period, and the image.
     return 3 * sizeof(double) * std::size_t(period.columns) * std::size_t(period.rows);
 }
 

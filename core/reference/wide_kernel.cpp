@@ -88,7 +88,7 @@ WideKernel::WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
                     row[modulo(i - middle.i, m_padded.i)] = double(samples[from + i]) * factor;
             }
         }
-        // The factor along x once per column instead of once per sample.
+        // Computes the factor along x once per column, not once per sample.
         std::vector<double> hx(m_padded.i, 0.0);
         for (int i = 0; i < size.i; ++i)
             hx[modulo(i - middle.i, m_padded.i)] = 1.0 / apodisation(i - middle.i, m_padded.i);

@@ -8,11 +8,11 @@
 namespace pellucid::reference {
 
 /// The exact image for volumes that are too large for direct summation: Kaiser-Bessel gridding of
-/// width 12 at padding 2 in double precision, which agrees with the direct sum to 1e-10 or better.
+/// width 12 at padding 2 in double precision. It agrees with the direct sum to 1e-10 or better.
 /// *Throws* Error{outOfMemory}, Cancelled. *Source*: Beatty, Nishimura, Pauly 2005.
 class WideKernel {
 public:
-    /// *Shape*: the field is float32; only its box is read, the rest must be zero.
+    /// *Shape*: the field is float32; only the box is read, and the rest must be zero.
     WideKernel(const volume::Volume &field, const volume::VoxelBox &box,
                const task::Progress &progress = {});
 
@@ -21,7 +21,7 @@ public:
     void sample(const std::vector<glm::dvec3> &frequencies,
                 std::vector<std::complex<double>> &values) const;
 
-    /// Bytes that the spectrum of a box takes.
+    /// The memory for the spectrum of a box.
     static std::size_t bytes(const volume::VoxelBox &box);
 
 private:

@@ -17,12 +17,12 @@ using Complex = std::complex<float>;
 using fourier::stripFloats;
 using fourier::stripLanes;
 
-// What one frame leaves to the next: threads, buffers, and tables of the frames of one size.
+// The state shared by successive frames: threads, buffers, and tables for frames of one size.
 struct FrameBuffers {
     FrameBuffers(const plan::FieldOfView &fieldOfView, int threads)
         : team(threads), setup(fieldOfView), scratch(team.slots()) {}
 
-    // Makes ready for a frame.
+    // Prepares for a frame.
     void fit(const FrameInputs &inputs, const scene::Camera &camera, double rollOffShare) {
         takeTables(inputs.grid, rollOffShare);
         const plan::SliceGrid need{std::max(allocated.columns, inputs.grid.columns),
@@ -36,24 +36,24 @@ struct FrameBuffers {
     }
 
     void takeTables(const plan::SliceGrid &grid, double rollOffShare) {
-        const auto areOf = [&](const std::unique_ptr<GridTables> &kept) {
+        const auto fits = [&](const std::unique_ptr<GridTables> &kept) {
             return kept && kept->grid == grid && kept->rollOffShare == rollOffShare;
         };
         for (auto &kept : others)
-            if (areOf(kept))
+            if (fits(kept))
                 std::swap(tables, kept);
-        if (areOf(tables))
+        if (fits(tables))
             return;
         auto made = std::make_unique<GridTables>(grid, rollOffShare);
-        // One that was used before goes.
+        // The tables that were used before the current ones are dropped.
         others.back() = std::move(others.front());
         others.front() = std::move(tables);
         tables = std::move(made);
     }
 
-    // Buffers for every grid up to a size.
+    // Allocates buffers for every grid up to a size.
     void allocate(const plan::SliceGrid &grid, int channels) {
-        // Set last: if memory runs out half way, nothing here may look ready.
+        // Set last: if memory runs out half way, the buffers must not look ready.
         allocated = {0, 0};
         allocatedChannels = 0;
         const std::size_t stripCount = stripsOf(grid.columns / 2);
@@ -77,11 +77,11 @@ struct FrameBuffers {
         strips.clear();
         for (std::size_t n = 0; n < scratch.size(); ++n) {
             strips.push_back(floats(std::size_t(channels + 1) * length * stripFloats));
-            auto *const ofStrips = reinterpret_cast<float *>(strips.back().get());
+            auto *const stripBuffer = reinterpret_cast<float *>(strips.back().get());
             for (int c = 0; c < channels; ++c)
                 scratch[n].strips[std::size_t(c)] =
-                    ofStrips + std::size_t(c) * length * stripFloats;
-            scratch[n].beside = ofStrips + std::size_t(channels) * length * stripFloats;
+                    stripBuffer + std::size_t(c) * length * stripFloats;
+            scratch[n].spare = stripBuffer + std::size_t(channels) * length * stripFloats;
             auto *const first = reinterpret_cast<FrequencyBatch *>(batches.get());
             scratch[n].batches = first + n * (batchesAhead + 1);
             std::uninitialized_default_construct_n(scratch[n].batches, batchesAhead + 1);
@@ -90,14 +90,14 @@ struct FrameBuffers {
         allocatedChannels = channels;
     }
 
-    // Fills the phases of columns and rows.
+    // Sets the phases of columns and rows.
     void setPhases(const FrameInputs &inputs) {
         const int columns = int(tables->strips.size()) * stripLanes;
-        float *const ofColumns = columnPhases();
+        float *const columnValues = columnPhases();
         const auto turnU = rotations(columns, inputs.geometry.turnsPerColumn);
         for (int n = 0; n < columns; ++n) {
-            ofColumns[n] = float(turnU[n].real());
-            ofColumns[columns + n] = float(turnU[n].imag());
+            columnValues[n] = float(turnU[n].real());
+            columnValues[columns + n] = float(turnU[n].imag());
         }
         const auto turnV = rotations(inputs.grid.rows / 2 + 1, inputs.geometry.turnsPerRow);
         const double unit = inputs.unit();
@@ -110,20 +110,20 @@ struct FrameBuffers {
     task::WorkerTeam team;
     FrameSetup setup;
     std::vector<FrameScratch> scratch;
-    // A draft and a full frame take turns while the hand moves: their tables are kept, and a third.
+    // Draft and full frames alternate while the user drags: their tables are kept, and one more.
     std::unique_ptr<GridTables> tables;
     std::array<std::unique_ptr<GridTables>, 2> others;
     plan::SliceGrid allocated{0, 0};
     int allocatedChannels = 0;
     std::shared_ptr<std::byte[]> columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> lines, strips;
-    std::array<std::vector<float>, FrameJob::mostChannels> planes; ///< of pictures with colors
+    std::array<std::vector<float>, FrameJob::maxChannels> planes; ///< of colour pictures
     std::vector<Complex> rowPhase;
 };
 
 namespace {
 
-// What the threads are to do, on buffers that are ready for it.
+// The threads' job, on buffers that are ready for it.
 FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
                 const scene::ImageDefinition &image, FrameBuffers &buffers,
                 picture::ProjectionImage &result) {
@@ -163,10 +163,11 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     return job;
 }
 
-// The phases of a frame, one after the other, and when each part of them ran.
+// Runs the phases of a frame one after the other, and records when each part ran.
 class FrameRun {
 public:
-    // `pixels`: height x width x 3 of a picture with colors, else null. `tint`: of a single image.
+    // `pixels`: height x width x 3 of a colour picture, else null. `tint`: the colour of a single
+    // image.
     FrameRun(const FrameJob &job, std::vector<FrameScratch> &scratch, const ChannelShares &tint,
              float *pixels)
         : m_job(job), m_scratch(scratch), m_tint{float(tint[0]), float(tint[1]), float(tint[2])},
@@ -186,8 +187,9 @@ public:
         team.run(std::span(phases).first(m_pixels == nullptr ? 3 : 4));
     }
 
-    // Of a frame that began at a moment and has just ended. Strips are transformed as soon as they
-    // are interpolated: the wall time of the strips is shared out as the threads' own times are.
+    // The times of a frame that began at `start` and has just ended. Strips are transformed as soon
+    // as they are interpolated, so their wall time is divided in proportion to the threads' own
+    // times.
     picture::FrameTimes timesSince(double start) const {
         const double end = frameClockSeconds();
         double slice = 0.0, strips = 0.0;
@@ -212,7 +214,7 @@ private:
         finishRows(m_job, part % m_job.channels, part / m_job.channels,
                    m_scratch[std::size_t(slot)]);
     }
-    // 16 rows of the planes as pixels of red, green and blue.
+    // Joins 16 rows of the planes into pixels of red, green and blue.
     void joinChannels(int part, int) {
         const std::size_t first = std::size_t(part) * stripLanes * m_job.imageColumns;
         const std::size_t last =

@@ -11,35 +11,35 @@ namespace pellucid::render {
 
 struct FrameBuffers;
 
-/// The projection-slice theorem on the processor: interpolates the central slice of the half
+/// The projection-slice theorem on the processor. Interpolates the central slice of the half
 /// spectrum strip by strip, multiplies by the reconstruction and the roll-off, and transforms each
-/// strip back while it is in the cache. The same bits for any number of threads; between
-/// instruction sets images differ by less than 2e-6 of their largest value.
+/// strip back while it is in the cache. The result has the same bits for any number of threads;
+/// between instruction sets images differ by less than 2e-6 of their largest value.
 ///
-/// Several spectra are shown as their weighted sum: weights and places of the kernel are worked out
-/// once for all, and each channel is transformed once, whatever the number of spectra. A picture
-/// has one channel if all shares are alike and all lights are grey, else three; a spectrum without
-/// a share costs nothing. *Source*: Cheng 2007, eq. 32 and 36.
+/// Several spectra are shown as their weighted sum: weights and positions of the kernel are
+/// computed once for all, and each channel is transformed once, whatever the number of spectra. A
+/// picture has one channel if all channel weights are grey and all lights are grey, else three. A
+/// spectrum with zero weight costs nothing. *Source*: Cheng 2007, eq. 32 and 36.
 ///
 /// Cue and light are applied to the slice (`shading::SliceShading`): a linear cue reads moments
-/// from the cells that are read anyway; light needs one more slice whatever the number of lights.
+/// from the same cells; light needs one more slice, whatever the number of lights.
 class CpuEngine final : public ProjectionEngine {
 public:
-    /// `fieldOfView`: the plan's; without one the spectrum's box is taken to be full. `threads`: 0
-    /// for as many as oneTBB may use.
+    /// `fieldOfView`: that of the plan; without it the spectrum's box is assumed to be full.
+    /// `threads`: 0 for as many as oneTBB may use.
     explicit CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
                        const std::optional<plan::FieldOfView> &fieldOfView = std::nullopt,
                        int threads = 0);
-    /// The shares of the fields are 1 until set.
+    /// The channel weights are 1 until set.
     CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads = 0);
     ~CpuEngine() override;
 
-    /// *Shape*: one each field.
+    /// *Shape*: one entry per field.
     void setShares(std::vector<ChannelShares> shares);
     std::size_t fieldCount() const { return m_parts.spectra.fields.size(); }
     /// Bytes of all spectra.
     std::size_t bytes() const;
-    /// Whether lights have what they shine on.
+    /// Whether there are gradients, which lights need.
     bool takesLight() const { return !m_parts.spectra.gradients.empty(); }
 
     task::Reason description() const override;

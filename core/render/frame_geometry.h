@@ -11,7 +11,7 @@
 
 namespace pellucid::render {
 
-/// How the slice of a view lies in a spectrum: what every engine starts from.
+/// The position of a view's slice in a spectrum: what every engine starts from.
 struct FrameGeometry {
     FrameGeometry() = default;
     FrameGeometry(const scene::Camera &camera, const plan::SliceGrid &grid,
@@ -22,19 +22,20 @@ struct FrameGeometry {
     std::array<double, 3> cellsPerColumn{}, cellsPerRow{};
     bool wraps = false; ///< some |a_d.s| of the disc exceeds 1/2
     /// Turns of exp(+i 2 pi turns) per column and per row that move the wrap voxel and the first
-    /// pixel to where they are.
+    /// pixel to their positions.
     double turnsPerColumn = 0.0, turnsPerRow = 0.0;
-    /// By axis, cells: a coordinate that reaches the far edge of a kernel by less than this counts
-    /// as on it, and mirrored cells are read only where x lies further below 0. Kernels may jump at
-    /// their edges, so where a view meets the grid rounding alone must not decide which of two
-    /// cells is read. Above the rounding of the float offsets of 16 neighbours.
+    /// Tolerances by axis, in cells. A coordinate within this distance of a kernel's far edge
+    /// counts as on the edge, and mirrored cells are read only where x is further below 0 than
+    /// this. Kernels may jump at their edges, so where a view meets the grid, rounding alone must
+    /// not decide which of two cells is read. Larger than the rounding of the float offsets of 16
+    /// neighbours.
     std::array<float, 3> edgeSlack{};
     double cellArea = 0.0;  ///< of the frequency grid, 1/mm^2
     glm::dvec3 toWrap{0.0}; ///< from the centre of rotation to the wrap voxel, mm
 };
 
-/// The slice grid of the frames of one view after another: sought, in a fraction of a millisecond,
-/// for each new framing only, not for each direction.
+/// Keeps the slice grid from one view to the next. A new grid is computed, in a fraction of a
+/// millisecond, only for a new framing, not for each direction.
 class FramedGrid {
 public:
     /// *Throws* Error{outOfMemory} as `sliceGrid` does.
@@ -45,7 +46,7 @@ public:
 
 private:
     struct Framed {
-        scene::Camera camera; // but its orientation
+        scene::Camera camera; // except its orientation
         scene::ImageDefinition image;
         plan::SliceGrid grid;
     };

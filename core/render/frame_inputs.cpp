@@ -5,7 +5,7 @@ namespace pellucid::render {
 
 namespace {
 
-// The lights shine on what was prepared for them alone.
+// Lights need gradients, which exist only if they were prepared.
 shading::Shading activeShading(const shading::Shading &shading, const EngineSpectra &spectra) {
     shading::Shading active = shading;
     if (spectra.gradients.empty())

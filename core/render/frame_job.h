@@ -16,89 +16,90 @@ namespace pellucid::render {
 
 /// One strip of the slice: 16 columns of the frequency grid and every row within the band's disc.
 struct StripBounds {
-    int innerRow = -1; ///< up to here, on both sides of 0, the roll-off is 1 in every lane
+    int innerRow = -1; ///< the roll-off is 1 in every lane up to this row, on both sides of 0
     int outerRow = -1; ///< last row with a frequency inside the disc; -1: none
-    /// Where the roll-off of row innerRow + 1 begins in `FrameJob::rollOff`; 16 values a row.
+    /// The index in `FrameJob::rollOff` of the values of row innerRow + 1; 16 values a row.
     std::size_t rollOff = 0;
 };
 
-/// Where a batch of 16 neighbouring frequencies reads, and with which weights. *Shape*: y and z
-/// weights [tap][lane]; x weights [lane][4 or 8 taps].
+/// The cells and weights of a batch of 16 neighbouring frequencies. *Shape*: y and z weights
+/// [tap][lane]; x weights [lane][4 or 8 taps].
 struct alignas(64) FrequencyBatch {
     static constexpr int lanes = fourier::stripLanes;
     std::array<float, std::size_t(lanes) * 8 + 16> x;
     std::array<float, std::size_t(lanes) * fourier::Kernel::largestWidth> y, z;
-    /// The first cell to read in the plane of each tap, [tap][lane].
+    /// The first cell in the plane of each tap, [tap][lane].
     std::array<std::uint32_t, std::size_t(lanes) * fourier::Kernel::largestWidth> cell;
     std::array<float, lanes> factor; ///< reconstruction and roll-off
-    std::array<float, lanes> sign;   ///< -1: the conjugate is meant
+    std::array<float, lanes> sign;   ///< -1: the conjugate is used
 
-    /// Of a linear cue: the weights of the moment along each axis, laid out as x, y, z.
+    /// For a linear cue: the weights of the moment along each axis, laid out as x, y, z.
     std::array<float, std::size_t(lanes) * 8 + 16> momentX;
     std::array<float, std::size_t(lanes) * fourier::Kernel::largestWidth> momentY, momentZ;
-    /// Of light, by image: the factor of i times the slice, and what the cue adds to it by changing
-    /// from sample to sample, see FrameShading.
+    /// For light, by image: the factor of i times the slice, and the term for the cue's change from
+    /// sample to sample, see FrameShading.
     std::array<std::array<float, lanes>, 3> gradient, excess;
 };
 
 /// By axis.
 using MomentKernels = std::array<fourier::MomentKernel, 3>;
 
-/// What a spectrum is of.
+/// What a spectrum represents: a field, or the length of its gradient.
 enum class FrameKind { field, gradient };
 
-/// A spectrum and its share of each channel of the slice.
+/// A spectrum and its weight in each channel of the slice.
 struct FrameSource {
     const std::byte *cells = nullptr;
-    std::size_t field = 0; ///< which of the engine's
+    std::size_t field = 0; ///< index in the engine's spectra
     std::array<float, 3> shares{1.0F, 1.0F, 1.0F};
     FrameKind kind = FrameKind::field;
 };
 
-/// A shading::SliceShading in terms of the spectra's cells. With F and G the slices of f and of |g|
-/// a term away from the centre, and F' = base F + moment of F, the slice of image c is the sum over
-/// terms of
+/// A shading::SliceShading in terms of the spectra's cells. With F and G the slices of f and of
+/// |g|, offset by a term's cells, and F' = base F + moment of F, the slice of image c is the sum
+/// over terms of
 ///   weight [(ambient + i sum_d gradient_d sin(2 pi q_d)) F' + magnitude G' - excess F],
-/// excess = sum_d excess_d cos(2 pi q_d): the cue is applied before the differences are taken,
+/// with excess = sum_d excess_d cos(2 pi q_d). The cue is applied before the differences are taken,
 /// which adds half its change to both neighbours. *Source*: Totsuka 1993, eq. 12 to 14, for central
 /// differences.
 struct FrameShading {
     struct Term {
-        std::array<double, 3> cells{}; ///< away from the central slice, by axis
+        std::array<double, 3> cells{}; ///< offset from the central slice, by axis
         std::complex<float> weight;
     };
     struct Image {
         float ambient = 1.0F, magnitude = 0.0F;
         std::array<double, 3> gradient{}, excess{};
     };
-    /// The central one first.
+    /// The first term is the central one.
     std::array<Term, 2 * shading::mostCurveValues> terms;
     int termCount = 1;
     bool lit = false;  ///< some magnitude is not zero
     bool cued = false; ///< there are moments
     float base = 1.0F;
     const MomentKernels *kernels = nullptr;
-    std::array<double, 3> perMoment{}; ///< cue per sum of a moment kernel, by axis
+    std::array<double, 3> perMoment{}; ///< the cue's factor per sum of a moment kernel, by axis
     std::array<Image, 3> images;
 };
 
-/// What the sums are at frequency 0, exactly, and their moments. *Shape*: by FrameKind and sum.
+/// The exact sums at frequency 0, and their moments. *Shape*: by FrameKind and sum.
 struct ZeroSum {
     double value = 0.0, moment = 0.0;
 };
 using ZeroSums = std::array<std::array<ZeroSum, 3>, 2>;
 
-/// What a frame's parts share: read by every thread, except what each part writes for itself.
+/// The data that the parts of a frame share. All threads read it; each part writes only its own
+/// output.
 struct FrameJob {
-    static constexpr int mostChannels = 3;
+    static constexpr int maxChannels = 3;
 
     const fourier::SpectrumLayout *layout = nullptr; ///< of all sources
     const fourier::CellLayout *cellLayout = nullptr;
     const FrameSource *sources = nullptr;
     int sourceCount = 1;
-    /// How many images are made: one or three.
+    /// The number of images: one or three.
     int channels = 1;
-    /// How many sums of the sources are: one that serves all images, or one each.
+    /// The number of sums of the sources: one for all images, or one each.
     int sums = 1;
     const FrameShading *shading = nullptr; ///< null: none
     scene::ImageDefinition image;
@@ -112,9 +113,9 @@ struct FrameJob {
     const StripBounds *strips = nullptr;
     int stripCount = 0;
     const float *rollOff = nullptr;
-    /// exp(+i ...) that moves the wrap voxel and the first pixel to where they are, by column
-    /// (real parts, then imaginary parts, 16 x stripCount each) and by row 0..rows/2; the row's
-    /// holds the frequency cell's area and the spectrum's unit too.
+    /// exp(+i ...) that moves the wrap voxel and the first pixel to their positions. By column:
+    /// real parts, then imaginary parts, 16 x stripCount each. By row 0..rows/2: also times the
+    /// frequency cell's area and the spectrum's unit.
     const float *columnPhase = nullptr;
     const std::complex<float> *rowPhase = nullptr;
 
@@ -123,31 +124,32 @@ struct FrameJob {
     /// exp(+i 2 pi k / columns), k = 0..columns/2 - 1.
     const std::complex<float> *unpackReal = nullptr;
 
-    /// After the transform along image rows' direction: [group of 16 image rows][column][strip], of
-    /// each channel.
-    std::array<float *, mostChannels> lines{};
+    /// The result of the transform along the image rows' direction: [group of 16 image
+    /// rows][column][strip], of each channel.
+    std::array<float *, maxChannels> lines{};
     ZeroSums zero{};
-    std::array<float *, mostChannels> samples{}; ///< imageRows x imageColumns each
+    std::array<float *, maxChannels> samples{}; ///< imageRows x imageColumns each
 };
 
-/// Scratch of one thread: an array of `length` strips for each channel, one beside them, and a few
-/// batches.
+/// Scratch of one thread: an array of `length` strips for each channel, one more strip array, and a
+/// few batches.
 struct FrameScratch {
-    std::array<float *, FrameJob::mostChannels> strips{};
-    float *beside = nullptr;
+    std::array<float *, FrameJob::maxChannels> strips{};
+    float *spare = nullptr;
     FrequencyBatch *batches = nullptr; ///< `batchesAhead` + 1 of them
-    /// Time spent on strips, and on their interpolation alone, added up.
+    /// The total time of strips, and of their interpolation alone.
     double stripSeconds = 0.0, sliceSeconds = 0.0;
 };
 inline constexpr int batchesAhead = 3;
-/// Cuts a frame's times in two: seconds since some moment.
+/// A clock that splits a frame's time: seconds since an arbitrary moment.
 double frameClockSeconds();
 
 /// Interpolates one strip of the slice and transforms it along the rows.
 void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch);
-/// Transforms 16 image rows of a channel along the columns and stores what belongs to the image.
+/// Transforms 16 image rows of a channel along the columns and stores their part in the image.
 void finishRows(const FrameJob &job, int channel, int group, FrameScratch &scratch);
-/// Three planes times a color each as pixels of red, green and blue. *Shape*: count samples each.
+/// Joins three planes, each times a colour, into pixels of red, green and blue. *Shape*: count
+/// samples each.
 void joinPlanes(const std::array<const float *, 3> &planes, const std::array<float, 3> &color,
                 std::size_t count, float *pixels);
 /// The instruction set in use.

@@ -20,10 +20,10 @@ Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &s
         return;
     const fourier::Spectrum &first = *spectra.fields[shown.front()];
     unit = first.unit();
-    // One spectrum is one slice, in whatever colour: the colour is given to the image.
+    // A single spectrum needs one slice, whatever its colour: the image is coloured afterwards.
     const bool alone = shown.size() == 1;
-    sums = alone || areGrey(shares) ? 1 : FrameJob::mostChannels;
-    channels = sums > 1 || !shading.isGrey() ? FrameJob::mostChannels : 1;
+    sums = alone || areGrey(shares) ? 1 : FrameJob::maxChannels;
+    channels = sums > 1 || !shading.isGrey() ? FrameJob::maxChannels : 1;
     if (alone)
         color = shares[shown.front()];
     const bool isLit =
@@ -64,7 +64,7 @@ FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mi
     FrameShading frame;
     frame.termCount = int(shading.terms.size());
     frame.cued = shading.slope != 0.0;
-    // Moments are about the wrap voxel, depth is about the centre.
+    // Moments are relative to the wrap voxel, depth to the centre.
     const double wrapDepth = glm::dot(toViewer, toWrap);
     frame.base = float(1.0 + shading.slope * wrapDepth);
     for (int d = 0; d < 3; ++d) {
@@ -88,9 +88,9 @@ FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mi
         FrameShading::Image &image = frame.images[c];
         image.ambient = float(shading.channels[c].ambient);
         image.magnitude = float(shading.channels[c].magnitude);
-        // Lights from opposite sides leave no gradient, but shine.
+        // Opposite lights cancel in the gradient, but their magnitudes add up.
         frame.lit = frame.lit || image.magnitude != 0.0F;
-        // Images of colour from one sum have it at once, unless they are one image.
+        // Images of one sum are coloured here, unless a single image is coloured afterwards.
         if (mixing.sums == 1 && mixing.channels > 1) {
             const double share = mixing.color[c];
             image.ambient *= float(share);

@@ -6,10 +6,10 @@
 
 namespace pellucid::render {
 
-/// The spectra that have a share of a picture, how many sums are made of them, and how many images.
+/// The spectra with a nonzero weight in a picture, the number of sums and the number of images.
 /// Without sources nothing is shown.
 struct Mixing {
-    /// `greyLight`: no light has a colour, whatever the lights add up to.
+    /// `greyLight`: no light is coloured, whatever colour their sum has.
     Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &shares,
            const shading::SliceShading &shading, bool greyLight);
 
@@ -18,7 +18,7 @@ struct Mixing {
     int sums = 1, channels = 1;
     double unit = 1.0;                  ///< of the sums
     ChannelShares color{1.0, 1.0, 1.0}; ///< of a single source
-    /// What the sums are at frequency 0, and their first moments in samples from the wrap voxel.
+    /// The sums at frequency 0, and their first moments in samples from the wrap voxel.
     struct Dc {
         double value = 0.0;
         glm::dvec3 moments{0.0};
@@ -30,8 +30,8 @@ private:
              const ChannelShares &share);
 };
 
-/// A picture's shading in terms of cells and sums, but for the moment kernels. *Shape*: toWrap from
-/// the centre of rotation to the wrap voxel, mm; toViewer is W.
+/// A picture's shading in terms of cells and sums, without the moment kernels. *Shape*: `toWrap`
+/// from the centre of rotation to the wrap voxel, mm; `toViewer` is W.
 FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mixing,
                           const fourier::Spectrum &spectrum, const glm::dvec3 &toWrap,
                           const glm::dvec3 &toViewer, double stepMm);

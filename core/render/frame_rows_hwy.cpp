@@ -2,7 +2,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/render/frame_rows_hwy.cpp"
 #include <hwy/foreach_target.h>
-// foreach_target comes first.
+// foreach_target must come first.
 #include <algorithm>
 #include <hwy/highway.h>
 #include <utility>
@@ -33,7 +33,7 @@ void finishSixteenRows(const FrameJob &job, int channel, int group, FrameScratch
                 if (column >= known)
                     return {hn::Zero(d), hn::Zero(d)};
                 const float *at = lines + std::size_t(column) * stripFloats + lane;
-                // The mean is real; what its imaginary part holds is rounding.
+                // The mean is real; its imaginary part is rounding.
                 return {hn::Load(d, at), column == 0 ? hn::Zero(d) : hn::Load(d, at + stripLanes)};
             };
             const StripComplex a = load(k), b = load(other);
@@ -53,8 +53,8 @@ void finishSixteenRows(const FrameJob &job, int channel, int group, FrameScratch
             hn::Store(hn::Sub(difference.re, sum.im), d, mirrored + stripLanes);
         }
     }
-    // [column][16 rows]: the real and imaginary parts of a strip are neighbouring columns.
-    const float *const image = runTransform(*job.halfColumns, scratch.strips[0], scratch.beside);
+    // [column][16 rows]: the real and imaginary parts of a strip are adjacent columns.
+    const float *const image = runTransform(*job.halfColumns, scratch.strips[0], scratch.spare);
     const int firstRow = group * stripLanes;
     const int rowCount = std::min(stripLanes, std::min(job.imageRows, job.rows) - firstRow);
     const int width = std::min(job.imageColumns, job.columns);
@@ -73,7 +73,7 @@ void finishSixteenRows(const FrameJob &job, int channel, int group, FrameScratch
             std::copy_n(block + row * stripLanes, columnCount,
                         samples + std::size_t(row) * job.imageColumns + column);
     }
-    // An image larger than the period shows the empty part of it again.
+    // An image larger than the period repeats the empty part of it.
     for (int row = 0; row < rowCount; ++row) {
         float *const line = samples + std::size_t(row) * job.imageColumns;
         for (int column = width; column < job.imageColumns; column += job.columns)

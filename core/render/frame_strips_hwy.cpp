@@ -2,7 +2,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/render/frame_strips_hwy.cpp"
 #include <hwy/foreach_target.h>
-// foreach_target comes first.
+// foreach_target must come first.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,10 +23,10 @@ using fourier::StripTransform;
 #include "core/fourier/transforms/transpose_hwy.inc"
 #include "core/render/frame_sums_hwy.inc"
 #include "core/render/frame_weights_hwy.inc"
-// What uses both comes after them.
+// Included after the two files that it uses.
 #include "core/render/frame_shading_hwy.inc"
 
-// A strip of the slice of one spectrum, without cue and light: what most frames are.
+// A strip of the slice of one spectrum without cue and light, as in most frames.
 template <int W, class Cell>
 void interpolatePlain(const FrameJob &job, int strip, FrameScratch &scratch) {
     const StripBounds &bounds = job.strips[strip];
@@ -110,7 +110,7 @@ void sliceOneStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
     const int imageRows = std::min(job.imageRows, job.rows);
     const std::size_t columns = std::size_t(job.stripCount) * stripLanes;
     for (std::size_t c = 0; c < std::size_t(job.channels); ++c) {
-        const float *const result = runTransform(*job.alongRows, scratch.strips[c], scratch.beside);
+        const float *const result = runTransform(*job.alongRows, scratch.strips[c], scratch.spare);
         for (int row = 0; row < imageRows; row += stripLanes) {
             const float *const from = result + std::size_t(row) * stripFloats;
             float *const to =

@@ -12,7 +12,7 @@ std::vector<std::complex<double>> rotations(int count, double turns) {
     std::vector<std::complex<double>> result(count);
     const double angle = 2.0 * std::numbers::pi * (turns - std::floor(turns));
     const double re = std::cos(angle), im = std::sin(angle);
-    // Turning step by step in double keeps 1e-13.
+    // Rotating step by step in double keeps 1e-13.
     double x = 1.0, y = 0.0;
     for (auto &r : result) {
         r = {x, y};
@@ -30,7 +30,7 @@ GridTables::GridTables(const plan::SliceGrid &size, double share)
     const auto radius = [&](int column, int row) {
         return std::hypot(2.0 * column / size.columns, 2.0 * row / size.rows);
     };
-    // The Nyquist row and column lie on the edge of the disc, whose roll-off is 0.
+    // The Nyquist row and column are on the edge of the disc, where the roll-off is 0.
     for (int strip = 0; strip < stripsOf(size.columns / 2); ++strip) {
         const int first = strip * stripLanes, last = first + stripLanes - 1;
         StripBounds bounds;

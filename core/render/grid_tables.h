@@ -9,7 +9,7 @@
 
 namespace pellucid::render {
 
-/// How many groups of 16 lines, columns of a strip or rows, hold so many lines.
+/// The number of groups of 16 lines (columns of a strip, or rows) for this many lines.
 inline int stripsOf(int lines) {
     return (lines + fourier::stripLanes - 1) / fourier::stripLanes;
 }
@@ -17,7 +17,7 @@ inline int stripsOf(int lines) {
 /// exp(+i 2 pi n turns), n = 0..count-1, within 1e-13.
 std::vector<std::complex<double>> rotations(int count, double turns);
 
-/// What depends on the slice grid and the roll-off alone, and is kept from frame to frame.
+/// Tables that depend only on the slice grid and the roll-off, kept from frame to frame.
 struct GridTables {
     GridTables(const plan::SliceGrid &grid, double rollOffShare);
 

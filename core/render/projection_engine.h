@@ -14,28 +14,28 @@
 
 namespace pellucid::render {
 
-/// How much of red, green and blue a field has in a picture.
+/// A field's weights in red, green and blue.
 using ChannelShares = std::array<double, 3>;
 
-/// Whether all channels are alike, hence one is enough.
+/// Whether all weights are grey, so that one channel is enough.
 inline bool areGrey(std::span<const ChannelShares> shares) {
     return std::all_of(shares.begin(), shares.end(), [](const ChannelShares &share) {
         return share[0] == share[1] && share[1] == share[2];
     });
 }
 
-/// The spectra that an engine slices, of one layout.
+/// The spectra that an engine slices; all have the same layout.
 struct EngineSpectra {
     using Spectra = std::vector<std::shared_ptr<const fourier::Spectrum>>;
     Spectra fields;
-    Spectra gradients; ///< of the |g| of each field, for light; or none
+    Spectra gradients; ///< of the |g| of each field, for light; may be empty
     shading::ShadingScale scale;
 };
 
-/// What an engine makes its pictures of; another engine makes the same of it.
+/// The data that an engine makes pictures from. Another engine makes the same pictures from them.
 struct EngineParts {
     EngineSpectra spectra;
-    std::vector<ChannelShares> shares; ///< one each field
+    std::vector<ChannelShares> shares; ///< one entry per field
     plan::FieldOfView fieldOfView;
 };
 

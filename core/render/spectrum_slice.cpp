@@ -31,8 +31,8 @@ std::vector<WeightedSpectrum> weightedSpectra(const EngineParts &engine) {
     return result;
 }
 
-// |D| at a grid coordinate. The half of the grid with negative x is the conjugate of the other one,
-// mirrored, which has the same magnitude.
+// |D| at a grid coordinate. The half of the grid with negative x is the mirrored conjugate of the
+// other half, so its magnitudes are the same.
 double magnitude(const std::vector<WeightedSpectrum> &spectra, glm::dvec3 at) {
     const fourier::SpectrumLayout &layout = spectra.front().spectrum->layout();
     const int width = layout.width();
@@ -72,7 +72,7 @@ SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &came
                             const task::Progress &progress) {
     assert(side >= 2 && engine.shares.size() == engine.spectra.fields.size());
     const std::vector<WeightedSpectrum> spectra = weightedSpectra(engine);
-    // As a frame takes it: before any rounding or interpolation.
+    // The value that a frame uses, without rounding or interpolation.
     double atZero = 0.0;
     for (const auto &[spectrum, weight] : spectra)
         atZero += weight * spectrum->dc();
@@ -83,7 +83,7 @@ SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &came
     SpectrumSlice slice{side, 1.0 / (side * camera.pixelMm), 0.5 / camera.pixelMm, {}};
     task::orOutOfMemory(task::because::noMemoryForAnImage,
                         [&] { slice.decibels.resize(std::size_t(side) * std::size_t(side)); });
-    // Cells along each axis of the spectrum from one column, and one row, to the next.
+    // Cells along each axis of the spectrum per column and per row.
     glm::dvec3 across(0.0), down(0.0);
     for (int d = 0; d < 3; ++d) {
         const glm::dvec3 step = first.lattice().step(d);
@@ -106,7 +106,7 @@ SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &came
             sample(row, column) = computed(row, column);
     });
     sample(zero, zero) = 0.0F;
-    // |D(-s)| = |D(s)| of real fields. An even side has a first column without a counterpart.
+    // |D(-s)| = |D(s)| for real fields. An even side has a first column without a counterpart.
     for (int row = zero + 1; row < side; ++row)
         for (int column = 0; column < side; ++column) {
             const int mirrored = 2 * zero - column;

@@ -20,19 +20,19 @@ struct SpectrumSlice {
     std::vector<float> decibels;
 };
 
-/// What is stored for frequencies that are this weak, or 0.
+/// The value for frequencies this weak or weaker, including zero.
 inline constexpr double lowestDecibels = -200.0;
-/// The decibels that are black; 0 dB is white.
+/// The level shown as black; 0 dB is white.
 inline constexpr double blackDecibels = -100.0;
 
 /// Samples |D(s)| at s = stepPerMm (n U + m V), with stepPerMm = 1/(side camera.pixelMm): the
 /// frequencies that a frame of this camera transforms, before reconstruction, roll-off, cue and
-/// light. It reads the cells that a frame reads, with the kernel of the plan, so it shows the
-/// spectrum as the frame finds it, interpolation errors included; the corners beyond the disc,
-/// which a frame leaves out, are sampled too. Several fields count as their sum, each by the mean
-/// of its shares of red, green and blue. *Requires*: side is at least 2; the engine has a field.
-/// *Throws* Error{unusable} if the sum is 0 at frequency 0, so that there is nothing to compare
-/// with; Error{outOfMemory}; Cancelled. *Source*: Cheng 2007, figures 4.2 to 4.9.
+/// light. It reads the same cells as a frame, with the kernel of the plan, so it shows the spectrum
+/// with its interpolation errors. It also samples the corners outside the disc, which a frame
+/// omits. Several fields count as their sum, each with the mean of its weights in red, green and
+/// blue. *Requires*: side is at least 2; the engine has a field. *Throws* Error{unusable} if the
+/// sum is 0 at frequency 0, so that there is no reference level; Error{outOfMemory}; Cancelled.
+/// *Source*: Cheng 2007, figures 4.2 to 4.9.
 SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &camera, int side,
                             const task::Progress &progress = {});
 

@@ -19,7 +19,8 @@ using volume::GridSize;
 using volume::VoxelBox;
 using volume::VoxelIndex;
 
-// Times the central differences f[n+1] - f[n-1] of the three axes: the columns are stepMm b_d / 2.
+// Multiplied by the central differences f[n+1] - f[n-1] of the three axes: the columns are stepMm
+// b_d / 2.
 glm::dmat3 differenceFactors(const volume::Lattice &lattice, double stepMm) {
     const glm::dmat3 steps(lattice.step(0), lattice.step(1), lattice.step(2));
     return 0.5 * stepMm * glm::transpose(glm::inverse(steps));
@@ -89,7 +90,8 @@ classify::DensityField gradientMagnitude(const classify::DensityField &field, do
                 for (int j = box.lo.j; j < box.hi.j; ++j) {
                     const std::size_t row = size.offsetOf(0, j, k);
                     const auto *const f = samples.data() + row;
-                    // Beyond the lattice's faces the field is zero, and so it is on them.
+                    // The field is zero beyond the lattice's faces and also on them, so a face
+                    // replaces its missing neighbour.
                     const auto *const above = j > 0 ? f - down : f;
                     const auto *const below = j + 1 < size.j ? f + down : f;
                     const auto *const behind = k > 0 ? f - deep : f;

@@ -5,20 +5,21 @@
 
 namespace pellucid::shading {
 
-/// The gradient at a sample, per `stepMm` of way, LPS: with a_d as the columns of a matrix and b_d
-/// the rows of its inverse, stepMm sum over d of b_d times the central difference along d; the
-/// field is zero outside its lattice. *Shape*: n within the lattice, or one sample beyond.
+/// The gradient at a sample, per `stepMm` of distance, LPS: stepMm times the sum over d of b_d
+/// times the central difference along d, where the b_d are the rows of the inverse of the matrix
+/// with columns a_d. The field is zero outside its lattice. *Shape*: n within the lattice, or one
+/// sample beyond.
 glm::dvec3 gradientAt(const volume::Volume &field, const volume::VoxelIndex &n, double stepMm);
 
-/// A field on a lattice that is larger by one sample on every side, about the same centre, so that
-/// its gradient has room.
+/// A field on a lattice that is larger by one sample on every side, with the same centre, so that
+/// its gradient fits.
 classify::DensityField grown(const classify::DensityField &field);
-/// Whether the gradient's support lies within the field's lattice.
+/// Whether the gradient's support is within the field's lattice.
 bool holdsGradient(const classify::DensityField &field);
 
-/// |gradientAt| of every sample, on the field's own lattice, which must hold it: nowhere is the
-/// gradient along any direction longer. *Throws* Error{outOfMemory}, Cancelled.
-/// *Source*: Totsuka 1993, eq. 10 and 11.
+/// |gradientAt| of every sample, on the field's own lattice, which must contain it: an upper bound
+/// on the gradient along any direction. *Throws* Error{outOfMemory}, Cancelled. *Source*: Totsuka
+/// 1993, eq. 10 and 11.
 classify::DensityField gradientMagnitude(const classify::DensityField &field, double stepMm,
                                          const task::Progress &progress = {});
 

@@ -24,7 +24,7 @@ void require(bool holds, const task::Reason &what) {
         throw task::Error(task::ErrorCode::usage, what);
 }
 
-// Numbers with commas between them.
+// Parses numbers separated by commas.
 std::vector<double> numbersOf(const std::string &text, const task::Reason &what) {
     std::vector<double> values;
     for (std::size_t first = 0;;) {
@@ -86,7 +86,7 @@ std::vector<double> cosinesOf(const std::vector<double> &values) {
             sum += (n == 0 || n == last ? 0.5 : 1.0) * values[std::size_t(n)] *
                    std::cos(pi * k * n / last);
         cosines[std::size_t(k)] = (k == 0 || k == last ? 1.0 : 2.0) / last * sum;
-        // Rounding is not worth two slices.
+        // A rounding error is not worth two slices.
         if (std::abs(cosines[std::size_t(k)]) < 1e-12)
             cosines[std::size_t(k)] = 0.0;
     }

@@ -18,14 +18,13 @@ enum class CueKind {
     curve   ///< d = 1 + S (c(t) - 1), c through given values
 };
 
-/// The weight d of what lies at depth t = (W.x)/R: -1 at the far end of every view of the volume,
-/// +1 at the near one; x from the centre of rotation, R the lattice's radius.
-/// *Source*: Totsuka 1993, 3.1.
+/// The weight d at depth t = (W.x)/R: -1 at the far end of every view of the volume, +1 at the near
+/// end; x from the centre of rotation, R the lattice's radius. *Source*: Totsuka 1993, 3.1.
 struct DepthCue {
     CueKind kind = CueKind::none;
     double strength = 1.0; ///< S, 0..1
-    /// Of a curve: c at evenly spaced depths, the far end first; between them the sum of cosines
-    /// c_k cos(k pi (t + 1)/2), k below their number, that goes through them.
+    /// For a curve: c at evenly spaced depths, far end first. It is interpolated by the sum of
+    /// cosines c_k cos(k pi (t + 1)/2) through all values, where k is less than their number.
     std::vector<double> curve{1.0, 1.0, 1.0};
     bool operator==(const DepthCue &) const = default;
 
@@ -35,26 +34,26 @@ struct DepthCue {
     double at(double t) const;
 };
 
-/// DepthCue::at made ready for many depths.
+/// DepthCue::at, prepared for many depths.
 std::function<double(double t)> cueFunction(const DepthCue &cue);
 
-/// Of a curve's values, 0 to 2: as many slices as twice their number cost what they cost.
+/// The number of values of a curve, which are 0 to 2. A curve costs up to twice as many slices.
 inline constexpr std::size_t fewestCurveValues = 2, mostCurveValues = 8;
 inline constexpr double largestCurveValue = 2.0;
 
-/// The coefficients c_k of the cosines through the values of a curve. *Shape*: two values or more.
+/// The coefficients c_k of the cosines through the values of a curve. *Shape*: at least two values.
 std::vector<double> cosinesOf(const std::vector<double> &values);
 
-/// What a light's direction is fixed to.
+/// The frame of reference of a light's direction.
 enum class LightFrame {
     viewer, ///< right, up, toward the viewer
     patient ///< LPS
 };
 
-/// A hemisphere of light whose pole lies in a direction: what faces it gets all, what turns away
-/// nothing, what lies across half. *Source*: Totsuka 1993, eq. 8 to 11.
+/// A hemisphere of light with its pole in a direction: surfaces facing it get all of the light,
+/// surfaces facing away none, perpendicular ones half. *Source*: Totsuka 1993, eq. 8 to 11.
 struct Light {
-    glm::dvec3 direction{0.0, 0.0, 1.0}; ///< to the light, not zero; only its direction counts
+    glm::dvec3 direction{0.0, 0.0, 1.0}; ///< towards the light, not zero; its length is ignored
     classify::Color color;
     double strength = 1.0; ///< 0..1
     LightFrame frame = LightFrame::viewer;
@@ -64,25 +63,25 @@ struct Light {
 inline constexpr std::size_t mostLights = 8;
 inline constexpr double largestAmbient = 2.0;
 
-/// What gives the image depth: the field f becomes
+/// Depth cue and lighting: the field f becomes
 ///   d (A f + sum over lights of S colour 1/2 (|g| - g.L))
-/// with g the gradient of f per shortest step (`gradientMagnitude`). Without cue and lights and
-/// with A = 1, f itself, at no cost.
+/// where g is the gradient of f per shortest step (`gradientMagnitude`). Without cue and lights and
+/// with A = 1 it is f itself, at no cost.
 struct Shading {
     DepthCue cue;
     double ambient = 1.0; ///< A, 0..2
     std::vector<Light> lights;
     bool operator==(const Shading &) const = default;
 
-    /// Whether the fields are shown as they are.
+    /// Whether the fields are shown unchanged.
     bool isPlain() const;
-    /// Whether a light shines: the |g| of the fields is needed.
+    /// Whether there is an active light, which needs the |g| of the fields.
     bool isLit() const;
-    /// Whether all lights are grey: a grey field gives a grey picture.
+    /// Whether all lights are grey, so that a grey field makes a grey picture.
     bool isGrey() const;
 };
 
-/// *Throws* Error{usage} naming what is out of its range.
+/// *Throws* Error{usage} naming the value that is out of range.
 void validate(const Shading &shading);
 
 /// "none", "linear:S", "sine:S" or "curve:c0,c1,...", the far end first. *Throws* Error{usage}.
@@ -90,10 +89,10 @@ DepthCue cueFromText(const std::string &text);
 /// "u,v,w[:#rrggbb[:S]]", the direction in the viewer's frame. *Throws* Error{usage}.
 Light lightFromText(const std::string &text);
 
-/// A JSON object with `cue`, `ambient` and `lights`, each only if it is not the usual.
+/// A JSON object with `cue`, `ambient` and `lights`, each only if it is not the default.
 std::string toJson(const Shading &shading);
-/// From such an object; keys of others are left alone. *Throws* Error{usage} with the JSON
-/// pointer of what is wrong (`because::at`).
+/// Reads such an object; ignores unknown keys. *Throws* Error{usage} with the JSON pointer of the
+/// error (`because::at`).
 Shading shadingFromJson(const std::string &text);
 
 } // namespace pellucid::shading

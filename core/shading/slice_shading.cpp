@@ -27,7 +27,7 @@ SliceShading sliceShading(const Shading &shading, const glm::dmat3 &axes,
                           const ShadingScale &scale) {
     SliceShading result;
     const DepthCue &cue = shading.cue;
-    const double quarter = 0.25 / scale.radiusMm; // of a wave over the whole depth, twice
+    const double quarter = 0.25 / scale.radiusMm; // a quarter wave per radius
     // weight cos(2 pi offset (W.x) + turn) as two exponentials.
     const auto addCosine = [&](double weight, double offset, double turn) {
         result.terms.push_back({offset, std::polar(0.5 * weight, -turn)});
@@ -40,7 +40,7 @@ SliceShading sliceShading(const Shading &shading, const glm::dmat3 &axes,
         case CueKind::linear:
             result.slope = cue.strength / scale.radiusMm;
             break;
-        case CueKind::sine: // a cosine a quarter of a turn later
+        case CueKind::sine: // a cosine shifted by a quarter turn
             addCosine(cue.strength, quarter, -0.5 * std::numbers::pi);
             break;
         case CueKind::curve: {

@@ -12,19 +12,18 @@
 
 namespace pellucid::shading {
 
-/// What cue and light are measured by; of the whole lattice of the volume, whatever part of it or
-/// coarser copy of it is rendered.
+/// The scale of cue and light. It is that of the volume's whole lattice, whatever part or coarser
+/// copy is rendered.
 struct ShadingScale {
     double radiusMm = 1.0; ///< R, see Lattice::radiusMm
     double stepMm = 1.0;   ///< the shortest step
 };
-/// Of a volume's own lattice.
+/// The scale of a volume's own lattice.
 ShadingScale shadingScale(const volume::Lattice &lattice);
 
-/// The shading of one view, as what is done to slices of the spectra of f and of |g|:
+/// The shading of one view as operations on slices of the spectra of f and of |g|:
 ///   d(x) = slope (W.x) + sum over terms of weight exp(-i 2 pi offset (W.x))
-/// where every term is a slice, `offset` away from the central one along W; and the image of
-/// channel c is that of
+/// Every term is a slice, `offset` from the central one along W. The image of channel c is that of
 ///   d (ambient_c f + magnitude_c |g| + gradient_c . (stepMm grad f)).
 /// *Source*: Totsuka 1993, eq. 3 to 5, 11 and section 3.1 on sine waves.
 struct SliceShading {
@@ -41,13 +40,13 @@ struct SliceShading {
     double slope = 0.0; ///< 1/mm
     std::array<Channel, 3> channels;
 
-    /// f itself.
+    /// Whether it leaves f unchanged.
     bool isPlain() const;
-    /// Whether all channels are alike.
+    /// Whether all channels are the same.
     bool isGrey() const;
 };
 
-/// The shading as seen by a camera. *Shape*: axes are its [U V W].
+/// The shading in the view of a camera. *Shape*: axes are its [U V W].
 SliceShading sliceShading(const Shading &shading, const glm::dmat3 &axes,
                           const ShadingScale &scale);
 

@@ -6,11 +6,12 @@
 
 namespace pellucid::system {
 
-/// Takes what is worth knowing when something went wrong on a machine far away: versions, devices,
-/// what a driver says. Never a patient's name, nor a file's. From any thread.
+/// Receives information for diagnosing problems remotely: versions, devices, driver messages. Never
+/// contains the name of a patient or a file. Thread-safe.
 using LogSink = std::function<void(const std::string &line)>;
 
-/// Where log lines go; nowhere until it is set. *Shape*: set once, before other threads begin.
+/// Sets the destination of log lines; without it they are discarded. *Requires*: called once,
+/// before other threads start.
 void setLogSink(LogSink sink);
 void log(const std::string &line);
 

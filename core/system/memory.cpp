@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the two versions call the same.
+// The names of the same values in the two versions.
 struct GroupFiles {
     const char *limit, *used, *droppable;
 };
@@ -26,7 +26,7 @@ constexpr GroupFiles ofVersion1{"memory.limit_in_bytes", "memory.usage_in_bytes"
                                 "total_inactive_file"};
 constexpr GroupFiles ofVersion2{"memory.max", "memory.current", "inactive_file"};
 
-// The largest size for one without a limit, which says "max" or nothing.
+// The maximum if there is no limit, which reads "max" or is missing.
 std::size_t freeBytesOf(const fs::path &group, const GroupFiles &files) {
     std::size_t limit = 0, used = 0, droppable = 0;
     if (!(std::ifstream(group / files.limit) >> limit) ||
@@ -46,20 +46,20 @@ std::size_t freeBytesOf(const fs::path &group, const GroupFiles &files) {
 std::size_t groupFreeBytes(const fs::path &root) {
     std::size_t free = std::numeric_limits<std::size_t>::max();
     std::ifstream groups(root / "proc/self/cgroup");
-    // Number, controllers, path.
+    // Fields: number, controllers, path.
     for (std::string line; std::getline(groups, line);) {
         const auto first = line.find(':'), second = line.find(':', first + 1);
         if (second == std::string::npos)
             continue;
         const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
-        const bool isSecond = controllers == ",,";
-        if (!isSecond && controllers.find(",memory,") == std::string::npos)
+        const bool isVersion2 = controllers == ",,";
+        if (!isVersion2 && controllers.find(",memory,") == std::string::npos)
             continue;
-        const fs::path top = root / (isSecond ? "sys/fs/cgroup" : "sys/fs/cgroup/memory");
-        // A container may see its own group as the top, and its path all the same.
+        const fs::path top = root / (isVersion2 ? "sys/fs/cgroup" : "sys/fs/cgroup/memory");
+        // A container may see its own group as the root, but the path of the host.
         fs::path group = fs::path(line.substr(second + 1)).relative_path();
         for (;; group = group.parent_path()) {
-            free = std::min(free, freeBytesOf(top / group, isSecond ? ofVersion2 : ofVersion1));
+            free = std::min(free, freeBytesOf(top / group, isVersion2 ? ofVersion2 : ofVersion1));
             if (group.empty())
                 break;
         }
@@ -78,21 +78,21 @@ std::size_t mappableBytes() {
 }
 
 std::size_t freeMemoryBytes() {
-    const std::size_t mine = std::min(mappableBytes(), groupFreeBytes());
+    const std::size_t ownLimit = std::min(mappableBytes(), groupFreeBytes());
     std::ifstream info("/proc/meminfo");
     std::string name, unit;
     std::size_t kilobytes = 0;
     while (info >> name >> kilobytes >> unit)
         if (name == "MemAvailable:")
-            return std::min(kilobytes * 1024, mine);
-    return mine;
+            return std::min(kilobytes * 1024, ownLimit);
+    return ownLimit;
 }
 
 std::size_t availableMemoryBytes() {
-    // Some libraries (FFTW, Qt, Mesa) end the program when they get nothing for their small things.
-    constexpr std::size_t ofLibraries = std::size_t(192) << 20;
+    // Some libraries (FFTW, Qt, Mesa) abort if a small allocation fails.
+    constexpr std::size_t libraryReserve = std::size_t(192) << 20;
     const std::size_t mappable = mappableBytes();
-    return std::min(freeMemoryBytes(), mappable > ofLibraries ? mappable - ofLibraries : 0);
+    return std::min(freeMemoryBytes(), mappable > libraryReserve ? mappable - libraryReserve : 0);
 }
 
 void requireMemory(double bytes) {

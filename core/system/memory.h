@@ -6,23 +6,23 @@
 
 namespace pellucid::system {
 
-/// What the process's own limit leaves it to map, used or not; the largest size without one.
+/// The address space that the process's own limit still allows; the maximum if unlimited.
 std::size_t mappableBytes();
 
-/// What the control groups that the process is in (of a session, a container; either version) leave
-/// it, pages that can be dropped included; the largest size without one. `root`: where /proc and
-/// /sys are.
+/// The memory that the process's control groups (of a session or a container; either version) still
+/// allow, including reclaimable pages; the maximum if unlimited. `root`: the folder of /proc and
+/// /sys.
 std::size_t groupFreeBytes(const std::filesystem::path &root = "/");
 
-/// Memory that can be had without pushing other programs out, and within the limits of the
-/// process and its groups; the largest size if it is not known.
+/// Memory that is available without displacing other programs, within the limits of the process and
+/// its groups; the maximum if unknown.
 std::size_t freeMemoryBytes();
 
-/// As much of it as may be asked for at once: of a limit, libraries keep what they need to go on.
+/// The part of it that may be requested at once: within a limit, some is reserved for libraries.
 std::size_t availableMemoryBytes();
 
-/// Asked before memory is: systems that overcommit give what they do not have, and kill later.
-/// *Throws* Error{outOfMemory} if `bytes` are not available.
+/// Called before large allocations, because systems that overcommit grant memory that they do not
+/// have, and kill the program later. *Throws* Error{outOfMemory} if `bytes` are not available.
 void requireMemory(double bytes);
 
 } // namespace pellucid::system

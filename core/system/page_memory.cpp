@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-// Sanitizers watch the borders of what the allocator gave.
+// Sanitizers check the bounds of allocations, so they need the allocator.
 #if defined(__linux__) && !defined(PELLUCID_SANITIZED)
 #define PELLUCID_LARGE_PAGES
 #include <sys/mman.h>
@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t largePage = std::size_t(2) << 20;
 
 #ifdef PELLUCID_LARGE_PAGES
-// Whole large pages of their own, given back whole. The allocator would keep much of what is freed,
-// and its regions the wish for large pages.
+// Maps whole large pages and returns them whole. The allocator would keep much of the freed memory,
+// and its regions would stay marked for large pages.
 std::byte *mapLargePages(std::size_t size) {
     const std::size_t reserved = size + largePage;
     void *const start =
@@ -31,7 +31,7 @@ std::byte *mapLargePages(std::size_t size) {
     if (before > 0)
         ::munmap(first, before);
     ::munmap(first + before + size, largePage - before);
-    ::madvise(first + before, size, MADV_HUGEPAGE); // a wish: smaller pages only cost time
+    ::madvise(first + before, size, MADV_HUGEPAGE); // a hint: smaller pages only cost time
     return first + before;
 }
 #endif

@@ -8,9 +8,9 @@
 
 namespace pellucid::system {
 
-/// Uninitialised memory on large pages where the system has them (2 MB aligned): scattered reads of
-/// a spectrum otherwise miss the address cache as often as the data cache.
-/// *Throws* Error{outOfMemory}, naming `what`.
+/// Uninitialised memory on large pages if the system has them (2 MB aligned): otherwise scattered
+/// reads of a spectrum miss the TLB as often as the data cache. *Throws* Error{outOfMemory}, naming
+/// `what`.
 std::shared_ptr<std::byte[]> allocatePages(std::size_t bytes, task::Because<0> what);
 
 } // namespace pellucid::system

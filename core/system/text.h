@@ -9,7 +9,7 @@
 
 namespace pellucid::system {
 
-/// With small letters for capital ones of ASCII; others stay, whatever the locale.
+/// ASCII letters in lower case; other characters are unchanged, whatever the locale.
 inline std::string lowered(std::string text) {
     for (char &c : text)
         if (c >= 'A' && c <= 'Z')
@@ -17,9 +17,9 @@ inline std::string lowered(std::string text) {
     return text;
 }
 
-/// The decimal number that a text is, whatever the locale: with a decimal point, perhaps an
-/// exponent, "inf" or "nan". No value if anything comes before or after it, a plus sign or a blank
-/// too, or if double precision does not hold it.
+/// Parses a decimal number, whatever the locale: with a decimal point, and optionally an exponent;
+/// or "inf" or "nan". Empty if the text has anything before or after it, including a plus sign or a
+/// blank, or if double precision cannot represent it.
 inline std::optional<double> numberFrom(std::string_view text) {
     double number = 0.0;
     const char *const end = text.data() + text.size();
@@ -27,7 +27,7 @@ inline std::optional<double> numberFrom(std::string_view text) {
     return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
 }
 
-/// As `numberFrom`, with blanks before the number and a plus sign as people type them.
+/// The same, but accepts leading blanks and a plus sign, as people type them.
 inline std::optional<double> typedNumberFrom(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\n\v\f\r"), text.size()));
     if (text.starts_with('+') && !text.starts_with("+-"))

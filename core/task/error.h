@@ -10,18 +10,18 @@
 
 namespace pellucid::task {
 
-/// What went wrong, in the classes that a caller can act on.
+/// Classes of failures that a caller can act on.
 enum class ErrorCode {
-    internal,     ///< a fault of the program
+    internal,     ///< a bug in the program
     output,       ///< the result cannot be written
     usage,        ///< the request makes no sense
-    unusable,     ///< a path is missing, empty, or holds nothing usable
-    outOfMemory,  ///< the request needs more memory than there is or than was allowed
-    noSuchDevice, ///< the requested engine does not exist here
+    unusable,     ///< a path is missing, empty, or has nothing usable
+    outOfMemory,  ///< the request needs more memory than is available or allowed
+    noSuchDevice, ///< the requested engine does not exist on this machine
 };
 
-/// A failure of the outside world: a file, a device, a limit. `what()` is one line of English that
-/// names the path, if there is one, and the reason.
+/// An external failure: a file, a device, a limit. `what()` is one line of English with the path,
+/// if there is one, and the reason.
 class Error : public std::runtime_error {
 public:
     Error(ErrorCode code, Reason reason, std::filesystem::path path = {});
@@ -36,11 +36,11 @@ private:
     std::filesystem::path m_path;
 };
 
-/// Whether it says that there is no memory, for an object or a thread; TBB says it in words.
+/// Whether it reports a lack of memory, for an object or a thread; TBB only has a text for it.
 bool isLackOfMemory(const std::exception &error);
 
-/// What `work` gives, a reference as a reference. *Throws* Error{outOfMemory, reason} where it
-/// finds no memory, and what `work` throws.
+/// Returns the result of `work`, a reference as a reference. *Throws* Error{outOfMemory, reason} if
+/// `work` runs out of memory; otherwise what `work` throws.
 template <class F> decltype(auto) orOutOfMemory(const Reason &reason, F &&work) {
     try {
         return std::forward<F>(work)();

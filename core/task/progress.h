@@ -6,13 +6,13 @@
 
 namespace pellucid::task {
 
-/// Thrown out of a long function when its Progress was asked to stop.
+/// Thrown by a long function after its Progress was asked to stop.
 struct Cancelled {};
 
-/// What a long function reports to and asks whether it should go on.
+/// A long function reports to it, and asks whether to continue.
 ///
 /// A default-constructed Progress reports to nobody and never stops. Copies share the stop token;
-/// `part` gives a sub-task its own stretch of the caller's scale.
+/// `part` maps a subtask to a range of the caller's scale.
 class Progress {
 public:
     using Report = std::function<void(double fraction)>;
@@ -20,7 +20,8 @@ public:
     Progress() = default;
     explicit Progress(std::stop_token stop, Report report = {});
 
-    /// Reports a fraction in 0..1 of this (part of the) task. Throws Cancelled if asked to stop.
+    /// Reports a fraction in 0..1 of this task or part of a task. Throws Cancelled if asked to
+    /// stop.
     void report(double fraction) const;
     /// Throws Cancelled if asked to stop.
     void check() const;

@@ -61,7 +61,7 @@ std::string Reason::english() const {
     return filled;
 }
 
-// name, then for each argument t<bytes>:text or r<count>:reasons, then a semicolon.
+// The format: name, then for each argument t<bytes>:text or r<count>:reasons, then a semicolon.
 std::string Reason::encoded() const {
     std::string out(sentenceOf(m_id).name);
     for (const Argument &a : m_arguments) {
@@ -76,7 +76,7 @@ std::string Reason::encoded() const {
     return out + ";";
 }
 
-// The text may come from a process that read untrusted bytes.
+// The text may come from a process that has read untrusted bytes.
 class ReasonReader {
 public:
     explicit ReasonReader(std::string_view text) : m_rest(text) {}

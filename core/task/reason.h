@@ -14,8 +14,8 @@ namespace pellucid::task {
 template <int Places> struct Because;
 struct Argument;
 
-/// Why something failed, was left out or carries a warning: which sentence of reasons.inc, and what
-/// fills its places. Code decides by the Id, never by the words; the window translates by the Id.
+/// Why something failed or was left out, or a warning: a sentence of reasons.inc and its arguments.
+/// Code compares Ids, never texts; the window translates by Id.
 class Reason {
 public:
     enum class Id : std::uint16_t {
@@ -25,7 +25,7 @@ public:
         count
     };
 
-    // NOLINTNEXTLINE(google-explicit-constructor): a reason without places is its own sentence.
+    // NOLINTNEXTLINE(google-explicit-constructor): a reason without arguments is complete.
     Reason(Because<0> because);
 
     Id id() const {
@@ -37,11 +37,11 @@ public:
     template <int Places> bool is(Because<Places> because) const {
         return m_id == because.id;
     }
-    /// The whole sentence. Reasons within it are separated by semicolons.
+    /// The complete sentence. Reasons within it are separated by semicolons.
     std::string english() const;
     friend bool operator==(const Reason &a, const Reason &b);
 
-    /// As one line for a file or another process, and back. No value for a text that is no reason.
+    /// As one line for a file or another process, and back. Empty if the text is not a reason.
     std::string encoded() const;
     static std::optional<Reason> decoded(std::string_view text);
 
@@ -54,11 +54,11 @@ private:
     std::vector<Argument> m_arguments;
 };
 
-/// The English sentence, with places %1 to %9.
+/// The English sentence, with placeholders %1 to %9.
 std::string_view englishTemplate(Reason::Id id);
 
-/// What fills a place: a text that is the same in every language, or reasons. Numbers that are not
-/// whole are rounded by the caller.
+/// The argument for a placeholder: a text that is the same in every language, or reasons. The
+/// caller rounds numbers that are not integers.
 struct Argument {
     // NOLINTBEGIN(google-explicit-constructor)
     Argument(std::string value) : text(std::move(value)) {}
@@ -79,7 +79,7 @@ struct Argument {
     friend bool operator==(const Argument &, const Argument &) = default;
 };
 
-/// A sentence of reasons.inc that waits for its arguments. *Shape*: as many as it has places.
+/// A sentence of reasons.inc without its arguments. *Shape*: one argument per placeholder.
 template <int Places> struct Because {
     Reason::Id id;
 
@@ -107,7 +107,7 @@ namespace because {
 
 inline Reason::Reason(Because<0> because) : m_id(because.id) {}
 
-/// What the system reports, by `errno`.
+/// The system's text for an `errno`.
 Reason systemReason(int error);
 Reason systemReason(const std::error_code &error);
 

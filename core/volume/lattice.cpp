@@ -23,7 +23,7 @@ VoxelBox united(const VoxelBox &a, const VoxelBox &b) {
 
 namespace {
 
-// Products of sizes stay far from the end of 64 bits.
+// Keeps products of sizes far below 2^64.
 
 bool finite(const glm::dvec3 &v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -45,7 +45,7 @@ Lattice Lattice::make(GridSize size, PatientPoint origin, const std::array<glm::
     lattice.m_size = size;
     lattice.m_origin = origin.mm;
     lattice.m_steps = glm::dmat3(steps[0], steps[1], steps[2]);
-    // Steps closer than 1e-6 to a common plane cannot be told from a flat volume.
+    // Steps within 1e-6 of a common plane cannot be distinguished from a flat volume.
     if (!(lengths > 0.0) || std::abs(glm::determinant(lattice.m_steps)) < 1e-6 * lengths)
         throw Error(ErrorCode::unusable, task::because::stepsSpanNoVolume);
     lattice.m_inverse = glm::inverse(lattice.m_steps);

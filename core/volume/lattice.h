@@ -10,14 +10,14 @@
 
 namespace pellucid::volume {
 
-/// More samples do not fit any machine this runs on.
+/// No supported machine has memory for more samples.
 inline constexpr std::size_t mostSamples = std::size_t(1) << 36;
 
 /// Number of samples along the three axes: columns, rows, slices.
 struct GridSize {
     int i = 0, j = 0, k = 0;
     std::size_t count() const { return std::size_t(i) * std::size_t(j) * std::size_t(k); }
-    /// Where a sample is among all of the grid: columns are fastest, then rows, then slices.
+    /// The index of a sample in the grid: columns are fastest, then rows, then slices.
     std::size_t offsetOf(int column, int row, int slice) const {
         return (std::size_t(slice) * std::size_t(j) + std::size_t(row)) * std::size_t(i) +
                std::size_t(column);
@@ -32,29 +32,29 @@ struct VoxelIndex {
     bool operator==(const VoxelIndex &) const = default;
 };
 
-/// A position in units of samples; sample centres lie at integers.
+/// A position in units of samples; sample centres are at integers.
 struct VoxelPoint {
     glm::dvec3 v{0.0};
 };
 
-/// A position in the patient: DICOM LPS, mm.
+/// A position in patient space: DICOM LPS, mm.
 struct PatientPoint {
     glm::dvec3 mm{0.0};
 };
 
-/// A box of samples, `lo` inside and `hi` outside.
+/// A box of samples, with `lo` inclusive and `hi` exclusive.
 struct VoxelBox {
     VoxelIndex lo, hi;
     GridSize size() const { return {hi.i - lo.i, hi.j - lo.j, hi.k - lo.k}; }
     bool operator==(const VoxelBox &) const = default;
 };
 
-/// The smallest box that holds two boxes; one without samples adds nothing.
+/// The smallest box that encloses two boxes; empty boxes are ignored.
 VoxelBox united(const VoxelBox &a, const VoxelBox &b);
 
-/// Where the samples of a volume lie: an origin and three steps that may have different lengths
-/// (anisotropic voxels) and need not be orthogonal (gantry tilt). Sample (i, j, k) is at
-/// origin + i a_0 + j a_1 + k a_2. Only a Lattice converts between voxel and patient space.
+/// The positions of a volume's samples: an origin and three steps, which may have different lengths
+/// (anisotropic voxels) and need not be orthogonal (gantry tilt). Sample (i, j, k) is at origin + i
+/// a_0 + j a_1 + k a_2. Only a Lattice converts between voxel and patient space.
 class Lattice {
 public:
     /// One sample of one cubic millimetre at the origin.
@@ -62,8 +62,8 @@ public:
     /// *Units*: mm, LPS. *Throws* Error{unusable} if a size is not positive, a number is not
     /// finite, or the steps span no volume.
     static Lattice make(GridSize size, PatientPoint origin, const std::array<glm::dvec3, 3> &steps);
-    /// Orthogonal axes along LPS, the centre of the lattice at the patient's origin. *Throws* as
-    /// make.
+    /// Orthogonal axes along LPS, with the centre of the lattice at the origin of patient space.
+    /// *Throws* as make.
     static Lattice centred(GridSize size, glm::dvec3 spacingMm);
 
     const GridSize &size() const { return m_size; }
@@ -91,7 +91,7 @@ public:
     VoxelPoint voxel(PatientPoint p) const { return {m_inverse * (p.mm - m_origin)}; }
     bool contains(VoxelIndex n) const;
     VoxelBox bounds() const { return {{0, 0, 0}, {m_size.i, m_size.j, m_size.k}}; }
-    /// The part of this lattice in a box that lies inside it.
+    /// The part of this lattice in a box. *Requires*: the box is inside the lattice.
     Lattice cropped(const VoxelBox &box) const;
 
     bool operator==(const Lattice &) const = default;

@@ -13,7 +13,7 @@ constexpr std::size_t enough = 4096;
 
 } // namespace
 
-// An odd stride, or the kept values could all be of a few columns.
+// An odd stride, otherwise the kept values could all come from a few columns.
 Narrowing::Narrowing(std::size_t count, std::size_t first)
     : m_every((count / enough) | 1), m_untilKept(m_every - first % m_every) {}
 
@@ -34,7 +34,7 @@ Narrowing::Merged Narrowing::merged() const {
     Merged result;
     if (m_lost == 0.0)
         return result;
-    // Differences as small as what double precision leaves of a constant are none.
+    // Differences no larger than the rounding of a constant in double precision do not count.
     const double least = 1e-12 * std::max(std::abs(m_least), std::abs(m_most));
     std::vector<double> sorted = m_kept;
     std::sort(sorted.begin(), sorted.end());
@@ -54,16 +54,16 @@ Narrowing::Merged Narrowing::merged() const {
 }
 
 std::optional<task::Reason> Narrowing::warning() const {
-    constexpr double mostUnsaid = 0.05;
-    const Merged of = merged();
-    if (of.share <= mostUnsaid)
+    constexpr double maxUnreported = 0.05;
+    const Merged loss = merged();
+    if (loss.share <= maxUnreported)
         return std::nullopt;
-    return task::because::valuesAreShownAsEqual(fmt::format("{:.2g}", of.largest));
+    return task::because::valuesAreShownAsEqual(fmt::format("{:.2g}", loss.largest));
 }
 
 void Narrowing::requireDistinct() const {
-    constexpr double mostMerged = 0.5, mostLost = 1e-4;
-    if (m_lost > mostLost * (m_most - m_least) && merged().share > mostMerged)
+    constexpr double maxMerged = 0.5, maxLost = 1e-4;
+    if (m_lost > maxLost * (m_most - m_least) && merged().share > maxMerged)
         throw task::Error(
             task::ErrorCode::unusable,
             task::because::valuesAreOne(fmt::format("{}", m_least), fmt::format("{}", m_most)));

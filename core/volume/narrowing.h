@@ -12,12 +12,12 @@
 
 namespace pellucid::volume {
 
-/// Narrows values to the 24 bits of a float and finds out what that costs: large values that differ
-/// by little become one number, and no window would show it.
+/// Narrows values to the 24 bits of a float, and determines the loss: large values with small
+/// differences become equal, and no window would reveal it.
 class Narrowing {
 public:
-    /// *Shape*: `count` values in all, of which those from `first` on follow; some 4096 of all are
-    /// kept for comparison.
+    /// *Shape*: `count` values in total, of which those from `first` on follow; about 4096 of all
+    /// are kept for comparison.
     explicit Narrowing(std::size_t count, std::size_t first = 0);
 
     /// The nearest float; not finite if the value is not, or is beyond every float.
@@ -37,18 +37,17 @@ public:
     /// Adds the statistics of another part of the volume.
     void join(const Narrowing &other);
 
-    /// Values that were not finite.
+    /// The number of values that were not finite.
     std::size_t notFinite() const { return m_notFinite; }
-    /// What the user is told where more than 5 % of the differences between the kept values are
-    /// lost.
+    /// A warning for the user if more than 5 % of the differences between kept values are lost.
     std::optional<task::Reason> warning() const;
-    /// *Throws* Error{unusable} if more than half of them are, and rounding is more than 1e-4 of
-    /// the range of all values.
+    /// *Throws* Error{unusable} if more than half of them are lost and rounding exceeds 1e-4 of the
+    /// range of all values.
     void requireDistinct() const;
 
 private:
     struct Merged {
-        double share = 0.0;   ///< of neighbouring values that became equal
+        double share = 0.0;   ///< fraction of neighbouring values that became equal
         double largest = 0.0; ///< difference between such neighbours
     };
     Merged merged() const;

@@ -17,7 +17,7 @@ namespace {
 
 using Counts = std::vector<std::uint64_t>;
 
-// An unsigned key in the order of the values, so that ranks can be counted digit by digit.
+// An unsigned key with the same order as the values, so that ranks can be counted digit by digit.
 std::uint32_t orderKey(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
@@ -60,8 +60,8 @@ Counts countInto(std::span<const T> samples, std::size_t bins, const BinOf &binO
         });
 }
 
-// The value of a given rank among the finite samples, by radix selection in two passes: no copy of
-// the samples, exact for any type.
+// The value of a given rank among the finite samples, by radix selection in two passes: exact for
+// any type, without copying the samples.
 template <class T> class RankSelector {
 public:
     explicit RankSelector(std::span<const T> samples)

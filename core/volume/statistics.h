@@ -14,7 +14,7 @@ struct Statistics {
     std::uint64_t finiteCount = 0;
 };
 
-/// Counts of finite samples in equal bins over [low, high]; samples outside go to the end bins.
+/// Counts of finite samples in equal bins over [low, high]; samples outside count in the end bins.
 struct Histogram {
     double low = 0.0, high = 1.0;
     std::vector<std::uint64_t> counts;

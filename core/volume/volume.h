@@ -15,7 +15,7 @@ namespace pellucid::volume {
 
 enum class ValueUnit { none, hounsfield };
 
-/// A display window in value units.
+/// A display window in units of the values.
 struct ValueWindow {
     double center = 0.0;
     double width = 1.0;
@@ -29,27 +29,28 @@ struct SliceRange {
     bool operator==(const SliceRange &) const = default;
 };
 
-/// What the source said about a volume, as far as a viewer shows it.
+/// The information from a volume's source that a viewer shows.
 struct VolumeNotes {
-    std::string title;                  ///< series description or file name
-    std::string modality;               ///< DICOM modality, empty if unknown
-    std::vector<ValueWindow> windows;   ///< the file's own windows
-    std::vector<task::Reason> warnings; ///< what the reader had to do to the geometry or the values
-    std::vector<SliceRange> filled;     ///< slices between images that are missing, interpolated
-    bool darkIsHigh = false;            ///< MONOCHROME1: shown inverted
-    bool lossy = false;                 ///< compressed with loss at some point
-    bool placed = true;                 ///< false: images without positions, no volume
-    bool hasSpacing = true; ///< false: nothing says how large a pixel is; a "mm" is a pixel
+    std::string title;                ///< series description or file name
+    std::string modality;             ///< DICOM modality, empty if unknown
+    std::vector<ValueWindow> windows; ///< the file's own windows
+    std::vector<task::Reason>
+        warnings;                   ///< changes that the reader made to the geometry or the values
+    std::vector<SliceRange> filled; ///< missing slices that were interpolated
+    bool darkIsHigh = false;        ///< MONOCHROME1: shown inverted
+    bool lossy = false;             ///< lossy compression at some point
+    bool placed = true;             ///< false: images without positions, not a volume
+    bool hasSpacing = true;         ///< false: nothing says how large a pixel is; a "mm" is a pixel
 };
 
-/// Samples on a lattice. A value: immutable, shared, cheap to copy.
+/// Samples on a lattice. An immutable value, shared and cheap to copy.
 class Volume {
 public:
     template <class T> using Samples = std::shared_ptr<const std::vector<T>>;
 
     Volume() : Volume(Lattice(), std::vector<float>(1, 0.0F), ValueUnit::none) {}
-    /// *Shape*: samples ordered columns fastest, then rows, then slices; as many as the lattice
-    /// has. Floats may be NaN or infinite.
+    /// *Shape*: one sample per lattice point, columns fastest, then rows, then slices. Floats may
+    /// be NaN or infinite.
     Volume(Lattice lattice, std::vector<std::int16_t> samples, ValueUnit unit,
            VolumeNotes notes = {});
     Volume(Lattice lattice, std::vector<float> samples, ValueUnit unit, VolumeNotes notes = {});
@@ -60,7 +61,7 @@ public:
     bool isFloat() const { return std::holds_alternative<Samples<float>>(m_samples); }
     std::size_t bytes() const;
 
-    /// Calls f with a span of the stored samples, of int16 or float.
+    /// Calls f with a span of the stored samples, int16 or float.
     template <class F> decltype(auto) visit(F &&f) const {
         return std::visit(
             [&](const auto &samples) -> decltype(auto) { return f(std::span(*samples)); },
@@ -68,7 +69,7 @@ public:
     }
     /// The value of a sample of the lattice.
     double value(VoxelIndex n) const;
-    /// A copy of the part in a box that lies inside the lattice.
+    /// A copy of the part in a box. *Requires*: the box is inside the lattice.
     Volume cropped(const VoxelBox &box) const;
     /// The same samples with other notes.
     Volume withNotes(VolumeNotes notes) const;

@@ -6,11 +6,11 @@
 
 namespace pellucid::volume {
 
-/// True if a path looks like a file of volumes that is no DICOM: NRRD (.nrrd, .nhdr), NIfTI (.nii,
-/// .nii.gz) or MetaImage (.mha, .mhd). What reads one: `decoder::readVolumeFile`.
+/// Whether a path has the extension of a non-DICOM volume file: NRRD (.nrrd, .nhdr), NIfTI (.nii,
+/// .nii.gz) or MetaImage (.mha, .mhd). `decoder::readVolumeFile` reads it.
 bool isVolumeFile(const std::filesystem::path &path);
 
-/// The suffix that such a path ends in, in lower case.
+/// The extension of such a path, in lower case.
 std::string volumeSuffix(const std::filesystem::path &path);
 
 } // namespace pellucid::volume
