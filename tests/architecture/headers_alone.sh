@@ -14,4 +14,6 @@ check() {
 }
 export -f check
 included_first=$(find app core gpu ui tests -name '*.cpp' -exec grep -hm1 '^#include' {} + | sed -n 's/^#include "\(.*\)"/\1/p' | sort -u)
-find app core gpu ui tests -name '*.h' | sort | comm -23 - <(echo "$included_first") | xargs -P "$(nproc)" -I{} bash -c 'check {}'
+mapfile -t headers < <(find app core gpu ui tests -name '*.h' | sort)
+((${#headers[@]} > 100)) || { echo "where are the headers?"; exit 1; }
+printf '%s\n' "${headers[@]}" | comm -23 - <(echo "$included_first") | xargs -P "$(nproc)" -I{} bash -c 'check {}'

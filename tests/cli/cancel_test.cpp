@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How soon work ends that is asked to.
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "core/decoder/decoder.h"
 #include "core/decoder/unpack_archive.h"
@@ -20,73 +23,132 @@ namespace pellucid {
 
 using namespace test;
 
-// Wherever work is when it is asked to stop, it does little more, and leaves no file that is not
-// whole. (The window does not wait for it: see cancelGivesTheProgramBackAtOnce.)
-TEST_F(Faults, CancellingIsPossibleAtEveryStage) {
-    const fs::path in = series("head", 160, 256), out = folder / "out.nrrd";
-    const fs::path archive = folder / "head.zip", unpacked = folder / "unpacked";
-    ASSERT_EQ(
-        run("cd " + quoted(folder.path()) + " && python3 -m zipfile -c head.zip head").exitCode, 0);
-    const auto catalogue = dicom::scan({in});
-    const dicom::VolumeEntry &entry = *dicom::defaultSelection(catalogue).volume;
-    const volume::Volume volume = dicom::loadVolume(entry).volume;
-    const classify::FieldWindow window{-900.0, 2000.0};
-    const classify::Look tissues =
-        presets::lookFor(presets::PresetLibrary({}).get("Bone over soft tissue").preset, window);
-    const classify::ShownFields fields{{classify::densityField(volume, window)}, {}};
-    scene::Scene scene;
-    scene.tolerance = 1e-4;
-    using Stage = std::function<void(const task::Progress &)>;
-    const std::map<std::string, Stage> stages{
-        {"unpacking",
-         [&](const task::Progress &progress) {
-             fs::create_directories(unpacked);
-             decoder::unpackArchive(decoder::Decoder::shared(), archive, unpacked, progress);
-         }},
-        {"headers", [&](const task::Progress &progress) { dicom::scan({in}, progress); }},
-        {"pixels", [&](const task::Progress &progress) { dicom::loadVolume(entry, progress); }},
-        {"classes",
-         [&](const task::Progress &progress) {
-             preprocess::StepCache steps(0);
-             classify::shownFields(volume, window, tissues, &steps, progress);
-         }},
-        {"spectra",
-         [&](const task::Progress &progress) {
-             prepare::prepareEngine(scene, fields, {}, progress);
-         }},
-        {"writing", [&](const task::Progress &progress) {
-             volume::writeNrrd(out, volume, volume::NrrdEncoding::gzip, progress);
-         }}};
-    using Clock = std::chrono::steady_clock;
-    const auto millisecondsSince = [](Clock::time_point start) {
-        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    };
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Stage = std::function<void(const task::Progress &)>;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// A series and what becomes of it, stage by stage.
+struct Work {
+    fs::path series, many, archive, unpacked, out;
+    dicom::VolumeEntry entry;
+    volume::Volume volume;
+    classify::FieldWindow window{-900.0, 2000.0};
+    classify::ShownFields fields;
+
+    std::map<std::string, Stage> stages() const {
+        return {
+            {"unpacking",
+             [this](const task::Progress &progress) {
+                 fs::remove_all(unpacked);
+                 fs::create_directories(unpacked);
+                 decoder::unpackArchive(decoder::Decoder::shared(), archive, unpacked, progress);
+             }},
+            {"headers", [this](const task::Progress &progress) { dicom::scan({many}, progress); }},
+            {"pixels",
+             [this](const task::Progress &progress) { dicom::loadVolume(entry, progress); }},
+            {"classes",
+             [this](const task::Progress &progress) {
+                 preprocess::StepCache steps(0);
+                 classify::shownFields(
+                     volume, window,
+                     presets::lookFor(
+                         presets::PresetLibrary({}).get("Bone over soft tissue").preset, window),
+                     &steps, progress);
+             }},
+            {"spectra",
+             [this](const task::Progress &progress) {
+                 scene::Scene scene;
+                 scene.tolerance = 1e-4;
+                 prepare::prepareEngine(scene, fields, {}, progress);
+             }},
+            {"writing", [this](const task::Progress &progress) {
+                 fs::remove(out);
+                 volume::writeNrrd(out, volume, volume::NrrdEncoding::gzip, progress);
+             }}};
+    }
+};
+
+double millisecondsOf(const Stage &stage) {
+    const auto start = Clock::now();
+    stage({});
+    return millisecondsSince(start);
+}
+
+// How long the stage goes on after it is asked to stop at a share of its work.
+double millisecondsAfterCancel(const Stage &stage, double share, const std::string &name) {
+    std::stop_source stop;
+    std::optional<Clock::time_point> asked;
+    std::mutex mutex; // stages report from several threads
+    const task::Progress progress(stop.get_token(), [&](double done) {
+        const std::lock_guard lock(mutex);
+        if (done < share || asked)
+            return;
+        asked = Clock::now();
+        stop.request_stop();
+    });
+    EXPECT_THROW(stage(progress), task::Cancelled) << name << " at " << share;
+    EXPECT_TRUE(asked) << name << " does not report " << share;
+    return asked ? millisecondsSince(*asked) : std::numeric_limits<double>::infinity();
+}
+
+class Cancel : public Faults {
+protected:
+    Work workOf(const std::string &name, int slices) {
+        Work work;
+        work.series = series(name, slices, 256);
+        work.many = folder / (name + " many");
+        work.archive = folder / (name + ".zip");
+        work.unpacked = folder / (name + " unpacked");
+        work.out = folder / (name + ".nrrd");
+        // Headers are read fast: ten names for each file.
+        fs::create_directories(work.many);
+        for (const auto &entry : fs::directory_iterator(work.series))
+            for (int n = 0; n < 10; ++n)
+                fs::create_hard_link(entry.path(), work.many / (std::to_string(n) +
+                                                                entry.path().filename().string()));
+        EXPECT_EQ(run("cd " + quoted(folder.path()) + " && python3 -m zipfile -c " +
+                      quoted(work.archive) + " " + quoted(fs::path(name)))
+                      .exitCode,
+                  0);
+        work.entry = *dicom::defaultSelection(dicom::scan({work.series})).volume;
+        work.volume = dicom::loadVolume(work.entry).volume;
+        work.fields = {{classify::densityField(work.volume, work.window)}, {}};
+        return work;
+    }
+};
+
+} // namespace
+
+// Wherever work is when it is asked to stop, it does little more: no more than three times what an
+// eighth of the series takes, however long the whole does, where work that stops at its end takes
+// eight. It leaves no file that is not whole. (The window does not wait for it: see
+// cancelGivesTheProgramBackAtOnce.)
+TEST_F(Cancel, EveryStageEndsSoon) {
+    const Work whole = workOf("whole", 160), eighth = workOf("eighth", 20);
+    const auto stages = whole.stages(), parts = eighth.stages();
     for (const auto &[name, stage] : stages) {
         stage({}); // plans of transforms are made once
-        const auto start = Clock::now();
-        stage({});
-        const double wholeMs = millisecondsSince(start);
+        const Stage &part = parts.at(name);
+        part({});
+        const double mostMs = 3.0 * std::min(millisecondsOf(part), millisecondsOf(part));
         double slowestMs = 0.0;
         for (const double share : {0.0, 0.2, 0.4}) {
-            fs::remove(out);
-            fs::remove_all(unpacked);
-            std::stop_source stop;
-            Clock::time_point asked;
-            std::mutex mutex; // stages report from several threads
-            const task::Progress progress(stop.get_token(), [&](double done) {
-                const std::lock_guard lock(mutex);
-                if (done < share || stop.stop_requested())
-                    return;
-                asked = Clock::now();
-                stop.request_stop();
-            });
-            EXPECT_THROW(stage(progress), task::Cancelled) << name << " at " << share;
-            slowestMs = std::max(slowestMs, millisecondsSince(asked));
-            EXPECT_FALSE(fs::exists(out));
+            // A machine that is busy with something else for a moment is asked again.
+            double fastestMs = std::numeric_limits<double>::infinity();
+            for (int attempt = 0; attempt < 3 && fastestMs > mostMs; ++attempt) {
+                fastestMs = std::min(fastestMs, millisecondsAfterCancel(stage, share, name));
+                EXPECT_FALSE(fs::exists(whole.out));
+            }
+            slowestMs = std::max(slowestMs, fastestMs);
         }
-        std::cout << name << ": " << wholeMs << " ms, at most " << slowestMs
-                  << " ms after it was asked to\n";
-        EXPECT_LT(slowestMs, wholeMs) << name;
+        std::cout << name << ": " << slowestMs << " ms after it was asked to, of " << mostMs
+                  << " that it may take\n";
+        EXPECT_LT(slowestMs, mostMs) << name;
     }
 }
 

@@ -205,7 +205,7 @@ TEST_F(Cli, SecondaryCapturesBelongToTheStudy) {
     EXPECT_EQ(value(second.out, "(0020,0013)"), "2");
 }
 
-TEST_F(Cli, TheSeriesThatIsNamedIsTheOneThatIsRead) {
+TEST_F(Cli, ReadsTheNamedSeries) {
     const fs::path series = phantomFolder("--kind cube --size 16x16x16");
     const auto render = [&](const std::string &named) {
         return cli("render " + quoted(series) + " -o " + quoted(folder / "image.png") +
@@ -221,7 +221,7 @@ TEST_F(Cli, TheSeriesThatIsNamedIsTheOneThatIsRead) {
     EXPECT_NE(empty.error.find("--series: it is empty"), std::string::npos) << empty.error;
 }
 
-TEST_F(Cli, TheVolumeThatIsNumberedIsTheOneThatIsRead) {
+TEST_F(Cli, ReadsTheNumberedVolume) {
     const fs::path series = folder / "gaps";
     test::writeSeries(series, {.slices = 30, .missing = {11, 12}});
     const std::string path = quoted(series), out = " -o " + quoted(folder / "v.nrrd");
@@ -345,7 +345,7 @@ TEST_F(Cli, BothEnginesGiveOnePicture) {
     EXPECT_FALSE(json::parse(many.out)["engine_reason"].get<std::string>().empty());
 }
 
-TEST_F(Cli, WithoutACardTheProcessorGoesOnOrSaysWhy) {
+TEST_F(Cli, WithoutACardTheProcessorRendersOrAReasonIsGiven) {
     const fs::path series = phantomFolder("--kind cube --size 16x16x16");
     const fs::path out = folder / "one.png";
     const std::string command = "render " + quoted(series) + " -o " + quoted(out);

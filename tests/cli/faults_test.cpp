@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the world does to a program: kills it, changes its files, locks its folders. Each time it is
 // done or it is not, nothing is half done, and one line says why.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -47,7 +48,7 @@ template <class F> bool killedAfter(std::chrono::microseconds time, F &&work) {
 
 } // namespace
 
-TEST_F(Faults, AKillWhileAPresetIsSavedLeavesTheOldOrTheNew) {
+TEST_F(Faults, AKilledSaveLeavesTheOldOrTheNewPreset) {
     const fs::path path = folder / "kept.json";
     presets::Preset before, after;
     before.name = after.name = "Kept";
@@ -79,20 +80,36 @@ TEST_F(Faults, AKillWhileAPresetIsSavedLeavesTheOldOrTheNew) {
     EXPECT_LT(left, 20U); // of 60: most of the time goes by before
 }
 
-TEST_F(Faults, AKillWhileAPictureIsExportedLeavesAWholeOneOrNone) {
+TEST_F(Faults, AKilledExportLeavesAWholePictureOrNone) {
     const fs::path in = series("head", 40), out = folder / "out.png";
+    const std::string render =
+        std::string(PELLUCID_CLI) + " render " + quoted(in) + " -o " + quoted(out);
+    using Clock = std::chrono::steady_clock;
+    const auto timed = [&](const std::string &command) {
+        const auto start = Clock::now();
+        const CommandResult result = run(command);
+        return std::pair(result, std::chrono::duration<double>(Clock::now() - start).count());
+    };
+    auto [whole, wholeSeconds] = timed(render);
+    ASSERT_EQ(whole.exitCode, 0) << whole.error;
     std::mt19937 random(5);
+    int killed = 0;
     for (int round = 0; round < 25; ++round) {
         fs::remove(out);
-        run(std::string("timeout -s KILL 0.") + std::to_string(100 + random() % 400) + " " +
-            PELLUCID_CLI + " render " + quoted(in) + " -o " + quoted(out));
+        const double share = 0.2 + 0.9 * double(random() % 1000) / 1000.0;
+        const auto [ended, seconds] =
+            timed("timeout -s KILL " + std::to_string(share * wholeSeconds) + " " + render);
+        killed += ended.exitCode == 128 + SIGKILL ? 1 : 0;
+        if (ended.exitCode == 0) // faster than the first time, on a machine that was busy
+            wholeSeconds = std::min(wholeSeconds, seconds);
         if (!fs::exists(out))
             continue;
         const std::string png = readText(out);
         EXPECT_EQ(png.substr(1, 3), "PNG");
         EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND");
     }
-    const auto whole = cli("render " + quoted(in) + " -o " + quoted(out));
+    EXPECT_GT(killed, 3); // of 25: most are, some end first
+    whole = run(render);
     EXPECT_EQ(whole.exitCode, 0) << whole.error;
 }
 
@@ -118,27 +135,30 @@ TEST_F(Faults, AFileThatChangesWhileItIsReadIsAVolumeOrAReason) {
             std::this_thread::sleep_for(300us);
         }
     });
-    int volumes = 0;
+    int volumes = 0, reasons = 0;
     for (int round = 0; round < 40; ++round) {
         try {
             const auto catalogue = dicom::scan({in});
             const auto loaded = dicom::loadVolume(*dicom::defaultSelection(catalogue).volume);
             const int slices = loaded.volume.lattice().size().k;
             // All of them, or a reason for the one that is missing.
-            EXPECT_TRUE(slices == 30 || !loaded.skipped.empty() || !catalogue.skipped.empty() ||
-                        !loaded.volume.notes().warnings.empty())
-                << slices;
+            const bool hasReason = !loaded.skipped.empty() || !catalogue.skipped.empty() ||
+                                   !loaded.volume.notes().warnings.empty();
+            EXPECT_TRUE(slices == 30 || hasReason) << slices;
             ++volumes;
+            reasons += hasReason ? 1 : 0;
         } catch (const task::Error &error) {
             EXPECT_FALSE(error.reason().english().empty());
+            ++reasons;
         }
     }
     isOver = true;
     EXPECT_GT(volumes, 0);
+    EXPECT_GT(reasons, 0); // some round met a change
 }
 
 // Deflated to a thousandth it comes in any archive.
-TEST_F(Faults, ZerosWithoutEndAreRefusedAndTheirDecoderEndsWithTheProgram) {
+TEST_F(Faults, EndlessZerosAreRefusedAndTheDecoderEndsWithTheProgram) {
     const fs::path zeros = folder / "zeros.dcm";
     writeText(zeros, readText(series("few", 2) / "IM0001.dcm").substr(0, 2000));
     fs::resize_file(zeros, 1U << 30); // of holes
@@ -234,7 +254,7 @@ TEST_F(Faults, DamagedCompressedPixelsAreMentioned) {
 }
 
 // Files of a series that are not used are missing from the picture, and of two series one is shown.
-TEST_F(Faults, WhatIsNotShownIsSaidBesideThePicture) {
+TEST_F(Faults, UnusedFilesAndSeriesAreReported) {
     const fs::path in = series("mixed", 8);
     fs::resize_file(in / "IM0001.dcm", 4000);
     const auto render = [&] {
@@ -250,7 +270,7 @@ TEST_F(Faults, WhatIsNotShownIsSaidBesideThePicture) {
     EXPECT_NE(render().error.find(" of 2 series, 2 patients"), std::string::npos);
 }
 
-TEST_F(Faults, WhatIsReadIsNotWrittenOver) {
+TEST_F(Faults, InputsAreNotOverwritten) {
     const fs::path in = series("own", 3);
     const std::string before = readText(in / "IM0001.dcm");
     expectOneLine(cli("render " + quoted(in) + " -o " + quoted(in / "IM0001.dcm")), 2,
@@ -281,7 +301,7 @@ TEST_F(Faults, ASeriesOfSeveralPatientsIsAskedForByItsUid) {
 }
 
 // A terminal obeys what it is shown.
-TEST_F(Faults, NamesOfFilesDoNotReachTheTerminalAsTheyAre) {
+TEST_F(Faults, ControlCharactersInFileNamesDoNotReachTheTerminal) {
     const fs::path name = folder / "a\x1b[2J\x07\x9b\xe2\x80\xae\xd8\x9c\xe0\x82\x9b\xc2\x9b"
                                    "31m.dcm";
     writeText(name, "no image");
@@ -297,7 +317,7 @@ TEST_F(Faults, NamesOfFilesDoNotReachTheTerminalAsTheyAre) {
 }
 
 // Another slice of the series, in every way a good one, under the name of the one that was found.
-TEST_F(Faults, ASliceThatIsReplacedAfterTheScanIsNamedAndNotShown) {
+TEST_F(Faults, ASliceReplacedAfterTheScanIsNamedAndLeftOut) {
     const fs::path in = series("replaced", 30);
     const auto catalogue = dicom::scan({in});
     fs::copy_file(in / "IM0020.dcm", in / "IM0011.dcm", fs::copy_options::overwrite_existing);
@@ -308,7 +328,7 @@ TEST_F(Faults, ASliceThatIsReplacedAfterTheScanIsNamedAndNotShown) {
     EXPECT_FALSE(loaded.volume.notes().warnings.empty());
 }
 
-TEST_F(Faults, AFolderOfTwentyThousandFilesWithLoopsPipesAndDevicesIsReadToItsEnd) {
+TEST_F(Faults, TwentyThousandFilesWithLoopsPipesAndDevicesAreScanned) {
     const fs::path in = series("head", 12);
     fs::create_directories(in / "many");
     for (int n = 0; n < 20000; ++n)
@@ -317,11 +337,7 @@ TEST_F(Faults, AFolderOfTwentyThousandFilesWithLoopsPipesAndDevicesIsReadToItsEn
     fs::create_symlink(in / "nowhere", in / "many/broken");
     ASSERT_EQ(std::system(("mkfifo '" + (in / "many/pipe").string() + "'").c_str()), 0);
     fs::create_symlink("/dev/zero", in / "many/zero");
-    const auto start = std::chrono::steady_clock::now();
     const auto catalogue = dicom::scan({in});
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    RecordProperty("seconds", std::to_string(seconds));
     EXPECT_EQ(dicom::defaultSelection(catalogue).volume->geometry.lattice.size().k, 12);
     EXPECT_EQ(catalogue.skipped.size(), 20004U);
 }

@@ -32,7 +32,7 @@ TEST_F(Faults, AFileThatAnnouncesTooMuchCostsNoOther) {
 }
 
 // A few kilobytes that announce a hundred thousand frames each.
-TEST_F(Faults, ManyFramesOfSmallFilesAreNotHeldBeyondTheMemory) {
+TEST_F(Faults, ManyFramesOfSmallFilesStayWithinMemory) {
     const fs::path in = series("frames", 1, 256);
     std::string type = "ORIGINAL";
     while (type.size() < 400)

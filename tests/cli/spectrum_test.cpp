@@ -88,7 +88,7 @@ TEST_F(Cli, TheSpectrumHoldsTheDecibelsThatTheExactReferenceConfirms) {
     }
 }
 
-TEST_F(Cli, TheSpectrumIsAPictureOfTheSizeThatItTells) {
+TEST_F(Cli, TheSpectrumPictureHasTheReportedSize) {
     const fs::path series = phantomFolder("--kind head --size 32x32x32"), out = folder / "s.png";
     const auto r = cli("volume " + quoted(series) + " -o " + quoted(out) +
                        " --spectrum --edges --size 40x40 --json");
@@ -101,7 +101,7 @@ TEST_F(Cli, TheSpectrumIsAPictureOfTheSizeThatItTells) {
     EXPECT_EQ(png[23], 40);
 }
 
-TEST_F(Cli, WhatASpectrumCannotTakeIsRefusedWithTheReason) {
+TEST_F(Cli, OptionsThatASpectrumCannotTakeAreRefused) {
     const fs::path series = phantomFolder("--kind head --size 16x16x16");
     const auto refused = [&](const char *out, const std::string &options, int code,
                              const std::string &part) {

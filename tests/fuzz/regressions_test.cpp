@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What fuzzing once broke, and what the corpora hold, at every build; and each cut short or with
 // bits turned, which finds the plainest faults without a fuzzer.
+#include <algorithm>
 #include <filesystem>
 #include <random>
 
@@ -45,6 +46,20 @@ TEST_P(Regressions, areTakenOrRefused) {
             target.run(bytes);
         }
     }
+}
+
+// A folder that no target has the name of would never be read.
+TEST(RegressionFolders, areNamedAfterTargets) {
+    std::size_t folders = 0;
+    for (const auto &entry :
+         fs::directory_iterator(fs::path(PELLUCID_SOURCE) / "tests/fuzz/regressions")) {
+        const std::string name = entry.path().filename().string();
+        EXPECT_TRUE(std::any_of(targets().begin(), targets().end(), [&](const NamedTarget &target) {
+            return target.name == name;
+        })) << name;
+        ++folders;
+    }
+    EXPECT_GT(folders, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, Regressions, testing::ValuesIn(targets()),

@@ -48,7 +48,7 @@ TEST(Device, RunsOnItsOwnThreadAndPassesOnWhatIsThrown) {
     EXPECT_TRUE(ran);
 }
 
-TEST(Device, WhatWasPostedIsDoneBeforeItsEnd) {
+TEST(Device, PostedWorkIsDoneBeforeItsEnd) {
     int done = 0;
     {
         gpu::Device device(std::make_unique<gpu::SurfacelessContext>());
@@ -58,7 +58,7 @@ TEST(Device, WhatWasPostedIsDoneBeforeItsEnd) {
     EXPECT_EQ(done, 100);
 }
 
-TEST(Device, WhatTheDriverSaysGoesToTheLog) {
+TEST(Device, DriverMessagesAreLogged) {
     std::vector<std::string> lines;
     system::setLogSink([&](const std::string &line) { lines.push_back(line); });
     {

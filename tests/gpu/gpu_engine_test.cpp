@@ -279,7 +279,7 @@ TEST_F(GpuEngine, PicturesKeepTheirPixels) {
     }
 }
 
-TEST_F(GpuEngine, WhatIsTooLargeIsRefused) {
+TEST_F(GpuEngine, TooLargeSpectraAndSlicesAreRefused) {
     const auto fields = tiltedNoise();
     scene::Scene scene = sceneOf(fields);
     const auto prepared = prepare::prepareEngine(scene, fields, {});

@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto &tested) { return std::string(tested.param.name); });
 
 // Float cells keep no rounding, so there is nothing to tell.
-TEST(CentralRoundingOfFloats, IsNotKnownOfFloatCells) {
+TEST(CentralRoundingOfFloats, IsZeroForFloatCells) {
     scene::Scene scene;
     const DensityField field = blob();
     scene.camera = scene::defaultCamera(field.values.lattice());

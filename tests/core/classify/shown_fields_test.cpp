@@ -50,7 +50,7 @@ TEST(TissueClass, ClassFieldsAreDensityTimesMembership) {
     EXPECT_EQ(field.support.hi.i, 18);
 }
 
-TEST(TissueClass, ValuesThatAreNoNumbersBelongToNothing) {
+TEST(TissueClass, NansBelongToNoClass) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const volume::Volume values(volume::Lattice::centred({4, 1, 1}, {1, 1, 1}),

@@ -72,7 +72,7 @@ TEST(Step, GoesThroughTextAndJson) {
     EXPECT_EQ(classify::stepText({StepKind::edges, {{"low", 20.0}}}), "edges");
 }
 
-TEST(Step, WhatIsNoStepIsRefusedWithTheReason) {
+TEST(Step, InvalidStepsAreRefusedWithTheReason) {
     EXPECT_EQ(reasonOf("median( radius_mm=2)"),
               "the step 'median' has no parameter ' radius_mm'; it has radius_mm");
     EXPECT_EQ(reasonOf("edges("), "the step 'edges(' has no closing bracket");

@@ -111,7 +111,7 @@ TEST_F(Archive, noNameLeadsOutAndNoLinkIsMade) {
     EXPECT_EQ(files, 5);
 }
 
-TEST_F(Archive, aBombIsRefusedByItsNumbers) {
+TEST_F(Archive, zipBombsAreRefused) {
     const fs::path path =
         make([](auto *w) { add(w, "bomb", std::string(std::size_t(64) << 20, '\0')); });
     EXPECT_LT(fs::file_size(path), std::uintmax_t(1) << 20);
@@ -127,7 +127,7 @@ TEST_F(Archive, aBombIsRefusedByItsNumbers) {
 }
 
 // The directory says ten bytes, the data are a mebibyte.
-TEST_F(Archive, aLyingDirectoryGivesNoMoreThanItsLimit) {
+TEST_F(Archive, aFalseSizeUnpacksNoMoreThanTheLimit) {
     const fs::path path =
         make([](auto *w) { add(w, "liar", std::string(std::size_t(1) << 20, '\0')); }, "zip:store");
     std::string bytes;
@@ -136,8 +136,11 @@ TEST_F(Archive, aLyingDirectoryGivesNoMoreThanItsLimit) {
         bytes.assign(std::istreambuf_iterator<char>(in), {});
     }
     const std::string size{"\0\0\x10\0", 4};
-    for (auto at = bytes.find("PK\1\2"); at != std::string::npos; at = bytes.find("PK\1\2", at + 4))
-        bytes.replace(at + 24, 4, std::string{"\x0a\0\0\0", 4}); // uncompressed size
+    const auto at = bytes.find("PK\1\2"); // the file's entry in the directory
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_EQ(bytes.find("PK\1\2", at + 4), std::string::npos);
+    ASSERT_EQ(bytes.substr(at + 24, 4), size);
+    bytes.replace(at + 24, 4, std::string{"\x0a\0\0\0", 4}); // uncompressed size
     std::ofstream(path, std::ios::binary) << bytes;
     const std::string said = refusal(path, {.bytes = 1000});
     EXPECT_NE(said, "unpacked");
@@ -145,7 +148,7 @@ TEST_F(Archive, aLyingDirectoryGivesNoMoreThanItsLimit) {
         EXPECT_LE(entry.file_size(), 1U << 16);
 }
 
-TEST_F(Archive, encryptedAndDamagedOnesSaySo) {
+TEST_F(Archive, encryptedAndDamagedArchivesAreRefused) {
     EXPECT_EQ(refusal(make([](auto *w) { add(w, "secret", "text"); }, "zip:encryption=traditional",
                            "password")),
               "is encrypted");

@@ -78,7 +78,7 @@ TEST(Decoder, aMissingProgramIsNamed) {
 }
 
 // Half of the old pixels and half of the new would be a picture, too.
-TEST(Decoder, aFileThatIsWrittenIntoWhileItIsReadIsRefused) {
+TEST(Decoder, aFileThatChangesWhileItIsReadIsRefused) {
     const test::TemporaryFolder folder;
     const auto lattice = volume::Lattice::centred({2048, 2048, 1}, {1, 1, 1});
     std::vector<std::int16_t> noise(lattice.size().count());
@@ -105,7 +105,7 @@ TEST(Decoder, aFileThatIsWrittenIntoWhileItIsReadIsRefused) {
     }
 }
 
-TEST(Decoder, whatIsNoRegularFileIsNotWaitedFor) {
+TEST(Decoder, pipesAndDevicesAreRefusedAtOnce) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(std::system(("mkfifo " + (folder / "pipe").string()).c_str()), 0);
     for (const fs::path &path : {folder / "pipe", fs::path("/dev/zero"), folder.path()})
@@ -122,7 +122,7 @@ TEST_F(TakenOver, itReachesNothing) {
     EXPECT_FALSE(fs::exists("pwned"));
 }
 
-TEST_F(TakenOver, itsEndCostsOneFile) {
+TEST_F(TakenOver, aCrashCostsOneFile) {
     EXPECT_THAT(said("crash"), HasSubstr("the decoder crashed"));
     EXPECT_THAT(said("silence"), HasSubstr("the decoder crashed"));
     EXPECT_THAT(said("killed"), HasSubstr("because memory ran out"));
@@ -130,7 +130,7 @@ TEST_F(TakenOver, itsEndCostsOneFile) {
     EXPECT_EQ(said("well"), "decoded by hand");
 }
 
-TEST_F(TakenOver, nothingItSaysIsBelieved) {
+TEST_F(TakenOver, itsAnswersAreValidated) {
     for (const char *const word :
          {"large-body", "large-data", "other-kind", "short-message", "empty-header", "no-reason",
           "plain-reason", "cut-reason", "other-reason", "long-reason", "deep-reason", "flood",
@@ -175,7 +175,7 @@ TEST_F(TakenOver, itsSamplesAreCounted) {
 }
 
 #ifndef PELLUCID_SANITIZED
-TEST_F(TakenOver, itsMemoryEnds) {
+TEST_F(TakenOver, itsMemoryIsLimited) {
     const std::string had = said("memory");
     ASSERT_THAT(had, HasSubstr("had "));
     EXPECT_LT(std::atoi(had.c_str() + 4), 1000);
@@ -196,7 +196,7 @@ TEST_F(TakenOver, cancellingDoesNotWaitForIt) {
 }
 
 // What never answers is ended by its own clock, and where it has stopped that, by ours.
-TEST_F(TakenOver, whatHangsEndsByTheClock) {
+TEST_F(TakenOver, aHangIsEndedByTheClock) {
     if (std::getenv("PELLUCID_LONG_TESTS") == nullptr)
         GTEST_SKIP() << "takes twenty seconds, with the long tests";
     const double own = decodingSeconds({Message::Kind::header, 0, 0, 0}),

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/decoder/message.h"
 
+#include <concepts>
 #include <limits>
 #include <random>
+#include <tuple>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -33,30 +36,162 @@ InstanceHeader someHeader() {
     return h;
 }
 
+template <class T, class Message>
+concept IsA = std::same_as<std::remove_const_t<T>, Message>;
+
+// The fields of a message, in their order. A struct with more or fewer fields does not compile
+// here.
+auto fieldsOf(IsA<Rescale> auto &r) {
+    auto &[slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable] = r;
+    return std::tie(slope, intercept, isSlopeZero, isSlopeReadable, isInterceptReadable);
+}
+auto fieldsOf(IsA<FrameHeader> auto &f) {
+    auto &[positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale, imageType,
+           dimensions] = f;
+    return std::tie(positionMm, rowAxis, columnAxis, spacingMm, sliceThicknessMm, rescale,
+                    imageType, dimensions);
+}
+auto fieldsOf(IsA<InstanceHeader> auto &h) {
+    auto &[sopClassUid, sopClassName, sopInstanceUid, transferSyntax, unsupportedSyntax, patientId,
+           patientName, birthDate, sex, studyUid, studyDate, studyDescription, frameOfReferenceUid,
+           seriesUid, seriesDescription, modality, bodyPart, seriesNumber, instanceNumber,
+           hasPixels, floatPixels, rows, columns, samplesPerPixel, announcedFrames, pixelBytes,
+           bitsAllocated, bitsStored, highBit, pixelRepresentation, lossy, hasDamagedPixels,
+           oddities, mosaicSide, photometric, rescaleType, paddingValue, paddingLimit, windows,
+           modalityTable, modalityTableFirst, frames] = h;
+    return std::tie(sopClassUid, sopClassName, sopInstanceUid, transferSyntax, unsupportedSyntax,
+                    patientId, patientName, birthDate, sex, studyUid, studyDate, studyDescription,
+                    frameOfReferenceUid, seriesUid, seriesDescription, modality, bodyPart,
+                    seriesNumber, instanceNumber, hasPixels, floatPixels, rows, columns,
+                    samplesPerPixel, announcedFrames, pixelBytes, bitsAllocated, bitsStored,
+                    highBit, pixelRepresentation, lossy, hasDamagedPixels, oddities, mosaicSide,
+                    photometric, rescaleType, paddingValue, paddingLimit, windows, modalityTable,
+                    modalityTableFirst, frames);
+}
+auto fieldsOf(IsA<VolumeLayout> auto &l) {
+    auto &[size, volumes, originMm, stepsMm, scalar, slope, intercept, isDeflated, isSwapped,
+           isOfPatient, dataFile, at, skip] = l;
+    return std::tie(size, volumes, originMm, stepsMm, scalar, slope, intercept, isDeflated,
+                    isSwapped, isOfPatient, dataFile, at, skip);
+}
+auto fieldsOf(IsA<ArchiveFile> auto &f) {
+    auto &[name, bytes, isEncrypted, isLink] = f;
+    return std::tie(name, bytes, isEncrypted, isLink);
+}
+
+// Gives each field a valid value that no other field has, and that it does not begin with.
+class Fill {
+public:
+    template <class T>
+    requires std::is_arithmetic_v<T>
+    void operator()(T &value) {
+        if constexpr (std::same_as<T, bool>)
+            value = !value;
+        else
+            value = T(++m_number); // at most 31 where a field is limited
+    }
+    void operator()(std::string &text) { text = "text " + std::to_string(++m_text); }
+    void operator()(glm::dvec2 &vector) {
+        for (int d = 0; d < 2; ++d)
+            (*this)(vector[d]);
+    }
+    void operator()(glm::dvec3 &vector) {
+        for (int d = 0; d < 3; ++d)
+            (*this)(vector[d]);
+    }
+    template <class T> void operator()(std::optional<T> &value) { (*this)(value.emplace()); }
+    void operator()(volume::GridSize &size) {
+        for (int *const n : {&size.i, &size.j, &size.k})
+            (*this)(*n);
+    }
+    void operator()(StoredScalar &scalar) { scalar = StoredScalar::f32; }
+    template <class T, std::size_t N> void operator()(std::array<T, N> &values) {
+        for (T &value : values)
+            (*this)(value);
+    }
+    template <class T> void operator()(std::vector<T> &values) {
+        values.resize(2);
+        for (T &value : values)
+            (*this)(value);
+    }
+    void operator()(std::map<std::string, std::string> &texts) {
+        texts = {{"echo", "1"}, {"b-value", "800"}};
+    }
+    void operator()(volume::ValueWindow &window) {
+        (*this)(window.center);
+        (*this)(window.width);
+        (*this)(window.name);
+    }
+    // The second frame keeps its defaults.
+    void operator()(std::vector<FrameHeader> &frames) {
+        frames.resize(2);
+        fillFields(frames.front());
+        frames.front().rowAxis = glm::dvec3(0.6, 0.8, 0.0); // unit vectors at right angles
+        frames.front().columnAxis = glm::dvec3(0.0, 0.0, -1.0);
+    }
+    template <class T>
+    requires IsA<T, Rescale> || IsA<T, ArchiveFile>
+    void operator()(T &message) { fillFields(message); }
+    template <class T> void fillFields(T &message) {
+        std::apply([this](auto &...field) { ((*this)(field), ...); }, fieldsOf(message));
+    }
+
+private:
+    int m_number = 1, m_text = 0; // the defaults of numbers are 0 and 1
+};
+
+template <class T> T filled() {
+    T message;
+    Fill().fillFields(message);
+    return message;
+}
+
+void expectSame(const std::vector<FrameHeader> &got, const std::vector<FrameHeader> &sent,
+                std::size_t field);
+template <class T> void expectSame(const T &got, const T &sent, std::size_t field) {
+    EXPECT_TRUE(got == sent) << "field " << field;
+}
+
+template <class T> void expectSameFields(const T &got, const T &sent) {
+    [ a = fieldsOf(got), b = fieldsOf(sent) ]<std::size_t... n>(std::index_sequence<n...>) {
+        (expectSame(std::get<n>(a), std::get<n>(b), n), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(fieldsOf(got))>>());
+}
+
+void expectSame(const std::vector<FrameHeader> &got, const std::vector<FrameHeader> &sent,
+                std::size_t field) {
+    ASSERT_EQ(got.size(), sent.size()) << "field " << field;
+    for (std::size_t n = 0; n < got.size(); ++n)
+        expectSameFields(got[n], sent[n]);
+}
+
 std::span<const std::byte> bytesOf(const std::string &body) {
     return std::as_bytes(std::span(body));
 }
 
 } // namespace
 
-TEST(Message, headersComeThrough) {
-    const InstanceHeader sent = someHeader(), got = unpackHeader(bytesOf(pack(sent)));
-    EXPECT_EQ(got.patientName, sent.patientName);
-    EXPECT_EQ(got.seriesUid, sent.seriesUid);
-    EXPECT_EQ(got.columns, 7);
-    EXPECT_TRUE(got.isSigned());
-    EXPECT_FALSE(got.lossy);
-    EXPECT_EQ(got.paddingValue, sent.paddingValue);
-    EXPECT_FALSE(got.paddingLimit);
-    ASSERT_EQ(got.windows.size(), 2U);
-    EXPECT_EQ(got.windows[1].center, -600.0);
-    EXPECT_EQ(got.modalityTable, sent.modalityTable);
-    ASSERT_EQ(got.frames.size(), 2U);
-    EXPECT_EQ(got.frames[0].positionMm, sent.frames[0].positionMm);
-    EXPECT_EQ(got.frames[0].spacingMm, sent.frames[0].spacingMm);
-    EXPECT_EQ(got.frames[0].rescale, sent.frames[0].rescale);
-    EXPECT_EQ(got.frames[0].dimensions, sent.frames[0].dimensions);
-    EXPECT_FALSE(got.frames[1].positionMm);
+TEST(Message, everyFieldOfAHeaderComesThrough) {
+    InstanceHeader plain; // without the values that are optional
+    plain.frames.resize(1);
+    for (const InstanceHeader &sent : {filled<InstanceHeader>(), plain})
+        expectSameFields(unpackHeader(bytesOf(pack(sent))), sent);
+}
+
+TEST(Message, everyFieldOfAnArchivesListComesThrough) {
+    const std::vector<ArchiveFile> sent{filled<ArchiveFile>(), ArchiveFile()};
+    const auto got = unpackArchiveFiles(bytesOf(pack(sent)));
+    ASSERT_EQ(got.size(), sent.size());
+    for (std::size_t n = 0; n < got.size(); ++n)
+        expectSameFields(got[n], sent[n]);
+}
+
+TEST(Message, aDirectoryComesThrough) {
+    const DirectoryFile sent{true, {{"DICOM", "IM1"}, {}, {"IM2"}}};
+    const DirectoryFile got = unpackDirectory(bytesOf(pack(sent)));
+    EXPECT_TRUE(got.isDirectory);
+    EXPECT_EQ(got.files, sent.files);
 }
 
 // Whatever a decoder sends that a file has taken over: a header or a refusal, in little memory.
@@ -66,6 +201,7 @@ TEST(Message, nonsenseIsRefused) {
         EXPECT_THROW(unpackHeader(bytesOf(good).first(size)), task::Error) << size;
     EXPECT_THROW(unpackHeader(bytesOf(good + "x")), task::Error);
     std::mt19937 random(7);
+    int taken = 0, refused = 0;
     for (int round = 0; round < 20000; ++round) {
         std::string bad = good;
         for (int n = 0; n < 3; ++n)
@@ -75,9 +211,13 @@ TEST(Message, nonsenseIsRefused) {
                 if (frame.positionMm) {
                     EXPECT_TRUE(std::isfinite(frame.positionMm->x));
                 }
+            ++taken;
         } catch (const task::Error &) {
+            ++refused;
         }
     }
+    EXPECT_GT(taken, 0); // another letter in a name
+    EXPECT_GT(refused, 0);
     InstanceHeader endless = someHeader();
     endless.frames[0].rescale.slope = std::numeric_limits<double>::infinity();
     EXPECT_THROW(unpackHeader(bytesOf(pack(endless))), task::Error);
@@ -86,22 +226,9 @@ TEST(Message, nonsenseIsRefused) {
     EXPECT_THROW(unpackHeader(bytesOf(pack(without))), task::Error);
 }
 
-TEST(Message, layoutsOfNrrdComeThroughOrAreRefused) {
-    VolumeLayout sent;
-    sent.size = {4, 3, 2};
-    sent.stepsMm = {glm::dvec3(1, 0, 0), glm::dvec3(0, 2, 0), glm::dvec3(0, 0.5, 3)};
-    sent.originMm = {1, 2, 3};
-    sent.scalar = StoredScalar::f32;
-    sent.isSwapped = true;
-    sent.dataFile = "samples.raw";
-    const VolumeLayout got = unpackLayout(bytesOf(pack(sent)));
-    EXPECT_EQ(got.size, sent.size);
-    EXPECT_EQ(got.stepsMm, sent.stepsMm);
-    EXPECT_EQ(got.originMm, sent.originMm);
-    EXPECT_EQ(got.scalar, sent.scalar);
-    EXPECT_TRUE(got.isSwapped);
-    EXPECT_FALSE(got.isDeflated);
-    EXPECT_EQ(got.dataFile, sent.dataFile);
+TEST(Message, everyFieldOfALayoutComesThroughOrIsRefused) {
+    const auto sent = filled<VolumeLayout>();
+    expectSameFields(unpackLayout(bytesOf(pack(sent))), sent);
     const auto refused = [&](auto change) {
         VolumeLayout bad = sent;
         change(bad);
@@ -127,7 +254,7 @@ TEST(Message, reasonsComeThroughOnOneLine) {
     EXPECT_EQ(got(longest), longest);
 }
 
-TEST(Message, whatIsNoReasonIsRefused) {
+TEST(Message, bytesThatAreNoReasonAreRefused) {
     const std::string good = because::jpeg2000(because::isDamagedBy("text")).encoded();
     std::vector<std::string> all{good + "x", "is damaged",
                                  because::isDamagedBy(std::string(100000, 'x')).encoded(),

@@ -87,7 +87,7 @@ TEST_F(Nrrd, ReadsEveryScalarTypeInBothByteOrders) {
     check(double(), "double");
 }
 
-TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
+TEST_F(Nrrd, SurplusAndNonFiniteSamplesAreReported) {
     const std::string header =
         "type: float\ndimension: 3\nsizes: 3 1 1\nendian: little\nspace: LPS\nencoding: ";
     constexpr float none = std::numeric_limits<float>::quiet_NaN(),
@@ -130,7 +130,7 @@ TEST_F(Nrrd, MoreSamplesThanAnnouncedAndThoseThatAreNoNumbersAreMentioned) {
     EXPECT_THROW(readVolumeFile(folder / "twice.nrrd"), task::Error);
 }
 
-TEST_F(Nrrd, ASpaceThatIsNotThePatientsIsMentioned) {
+TEST_F(Nrrd, ASpaceOtherThanThePatientsIsReported) {
     for (const auto &[space, isNamed] : {std::pair("", false),
                                          {"space: scanner-xyz\n", false},
                                          {"space: 3D-right-handed\n", false},
@@ -236,7 +236,7 @@ TEST_F(Nrrd, RefusesWhatItCannotReadAndNamesTheFile) {
 }
 
 // A header may not have another file shown, nor be read for ever, nor waited for.
-TEST_F(Nrrd, NamesFilesBesideItOnly) {
+TEST_F(Nrrd, DataFilesAreBesideOrBelowTheHeader) {
     std::filesystem::create_directories(folder / "study/below");
     write(folder / "secret.raw", "abcdef");
     write(folder / "study/below/own.raw", "abcdef");
@@ -262,7 +262,7 @@ TEST_F(Nrrd, NamesFilesBesideItOnly) {
     EXPECT_EQ(reasonFor("below"), "is not a regular file");
 }
 
-TEST_F(Nrrd, AHeaderWithoutAnEndIsNotReadToIt) {
+TEST_F(Nrrd, AnEndlessHeaderIsRefused) {
     write(folder / "line.nrrd", "NRRD0004\n" + std::string(3 << 20, 'x'));
     write(folder / "lines.nrrd", [] {
         std::string text = "NRRD0004\n";

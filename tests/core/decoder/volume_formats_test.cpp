@@ -228,7 +228,7 @@ TEST_F(VolumeFormats, VolumesOfAFourthAxisArePhases) {
     EXPECT_EQ(dicom::loadVolume(*all[1].volume).volume.value({0, 0, 0}), 12.0);
 }
 
-TEST_F(VolumeFormats, WhatIsNotSupportedSaysSo) {
+TEST_F(VolumeFormats, UnsupportedFilesAreRefusedWithTheReason) {
     const auto reason = [&](const std::string &name, const std::string &bytes) -> std::string {
         test::writeText(folder / name, bytes);
         try {
@@ -267,7 +267,7 @@ TEST_F(VolumeFormats, WhatIsNotSupportedSaysSo) {
 
 // Values that are one number in 24 bits are refused, by the range that they have, or are shown with
 // a warning where other values make the range.
-TEST_F(VolumeFormats, ValuesThatFloatsCannotTellApartAreNamed) {
+TEST_F(VolumeFormats, ValuesThatFloatsCannotDistinguishAreReported) {
     const auto read = [&](const std::function<double(int)> &value) -> std::string {
         std::string bytes = "NRRD0004\ntype: double\ndimension: 3\nsizes: 10 10 10\nencoding: "
                             "raw\nendian: little\n\n";

@@ -88,7 +88,7 @@ TEST(GroupSeries, ManyImagesAtOnePlaceAreSetsInTheOrderOfTheirNumbers) {
 }
 
 // Places that jitter by less than a slice is thick, each twice.
-TEST(GroupSeries, ASetHasEachPlaceOnceHoweverTheyJitter) {
+TEST(GroupSeries, ASetHasEachPositionOnceDespiteJitter) {
     std::vector<SeriesFile> files = stack({0, .012, .001, .006, 2, 2.012, 2.001, 2.006});
     for (std::size_t n = 0; n < files.size(); ++n)
         files[n].header.instanceNumber = int(n);
@@ -107,7 +107,7 @@ TEST(GroupSeries, ASeriesOfManyStacksCanBeCancelled) {
 }
 
 // Anonymisers that replace every UID by itself.
-TEST(GroupSeries, FramesOfReferenceThatHardlyRepeatSayNothing) {
+TEST(GroupSeries, FramesOfReferenceThatRarelyRepeatAreIgnored) {
     auto files = stack(evenDepths(30, 2.0));
     for (std::size_t n = 0; n < files.size(); ++n)
         files[n].header.frameOfReferenceUid = "1.2." + std::to_string(n);
@@ -123,7 +123,7 @@ TEST(GroupSeries, FramesOfReferenceThatHardlyRepeatSayNothing) {
     EXPECT_EQ(group({files[20], files[21]}).size(), 2U); // two scans of one slice each
 }
 
-TEST(GroupSeries, OneInstanceUidInAllImagesLosesNone) {
+TEST(GroupSeries, ASharedInstanceUidLosesNoImage) {
     auto files = stack(evenDepths(93, 1.0));
     for (auto &f : files)
         f.header.sopInstanceUid = "1.2.3";
@@ -165,14 +165,14 @@ TEST(GroupSeries, AStrayOrientationIsAVolumeOfItsOwn) {
     EXPECT_EQ(entries[0].frames.size() + entries[1].frames.size(), 4U);
 }
 
-TEST(GroupSeries, PositionsOfAnotherSpaceAndValuesOfAnotherKindAreOtherVolumes) {
+TEST(GroupSeries, DifferentSpacesAndKindsOfValuesAreDifferentVolumes) {
     auto files = stack({0, 2, 4, 6, 8});
     files[1].header.frameOfReferenceUid = "1.2.3";
     files[3].header.modality = "MR";
     EXPECT_EQ(group(files).size(), 3U);
 }
 
-TEST(GroupSeries, ValuesOfWhichNobodySaysWhetherTheyAreSignedAreRefused) {
+TEST(GroupSeries, ValuesOfUnknownSignednessAreRefused) {
     InstanceHeader header = file("f", 0.0).header;
     header.hasPixels = true;
     header.bitsAllocated = header.bitsStored = 16;
@@ -185,7 +185,7 @@ TEST(GroupSeries, ValuesOfWhichNobodySaysWhetherTheyAreSignedAreRefused) {
     }
 }
 
-TEST(GroupSeries, FramesThatAreNotUsedAreNoSurplus) {
+TEST(GroupSeries, UnusedFramesAreNotSurplus) {
     InstanceHeader header = file("f", 0.0).header;
     header.bitsAllocated = 16;
     header.announcedFrames = 10; // of which one is in use
@@ -220,7 +220,7 @@ TEST(GroupSeries, RepeatedPlacesAreSplitByWhatTellsThemApart) {
     EXPECT_EQ(entries[1].frames.size(), 3U);
 }
 
-TEST(GroupSeries, TheAttributeOfASingleSliceIsNotTakenForAVolume) {
+TEST(GroupSeries, AnAttributeThatCountsSlicesDoesNotSplitTheStack) {
     // Acquisition numbers that count the slices must not tear a plain stack apart.
     auto files = stack({0, 2, 4, 6});
     for (int n = 0; n < 4; ++n)

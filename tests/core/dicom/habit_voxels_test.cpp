@@ -157,7 +157,7 @@ TEST(Habits, CompressedSamplesAreThoseOfThePlainOnes) {
         }
 }
 
-TEST(Habits, AHoleIsLeftOutOrFilledAsIsAsked) {
+TEST(Habits, AGapIsLeftOutOrFilledOnRequest) {
     const SeriesKnobs knobs{.slices = 30, .missing = {11, 12}};
     const test::TemporaryFolder folder;
     test::writeSeries(folder.path(), knobs);

@@ -279,7 +279,7 @@ TEST(Habits, EndAsTheTableSays) {
     EXPECT_EQ(seen, expected.size());
 }
 
-TEST(Habits, WhatIsUnusuallyLargeIsOpenedWhenItIsAskedFor) {
+TEST(Habits, HugeImagesOpenOnRequest) {
     const test::TemporaryFolder folder;
     test::writeSeries(folder.path(), {.slices = 1, .rows = 2, .columns = 20000});
     const auto refused = dicom::scan({folder.path()});
@@ -293,7 +293,7 @@ TEST(Habits, WhatIsUnusuallyLargeIsOpenedWhenItIsAskedFor) {
 
 // Ten times as many frames take ten times as long, or twice that beyond the caches, but not a
 // hundred times.
-TEST(Habits, HeadersTakeTimeInProportionToTheirFrames) {
+TEST(Habits, HeaderTimeIsProportionalToFrames) {
     const auto seconds = [](int frames) {
         SeriesKnobs knobs{.slices = 1, .rows = 1, .columns = 1};
         DicomWriter w = test::sliceOf(knobs, 0);

@@ -27,7 +27,7 @@ using test::loadDefault;
 using test::modify;
 using test::tiltedHead;
 
-TEST(Load, ATruncatedSliceIsNamedAndTheRestIsResampledAcrossTheHole) {
+TEST(Load, ATruncatedSliceIsNamedAndInterpolated) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
     const fs::path victim = folder / "IM0004.dcm";
@@ -79,7 +79,7 @@ TEST(Load, TheRescaleOfEverySliceIsItsOwn) {
 }
 
 // Half of a number, or none, would be other values without a word.
-TEST(Load, ARescaleThatIsNoNumberCostsItsSlice) {
+TEST(Load, AnInvalidRescaleCostsItsSlice) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
     const auto modified = [&](const char *file, const std::string &change) {
@@ -106,7 +106,7 @@ TEST(Load, ARescaleThatIsNoNumberCostsItsSlice) {
 
 // Codes that a rescale makes one number in 24 bits are refused; those that it makes nearly so are
 // shown with a warning.
-TEST(Load, ARescaleThatLeavesNoDifferencesIsNamed) {
+TEST(Load, ARescaleToOneValueIsReported) {
     const auto outcome = [](const std::string &rescale) -> std::string {
         const test::TemporaryFolder folder;
         dicom::writeCtSeries(folder.path(), tiltedHead(), {},
@@ -150,7 +150,7 @@ TEST(Load, ALostSliceDoesNotSplitItsVolumeByFrameOfReference) {
     EXPECT_EQ(loaded.volume.lattice().size().k, 20); // the lost one is interpolated
 }
 
-TEST(Load, MorePixelsThanTheHeaderSaysAreMentioned) {
+TEST(Load, SurplusPixelsAreReported) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder.path(), tiltedHead(), {}, dicom::TransferSyntax::explicitLittle);
     const auto warnings = [&] {

@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(TransferSyntaxes, RoundTrip,
                              return name;
                          });
 
-TEST(Decode, SizesThatTheFileCannotHoldAreRefusedBeforeMemoryIsAskedFor) {
+TEST(Decode, ImpossibleSizesAreRefusedBeforeAllocation) {
     for (const auto syntax : {dicom::TransferSyntax::explicitLittle, dicom::TransferSyntax::rle,
                               dicom::TransferSyntax::jpeg2000, dicom::TransferSyntax::jpegLs}) {
         const test::TemporaryFolder folder;

@@ -44,7 +44,7 @@ TEST(Scan, ListsEveryFileThatIsNotUsed) {
     EXPECT_EQ(dicom::selections(catalogue).size(), 1U);
 }
 
-TEST(Scan, PathsThatCannotBeUsedAreErrorsWithTheirName) {
+TEST(Scan, UnusablePathsAreNamed) {
     const test::TemporaryFolder folder;
     EXPECT_TRUE(dicom::scan({folder.path()}).empty());
     try {
@@ -114,7 +114,7 @@ TEST(Scan, NamesOfManyCharacterSetsAreRead) {
     }
 }
 
-TEST(Scan, WhetherValuesAreSignedIsNotGuessed) {
+TEST(Scan, SignednessIsNotGuessed) {
     for (const char *change : {"-ea PixelRepresentation", "-m PixelRepresentation=2"}) {
         const test::TemporaryFolder folder;
         dicom::writeCtSeries(folder.path(), tiltedHead(), {},
@@ -127,7 +127,7 @@ TEST(Scan, WhetherValuesAreSignedIsNotGuessed) {
     }
 }
 
-TEST(Scan, SamplesOfAVolumeFileAreNobodysLoss) {
+TEST(Scan, DetachedSamplesAreNotReportedAsUnused) {
     const test::TemporaryFolder folder;
     test::writeText(folder / "head.nhdr",
                     "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n"
@@ -152,7 +152,7 @@ TEST(Scan, AnotherSpaceIsAnotherVolume) {
 }
 
 // An index that leads out of its folder, in words or by a link.
-TEST(Scan, ADirectoryLeadsNowhereElse) {
+TEST(Scan, ADicomdirCannotLeaveItsFolder) {
     const test::TemporaryFolder folder;
     dicom::writeCtSeries(folder / "disc/D", tiltedHead(), {.patientName = "X", .patientId = "1"},
                          dicom::TransferSyntax::explicitLittle);

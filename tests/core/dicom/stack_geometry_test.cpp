@@ -25,7 +25,7 @@ TEST(GroupSeries, OrderComesFromPositionsNotFromNames) {
     EXPECT_TRUE(entries[0].notes.warnings.empty());
 }
 
-TEST(GroupSeries, UnevenStacksGoOntoTheGridOfTheirLongestRunAndNameTheChange) {
+TEST(GroupSeries, UnevenStacksAreResampledToTheGridOfTheirLongestRun) {
     const auto entries = group(stack({0, 4, 8, 9, 16, 23}));
     ASSERT_EQ(entries.size(), 1U);
     EXPECT_TRUE(entries[0].placed);
@@ -53,7 +53,7 @@ int framesKept(const dicom::VolumeEntry &entry) {
 }
 
 // An odd gap at either end leaves all other slices as they are.
-TEST(GroupSeries, AnOddGapAtAnEndBlursNothingAndLosesNothing) {
+TEST(GroupSeries, AnOddGapAtAnEndKeepsTheOtherSlices) {
     for (const double odd : {0.7, 1.4, 2.3}) {
         std::vector<double> depths = evenDepths(91, 1.0);
         depths.insert(depths.begin(), -odd);
@@ -109,7 +109,7 @@ TEST(GroupSeries, MissingSlicesOfARoundedStackStayOnItsGrid) {
         << entries[0].notes.warnings[0].english();
 }
 
-TEST(GroupSeries, AHoleOfSeveralSlicesLeavesItsRunsAndTheWholeWithItFilled) {
+TEST(GroupSeries, AGapGivesEachRunAndTheFilledStack) {
     const auto entries = group(stack({0, 2, 4, 6, 11.5, 13.5}));
     ASSERT_EQ(entries.size(), 3U);
     EXPECT_EQ(dicom::labelText(entries[0].label), "slices 1 to 4, axial 1");
@@ -161,6 +161,7 @@ TEST(GroupSeries, StraySlicesDoNotMultiplyTheStack) {
     EXPECT_FALSE(entries[0].notes.warnings.empty());
     // Where all is fine but two slices far away, no grid holds both.
     const auto far = group(stack({0, 100, 100.5, 101}));
+    EXPECT_FALSE(far.empty());
     for (const auto &entry : far)
         EXPECT_FALSE(entry.fillsHoles);
 }

@@ -53,7 +53,7 @@ TEST_F(JsonValueTest, ReadsWhatIsThere) {
     EXPECT_EQ(members[0].second.number(), 5.0);
 }
 
-TEST_F(JsonValueTest, WhatIsNotThereKnowsItsPointer) {
+TEST_F(JsonValueTest, AbsentValuesKnowTheirPointer) {
     EXPECT_TRUE(in["nothing"]); // null is something
     EXPECT_FALSE(in["absent"]);
     EXPECT_FALSE(in["list"]["absent"]);

@@ -58,10 +58,13 @@ TEST(BoxOutline, ofATiltedScanLeansAndWhatIsBeyondThePictureIsItsBorder) {
         boxOutline(lattice, {{0, 10, 0}, {40, 30, 40}}, through(Orientation::sagittal));
     ASSERT_EQ(edges.size(), 4U);
     EXPECT_NEAR(area(edges), 20.0 * 40.0, 1e-9); // sheared, of one area
+    int leaning = 0;
     for (const BoxEdge &e : edges)
         if (e.axis == 1) {
             EXPECT_NEAR(std::abs((e.to.x - e.from.x) / (e.to.y - e.from.y)), shear, 1e-9);
+            ++leaning;
         }
+    EXPECT_EQ(leaning, 2);
     Plane close = through(Orientation::axial);
     close.width = close.height = 11; // inside of the box
     const auto borders = boxOutline(lattice, {{0, 0, 0}, {40, 40, 40}}, close);

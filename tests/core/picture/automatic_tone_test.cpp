@@ -45,7 +45,7 @@ TEST(AutomaticTone, IsTakenFromTheFirstFrameAndKeptUntilOtherFieldsCome) {
     EXPECT_EQ(tone.range(), bright); // till then
 }
 
-TEST(AutomaticTone, IsTakenAnewForAnotherNumberOfLightsOrKindOfCueAndNotForWhatTheHandDrags) {
+TEST(AutomaticTone, IsRetakenForNewLightsAndCuesAndKeptDuringDrags) {
     const std::pair<std::function<void(shading::Shading &)>, bool> changes[] = {
         {[](auto &s) { s.lights.emplace_back(); }, true},
         {[](auto &s) { s.lights.clear(); }, true},
@@ -69,7 +69,7 @@ TEST(AutomaticTone, IsTakenAnewForAnotherNumberOfLightsOrKindOfCueAndNotForWhatT
     }
 }
 
-TEST(AutomaticTone, OfASceneThatIsSeenAgainIsThatOfBeforeForAllItsFields) {
+TEST(AutomaticTone, ASceneSeenAgainKeepsItsTone) {
     const scene::Scene scene = litScene();
     AutomaticTone tone = adopted(scene);
     tone.beginFields(scene); // the coarse picture's
@@ -84,7 +84,7 @@ TEST(AutomaticTone, OfASceneThatIsSeenAgainIsThatOfBeforeForAllItsFields) {
     EXPECT_TRUE(tone.isWanted());
 }
 
-TEST(AutomaticTone, OfASceneThatIsSeenAgainIsNotThatOfAnother) {
+TEST(AutomaticTone, ADifferentSceneDoesNotTakeTheKeptTone) {
     const std::function<void(scene::Scene &)> changes[] = {
         [](auto &s) { s.look.transferFunction.weights[1] = 1.0; },
         [](auto &s) { s.fieldWindow.reset(); }, [](auto &s) { s.crop.low.x += 0.25; },
@@ -99,7 +99,7 @@ TEST(AutomaticTone, OfASceneThatIsSeenAgainIsNotThatOfAnother) {
     }
 }
 
-TEST(AutomaticTone, GoesWithItsVolumeUnlessTheNextIsAnotherPhase) {
+TEST(AutomaticTone, IsDroppedWithItsVolumeUnlessAPhaseFollows) {
     AutomaticTone tone = taken(bright);
     tone.hold();
     EXPECT_TRUE(tone.outlivesVolume(false)); // the former phase is closed

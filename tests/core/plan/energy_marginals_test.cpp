@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/plan/energy_marginals.h"
+#include "core/plan/line_integral_bound.h"
 #include "tests/support/fields.h"
 
 namespace pellucid {
@@ -14,7 +15,7 @@ double sum(const std::vector<double> &values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-TEST(EnergyMarginals, OnePointIsWhereItIs) {
+TEST(EnergyMarginals, OnePointHasAllTheEnergyAtItsPlace) {
     const auto lattice = volume::Lattice::centred({21, 21, 21}, {1, 1, 2});
     std::vector<float> samples(lattice.size().count(), 0.0F);
     samples[(std::size_t(10) * 21 + 10) * 21 + 16] = 3.0F; // 6 mm from the centre along x
@@ -38,7 +39,7 @@ TEST(EnergyMarginals, OnePointIsWhereItIs) {
 
 // The projection of a uniform ball is 2 sqrt(R^2 - r^2), so peak times mass over energy is 4/3. The
 // bound may be larger because blocks blur the field.
-TEST(EnergyMarginals, NoPartOfABallHasMuchMoreOfTheProjectionThanOfTheMass) {
+TEST(EnergyMarginals, ABallIsHardlyPeaked) {
     const auto lattice = volume::Lattice::centred({64, 64, 64}, {1, 1, 1});
     std::vector<float> samples;
     for (int k = 0; k < 64; ++k)
@@ -53,20 +54,37 @@ TEST(EnergyMarginals, NoPartOfABallHasMuchMoreOfTheProjectionThanOfTheMass) {
     EXPECT_LT(peakedness, 2.5);
 }
 
-// A rod along the diagonal: the line through it has the largest integral; lines in other directions
-// have less.
-TEST(EnergyMarginals, TheLargestLineIntegralIsNotBelowThatThroughARod) {
+// A rod along the diagonal of cells: between two layers of samples no line is longer than the
+// cell's diagonal, sqrt(6) mm, and no sample is above 1, so that the rod's own line is the largest.
+TEST(LargestLineIntegral, IsThatAlongARod) {
     const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 2});
-    std::vector<float> samples(lattice.size().count(), 0.0F);
+    plan::LayerMaxima layers;
+    layers.samples = layers.columns = layers.rows = 40;
+    layers.most.resize(40 * 40 * 40);
+    for (int n = 0; n < 40; ++n)
+        layers.at(n, n, n) = 1.0F;
+    const double length = 40.0 * std::sqrt(6.0);
+    EXPECT_NEAR(plan::largestLineIntegral({layers, layers, layers}, 1, lattice), length,
+                1e-9 * length);
+}
+
+// The same rod in haze. Seen along the rod, all of its mass falls within the shadow of one sample:
+// a third of the mass has nearly all of the energy of that projection.
+TEST(EnergyMarginals, ARodInHazeHasMoreOfAProjectionThanOfTheMass) {
+    const auto lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 2});
+    constexpr double haze = 1e-3;
+    std::vector<float> samples(lattice.size().count(), float(haze));
     for (int n = 0; n < 40; ++n)
         samples[(std::size_t(n) * 40 + n) * 40 + n] = 1.0F;
     const volume::Volume field(lattice, samples, volume::ValueUnit::none);
     const auto energy = plan::energyMarginals(field, lattice.bounds());
     const double length = 40.0 * std::sqrt(6.0), areaMm2 = 2.0 / std::sqrt(6.0);
-    // Seen along the rod, all of its mass falls within the shadow of one sample.
-    const double mass = 40.0 * 2.0;
-    EXPECT_NEAR(energy.massMm3, mass, 1e-9);
-    EXPECT_GE(energy.spread->peakedness, length * areaMm2 / mass);
+    const double rodMm3 = 40.0 * 2.0, massMm3 = rodMm3 + haze * 2.0 * (40.0 * 40.0 * 40.0 - 40.0);
+    EXPECT_NEAR(energy.massMm3, massMm3, 1e-6 * massMm3); // samples are float
+    // The rod's projection is `length` over its shadow, that of the haze at most `haze * length`.
+    const double rodEnergy = length * length * areaMm2, hazeEnergy = haze * length * massMm3;
+    EXPECT_GE(energy.spread->peakedness,
+              (1.0 - hazeEnergy / rodEnergy) / (rodMm3 / massMm3)); // 2.6
     EXPECT_TRUE(std::isfinite(energy.spread->peakedness));
 }
 

@@ -41,7 +41,7 @@ TEST(SlabProducts, GiveTheEnergyOfWeightedProjections) {
     }
 }
 
-TEST(SlabProducts, OfNoiseHaveNothingInCommon) {
+TEST(SlabProducts, SlabsOfNoiseAreUncorrelated) {
     const std::vector<double> energy{0.1, 0.4, 0.3, 0.2};
     const auto slabs = plan::evenSlabProducts(energy);
     const std::vector<double> weights{1.0, -2.0, 3.0, 0.5};

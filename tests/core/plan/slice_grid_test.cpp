@@ -16,7 +16,7 @@ struct Setting {
     plan::SliceGrid grid() const { return plan::sliceGrid(camera, fieldOfView, lattice, {}); }
 };
 
-TEST(SliceGrid, LessTailsTakeMoreRoomAndNeverMoreThanThereIs) {
+TEST(SliceGrid, SmallerAliasingLimitsTakeLargerGridsUpToTheLargest) {
     Setting s;
     int before = 0;
     for (const double tails : {1e-1, 1e-3, 1e-4, 1e-5}) {

@@ -178,7 +178,7 @@ void expectReached(State state, bool isLarge) {
     ADD_FAILURE() << "what is wanted does not come";
 }
 
-TEST(NextStep, FromEveryCombinationWhatIsWantedIsReached) {
+TEST(NextStep, TheWantedEngineIsReachedFromEveryState) {
     std::set<decltype(keyOf(State()))> seen;
     // Nothing yet; and a study that is being loaded, whose job makes its first engine.
     std::deque<State> open{State(), State{.have = {.underway = engineOf(plain)}}};

@@ -88,7 +88,7 @@ TEST(Diffusion, SmoothsNoiseAndKeepsAStep) {
     EXPECT_GT(smooth.value({12, 12, 12}) - smooth.value({11, 12, 12}), 80.0);
 }
 
-TEST(Filters, NumbersThatAreNoneDoNotSpread) {
+TEST(Filters, NansDoNotSpread) {
     auto lattice = volume::Lattice::centred({9, 9, 9}, {1, 1, 1});
     std::vector<float> samples(729, 1.0F);
     samples[0] = std::numeric_limits<float>::quiet_NaN();

@@ -70,7 +70,7 @@ TEST(PresetLibrary, BuiltInOnesStay) {
     EXPECT_THROW(library.save(named("")), task::Error);
 }
 
-TEST(PresetLibrary, WhatIsNotWellFormedIsNotKept) {
+TEST(PresetLibrary, MalformedPresetsAreNotSaved) {
     test::TemporaryFolder folder;
     PresetLibrary library(folder / "presets");
     try {

@@ -157,7 +157,7 @@ TEST(Preset, SharesOfTheWindowBecomeValuesAndBack) {
     EXPECT_NEAR(again.classes[1].steps[0].at("low"), 4.0, 1e-9);
 }
 
-TEST(Preset, SaysWhatItIsNotMadeFor) {
+TEST(Preset, ReportsVolumesThatItIsNotMadeFor) {
     const Preset preset = presets::presetFromJson(full);
     const volume::Volume ct(volume::Lattice(), std::vector<float>{0.0F},
                             volume::ValueUnit::hounsfield, {.modality = "CT"});

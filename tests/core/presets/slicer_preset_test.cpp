@@ -73,7 +73,7 @@ TEST_F(SlicerPreset, JsonAndTextAgreeAndTheErrorIsTheFits) {
     EXPECT_LE(presets::importSlicerPreset(text, 16).largestError, a.largestError + 0.02);
 }
 
-TEST_F(SlicerPreset, WhatIsNoneIsRefusedWithTheReason) {
+TEST_F(SlicerPreset, OtherFilesAreRefusedWithTheReason) {
     EXPECT_EQ(reasonOf(write("a.vp", "1\n1\n")), "line 3: the file ends before its scalar opacity");
     EXPECT_EQ(reasonOf(write("b.vp", std::string(head) + "8 0 0 1\n")),
               "line 7: 8 values are declared, but only 2 are present");

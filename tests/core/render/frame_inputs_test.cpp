@@ -32,7 +32,7 @@ protected:
     scene::Camera camera = scene::defaultCamera(field.values.lattice());
 };
 
-TEST_F(FrameInputs, NothingIsWorkedOutWhereNothingIsShown) {
+TEST_F(FrameInputs, AreEmptyWhereNothingIsShown) {
     render::EngineParts parts = partsFor({});
     parts.shares = {{0.0, 0.0, 0.0}};
     camera.pixelMm = 1e-9; // no slice grid would do
@@ -41,7 +41,7 @@ TEST_F(FrameInputs, NothingIsWorkedOutWhereNothingIsShown) {
     EXPECT_EQ(inputs.pictureChannels(), 1);
 }
 
-TEST_F(FrameInputs, LightsAreOffWithoutWhatTheyShineOn) {
+TEST_F(FrameInputs, LightsAreOffWithoutGradients) {
     const render::FrameInputs unlit = inputsOf(partsFor({.cue = lit.cue}), lit),
                               withLight = inputsOf(partsFor(lit), lit);
     EXPECT_FALSE(unlit.shading.lit);

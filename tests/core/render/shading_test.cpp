@@ -231,7 +231,7 @@ TEST(Shading, OppositeLightsLeaveNoGradient) {
     EXPECT_LT(test::relativeL2(sum, both), 1e-6);
 }
 
-TEST(Shading, WhatIsOffChangesNothingAndPreparesNothing) {
+TEST(Shading, DisabledShadingChangesAndPreparesNothing) {
     Subject plain(headField(), {});
     const auto expected = plain.image(someViews().front()).samples;
     Light dark = across;

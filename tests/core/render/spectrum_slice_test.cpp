@@ -148,7 +148,7 @@ TEST(SpectrumSlice, OfAGaussianIsAParabolaInDecibels) {
 // What lies between two cells is what the plan's kernel makes of them: halfway between them a tent
 // takes their mean. For a voxel n samples from the origin of phase, of a period of P, that is
 // cos(pi n/P) of its magnitude, which was divided by the tent's transform sinc^2(n/P) before.
-TEST(SpectrumSlice, TakesWhatTheKernelOfThePlanTakes) {
+TEST(SpectrumSlice, InterpolatesWithTheKernelOfThePlan) {
     const auto lattice = test::tiltedLattice({16, 1, 1}, {1.0, 1.0, 1.0}, 0.0);
     const auto layout = layoutOf(lattice, fourier::Kernel::trilinear(), 1.0);
     ASSERT_EQ(layout.padded.i, 16);
@@ -197,7 +197,7 @@ TEST(SpectrumSlice, OfSeveralFieldsIsThatOfTheirWeightedSum) {
     }
 }
 
-TEST(SpectrumSlice, OfNothingIsRefusedAndCanBeCancelled) {
+TEST(SpectrumSlice, RefusesAnEmptyFieldAndCanBeCancelled) {
     const auto lattice = test::tiltedLattice({8, 8, 8}, {1.0, 1.0, 1.0}, 0.0);
     const auto layout = exactLayout(lattice);
     const auto zero = test::volumeOf(lattice, [](const glm::dvec3 &) { return 0.0; });

@@ -45,7 +45,7 @@ TEST(Memory, TheLimitsOfControlGroupsCount) {
 }
 
 #ifndef PELLUCID_SANITIZED // which reserve terabytes
-TEST(Memory, TheLimitOfTheProcessIsAsGoodAsNoMore) {
+TEST(Memory, TheLimitOfTheProcessCounts) {
     const std::size_t without = availableMemoryBytes();
     constexpr std::size_t mb = 1 << 20;
     {

@@ -34,7 +34,7 @@ TEST(PageMemory, IsAlignedAndWritable) {
     }
 }
 
-TEST(PageMemory, ThatCannotBeHadIsAnError) {
+TEST(PageMemory, AnImpossibleSizeIsAnError) {
     const auto most = std::numeric_limits<std::size_t>::max();
 #ifdef PELLUCID_SANITIZED // whose allocators end the program when asked for that much
     const std::vector<std::size_t> sizes{most, most - 3 * megabyte};

@@ -35,7 +35,7 @@ TEST(OrOutOfMemory, GivesWhatTheWorkGives) {
     EXPECT_EQ(value, 9);
 }
 
-TEST(OrOutOfMemory, SaysForWhatMemoryWasMissing) {
+TEST(OrOutOfMemory, NamesWhatNeededTheMemory) {
     try {
         orOutOfMemory(because::noMemoryForTheStep("median"), [] { throw std::bad_alloc(); });
         FAIL() << "nothing was thrown";

@@ -112,7 +112,7 @@ TEST(Reason, everySentenceIsFilled) {
     }
 }
 
-TEST(Reason, whatIsDamagedIsRefusedOrAReason) {
+TEST(Reason, damagedTextIsRefusedOrAReason) {
     for (const Sentence &sentence : sentences) {
         const std::string good = encodedOf(sentence, awkward, 0);
         for (std::size_t size = 0; size < good.size(); ++size)

@@ -49,7 +49,7 @@ TEST(WorkerTeam, RunsEveryPartOnceAndPhasesInOrder) {
 
 #ifndef PELLUCID_SANITIZED
 // A stack takes megabytes of address space: the team has those that fit, and does all the work.
-TEST(WorkerTeam, WhereThereAreFewThreadsTheWorkIsDoneByThose) {
+TEST(WorkerTeam, FewThreadsDoAllTheWork) {
     std::unique_ptr<WorkerTeam> team;
     {
         const test::LittleMemory little(40);
