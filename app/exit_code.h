@@ -5,7 +5,7 @@
 
 namespace pellucid {
 
-/// What a program ends with that cannot do what it was asked for. Scripts rely on it.
+/// The exit code for a failure. Scripts rely on these values.
 constexpr int exitCode(task::ErrorCode code) {
     switch (code) {
     case task::ErrorCode::internal:

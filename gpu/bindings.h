@@ -3,7 +3,7 @@
 
 namespace pellucid::gpu::bindings {
 
-// As shaders/lib/bindings.glsl, which a test compares.
+// The same as shaders/lib/bindings.glsl; a test compares the two.
 inline constexpr int frameBlock = 0;
 inline constexpr int discRows = 0;
 inline constexpr int rotations = 1;

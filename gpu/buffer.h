@@ -7,15 +7,16 @@
 
 namespace pellucid::gpu {
 
-/// Memory on the card for uniform blocks and storage. Belongs to the context that is current when
-/// it is made; move-only.
+/// A uniform or storage buffer on the card. Belongs to the context that is current when it is
+/// created; move-only.
 class Buffer {
 public:
     Buffer() : m_name(makeBuffer()) {}
 
-    /// Makes it at least so large; what was in it is lost if it grows. *Throws* Error{outOfMemory}.
+    /// Grows the buffer to at least `bytes`; growing discards the contents. *Throws*
+    /// Error{outOfMemory}.
     void fit(std::size_t bytes);
-    /// Replaces what is in it. *Throws* Error{outOfMemory}.
+    /// Replaces the contents. *Throws* Error{outOfMemory}.
     void upload(const void *data, std::size_t bytes);
     void bindStorage(int binding) const;
     void bindUniform(int binding) const;

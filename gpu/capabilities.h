@@ -7,24 +7,25 @@
 
 namespace pellucid::gpu {
 
-/// What the current context is.
+/// Version, renderer and limits of an OpenGL context.
 struct Capabilities {
     int version = 0; ///< major * 10 + minor
     std::string renderer;
     bool software = false;                          ///< llvmpipe, softpipe, SwiftShader, WARP, GDI
-    int largest3dTexture = 0, largest2dTexture = 0; ///< texels a side
-    int textureUnits = 0;                           ///< of a compute shader
-    std::size_t sharedBytes = 0;                    ///< of a work group
-    std::size_t storageBytes = 0;                   ///< of one storage buffer
+    int largest3dTexture = 0, largest2dTexture = 0; ///< texels per side
+    int textureUnits = 0;                           ///< per compute shader
+    std::size_t sharedBytes = 0;                    ///< per work group
+    std::size_t storageBytes = 0;                   ///< per storage buffer
 
     bool canShowImages() const { return version >= 33; }
-    /// Compute shaders, storage buffers and immutable textures, which the engine is made of.
+    /// The engine needs compute shaders, storage buffers and immutable textures.
     bool canRender() const { return version >= 43; }
 };
 
+/// Those of the context that is current on the calling thread.
 Capabilities currentCapabilities();
 
-/// What the card has free now, where a vendor's extension tells.
+/// Memory that is free on the card now; empty unless a vendor's extension reports it.
 std::optional<std::size_t> freeCardBytes();
 
 } // namespace pellucid::gpu

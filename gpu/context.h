@@ -5,20 +5,20 @@
 
 namespace pellucid::gpu {
 
-/// A context that a Device may take into its thread.
+/// An OpenGL context that a Device may use on its own thread.
 class Context {
 public:
     virtual ~Context() = default;
-    /// Makes it current on the calling thread. *Throws* Error{noSuchDevice}.
+    /// Makes the context current on the calling thread. *Throws* Error{noSuchDevice}.
     virtual void makeCurrent() = 0;
     virtual void doneCurrent() = 0;
-    /// Whether what is on the card is gone: the driver was reset or updated, the card was taken
-    /// away. *Shape*: called while current, the first time while it is whole: a lost context no
-    /// longer says what it can tell.
+    /// Whether the context and everything on the card is lost, because the driver was reset or
+    /// updated or the card was removed. *Requires*: the context is current, and not lost at the
+    /// first call: a lost context no longer reports whether it detects resets.
     virtual bool isLost();
 
 private:
-    std::optional<bool> m_tellsResets;
+    std::optional<bool> m_detectsResets;
 };
 
 } // namespace pellucid::gpu

@@ -17,34 +17,34 @@
 
 namespace pellucid::gpu {
 
-/// A graphics card that computes: a context on a thread of its own, where all that is done on it is
-/// done in turn. What its driver has to say goes to the log. Whoever holds what lies on the card
-/// holds the device too.
+/// A graphics card used for computing: a context on its own thread, which runs one piece of work at
+/// a time. Driver messages of medium and high severity go to the log. Owners of objects on the card
+/// also keep the device alive.
 class Device {
 public:
-    /// *Throws* Error{noSuchDevice} with the reason if the context does not come up or has no
+    /// *Throws* Error{noSuchDevice} with the reason if the context cannot be made current or lacks
     /// OpenGL 4.3.
     explicit Device(std::unique_ptr<Context> context);
-    /// Not from its own thread. What was posted is done before.
+    /// Runs all posted work first. *Requires*: not called on the device's thread.
     ~Device();
     Device(const Device &) = delete;
     Device &operator=(const Device &) = delete;
 
     const Capabilities &capabilities() const { return m_capabilities; }
-    /// Whether the card is gone with all that was on it; for good.
+    /// Whether the card and everything on it is lost; a lost device never recovers.
     bool isLost() const { return m_lost; }
 
-    /// Runs it on the device's thread and waits. *Throws* what it throws, Error{noSuchDevice} if
-    /// the device is lost, before it or by it.
+    /// Runs `work` on the device's thread and waits. *Throws* what `work` throws;
+    /// Error{noSuchDevice} if the device is lost, before or during the work.
     void run(const std::function<void()> &work);
-    /// Runs it there some time later; what it throws goes to the log.
+    /// Queues `work` for the device's thread; exceptions go to the log.
     void post(std::function<void()> work);
 
-    /// A compute program, compiled when it is first asked for. On the device's thread.
+    /// A compute program, compiled on first use. *Requires*: called on the device's thread.
     const Program &program(const std::string &file, const Defines &defines = {});
 
 private:
-    void live(const std::stop_token &stop);
+    void runQueue(const std::stop_token &stop);
 
     std::unique_ptr<Context> m_context;
     Capabilities m_capabilities;
@@ -56,7 +56,7 @@ private:
     std::jthread m_thread;
 };
 
-/// Deletes what has OpenGL names in it where their context is.
+/// Deletes an owner of OpenGL objects on the thread of their context.
 template <class T> struct DeleteOnDevice {
     Device *device = nullptr;
     void operator()(T *object) const {

@@ -12,7 +12,7 @@
 namespace pellucid::gpu {
 
 Device::Device(std::unique_ptr<Context> context) : m_context(std::move(context)) {
-    m_thread = std::jthread([this](const std::stop_token &stop) { live(stop); });
+    m_thread = std::jthread([this](const std::stop_token &stop) { runQueue(stop); });
     const auto begin = [this] {
         m_context->makeCurrent();
         m_capabilities = currentCapabilities();
@@ -35,7 +35,7 @@ Device::Device(std::unique_ptr<Context> context) : m_context(std::move(context))
     try {
         run(begin);
     } catch (...) {
-        m_lost = true; // nothing was made that would have to go
+        m_lost = true; // no OpenGL object exists yet
         throw;
     }
 }
@@ -81,7 +81,7 @@ void Device::post(std::function<void()> work) {
     m_wake.notify_one();
 }
 
-void Device::live(const std::stop_token &stop) {
+void Device::runQueue(const std::stop_token &stop) {
     for (;;) {
         std::function<void()> work;
         {

@@ -11,7 +11,7 @@ namespace pellucid::gpu {
 
 namespace {
 
-// Two's complement of a number of cells, 24.40 bits, or of turns, 0.64 bits.
+// Fixed point in two's complement: cells in 24.40 bits, turns in 0.64 bits.
 std::uint64_t fixedCells(double cells) {
     return std::uint64_t(std::int64_t(std::llround(std::ldexp(cells, 40))));
 }
@@ -35,7 +35,7 @@ void split(const Steps &steps, FrameBlock::Four<std::uint32_t> &low,
     }
 }
 
-// Two of a pair's coefficients, even and odd, a vector.
+// A vector holds two even and two odd coefficients: even, odd, even, odd.
 template <class Kernel>
 void packPairs(const Kernel &kernel, int axis,
                FrameBlock::Vectors<FrameBlock::kernelVectors> &vectors) {
@@ -55,11 +55,11 @@ FrameBlock::Four<float> three(const std::array<double, 3> &values) {
     return {float(values[0]), float(values[1]), float(values[2]), 0.0F};
 }
 
-// Where the slice lies in the spectrum.
+// The position of the slice in the spectrum.
 void setSlice(FrameBlock &block, const render::FrameInputs &inputs) {
     const render::FrameGeometry &geometry = inputs.geometry;
     const plan::SliceGrid &grid = inputs.grid;
-    // 23 bits of whole cells, beyond which a coordinate would come round again.
+    // Coordinates have 23 bits of whole cells and would wrap around beyond that.
     for (std::size_t d = 0; d < 3; ++d)
         if (std::abs(geometry.cellsPerColumn[d]) * grid.columns +
                 std::abs(geometry.cellsPerRow[d]) * grid.rows >
@@ -79,7 +79,7 @@ void setSlice(FrameBlock &block, const render::FrameInputs &inputs) {
         block.edgeSlack[d] = geometry.edgeSlack[d];
 }
 
-// What the sums become by cue and light.
+// The effect of cue and lights on the sums.
 void setShading(FrameBlock &block, const render::FrameInputs &inputs) {
     const render::FrameShading &shading = inputs.shading;
     for (std::size_t kind = 0; kind < 2; ++kind)
@@ -125,8 +125,8 @@ GridTables::GridTables(const plan::SliceGrid &grid) {
     add(grid.columns / 2, grid.columns / 2);
     unpackRotations = std::int32_t(rotations.size());
     add(grid.columns, grid.columns / 2);
-    // The Nyquist row and column lie on the edge of the disc, whose roll-off is 0. Row 0 of every
-    // column lies within.
+    // The Nyquist row and column are on the edge of the disc, where the roll-off is 0. Row 0 of
+    // every column is inside.
     int row = grid.rows / 2 - 1;
     for (int column = 0; column < grid.columns / 2; ++column) {
         const double u = 2.0 * column / grid.columns;
@@ -175,7 +175,7 @@ FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefin
     for (std::size_t s = 0; s < mixing.sources.size(); ++s) {
         const render::FrameSource &source = mixing.sources[s];
         block.shares[s] = {source.shares[0], source.shares[1], source.shares[2]};
-        // Fields come first, and so do their pages.
+        // Fields and their pages come before those of the gradients.
         const bool isField = source.kind == render::FrameKind::field;
         block.fieldCount += isField ? 1 : 0;
         const auto [page, plane] = texels.placeOf(source.field);

@@ -10,8 +10,8 @@
 
 namespace pellucid::gpu {
 
-/// The uniform block of a frame as shaders/lib/frame.glsl lays it out (std140), which a test
-/// compares.
+/// The uniform block of a frame, in the std140 layout of shaders/lib/frame.glsl; a test compares
+/// the two.
 struct FrameBlock {
     template <class T> using Four = std::array<T, 4>;
     template <std::size_t n> using Vectors = std::array<Four<float>, n>;
@@ -37,7 +37,7 @@ struct FrameBlock {
     std::int32_t columnStages, rowStages;
     std::int32_t columnRotations, rowRotations, unpackRotations;
     float rollOff, unit, cueBase;
-    alignas(16) Four<std::int32_t> padded; // vectors begin at multiples of their size
+    alignas(16) Four<std::int32_t> padded; // std140 aligns vectors to their size
     Four<std::int32_t> firstCell;
     Four<float> inversePadded, edgeSlack, perMoment;
     Vectors<bindings::mostSpectra> shares;
@@ -49,45 +49,48 @@ struct FrameBlock {
     std::array<Four<std::int32_t>, 8> radices;
 };
 
-/// The stages of an inverse transform: radices 8, 7, 5, 4, 3 and 2 whose product is the length.
-/// *Shape*: the length is smooth, see fourier::smoothEvenSize, or 1.
+/// The radices of an inverse transform's stages, out of 8, 7, 5, 4, 3 and 2; their product is the
+/// length. *Requires*: the length is 1 or smooth, see fourier::smoothEvenSize.
 std::vector<int> radicesOf(int length);
 
-/// What depends on the slice grid alone.
+/// Tables that depend on the slice grid only.
 struct GridTables {
     explicit GridTables(const plan::SliceGrid &grid);
 
-    /// The last row of each column within the band's disc.
+    /// The last row of each column inside the disc of the band.
     std::vector<std::int32_t> discRows;
-    /// exp(+i 2 pi n / length) of three lengths: of a column, which has a number for each row; of a
-    /// row packed into half as many numbers; and half of those of a whole row, to unpack it.
+    /// exp(+i 2 pi n / length) for three lengths: a column (`rows` values), a row packed into
+    /// `columns` / 2 complex numbers (`columns` / 2 values), and a whole row (the first `columns` /
+    /// 2 values, for unpacking).
     std::vector<std::array<float, 2>> rotations;
-    std::int32_t columnRotations = 0, rowRotations = 0, unpackRotations = 0; ///< where each begins
+    std::int32_t columnRotations = 0, rowRotations = 0, unpackRotations = 0; ///< their offsets
 };
 
-/// Sets what the transforms need to know.
+/// Sets the members that the transforms read.
 void setTransforms(FrameBlock &block, const plan::SliceGrid &grid, int imageColumns, int imageRows,
                    const GridTables &tables);
 
-/// How spectra lie in textures: several on top of each other in a page, or one in slabs of planes
-/// that overlap by a kernel's width, a page each.
+/// How spectra are stored in textures ("pages"): several spectra stacked in one page, or one
+/// spectrum split into slabs of planes, one page each, that overlap by the kernel's width - 1.
 struct TexelLayout {
     int columns = 0, rows = 0;
-    int planes = 0;                 ///< of a spectrum, or of a slab of one
-    std::array<int, 3> firstCell{}; ///< the index of a spectrum's first texel
-    int perPage = 1;                ///< spectra
+    int planes = 0;                 ///< per spectrum, or per slab of one
+    std::array<int, 3> firstCell{}; ///< grid index of a spectrum's first texel
+    int perPage = 1;                ///< spectra per page
     int slabs = 1;
-    int slabStep = 0; ///< planes between the beginnings of slabs
+    int slabStep = 0; ///< planes from one slab's beginning to the next
 
-    /// Page and plane of the nth spectrum.
+    /// First page and first plane of spectrum n.
     std::array<int, 2> placeOf(std::size_t n) const {
         return {int(n) / perPage * slabs, int(n) % perPage * planes};
     }
+    /// The number of pages that `count` spectra take.
     int pagesOf(std::size_t count) const { return (int(count) + perPage - 1) / perPage * slabs; }
 };
 
-/// The slice of a frame as the shaders see it. *Throws* Error{outOfMemory} if it reaches further
-/// than 2^22 cells. *Shape*: something is shown; `fieldPages`: those before the gradients' pages.
+/// The parameters of a frame's slice for the shaders. `fieldPages`: number of pages of the fields,
+/// which come before those of the gradients. *Requires*: `inputs` is not empty. *Throws*
+/// Error{outOfMemory} if the slice extends beyond 2^22 cells.
 FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefinition &image,
                       const fourier::SpectrumLayout &layout, const TexelLayout &texels,
                       int fieldPages);

@@ -15,17 +15,16 @@ namespace pellucid::gpu {
 
 namespace {
 
-// One that is shown, one that waits to be, one that is being made, and one that is still read.
-constexpr std::size_t mostTargets = 4;
-constexpr std::size_t mostTables = 3;
-constexpr GLuint64 longestWaitNs = 10'000'000'000;
+// One that is shown, one that waits to be shown, one being rendered, and one still being read.
+constexpr std::size_t maxTargets = 4;
+constexpr std::size_t maxTables = 3;
+constexpr GLuint64 maxWaitNs = 10'000'000'000;
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
 }
 
-// The tables of a grid on the card.
 struct CardTables {
     explicit CardTables(const plan::SliceGrid &of) : grid(of), tables(of) {
         rotations.upload(tables.rotations.data(),
@@ -70,13 +69,13 @@ struct CardPicture::Target {
             glDeleteSync(static_cast<GLsync>(sync));
     }
     PixelTexture texture;
-    /// A GLsync of the context that showed it last.
+    /// GLsync of the context that last drew the picture.
     std::atomic<void *> drawn = nullptr;
 };
 
-// On the device's thread, but for its making and end.
-struct FramePasses::Place {
-    explicit Place(Device &device) : transform(device) {
+// Used on the device's thread.
+struct FramePasses::Resources {
+    explicit Resources(Device &device) : transform(device) {
         for (QueryName &query : stamps)
             query = makeQuery();
     }
@@ -87,9 +86,9 @@ struct FramePasses::Place {
         if (known != tables.end()) {
             std::rotate(tables.begin(), known, known + 1);
         } else {
-            // A draft and a full frame take turns while the hand moves.
+            // Draft and full frames alternate while the user drags.
             tables.insert(tables.begin(), std::make_unique<CardTables>(grid));
-            tables.resize(std::min(tables.size(), mostTables));
+            tables.resize(std::min(tables.size(), maxTables));
         }
         return *tables.front();
     }
@@ -109,7 +108,7 @@ struct FramePasses::Place {
 
 void CardPicture::markDrawn() const {
     Target::remove(m_target->drawn.exchange(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)));
-    glFlush(); // or nobody else ever sees it pass
+    glFlush(); // else other contexts may never see the fence signalled
 }
 
 picture::ProjectionImage CardPicture::download() const {
@@ -132,7 +131,8 @@ picture::ProjectionImage CardPicture::download() const {
 
 FramePasses::FramePasses(std::shared_ptr<Device> device) : m_device(std::move(device)) {
     m_device->run([&] {
-        m_place = OnDevice<Place>(new Place(*m_device), DeleteOnDevice<Place>{m_device.get()});
+        m_resources = OnDevice<Resources>(new Resources(*m_device),
+                                          DeleteOnDevice<Resources>{m_device.get()});
     });
 }
 
@@ -145,14 +145,15 @@ std::shared_ptr<CardPicture> FramePasses::pictureFor(const scene::Camera &camera
     if (free != m_targets.end()) {
         picture->m_target = *free;
         std::rotate(m_targets.begin(), free, free + 1);
-        std::rotate(m_targets.begin(), m_targets.begin() + 1, m_targets.end()); // used last: last
+        // The most recently used is last.
+        std::rotate(m_targets.begin(), m_targets.begin() + 1, m_targets.end());
     } else {
-        // It goes on the device's thread, whoever lets go of it last.
+        // Deleted on the device's thread, whichever thread releases it.
         picture->m_target = std::shared_ptr<CardPicture::Target>(
             new CardPicture::Target, [device = m_device](CardPicture::Target *target) {
                 device->post([target] { delete target; });
             });
-        if (m_targets.size() < mostTargets)
+        if (m_targets.size() < maxTargets)
             m_targets.push_back(picture->m_target);
     }
     CardPicture::Target &target = *picture->m_target;
@@ -189,24 +190,24 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
     std::shared_ptr<CardPicture> picture;
     m_device->run([&] {
         const double start = now();
-        Place &place = *m_place;
-        TransformPasses &transform = place.transform;
+        Resources &resources = *m_resources;
+        TransformPasses &transform = resources.transform;
         transform.fit(command.grid, command.layers);
-        const CardTables &tables = place.tablesFor(command.grid);
+        const CardTables &tables = resources.tablesFor(command.grid);
         picture = pictureFor(command.camera, command.layers);
         FrameBlock &block = command.block;
         setTransforms(block, command.grid, command.camera.width, command.camera.height,
                       tables.tables);
-        place.block.upload(&block, sizeof(block));
-        place.block.bindUniform(bindings::frameBlock);
+        resources.block.upload(&block, sizeof(block));
+        resources.block.bindUniform(bindings::frameBlock);
         tables.rotations.bindStorage(bindings::rotations);
         tables.discRows.bindStorage(bindings::discRows);
         bindPages(command);
 
-        glQueryCounter(place.stamps[0].name(), GL_TIMESTAMP);
+        glQueryCounter(resources.stamps[0].name(), GL_TIMESTAMP);
         const int halfColumns = command.grid.columns / 2, rows = command.grid.rows;
         Defines defines = sliceDefines(command);
-        // Three images have their taps in common: their slices are made together.
+        // Three images share their taps, so slice.comp computes their slices together.
         const bool isFused = command.layers == 1 && rows <= transform.longestShared();
         TransformPasses::Lines lines = transform.sharedLines(block);
         int dispatches = 1;
@@ -220,22 +221,23 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
             transform.slice().bindStorage(bindings::slice);
             dispatchGroups((halfColumns + 7) / 8, (rows + 15) / 16, 1);
         }
-        glQueryCounter(place.stamps[1].name(), GL_TIMESTAMP);
+        glQueryCounter(resources.stamps[1].name(), GL_TIMESTAMP);
         if (!isFused)
             lines = transform.transformColumns(block, command.layers);
         transform.transformRows(block, command.layers, lines, picture->m_target->texture);
-        glQueryCounter(place.stamps[2].name(), GL_TIMESTAMP);
+        glQueryCounter(resources.stamps[2].name(), GL_TIMESTAMP);
         dispatches += transform.takeDispatches();
         const double submitted = now();
-        // Whoever shows it next need not wait; and the processor has nothing to do meanwhile.
+        // Wait here, so that a context that draws the picture need not; the processor is idle
+        // anyway.
         const GLsync done = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-        const GLenum waited = glClientWaitSync(done, GL_SYNC_FLUSH_COMMANDS_BIT, longestWaitNs);
+        const GLenum waited = glClientWaitSync(done, GL_SYNC_FLUSH_COMMANDS_BIT, maxWaitNs);
         glDeleteSync(done);
         checkErrors("a frame");
         if (waited != GL_ALREADY_SIGNALED && waited != GL_CONDITION_SATISFIED)
             throw task::Error(task::ErrorCode::noSuchDevice, task::because::cardDoesNotAnswer);
         if (times != nullptr)
-            *times = {place.stampMs(0, 1), place.stampMs(1, 2), 1e3 * (submitted - start),
+            *times = {resources.stampMs(0, 1), resources.stampMs(1, 2), 1e3 * (submitted - start),
                       dispatches};
     });
     picture->m_channels = command.channels;

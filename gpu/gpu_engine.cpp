@@ -8,7 +8,7 @@ namespace pellucid::gpu {
 FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
                     const shading::Shading &shading) {
     const FetchPlan exact{Fetch::exact, plan.predictedError};
-    if (plan.spectrum.width() < 2 || !shading.isPlain()) // one cell is read as it is
+    if (plan.spectrum.width() < 2 || !shading.isPlain()) // a single cell has nothing to filter
         return exact;
     const double predicted = std::hypot(plan.predictedError, plan.filterError);
     return predicted <= tolerance ? FetchPlan{Fetch::trilinear, predicted} : exact;

@@ -10,31 +10,32 @@
 
 namespace pellucid::gpu {
 
-/// How the cells of a plan are read, and what that leaves of its error.
+/// How the cells of a plan are read, and the error predicted for that.
 struct FetchPlan {
     Fetch fetch = Fetch::exact;
     double predictedError = 0.0;
 };
 
-/// The filtered fetches where a plan has room for what their coarse weights add
-/// (`RenderPlan::filterError`), else exact ones; with cue or light all fetches are exact.
+/// Filtered fetches if the plan's error stays within the tolerance with the error of their coarse
+/// weights (`RenderPlan::filterError`), else exact ones. Frames with cue or light always fetch
+/// exactly.
 FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
                     const shading::Shading &shading = {});
 
 class GpuEngine;
 
-/// The engine's twin on the card. *Throws* as SpectrumTextures::upload.
+/// Copies an engine to the card. *Throws* as SpectrumTextures::upload.
 std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
                                       const render::ProjectionEngine &engine,
                                       Fetch fetch = Fetch::exact,
                                       const task::Progress &progress = {});
 
-/// What `CpuEngine` does, on the card: the same plan, the same cells, the same picture within 2e-5
-/// (relative L2, exact fetches), and it stays there. Engines of other shares have spectra and
-/// tables in common, and are cheap to make; only one of them may render at a time.
+/// `CpuEngine` on the card: the same plan, the same cells, and the same picture within 2e-5
+/// (relative L2, exact fetches), which stays on the card. Engines that differ in channel weights
+/// only share spectra and tables and are cheap to create; only one of them may render at a time.
 class GpuEngine final : public render::ProjectionEngine {
 public:
-    /// *Shape*: shares as of CpuEngine::setShares.
+    /// *Shape*: shares as for CpuEngine::setShares.
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
               std::vector<render::ChannelShares> shares, const plan::FieldOfView &fieldOfView,
               Fetch fetch = Fetch::exact);
@@ -50,7 +51,7 @@ public:
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading = {},
                                     picture::FrameTimes *times = nullptr) override;
-    /// Leaves it on the card. Cue and light take exact fetches. *Throws* as render.
+    /// Leaves the picture on the card. Cue and light take exact fetches. *Throws* as render.
     std::shared_ptr<const CardPicture> renderOnCard(const scene::Camera &camera,
                                                     const scene::ImageDefinition &image,
                                                     const shading::Shading &shading = {},
@@ -60,7 +61,7 @@ private:
     std::shared_ptr<const SpectrumTextures> m_textures;
     std::vector<render::ChannelShares> m_shares;
     Fetch m_fetch;
-    std::shared_ptr<render::FrameSetup> m_setup; ///< of these spectra with whatever shares
+    std::shared_ptr<render::FrameSetup> m_setup; ///< for these spectra with any shares
 };
 
 } // namespace pellucid::gpu

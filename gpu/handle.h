@@ -5,8 +5,9 @@
 
 namespace pellucid::gpu {
 
-/// The name of an OpenGL object, deleted with it; 0: none. Belongs to the context (or to those that
-/// share) that is current when it is made, and goes while one of them is current. Move-only.
+/// Owns the name of an OpenGL object and deletes it; 0: none. Belongs to the context that is
+/// current when it is created, and to contexts that share with it; one of them must be current on
+/// destruction. Move-only.
 template <void (*deleteName)(unsigned)> class Handle {
 public:
     Handle() = default;
@@ -45,8 +46,8 @@ TextureName makeTexture();
 VertexArrayName makeVertexArray();
 QueryName makeQuery();
 
-/// *Throws* Error{outOfMemory}, Error{noSuchDevice} or Error{internal} with `doing` if OpenGL met
-/// an error since the last call.
+/// *Throws* Error{outOfMemory}, Error{noSuchDevice} or Error{internal} with `doing` if OpenGL
+/// reports an error since the last call.
 void checkErrors(const char *doing);
 
 } // namespace pellucid::gpu

@@ -59,7 +59,7 @@ void checkErrors(const char *doing) {
     const GLenum first = glGetError();
     if (first == GL_NO_ERROR)
         return;
-    // A lost context answers for ever.
+    // A lost context may report errors forever.
     for (int n = 0; n < 16 && glGetError() != GL_NO_ERROR; ++n)
         ;
     if (first == GL_CONTEXT_LOST)

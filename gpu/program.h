@@ -9,14 +9,14 @@
 
 namespace pellucid::gpu {
 
-/// What a shader's source is specialised by: macros and their values.
+/// Macros that specialise a shader's source, and their values.
 using Defines = std::vector<std::pair<std::string, int>>;
 
 /// A linked program from files below shaders/. `#include "..."` lines are replaced by the named
-/// file. Belongs to the context that is current when it is made; move-only.
+/// file. Belongs to the context that is current when it is created; move-only.
 class Program {
 public:
-    /// *Throws* Error{internal} with the compiler's words, which name file and line.
+    /// *Throws* Error{internal} with the compiler's message, which names file and line.
     Program(const std::string &vertexFile, const std::string &fragmentFile);
     /// A compute program.
     explicit Program(const std::string &computeFile, const Defines &defines = {});
@@ -28,13 +28,13 @@ private:
     ProgramName m_program;
 };
 
-/// The text of a shader with its includes in place and #line directives before each part; the part
+/// A shader's source with its includes expanded. #line directives precede each part; their source
 /// numbers index `files`.
 struct ShaderText {
     std::string text;
     std::vector<std::string> files;
 };
-/// Defines come after the line with the version.
+/// Puts `defines` after the #version line.
 ShaderText assembledShader(const std::string &file, const Defines &defines = {});
 
 } // namespace pellucid::gpu

@@ -26,7 +26,7 @@ void append(ShaderText &out, const std::string &file, const Defines &defines) {
             out.text += "#line " + std::to_string(line + 1) + " " + std::to_string(number) + "\n";
             continue;
         }
-        // Nothing but comments may stand before #version.
+        // Only comments may precede #version.
         if (line == 1 && number > 0)
             out.text += "#line 1 " + std::to_string(number) + "\n";
         out.text += text + "\n";

@@ -5,7 +5,8 @@
 
 namespace pellucid::gpu {
 
-/// The text of a file below shaders/, by its path there. *Throws* Error{internal} if there is none.
+/// The text of a file, by its path below shaders/. *Throws* Error{internal} if there is no such
+/// file.
 const std::string &shaderSource(const std::string &name);
 
 } // namespace pellucid::gpu

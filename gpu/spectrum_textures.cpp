@@ -12,16 +12,16 @@ namespace pellucid::gpu {
 
 namespace {
 
-// Copied at once: the card's thread is free for frames in between.
+// One copy: between copies, the card's thread is free for frames.
 constexpr std::size_t bytesAtOnce = std::size_t(8) << 20;
-// Of what the card says is free, for the frames' buffers and for others.
+// Free memory on the card that is left for the frames' buffers and other programs.
 constexpr std::size_t spareBytes = std::size_t(128) << 20;
 
 std::size_t planeBytes(const TexelLayout &layout, fourier::Storage storage) {
     return std::size_t(layout.columns) * std::size_t(layout.rows) * fourier::bytesPerCell(storage);
 }
 
-// The cells of planes in rows, out of the columns that overlap.
+// Copies planes of cells row by row, out of overlapping columns.
 void copyPlanes(const fourier::Spectrum &spectrum, const TexelLayout &layout, int firstPlane,
                 int planes, std::byte *to) {
     const fourier::CellLayout &cells = spectrum.cellLayout();
@@ -47,13 +47,13 @@ void copyPlanes(const fourier::Spectrum &spectrum, const TexelLayout &layout, in
 } // namespace
 
 SpectrumTextures::SpectrumTextures(std::shared_ptr<FramePasses> passes,
-                                   render::EngineSpectra spectra, std::size_t mostTextureBytes)
+                                   render::EngineSpectra spectra, std::size_t maxTextureBytes)
     : m_passes(std::move(passes)), m_spectra(std::move(spectra)) {
     const Capabilities &card = m_passes->device().capabilities();
     const fourier::Spectrum &first = *m_spectra.fields.front();
     const fourier::SpectrumLayout &layout = first.layout();
     const fourier::CellLayout &cells = first.cellLayout();
-    const int planes = layout.padded.k + 1 + 2 * cells.halo; // without the unused ones at the end
+    const int planes = layout.padded.k + 1 + 2 * cells.halo; // without the unused planes at the end
     m_layout.firstCell = {cells.firstX, cells.firstY, cells.firstZ};
     m_layout.columns = layout.padded.i / 2 + 1 + 2 * cells.halo;
     m_layout.rows = cells.rows;
@@ -62,14 +62,14 @@ SpectrumTextures::SpectrumTextures(std::shared_ptr<FramePasses> passes,
         throw task::Error(task::ErrorCode::outOfMemory,
                           task::because::spectrumExceedsTextures(m_layout.columns, m_layout.rows,
                                                                  planes, card.largest3dTexture));
-    const int mostPlanes = int(std::min(mostTextureBytes / planeBytes(m_layout, layout.storage),
-                                        std::size_t(card.largest3dTexture)));
-    m_layout.perPage = std::max(1, mostPlanes / planes);
+    const int maxPlanes = int(std::min(maxTextureBytes / planeBytes(m_layout, layout.storage),
+                                       std::size_t(card.largest3dTexture)));
+    m_layout.perPage = std::max(1, maxPlanes / planes);
     const int overlap = layout.width() - 1;
-    if (planes > mostPlanes) {
-        const int step = std::max(1, mostPlanes - overlap);
+    if (planes > maxPlanes) {
+        const int step = std::max(1, maxPlanes - overlap);
         m_layout.slabs = (planes - overlap + step - 1) / step;
-        // Alike, so that the last one is not a sliver.
+        // Equal steps, so that the last slab is not a sliver.
         m_layout.slabStep = (planes - overlap + m_layout.slabs - 1) / m_layout.slabs;
         m_layout.planes = m_layout.slabStep + overlap;
     }
@@ -84,9 +84,9 @@ SpectrumTextures::SpectrumTextures(std::shared_ptr<FramePasses> passes,
 
 std::shared_ptr<const SpectrumTextures>
 SpectrumTextures::upload(std::shared_ptr<FramePasses> passes, render::EngineSpectra spectra,
-                         const task::Progress &progress, std::size_t mostTextureBytes) {
+                         const task::Progress &progress, std::size_t maxTextureBytes) {
     const std::shared_ptr<SpectrumTextures> textures(
-        new SpectrumTextures(std::move(passes), std::move(spectra), mostTextureBytes));
+        new SpectrumTextures(std::move(passes), std::move(spectra), maxTextureBytes));
     const auto &fields = textures->m_spectra.fields, &gradients = textures->m_spectra.gradients;
     std::optional<std::size_t> free;
     textures->m_passes->device().run([&] { free = freeCardBytes(); });
@@ -108,7 +108,7 @@ SpectrumTextures::Pages SpectrumTextures::uploadAll(const render::EngineSpectra:
     const fourier::Storage storage = spectra.front()->layout().storage;
     const std::size_t bytes = planeBytes(m_layout, storage);
     const int atOnce = int(std::clamp<std::size_t>(bytesAtOnce / bytes, 1, 64));
-    const int there = spectra.front()->cellLayout().planes;
+    const int spectrumPlanes = spectra.front()->cellLayout().planes;
     std::vector<std::byte> staging(std::size_t(atOnce) * bytes);
     std::vector<std::shared_ptr<ComplexTexture>> pages;
     const int count = int(spectra.size());
@@ -116,7 +116,7 @@ SpectrumTextures::Pages SpectrumTextures::uploadAll(const render::EngineSpectra:
         for (int slab = 0; slab < m_layout.slabs; ++slab)
             device.run([&] {
                 const int inPage = std::min(m_layout.perPage, count - first);
-                // It goes on the device's thread, whoever lets go of it last.
+                // Deleted on the device's thread, whichever thread releases it.
                 pages.push_back(std::shared_ptr<ComplexTexture>(
                     new ComplexTexture({m_layout.columns, m_layout.rows, inPage * m_layout.planes},
                                        storage),
@@ -133,7 +133,7 @@ SpectrumTextures::Pages SpectrumTextures::uploadAll(const render::EngineSpectra:
                 part.check();
                 const int from = slab * m_layout.slabStep + plane;
                 // The last slab may end beyond the spectrum.
-                const int size = std::min({atOnce, m_layout.planes - plane, there - from});
+                const int size = std::min({atOnce, m_layout.planes - plane, spectrumPlanes - from});
                 if (size <= 0)
                     break;
                 copyPlanes(*spectra[std::size_t(n)], m_layout, from, size, staging.data());

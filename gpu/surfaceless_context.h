@@ -7,12 +7,12 @@
 
 namespace pellucid::gpu {
 
-/// A core context without a window or a display server, through EGL: of the first graphics card, or
-/// of a software renderer if none is there and `software` ones will do. Asks for OpenGL 4.3, takes
-/// 3.3 if that is all there is.
+/// An EGL core-profile context without a window or display server: of the first graphics card, or
+/// of a software renderer if there is no card and `software` allows it. OpenGL 4.3, or 3.3 if no
+/// device has 4.3.
 class SurfacelessContext final : public Context {
 public:
-    /// *Throws* Error{noSuchDevice} with the reason.
+    /// `software`: accept a software renderer. *Throws* Error{noSuchDevice} with the reason.
     explicit SurfacelessContext(bool software = true);
     ~SurfacelessContext() override;
     SurfacelessContext(const SurfacelessContext &) = delete;

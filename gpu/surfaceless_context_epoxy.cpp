@@ -25,8 +25,8 @@ bool has(const char *extensions, std::string_view name) {
     return extensions != nullptr && std::string_view(extensions).find(name) != std::string::npos;
 }
 
-// libepoxy ends the program where a library is missing that it loads. They stay loaded.
-bool isThere(const char *library) {
+// libepoxy aborts the program if a library that it loads is missing. The library stays loaded.
+bool canLoad(const char *library) {
     return dlopen(library, RTLD_LAZY) != nullptr;
 }
 
@@ -35,7 +35,8 @@ struct Candidate {
     bool software;
 };
 
-// Cards first. Displays are the process's own and never terminated: another context may use them.
+// Graphics cards first. A display is shared by the whole process and never terminated: another
+// context may use it.
 std::vector<Candidate> candidates() {
     std::vector<Candidate> found;
     const char *const client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -55,7 +56,7 @@ std::vector<Candidate> candidates() {
                          software});
             }
     }
-    // The core name of this call aborts in libepoxy without a display; the extension's does not.
+    // Without a display, libepoxy aborts in the core function but not in the extension's.
     if (has(client, "EGL_MESA_platform_surfaceless"))
         found.push_back(
             {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
@@ -63,7 +64,7 @@ std::vector<Candidate> candidates() {
     return found;
 }
 
-// Without a config where that may be, else of any that could draw into memory.
+// No config if the display allows that, then any config that supports pbuffers.
 std::vector<EGLConfig> configs(EGLDisplay display) {
     std::vector<EGLConfig> found;
     if (has(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context"))
@@ -77,7 +78,7 @@ std::vector<EGLConfig> configs(EGLDisplay display) {
     return found;
 }
 
-// A context that says when the driver was reset, or one that does not.
+// A context that reports driver resets if possible, else one that does not.
 EGLContext contextOf(EGLDisplay display, int major, int minor) {
     for (const EGLConfig config : configs(display))
         for (const bool isRobust : {true, false}) {
@@ -100,31 +101,31 @@ EGLContext contextOf(EGLDisplay display, int major, int minor) {
 } // namespace
 
 bool Context::isLost() {
-    if (!m_tellsResets)
-        m_tellsResets = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
-    return *m_tellsResets && glGetGraphicsResetStatus() != GL_NO_ERROR;
+    if (!m_detectsResets)
+        m_detectsResets = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
+    return *m_detectsResets && glGetGraphicsResetStatus() != GL_NO_ERROR;
 }
 
 SurfacelessContext::SurfacelessContext(bool software) {
-    if (!isThere("libEGL.so.1"))
+    if (!canLoad("libEGL.so.1"))
         refuse(because::noLibEgl);
-    if (!isThere("libOpenGL.so.0") && !isThere("libGL.so.1"))
+    if (!canLoad("libOpenGL.so.0") && !canLoad("libGL.so.1"))
         refuse(because::noLibOpenGl);
-    bool wasThere = false;
-    // A device further down with 4.3 is better than an old one.
+    bool wasFound = false;
+    // A later device with OpenGL 4.3 is better than an earlier one without.
     for (const auto &[major, minor] : {std::pair(4, 3), {3, 3}})
         for (const Candidate &candidate : candidates()) {
             if (candidate.display == EGL_NO_DISPLAY || (candidate.software && !software) ||
                 eglInitialize(candidate.display, nullptr, nullptr) == EGL_FALSE ||
                 eglBindAPI(EGL_OPENGL_API) == EGL_FALSE)
                 continue;
-            wasThere = true;
+            wasFound = true;
             m_display = candidate.display;
             m_context = contextOf(m_display, major, minor);
             if (m_context != EGL_NO_CONTEXT)
                 return;
         }
-    refuse(wasThere   ? because::noEglContext
+    refuse(wasFound   ? because::noEglContext
            : software ? because::noEglDevice
                       : because::noCardForEgl);
 }
@@ -134,7 +135,7 @@ SurfacelessContext::~SurfacelessContext() {
 }
 
 void SurfacelessContext::makeCurrent() {
-    // Which interface is meant is a thread's own affair.
+    // EGL's current API is a setting of the thread.
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE ||
         eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context) == EGL_FALSE)
         refuse(because::eglContextUnusable);

@@ -9,20 +9,20 @@
 
 namespace pellucid::gpu {
 
-/// The pixels of a projection: layers of one float each (R32F), as the passes write them, or one
-/// layer of one or three (RGB32F) from memory. Filtered linearly, clamped at its edges. Belongs to
-/// the context that is current when it is made, and to those that share.
+/// The pixels of a projection: layers of one float per pixel (R32F), which the passes write, or one
+/// layer of one or three floats (RGB32F) uploaded from memory. Linear filter, clamped to the edge.
+/// Belongs to the context that is current when it is created, and to contexts that share with it.
 class PixelTexture {
 public:
     PixelTexture();
 
     /// *Shape*: height x width x channels, rows from the top. One channel is read as all three.
     void upload(int width, int height, int channels, const float *samples);
-    /// Layers for passes to write into. *Throws* Error{outOfMemory}.
+    /// Allocates layers for passes to write. *Throws* Error{outOfMemory}.
     void reserve(int width, int height, int layers);
     /// *Shape*: layers x height x width.
     std::vector<float> download() const;
-    /// All zero.
+    /// Sets all pixels to zero.
     void clear();
     int width() const { return m_width; }
     int height() const { return m_height; }
@@ -36,14 +36,14 @@ private:
     int m_width = 0, m_height = 0, m_layers = 0, m_channels = 0;
 };
 
-/// A 3D texture of complex numbers, RG16F or RG32F, filtered linearly where it is filtered. Belongs
-/// to the context that is current when it is made; move-only.
+/// A 3D texture of complex numbers, RG16F or RG32F, with a linear filter. Belongs to the context
+/// that is current when it is created; move-only.
 class ComplexTexture {
 public:
     /// *Throws* Error{outOfMemory}.
     ComplexTexture(const std::array<int, 3> &size, fourier::Storage storage);
 
-    /// *Shape*: planes x rows x columns, without gaps.
+    /// *Shape*: planes x rows x columns, contiguous.
     void upload(int firstPlane, int planes, const void *cells);
     unsigned id() const { return m_name.name(); }
 

@@ -7,7 +7,7 @@ namespace pellucid::gpu {
 
 namespace {
 
-void plainUnpacking() {
+void resetUnpacking() {
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
@@ -38,7 +38,7 @@ void PixelTexture::allocate(int width, int height, int layers, int channels, con
 
 void PixelTexture::upload(int width, int height, int channels, const float *samples) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, m_name.name());
-    plainUnpacking();
+    resetUnpacking();
     if (width != m_width || height != m_height || m_layers != 1 || channels != m_channels)
         allocate(width, height, 1, channels, samples);
     else
@@ -50,9 +50,9 @@ void PixelTexture::reserve(int width, int height, int layers) {
     if (width == m_width && height == m_height && layers == m_layers && m_channels == 1)
         return;
     glBindTexture(GL_TEXTURE_2D_ARRAY, m_name.name());
-    plainUnpacking();
+    resetUnpacking();
     allocate(width, height, layers, 1, nullptr);
-    m_width = 0; // if the memory runs out, nothing here may look ready
+    m_width = 0; // if memory runs out, the texture must not look ready
     checkErrors("a picture");
     m_width = width;
 }
@@ -74,7 +74,7 @@ void PixelTexture::clear() {
     const std::vector<float> zero(std::size_t(m_width) * std::size_t(m_height) *
                                   std::size_t(m_layers));
     glBindTexture(GL_TEXTURE_2D_ARRAY, m_name.name());
-    plainUnpacking();
+    resetUnpacking();
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, m_width, m_height, m_layers, GL_RED, GL_FLOAT,
                     zero.data());
 }
@@ -93,7 +93,7 @@ ComplexTexture::ComplexTexture(const std::array<int, 3> &size, fourier::Storage 
 
 void ComplexTexture::upload(int firstPlane, int planes, const void *cells) {
     glBindTexture(GL_TEXTURE_3D, m_name.name());
-    plainUnpacking();
+    resetUnpacking();
     glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, firstPlane, m_size[0], m_size[1], planes, GL_RG,
                     m_storage == fourier::Storage::float32 ? GL_FLOAT : GL_HALF_FLOAT, cells);
     checkErrors("the spectrum");

@@ -8,17 +8,17 @@
 
 namespace pellucid::gpu {
 
-/// Draws a projection into the current framebuffer's viewport: picture::compose on the card.
-/// Belongs to the context that is current when it is made.
+/// Draws a projection into the viewport of the current framebuffer: picture::compose on the card.
+/// Belongs to the context that is current when it is created.
 class TonePass {
 public:
     /// *Throws* Error{internal} if the shaders do not compile.
     TonePass();
 
     void upload(const picture::ProjectionImage &image);
-    /// Stretches the last image over the viewport.
+    /// Draws the last uploaded image over the whole viewport.
     void draw(const picture::ToneRange &range, bool inverted) const;
-    /// The same of a picture that is on the card already.
+    /// Draws a picture that is already on the card.
     void draw(const CardPicture &picture, const picture::ToneRange &range, bool inverted) const;
 
 private:

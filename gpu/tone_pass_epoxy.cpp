@@ -35,7 +35,7 @@ void TonePass::draw(unsigned texture, int layers, const std::array<float, 3> &co
     glUniform3fv(m_color, 1, color.data());
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
-    // Core profiles draw nothing without a vertex array, even where no attribute is read.
+    // Core profiles draw nothing without a vertex array, even if the shader reads no attribute.
     glBindVertexArray(m_vertexArray.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glBindVertexArray(0);

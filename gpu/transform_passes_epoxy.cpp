@@ -12,9 +12,9 @@ namespace pellucid::gpu {
 
 namespace {
 
-// Lines beyond this would leave room for one work group on a core of the card.
-constexpr int mostShared = 4096;
-constexpr int leastRoom = 256;
+// Longer lines would leave shared memory for only one work group on a core of the card.
+constexpr int maxShared = 4096;
+constexpr int minRoom = 256;
 constexpr std::size_t numberBytes = 2 * sizeof(float);
 
 int groupsOf(int count) {
@@ -30,11 +30,11 @@ void dispatchGroups(int x, int y, int z) {
 
 TransformPasses::TransformPasses(Device &device)
     : m_device(device),
-      m_longest(std::min(mostShared, int(std::bit_floor(unsigned(device.capabilities().sharedBytes /
-                                                                 (2 * numberBytes)))))) {}
+      m_longest(std::min(maxShared, int(std::bit_floor(unsigned(device.capabilities().sharedBytes /
+                                                                (2 * numberBytes)))))) {}
 
 int TransformPasses::roomFor(int length) {
-    return std::max(leastRoom, int(std::bit_ceil(unsigned(length))));
+    return std::max(minRoom, int(std::bit_ceil(unsigned(length))));
 }
 
 void TransformPasses::fit(const plan::SliceGrid &grid, int images) {

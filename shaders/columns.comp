@@ -1,8 +1,8 @@
 #version 430 core
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Transforms a column of the slice, and keeps the rows of the picture: [image][row][column]. With
-// FUSED a workgroup makes the column of its slice itself, which saves a pass and its way through
-// memory; else it reads [image][column][row].
+// Transforms a column of the slice and stores the picture's rows: [image][row][column]. With FUSED
+// a work group computes the column of the slice itself, which saves a pass and a round trip through
+// memory; otherwise it reads [image][column][row].
 #include "lib/bindings.glsl"
 #include "lib/frame.glsl"
 #include "lib/complex.glsl"

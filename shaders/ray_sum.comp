@@ -1,12 +1,12 @@
 #version 430 core
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The honest peer in space: parallel rays through the pixel centres, one trilinear sample each step
-// and nothing but their sum.
+// The spatial renderer that pellucid-bench compares with: parallel rays through the pixel centres,
+// one trilinear sample a step, and only their sum.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler3D field; // zero beyond its border
 layout(r32f, binding = 0) writeonly uniform image2DArray picture;
-// In texture coordinates: the first pixel, and from one to the next.
+// Texture coordinates: the first pixel, and the steps to the next pixel and sample.
 uniform vec3 corner, perColumn, perRow, perStep;
 uniform ivec2 size;
 uniform float stepLength;
@@ -16,7 +16,7 @@ void main() {
     if (any(greaterThanEqual(pixel, size)))
         return;
     vec3 origin = corner + float(pixel.x) * perColumn + float(pixel.y) * perRow;
-    // Half a voxel beyond the samples the filter has fallen to zero.
+    // The filter reaches zero half a voxel beyond the samples.
     vec3 margin = 0.5 / vec3(textureSize(field, 0));
     vec3 slope = mix(perStep, vec3(1e-20), lessThan(abs(perStep), vec3(1e-20)));
     vec3 a = (-margin - origin) / slope, b = (1.0 + margin - origin) / slope;

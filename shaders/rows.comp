@@ -1,7 +1,7 @@
 #version 430 core
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Transforms a row of half a spectrum to real pixels, and stores those of the picture. A picture
-// larger than the period shows the empty part of it again.
+// Transforms a row of the half spectrum to real pixels and stores those of the picture. A picture
+// larger than the period repeats the empty part of the period.
 #include "lib/bindings.glsl"
 #include "lib/frame.glsl"
 #include "lib/complex.glsl"
@@ -19,7 +19,7 @@ uniform ivec3 strides; // of the lines: image, row, column
 
 vec2 lineAt(int image, int row, int column) {
     vec2 value = lines[image * strides.x + row * strides.y + column * strides.z];
-    // The mean is real; what its imaginary part holds is rounding.
+    // The mean is real; its imaginary part is rounding.
     return column == 0 ? vec2(value.x, 0.0) : value;
 }
 
@@ -28,7 +28,7 @@ void main() {
     int thread = int(gl_LocalInvocationIndex);
     int columns = frame.columns, halfColumns = columns / 2;
     for (int k = thread; k < halfColumns; k += THREADS) {
-        // The Nyquist column lies beyond the disc.
+        // The Nyquist column is outside the disc.
         vec2 mirrored = k == 0 ? vec2(0.0) : lineAt(image, row, halfColumns - k);
         line[k] = unpackReal(lineAt(image, row, k), mirrored, rotations[frame.unpackRotations + k]);
     }

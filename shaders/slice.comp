@@ -1,6 +1,6 @@
 #version 430 core
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The slice of all images as [image][column][row], zero beyond the disc.
+// The slices of all images as [image][column][row], zero outside the disc.
 #include "lib/bindings.glsl"
 #include "lib/frame.glsl"
 #include "lib/complex.glsl"

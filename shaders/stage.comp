@@ -1,6 +1,6 @@
 #version 430 core
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One stage of the transforms of many lines that do not fit shared memory: [line][number].
+// One stage of the transforms of lines that do not fit shared memory: [line][number].
 #include "lib/bindings.glsl"
 #include "lib/complex.glsl"
 #include "lib/rotations.glsl"
@@ -15,8 +15,8 @@ layout(std430, binding = LINES) writeonly buffer To {
     vec2 to[];
 };
 uniform int lineLength, radix;
-uniform int done;  // the product of the radices before it
-uniform int table; // where the rotations of the length begin
+uniform int done;  // product of the radices of earlier stages
+uniform int table; // offset of the rotations of the length
 
 void main() {
     int count = lineLength / radix, n = int(gl_GlobalInvocationID.x);

@@ -1,6 +1,7 @@
 #version 430 core
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pixels of rows that did not fit shared memory: [image][row][number of two pixels] to the picture.
+// Stores the pixels of rows that do not fit shared memory: [image][row][pair of pixels] to the
+// picture.
 #include "lib/bindings.glsl"
 #include "lib/frame.glsl"
 

@@ -3,7 +3,7 @@
 #include "lib/tone.glsl"
 
 uniform sampler2DArray projection;
-uniform int layers; // one of one or three channels, or one each channel
+uniform int layers; // 1, with one or three channels; or 3, one per channel
 uniform vec3 color;
 uniform vec2 range;
 uniform bool inverted;

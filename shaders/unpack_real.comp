@@ -1,6 +1,6 @@
 #version 430 core
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What rows.comp does before its transform, for rows that do not fit shared memory: half spectra to
+// The first step of rows.comp for rows that do not fit shared memory: unpacks half spectra to
 // [image][row][number].
 #include "lib/bindings.glsl"
 #include "lib/frame.glsl"
@@ -15,7 +15,7 @@ layout(std430, binding = SLICE) readonly buffer From {
 layout(std430, binding = LINES) writeonly buffer To {
     vec2 to[];
 };
-uniform ivec3 strides; // of what is read: image, row, column
+uniform ivec3 strides; // of the input: image, row, column
 
 vec2 lineAt(int image, int row, int column) {
     vec2 value = from[image * strides.x + row * strides.y + column * strides.z];

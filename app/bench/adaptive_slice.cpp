@@ -11,10 +11,11 @@ namespace pellucid::bench {
 
 namespace {
 
-// In turns: the clock of a machine may change within a second.
+// The filters alternate, because the clock of a machine may change within a second.
 constexpr int runsOfView = 3;
 
-// How often a kept sample is in the whole slice: the other half mirrors all but the first column.
+// How often a stored sample occurs in the whole slice: the other half mirrors all columns but the
+// first.
 double timesInSlice(const AdaptiveSlice::Slice &slice, std::size_t sample) {
     return sample % (std::size_t(slice.size) / 2 + 1) == 0 ? 1.0 : 2.0;
 }
@@ -48,8 +49,8 @@ std::size_t AdaptiveSlice::at(int p, int q, int r) const {
            (p + m_halo);
 }
 
-// A cell is marked if it and every cell within the kernel's reach and one more are weak: then the
-// cell next to a frequency tells of all that its kernel reads.
+// Marks a cell if it and all cells within the kernel's reach plus one are weak. The mark of the
+// cell nearest a frequency then holds for all cells that its kernel reads.
 void AdaptiveSlice::mark(float threshold) {
     if (threshold == m_threshold)
         return;
@@ -84,12 +85,12 @@ float AdaptiveSlice::threshold(const Slice &exact, double tolerance) const {
             sumOfTaps += std::abs(kernel.value(tap - 0.5 * (kernel.width() - 1)));
         wide *= sumOfTaps;
     }
-    // As if the first column had its mirror image too: the bound is safe, and the code short.
+    // Counts the first column twice, which keeps the bound safe and the code short.
     const double frequencies = 2.0 * double(exact.frequencies);
     return float(tolerance * std::sqrt(energyOf(exact) / frequencies) / (wide + 1.0));
 }
 
-// The wide kernel's value at a place of the stored half. *Shape*: cells.
+// The wide kernel's value at a position in the stored half. *Units*: cells.
 std::complex<float> AdaptiveSlice::wideSample(const std::array<double, 3> &g) const {
     const auto &layout = m_spectrum.layout();
     const int width = layout.width();
@@ -155,8 +156,8 @@ AdaptiveSlice::Slice AdaptiveSlice::extract(const scene::Camera &camera, int siz
             const std::size_t nearest =
                 at(int(std::lround(g[0])), int(std::lround(g[1])), int(std::lround(g[2])));
             if (tolerance > 0.0 && m_weak[nearest] != 0) {
-                // As it is: other weights, that of the middle of the volume and the one that is
-                // best for a field that fills the box's ellipsoid, read more cells at -40 dB.
+                // Unweighted: two other weights, that of the volume's middle and the best for a
+                // field that fills the box's ellipsoid, read more cells at -40 dB.
                 sum = m_cells[nearest];
                 ++slice.cellsRead;
             } else {
@@ -213,7 +214,7 @@ AdaptiveComparison compareFiltersAt(AdaptiveSlice &slices, const scene::Camera &
     AdaptiveComparison within = at(relativeL2), beyond = within;
     while (beyond.relativeL2 <= relativeL2) {
         within = beyond;
-        if (within.adaptiveCells == within.frequencies) // the narrow filter alone is good enough
+        if (within.adaptiveCells == within.frequencies) // the narrow filter alone suffices
             return within;
         beyond = at(10.0 * within.bound);
     }

@@ -13,11 +13,11 @@
 
 namespace pellucid::bench {
 
-/// The adaptive filter of Totsuka and Levoy 1993, section 4: where all cells within reach of a wide
-/// kernel are weak, one cell serves. Plain scalar code for both filters, so that what is compared
-/// is the idea. The bound is the corrected one: the change of a slice sample is at most the
-/// largest weak cell times the sum of |H2 - H1|, and Parseval's theorem on the slice gives the
-/// error of the image.
+/// The adaptive filter of Totsuka and Levoy 1993, section 4: if all cells that a wide kernel reads
+/// are weak, a single cell replaces it. Both filters are plain scalar code, so that only the idea
+/// is compared. The bound is corrected: the change of a slice sample is at most the largest weak
+/// cell times the sum of |H2 - H1|, and Parseval's theorem on the slice gives the error of the
+/// image.
 class AdaptiveSlice {
 public:
     explicit AdaptiveSlice(const fourier::Spectrum &spectrum);
@@ -28,8 +28,8 @@ public:
         std::size_t cellsRead = 0, frequencies = 0;
         double milliseconds = 0.0;
     };
-    /// The slice on a grid of `size` frequencies a side, on one thread; `tolerance` 0: the wide
-    /// kernel everywhere, else the relative L2 error that the bound allows.
+    /// Extracts a slice of `size` frequencies per side on one thread. `tolerance`: the relative L2
+    /// error that the bound allows; 0 uses the wide kernel everywhere.
     Slice extract(const scene::Camera &camera, int size, double tolerance);
 
 private:
@@ -45,29 +45,28 @@ private:
     float m_threshold = -1.0F;
 };
 
-/// How far apart the images of two slices are, as a relative L2 error of the first: by Parseval's
-/// theorem on the whole slice, of which all columns but the first are kept once. *Shape*: of one
-/// size.
+/// The relative L2 error of the image of `slice`, by Parseval's theorem on the whole slice; of two
+/// mirrored columns only one is stored. *Requires*: both slices have the same size.
 double relativeL2(const AdaptiveSlice::Slice &slice, const AdaptiveSlice::Slice &exact);
 
-/// The adaptive filter beside the wide one from the same views.
+/// The adaptive filter compared with the wide one from the same views.
 struct AdaptiveComparison {
     double bound = 0.0;                    ///< the `tolerance` of the slices
-    double relativeL2 = 0.0;               ///< of the filter alone, from the worst of the views
-    double wideMs = 0.0, adaptiveMs = 0.0; ///< medians of the fastest of each view
-    /// Means of a slice: its frequencies, and the cells read for them.
+    double relativeL2 = 0.0;               ///< of the filter alone, in the worst view
+    double wideMs = 0.0, adaptiveMs = 0.0; ///< median over the views of the fastest run
+    /// Means per slice: frequencies, and the cells read for them.
     double frequencies = 0.0, wideCells = 0.0, adaptiveCells = 0.0;
 
     double share() const { return adaptiveCells / wideCells; }
     double speedUp() const { return wideMs / adaptiveMs; }
 };
 
-/// The two filters from several views. `size`: as of AdaptiveSlice::extract.
+/// Compares the two filters from several views. `size`: as in AdaptiveSlice::extract.
 AdaptiveComparison compareFilters(AdaptiveSlice &slices, const scene::Camera &camera, int size,
                                   std::span<const glm::dquat> views, double bound);
 
-/// The comparison at the loosest bound, within a fiftieth, whose measured error is not above
-/// `relativeL2`; where the narrow filter alone is as good as that, the one that reads fewest cells.
+/// The comparison at the largest bound, within 2 %, whose measured error is at most `relativeL2`;
+/// if the narrow filter alone meets that, the bound at which only it is used.
 AdaptiveComparison compareFiltersAt(AdaptiveSlice &slices, const scene::Camera &camera, int size,
                                     std::span<const glm::dquat> views, double relativeL2);
 

@@ -9,8 +9,8 @@
 
 namespace pellucid::bench {
 
-/// The peer in space on the card: what a ray caster that only adds takes there, from a 3D texture
-/// of 16-bit samples with the card's own trilinear filter, one sample a voxel.
+/// A ray sum on the card, for comparison: it reads a 3D texture of 16-bit samples through the
+/// card's trilinear filter, every `stepMm`, and only adds.
 class CardRaySum {
 public:
     /// *Shape*: the field is float32, 0..1. *Throws* Error{outOfMemory}, Error{noSuchDevice}.
@@ -19,15 +19,15 @@ public:
 
     struct Image {
         std::vector<float> samples; ///< *Units*: field times mm
-        double cardMs = 0.0;        ///< by the card's clock
+        double cardMs = 0.0;        ///< card time
     };
     Image render(const scene::Camera &camera, double stepMm);
 
 private:
-    struct Place;
+    struct Resources;
     std::shared_ptr<gpu::FramePasses> m_passes;
     volume::Lattice m_lattice;
-    gpu::OnDevice<Place> m_place;
+    gpu::OnDevice<Resources> m_resources;
 };
 
 } // namespace pellucid::bench

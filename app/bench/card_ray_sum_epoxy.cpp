@@ -12,7 +12,7 @@
 
 namespace pellucid::bench {
 
-struct CardRaySum::Place {
+struct CardRaySum::Resources {
     gpu::TextureName field = gpu::makeTexture();
     gpu::PixelTexture picture;
     gpu::QueryName begin = gpu::makeQuery(), end = gpu::makeQuery();
@@ -30,8 +30,9 @@ CardRaySum::CardRaySum(std::shared_ptr<gpu::FramePasses> passes, const volume::V
     });
     m_passes->device().run([&] {
         gpu::Device *const device = &m_passes->device();
-        m_place = gpu::OnDevice<Place>(new Place, gpu::DeleteOnDevice<Place>{device});
-        glBindTexture(GL_TEXTURE_3D, m_place->field.name());
+        m_resources =
+            gpu::OnDevice<Resources>(new Resources, gpu::DeleteOnDevice<Resources>{device});
+        glBindTexture(GL_TEXTURE_3D, m_resources->field.name());
         glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
         glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
         for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
@@ -59,7 +60,7 @@ CardRaySum::Image CardRaySum::render(const scene::Camera &camera, double stepMm)
     const glm::vec3 corner = inTexture(left * axes[0] + top * axes[1]) + glm::vec3(0.5F);
     Image image;
     m_passes->device().run([&] {
-        m_place->picture.reserve(camera.width, camera.height, 1);
+        m_resources->picture.reserve(camera.width, camera.height, 1);
         const gpu::Program &program = m_passes->device().program("ray_sum.comp");
         glUseProgram(program.id());
         const auto set = [&](const char *name, const glm::vec3 &value) {
@@ -72,15 +73,15 @@ CardRaySum::Image CardRaySum::render(const scene::Camera &camera, double stepMm)
         glUniform2i(program.uniform("size"), camera.width, camera.height);
         glUniform1f(program.uniform("stepLength"), float(stepMm));
         glActiveTexture(GL_TEXTURE0);
-        glBindTexture(GL_TEXTURE_3D, m_place->field.name());
-        glBindImageTexture(0, m_place->picture.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
-        glQueryCounter(m_place->begin.name(), GL_TIMESTAMP);
+        glBindTexture(GL_TEXTURE_3D, m_resources->field.name());
+        glBindImageTexture(0, m_resources->picture.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
+        glQueryCounter(m_resources->begin.name(), GL_TIMESTAMP);
         gpu::dispatchGroups((camera.width + 7) / 8, (camera.height + 7) / 8, 1);
-        glQueryCounter(m_place->end.name(), GL_TIMESTAMP);
-        image.samples = m_place->picture.download();
+        glQueryCounter(m_resources->end.name(), GL_TIMESTAMP);
+        image.samples = m_resources->picture.download();
         GLuint64 begin = 0, end = 0;
-        glGetQueryObjectui64v(m_place->begin.name(), GL_QUERY_RESULT, &begin);
-        glGetQueryObjectui64v(m_place->end.name(), GL_QUERY_RESULT, &end);
+        glGetQueryObjectui64v(m_resources->begin.name(), GL_QUERY_RESULT, &begin);
+        glGetQueryObjectui64v(m_resources->end.name(), GL_QUERY_RESULT, &end);
         image.cardMs = 1e-6 * double(end - begin);
         gpu::checkErrors("a ray sum");
     });

@@ -17,7 +17,7 @@ std::vector<PictureFactor> picturePredictionFactors(int count, std::uint64_t see
         for (std::size_t n = 0; n < Candidate::geneCount; ++n)
             candidate.genes.push_back(uniform(random));
         candidate.genes[1] = 0.3; // the default tolerance, 1.1e-3
-        const Trial trial = trialOf(candidate, Asked::anyPicture);
+        const Trial trial = trialOf(candidate, PictureKind::any);
         const Verdict verdict = judge(trial);
         if (verdict.measured > 0.0)
             factors.push_back({trial.name, verdict.ofView / verdict.measured});
@@ -60,7 +60,7 @@ searchCounterexample(const SearchOptions &options,
                                ? uniform(random)
                                : std::clamp(gene + 0.1 * normal(random), 0.0, 0.999999);
         }
-        const Trial trial = trialOf(candidate, Asked::wholePicture);
+        const Trial trial = trialOf(candidate, PictureKind::whole);
         const Verdict verdict = judge(trial);
         ++result.trials;
         ++island.failures;

@@ -72,7 +72,7 @@ void cropPicture(Genes &genes, scene::Camera &camera) {
     camera.height = height;
 }
 
-// Now and then the same at every depth, which is a wave of frequency 0 alone.
+// Sometimes the same value at every depth, which has only frequency 0.
 std::vector<double> curveOf(Genes &genes) {
     const bool isEven = genes.next() < 0.2;
     std::vector<double> curve(std::size_t(2 + genes.choice(4)), genes.between(0.1, 2.0));
@@ -89,7 +89,7 @@ shading::Shading shadingOf(Genes &genes) {
     const bool isCued = genes.next() < 0.6, isLit = !isCued || genes.next() < 0.4;
     if (isCued)
         result.cue = {cues[std::size_t(genes.choice(int(cues.size())))],
-                      std::min(1.0, genes.between(0.1, 1.3))}; // often in full
+                      std::min(1.0, genes.between(0.1, 1.3))}; // often full strength
     if (result.cue.kind == CueKind::curve)
         result.cue.curve = curveOf(genes);
     if (isLit) {
@@ -106,13 +106,13 @@ shading::Shading shadingOf(Genes &genes) {
 
 } // namespace
 
-Trial trialOf(const Candidate &candidate, Asked asked) {
+Trial trialOf(const Candidate &candidate, PictureKind pictures) {
     Genes genes(candidate.genes);
     constexpr std::array<double, 4> tolerances{1e-2, 1.1e-3, 1e-4, 1e-5};
     const auto kind = FieldKind(genes.choice(fieldKinds));
     const double tolerance = tolerances[std::size_t(genes.choice(int(tolerances.size())))];
     double zoom = genes.next() < 0.7 ? 1.0 : genes.between(0.5, 2.5);
-    if (kind == FieldKind::pattern) // so that the pattern's lines lie in the roll-off
+    if (kind == FieldKind::pattern) // so that the pattern's lines are in the roll-off
         zoom = genes.between(0.94, 1.0);
     const volume::Lattice lattice = latticeOf(genes);
     const Shape shape = shapeOf(kind, genes, lattice);
@@ -130,7 +130,7 @@ Trial trialOf(const Candidate &candidate, Asked asked) {
     camera.pixelMm *= zoom;
     camera.width = camera.height = 2 * int(std::ceil(0.5 * camera.width / zoom));
     std::string more;
-    if (asked == Asked::anyPicture) {
+    if (pictures == PictureKind::any) {
         if (genes.next() < 0.3) {
             cropPicture(genes, camera);
             more += ", cropped";

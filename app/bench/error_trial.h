@@ -22,12 +22,11 @@ struct Trial {
     classify::DensityField field;
     scene::Scene scene;
 };
-/// The pictures to search. `wholePicture`: uncropped, without cue and light; the plan's error
-/// bounds each of them. `anyPicture`: any cue, light and crop; each picture has its own predicted
-/// error.
-enum class Asked { wholePicture, anyPicture };
+/// The pictures to search. `whole`: uncropped, without cue and light; the plan's error bounds each
+/// of them. `any`: any cue, light and crop; each picture has its own predicted error.
+enum class PictureKind { whole, any };
 /// The field and the scene that the genes encode.
-Trial trialOf(const Candidate &candidate, Asked asked);
+Trial trialOf(const Candidate &candidate, PictureKind pictures);
 
 /// The error that the plan predicts and the error of the image, measured against the exact image.
 /// *Units*: relative L2.

@@ -11,7 +11,7 @@
 
 namespace pellucid::bench {
 
-/// Reads numbers in 0..1 in their order, from the first again behind the last, as what they encode.
+/// Decodes a sequence of numbers in 0..1 in order. After the last it starts again at the first.
 class Genes {
 public:
     /// *Requires*: the genes outlive this object.

@@ -16,25 +16,25 @@ namespace pellucid::bench {
 
 namespace {
 
-constexpr int views = 64, viewsOfSoftware = 8;
+constexpr int views = 64, softwareViews = 8;
 
 struct Timed {
     std::vector<double> slice, transform, card, submit, wall;
     int dispatches = 0;
 };
 
-// Frames that stay on the card, from random views; the first ones compile and warm up.
+// Times frames from random views; the pictures stay on the card. The first two compile and warm up.
 Timed timeFrames(gpu::GpuEngine &engine, const scene::Scene &scene, int count) {
     Timed timed;
     scene::Camera camera = scene.camera;
-    int toCome = -2;
+    int frame = -2;
     for (const glm::dquat &orientation : randomViews(count + 2)) {
         camera.orientation = orientation;
         gpu::CardTimes times;
         const double start = millisecondsNow();
         engine.renderOnCard(camera, scene.image, scene.shading, &times);
         const double wall = millisecondsNow() - start;
-        if (toCome++ < 0)
+        if (frame++ < 0)
             continue;
         timed.slice.push_back(times.sliceMs);
         timed.transform.push_back(times.transformMs);
@@ -46,12 +46,12 @@ Timed timeFrames(gpu::GpuEngine &engine, const scene::Scene &scene, int count) {
     return timed;
 }
 
-// A frame of one pixel: what asking and answering cost, whatever is computed.
-Timed timeLeast(gpu::GpuEngine &engine, const scene::Scene &scene, int count) {
-    scene::Scene least = scene;
-    least.camera.pixelMm *= 64.0;
-    least.camera.width = least.camera.height = 1;
-    return timeFrames(engine, least, count);
+// A frame of one pixel: the cost of submitting and waiting alone.
+Timed timeOnePixel(gpu::GpuEngine &engine, const scene::Scene &scene, int count) {
+    scene::Scene onePixel = scene;
+    onePixel.camera.pixelMm *= 64.0;
+    onePixel.camera.width = onePixel.camera.height = 1;
+    return timeFrames(engine, onePixel, count);
 }
 
 struct Case {
@@ -69,7 +69,7 @@ public:
                                    {.size = volume::GridSize{side, side, side}})),
           m_camera(squareCamera(m_subject.field.values.lattice(), side)),
           m_truth(m_subject, m_camera, side > 256 ? 1 : 2),
-          m_views(card->device().capabilities().software ? viewsOfSoftware : views) {
+          m_views(card->device().capabilities().software ? softwareViews : views) {
         castRays();
     }
 
@@ -96,9 +96,9 @@ public:
             const auto engine = gpu::copyToCard(m_card, *prepared.engine, how);
             const double uploadMs = millisecondsNow() - start;
             const Timed timed = timeFrames(*engine, scene, m_views);
-            const Timed least = timeLeast(*engine, scene, m_views);
+            const Timed onePixel = timeOnePixel(*engine, scene, m_views);
             Row onCard = row;
-            // Rows of different cards must not look alike.
+            // Rows of different cards must be distinguishable.
             onCard.engine = "gpu, " + m_card->device().capabilities().renderer;
             onCard.name += how == gpu::Fetch::trilinear ? ", card, filtered" : ", card";
             onCard.taps = how == gpu::Fetch::trilinear ? filteredTaps(prepared.plan) : row.taps;
@@ -110,15 +110,15 @@ public:
             onCard.frameMs = median(timed.card);
             onCard.bytes = double(engine->textures().bytes());
             onCard.submitMs = median(timed.submit);
-            onCard.leastFrameMs = median(least.card);
+            onCard.leastFrameMs = median(onePixel.card);
             onCard.raySumMs = m_rayMs;
             onCard.raySumRelativeL2 = m_rayError;
             fillError(onCard, worstError(*engine, scene, truths));
             onCard.note = fmt::format(
                 "{:.1f} us in {} dispatches; dispatch floor (a frame of one pixel) {:.1f} us; "
-                "asked for in {:.1f} us, there after {:.1f} us; copied in {:.0f} ms; the card's "
+                "submitted in {:.1f} us, done after {:.1f} us; copied in {:.0f} ms; the card's "
                 "ray sum takes {:.1f} times as long, the processor {:.2f} times",
-                1e3 * *onCard.frameMs, timed.dispatches, 1e3 * median(least.card),
+                1e3 * *onCard.frameMs, timed.dispatches, 1e3 * median(onePixel.card),
                 1e3 * median(timed.submit), 1e3 * median(timed.wall), uploadMs,
                 m_rayMs / *onCard.frameMs, processorMs / *onCard.frameMs);
             m_report(onCard);
@@ -148,7 +148,7 @@ private:
         return pairs * pairs * pairs;
     }
 
-    // Of the views of the truth; of a shaded field, which is another from each view, of one.
+    // The exact images of all views; of one view for a shaded field, which differs in every view.
     std::vector<std::vector<double>> truthsOf(const classify::ShownFields &fields,
                                               const scene::Scene &scene) {
         if (!scene.shading.isPlain())
@@ -185,14 +185,15 @@ private:
 void runGpuSuite(const Report &report) {
     const auto card = std::make_shared<gpu::FramePasses>(
         std::make_shared<gpu::Device>(std::make_unique<gpu::SurfacelessContext>()));
-    const gpu::Capabilities &what = card->device().capabilities();
-    std::printf("card: %s, OpenGL %d.%d%s\n"
-                "aims of the default quality: 50 us at 256^3, 100 us at 512^3, an eighth of the "
-                "card's ray sum at 512^3\n",
-                what.renderer.c_str(), what.version / 10, what.version % 10,
-                what.software
-                    ? "; software: figures say nothing of a graphics card, 512^3 is left out"
-                    : "");
+    const gpu::Capabilities &capabilities = card->device().capabilities();
+    std::printf(
+        "card: %s, OpenGL %d.%d%s\n"
+        "goals for the default quality: 50 us at 256^3, 100 us at 512^3, an eighth of the "
+        "card's ray sum at 512^3\n",
+        capabilities.renderer.c_str(), capabilities.version / 10, capabilities.version % 10,
+        capabilities.software
+            ? "; a software renderer: not representative of a graphics card, 512^3 is skipped"
+            : "");
     const shading::DepthCue cue{shading::CueKind::linear, 1.0};
     const std::vector<shading::Light> light{{{1, 1, 0.7}}};
     const std::vector<Case> cases{{"default", 1.1e-3, {}, {}},
@@ -201,10 +202,10 @@ void runGpuSuite(const Report &report) {
                                   {"linear cue", 1.1e-3, {}, {.cue = cue}},
                                   {"light", 1.1e-3, {}, {.ambient = 0.3, .lights = light}}};
     for (const int side : {128, 256, 512}) {
-        if (what.software && side > 256)
+        if (capabilities.software && side > 256)
             break;
         Size size(report, card, side);
-        for (const Case &of : cases) // the truth of a shaded 512^3 takes more than there is
+        for (const Case &of : cases) // the exact image of a shaded 512^3 does not fit in memory
             if (side <= 256 || of.shading.isPlain())
                 size.measureCase(of);
     }

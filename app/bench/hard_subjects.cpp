@@ -35,7 +35,7 @@ Lattice cube(int n, double spacing = 1.0) {
     return Lattice::centred({n, n, n}, glm::dvec3(spacing));
 }
 
-// f B(f) with the weights 0, 2, 0, 2 ... of 16 control points, whose terms cancel.
+// f B(f) with 16 control points of the weights 0, 2, 0, 2 ..., whose terms cancel.
 double cancellingBezier(double f) {
     constexpr int degree = 15;
     double sum = 0.0, binomial = 1.0;

@@ -12,7 +12,7 @@ void runHardSuite(const Report &report) {
         const Subject subject{hard.name, hard.make()};
         Measurement how;
         how.scene.camera = scene::defaultCamera(subject.field.values.lattice());
-        how.views = 4; // a speed that nobody asks for
+        how.views = 4; // the speed does not matter here
         how.transform = false;
         Truth truth(subject, how.scene.camera, 6);
         for (const double tolerance : {1e-2, scene::Scene().tolerance, 1e-4, 1e-5}) {

@@ -57,7 +57,7 @@ std::string tableOf(const std::vector<Row> &rows) {
     return html + "</table>\n";
 }
 
-// The field of a row: its case without what is measured on it.
+// The field of a row: the name of its case without the setting.
 std::string fieldOf(const Row &row) {
     std::string name = row.name;
     if (name.rfind("default ", 0) == 0)
@@ -81,14 +81,14 @@ std::vector<const Row *> paretoFront(const std::vector<const Row *> &rows) {
     return front;
 }
 
-// A point of a plot: time, error, and what makes it.
+// A point of a plot: time, error, and the kernel, padding and storage.
 std::string point(const Row &row) {
     return fmt::format("{} {} \"{} {:.3g} {}\"\n", *row.frameMs, *row.relativeL2, row.kernel,
                        row.padding, row.storage);
 }
 
-// Plots one suite's error against its time, one plot a field where a field has many rows, else one
-// of all fields; a front is of one field.
+// Plots a suite's error against its time: one plot for each field with many rows, and one for all
+// other fields together. A Pareto front belongs to one field.
 std::vector<std::string> errorPlots(const std::filesystem::path &folder, const std::string &suite,
                                     const std::vector<Row> &rows, std::string &script) {
     constexpr std::size_t manyRows = 12;
@@ -137,7 +137,7 @@ std::vector<std::string> errorPlots(const std::filesystem::path &folder, const s
     return pictures;
 }
 
-// Plots time against size, each series with the power of the size that fits it best.
+// Plots time against size, with the fitted power of the size for each series.
 std::string growthPlot(const std::filesystem::path &folder, const std::vector<Row> &rows) {
     std::string data;
     int sizes = 0;

@@ -26,12 +26,12 @@ void measureKernels(const Report &report, const Subject &subject, int views) {
     how.peers = true;
     Truth truth(subject, how.scene.camera, views);
     report(measure("kernels", "default " + subject.name, subject, truth, how));
-    // Room for the tails of the roll-off that hides no kernel's own error.
+    // A field of view whose folded roll-off tails hide no kernel's own error.
     how.scene.tolerance = 1e-6;
     for (const std::string &name : kernelNames()) {
         how.scene.interpolation.kernel = fourier::kernelFromName(name);
         for (const double padding : {1.0, 1.25, 1.5, 2.0}) {
-            // Least aliases are sought for a field that leaves room.
+            // The least-aliasing kernels need padding.
             if (padding == 1.0 &&
                 how.scene.interpolation.kernel->family == fourier::KernelFamily::leastAliasing)
                 continue;

@@ -15,7 +15,7 @@ namespace pellucid::bench {
 namespace {
 
 constexpr int views = 48;
-// Weight changes at each of the views that stand still.
+// Views that stand still, and weight changes at each.
 constexpr int stillViews = 6, changes = 8;
 
 scene::Camera truthCamera(const LookSubject &subject) {
@@ -67,7 +67,7 @@ private:
 
     Row settled() const {
         const double start = millisecondsNow();
-        // The fields are part of what a change of a range costs.
+        // Includes the fields, which a change of a range recomputes.
         const auto prepared = prepare::prepareEngine(m_subject.scene, shownFields(), {});
         Row row = plannedRow(m_suite, m_name + ", settled", m_subject.volume.lattice().size(),
                              prepared.plan, m_subject.scene, 0);

@@ -7,7 +7,7 @@
 
 namespace pellucid::bench {
 
-/// A head with its values, for looks, and how it is seen.
+/// The volume of a head with a window and a view, for measuring looks.
 struct LookSubject {
     explicit LookSubject(int side);
     volume::Volume volume;
@@ -15,13 +15,15 @@ struct LookSubject {
     scene::Scene scene;
 };
 
-/// Three rows for a look: one spectrum each channel of the sum, while weights stand still; the
-/// layers summed, while weights and view move; and the kept projections recombined, while the view
-/// stands still. Errors against the exact projections of the sum, from one view; of all channels.
+/// Reports three rows for a look: with fixed weights, one spectrum per channel of the sum; while
+/// weights and view move, slices of the layers summed; while only weights move, the stored
+/// projections recombined. Errors are relative to the exact projection of the sum, in one view, all
+/// channels together.
 void reportLook(const Report &report, const std::string &suite, const std::string &name,
                 const LookSubject &subject, const classify::Look &look, const std::string &note);
 
-/// Lights across the view, 120 degrees apart: figure 8 of Totsuka 1993, in white or in its colours.
+/// Three lights across the view, 120 degrees apart, as in figure 8 of Totsuka 1993; white or in its
+/// colours.
 std::vector<shading::Light> threeLights(bool colored);
 
 /// A shaded scene, ready to render, and its row.
@@ -29,7 +31,7 @@ struct ShadedFrames {
     Row row;
     prepare::PreparedEngine prepared;
 };
-/// Times the frames of a scene with cue and lights in turns with those of a plain engine. The error
+/// Times frames of a scene with cue and lights, alternating with those of a plain engine. The error
 /// is that of one general view, against the exact shaded image.
 ShadedFrames measureShaded(const std::string &suite, const std::string &name,
                            const classify::ShownFields &fields, const scene::Scene &scene,

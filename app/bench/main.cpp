@@ -23,7 +23,7 @@
 
 namespace {
 
-// Refuses at once what could only be said after minutes of measuring.
+// Refuses an unwritable path now, not after minutes of measuring.
 void checkWritable(const std::filesystem::path &path) {
     if (path.empty())
         return;
@@ -46,7 +46,7 @@ pellucid::bench::Subject readSubject(const std::string &path) {
     const auto volume = decoder::readVolumeFile(path);
     bench::Subject subject{std::filesystem::path(path).stem().string(),
                            classify::densityField(volume, classify::defaultFieldWindow(volume))};
-    // The exact reference that errors are taken against is the largest thing by far.
+    // The exact reference needs by far the most memory.
     const std::size_t needed = reference::WideKernel::bytes(subject.field.support);
     const std::size_t available = system::availableMemoryBytes();
     if (needed > available)
@@ -66,7 +66,7 @@ struct Options {
     std::string volume, json, csv, reportFolder;
 };
 
-// The arguments of a suite. `subject` is null if no volume was named.
+// Runs a suite. The subject is null if no volume was given.
 using RunSuite = std::function<void(const pellucid::bench::Report &,
                                     const pellucid::bench::Subject *, const Options &)>;
 
@@ -108,20 +108,20 @@ void addOptions(CLI::App &app, Options &options) {
     for (const auto &[name, run] : suites())
         names.push_back(name);
     app.set_version_flag("--version", "pellucid-bench " PELLUCID_VERSION);
-    app.add_option("--suite", options.suites, "What to measure; several with commas between")
+    app.add_option("--suite", options.suites, "Suites to run, separated by commas")
         ->delimiter(',')
         ->check(CLI::IsMember(names));
-    app.add_option("--minutes", options.minutes, "How long --suite search looks")
+    app.add_option("--minutes", options.minutes, "Duration of --suite search")
         ->check(CLI::Range(0.01, 10000.0));
-    app.add_option("--pictures", options.pictures, "How many pictures --suite pictures makes")
+    app.add_option("--pictures", options.pictures, "Number of pictures for --suite pictures")
         ->check(CLI::Range(1, 100000));
-    app.add_option("--seed", options.seed, "Where the suites search and pictures begin");
+    app.add_option("--seed", options.seed, "Random seed of the suites search and pictures");
     app.add_option("--volume", options.volume,
-                   "An NRRD volume in place of the fields of the suites kernels and scaling");
+                   "An NRRD volume to measure in the suites kernels and scaling");
     app.add_option("--json", options.json, "Write the rows as JSON");
     app.add_option("--csv", options.csv, "Write the rows as CSV");
     app.add_option("--report", options.reportFolder,
-                   "Write an HTML report into a folder, and the gnuplot script of its plots");
+                   "Write an HTML report and the gnuplot script of its plots into a folder");
 }
 
 void checkOutputs(const Options &options) {
@@ -133,24 +133,23 @@ void checkOutputs(const Options &options) {
     checkWritable(std::filesystem::path(options.reportFolder) / "report.html");
 }
 
-// The volume that was named, or nothing.
-std::optional<pellucid::bench::Subject> namedSubject(const Options &options) {
+// The subject of --volume, if given.
+std::optional<pellucid::bench::Subject> givenSubject(const Options &options) {
     using namespace pellucid;
     if (options.volume.empty())
         return std::nullopt;
     for (const std::string &suite : options.suites)
         if (suite != "kernels" && suite != "scaling")
-            throw task::Error(
-                task::ErrorCode::usage,
-                task::because::inWords("--volume goes with --suite kernels or scaling"));
+            throw task::Error(task::ErrorCode::usage,
+                              task::because::inWords("--volume needs --suite kernels or scaling"));
     return readSubject(options.volume);
 }
 
-// Measures, and writes what was asked for.
+// Runs the suites and writes the requested files.
 void measureSuites(const Options &options) {
     using namespace pellucid;
     checkOutputs(options);
-    const std::optional<bench::Subject> subject = namedSubject(options);
+    const std::optional<bench::Subject> subject = givenSubject(options);
     const auto machine = bench::thisMachine();
     std::vector<bench::Row> rows;
     const auto report = [&](const bench::Row &row) {
@@ -180,7 +179,7 @@ int fail(const std::exception &error, pellucid::task::ErrorCode code) {
 int main(int argc, char **argv) {
     using namespace pellucid;
     std::signal(SIGXFSZ, SIG_IGN);
-    CLI::App app("Speed and error, side by side", "pellucid-bench");
+    CLI::App app("Speed and error of projections", "pellucid-bench");
     Options options;
     addOptions(app, options);
     try {

@@ -35,20 +35,20 @@ std::vector<glm::dquat> randomViews(int count, unsigned seed) {
 }
 
 ImageError compare(const std::vector<float> &image, const std::vector<double> &truth) {
-    double difference = 0.0, energy = 0.0, peak = 0.0, most = 0.0;
+    double difference = 0.0, energy = 0.0, peak = 0.0, maximum = 0.0;
     for (std::size_t n = 0; n < truth.size(); ++n) {
         const double e = double(image[n]) - truth[n];
         difference += e * e;
         energy += truth[n] * truth[n];
         peak = std::max(peak, std::abs(truth[n]));
-        most = std::max(most, std::abs(e));
+        maximum = std::max(maximum, std::abs(e));
     }
-    if (energy == 0.0) // an empty field: any light at all is wrong
-        return {std::sqrt(difference), most, 0.0};
+    if (energy == 0.0) // an empty field: any nonzero pixel is wrong
+        return {std::sqrt(difference), maximum, 0.0};
     const double psnr = difference > 0.0
                             ? 10.0 * std::log10(peak * peak * double(truth.size()) / difference)
                             : 999.0;
-    return {std::sqrt(difference / energy), most / peak, psnr};
+    return {std::sqrt(difference / energy), maximum / peak, psnr};
 }
 
 scene::Camera squareCamera(const volume::Lattice &lattice, int side) {
@@ -128,7 +128,7 @@ const Truth::Peers &Truth::peers() {
 
 namespace {
 
-// FFTW's own transform of the padded size, in place, its plan at hand.
+// FFTW's own in-place transform of the padded size; planning is not timed.
 double transformMs(const fourier::SpectrumLayout &layout) {
     const volume::GridSize p = layout.padded;
     const int stride = p.i / 2 + 1;
@@ -194,7 +194,7 @@ double fillTimesInTurns(Row &row, render::ProjectionEngine &engine, render::Proj
 }
 
 std::string ratioText(const Row &row, double plainMs) {
-    return fmt::format("{:.2f} times the plain frame of {:.2f} ms, in turns",
+    return fmt::format("{:.2f} times the plain frame of {:.2f} ms, alternating",
                        *row.frameMs / plainMs, plainMs);
 }
 

@@ -22,13 +22,14 @@ struct Case {
     mpr::Slab slab;
 };
 
-// The mean of what is between samples along a slab, or its extreme, of the part inside.
-double exactly(const volume::Volume &volume, volume::PatientPoint at, const glm::dvec3 &normal,
-               const mpr::Slab &slab) {
+// The exact value of a pixel: the mean or maximum of the interpolated volume along the slab's part
+// inside it.
+double exactValue(const volume::Volume &volume, volume::PatientPoint at, const glm::dvec3 &normal,
+                  const mpr::Slab &slab) {
     if (!(slab.thicknessMm > 0.0))
         return double(mpr::valueAt(volume, at));
     constexpr int places = 2048;
-    double sum = 0.0, most = -1e30;
+    double sum = 0.0, maximum = -1e30;
     int count = 0;
     for (int n = 0; n < places; ++n) {
         const double mm = ((n + 0.5) / places - 0.5) * slab.thicknessMm;
@@ -36,17 +37,17 @@ double exactly(const volume::Volume &volume, volume::PatientPoint at, const glm:
         if (std::isnan(value))
             continue;
         sum += value;
-        most = std::max(most, value);
+        maximum = std::max(maximum, value);
         ++count;
     }
-    return slab.mode == mpr::SlabMode::mean ? sum / count : most;
+    return slab.mode == mpr::SlabMode::mean ? sum / count : maximum;
 }
 
 Row measureCuts(const volume::Volume &volume, const Case &of) {
     const volume::Lattice &lattice = volume.lattice();
     const glm::dvec3 normal = of.axes.toViewer();
     const auto planeAt = [&](int n) {
-        // About the middle, each another slice, on a slice where there are any.
+        // Different slices around the middle; on the scan's own slices if the plane has any.
         const mpr::ScrollRange range = mpr::scrollRange(lattice, normal);
         const double middle = glm::dot(lattice.center().mm, normal);
         return mpr::Plane{
@@ -63,7 +64,7 @@ Row measureCuts(const volume::Volume &volume, const Case &of) {
         image = mpr::reslice(volume, planeAt(n), {.slab = of.slab});
         times.push_back(millisecondsNow() - start);
     }
-    // Of the last one, a pixel in 256.
+    // Checks one pixel in 256 of the last cut.
     std::vector<float> found;
     std::vector<double> truth;
     const mpr::Plane plane = planeAt(cuts - 1);
@@ -72,7 +73,7 @@ Row measureCuts(const volume::Volume &volume, const Case &of) {
             if (const float value = image.values[std::size_t(r) * side + std::size_t(c)];
                 !std::isnan(value)) {
                 found.push_back(value);
-                truth.push_back(exactly(volume, plane.at(c, r), normal, of.slab));
+                truth.push_back(exactValue(volume, plane.at(c, r), normal, of.slab));
             }
     Row row;
     row.suite = "planes";

@@ -78,7 +78,7 @@ std::string tableLine(const Row &r) {
         cell(r.transformMs, "{:.2f}"), cell(r.frameMs, "{:.2f}"), cell(megabytes, "{:.0f}"),
         cell(r.predictedError, "{:.2e}"), cell(r.relativeL2, "{:.2e}"), cell(r.maxError, "{:.1e}"),
         cell(r.psnrDb, "{:.1f}"));
-    if (r.raySumMs && r.name.rfind("default", 0) == 0) { // once for each field
+    if (r.raySumMs && r.name.rfind("default", 0) == 0) { // once per field
         text += fmt::format("    ray sum {:.1f} ms, rel. L2 {}", *r.raySumMs,
                             cell(r.raySumRelativeL2, "{:.2e}"));
         if (r.raySumMsamplesPerSecond)

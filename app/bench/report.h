@@ -10,7 +10,7 @@
 
 namespace pellucid::bench {
 
-/// What the run ran on.
+/// The machine of a run.
 struct Machine {
     std::string processor, system;
     int threads = 1;
@@ -18,7 +18,7 @@ struct Machine {
 };
 Machine thisMachine();
 
-/// One measurement: time and error side by side. Figures that were not measured stay empty.
+/// One measurement: time and error. Figures that were not measured stay empty.
 struct Row {
     std::string suite, name;
     volume::GridSize size;
@@ -33,22 +33,22 @@ struct Row {
                           maxError = {}, psnrDb = {};
     std::optional<double> raySumMs = {}, raySumMsamplesPerSecond = {}, raySumRelativeL2 = {},
                           shearWarpMs = {};
-    /// Of a card: to ask for a frame, and what a frame of one pixel takes there.
+    /// On a card: the time to submit a frame, and the time of a frame of one pixel.
     std::optional<double> submitMs = {}, leastFrameMs = {};
     std::optional<double> tolerance = {};
     std::string note = {};
 };
 
-/// A table for the eye, line by line.
+/// A readable table, line by line.
 std::string tableHead(const Machine &machine);
 std::string tableLine(const Row &row);
 /// {"machine": ..., "rows": [...]}; a figure that was not measured is null.
 std::string jsonText(const Machine &machine, const std::vector<Row> &rows);
 std::string csvText(const std::vector<Row> &rows);
-/// Makes the folder of a report where there is none. *Throws* Error{output}.
+/// Creates the folder of a report if it does not exist. *Throws* Error{output}.
 void makeReportFolder(const std::filesystem::path &folder);
-/// report.html, the data of its plots, and plots.gp, which gnuplot turns into them.
-/// *Throws* Error{output}.
+/// Writes report.html, the data of its plots, and plots.gp, from which gnuplot draws them. *Throws*
+/// Error{output}.
 void writeHtmlReport(const std::filesystem::path &folder, const Machine &machine,
                      const std::vector<Row> &rows);
 

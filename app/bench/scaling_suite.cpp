@@ -12,8 +12,8 @@ namespace pellucid::bench {
 
 namespace {
 
-// Frames and peers in turns, so that a processor whose clock drifts serves all alike.
-constexpr int rounds = 8, viewsARound = 8;
+// Engine and spatial methods alternate, so that a drifting clock affects all alike.
+constexpr int rounds = 8, viewsPerRound = 8;
 
 struct SizeResult {
     double side, frameMs, raySumMs, shearWarpMs;
@@ -106,12 +106,12 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
     render::CpuEngine engine(spectrum, plan.fieldOfView), alone(spectrum, plan.fieldOfView, 1);
     const SpatialVolume inSpace(subject.field.values);
     const double step = lattice.shortestStepMm();
-    const auto views = randomViews(rounds * viewsARound);
+    const auto views = randomViews(rounds * viewsPerRound);
     FrameSamples all, one;
     PeerSamples peers;
     for (int round = 0; round < rounds; ++round) {
-        const auto ofRound =
-            std::span(views).subspan(std::size_t(round * viewsARound), std::size_t(viewsARound));
+        const auto ofRound = std::span(views).subspan(std::size_t(round * viewsPerRound),
+                                                      std::size_t(viewsPerRound));
         all.addRound(engine, how.scene, ofRound);
         one.addRound(alone, how.scene, ofRound);
         scene::Camera camera = how.scene.camera;

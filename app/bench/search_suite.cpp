@@ -23,7 +23,7 @@ void runSearchSuite(const Report &report, double minutes, std::uint64_t seed) {
             row(trial.name, verdict,
                 fmt::format("measured {:.3f} of the prediction", verdict.ratio()));
         });
-    row(trialOf(result.worst, Asked::wholePicture).name, result.verdict,
+    row(trialOf(result.worst, PictureKind::whole).name, result.verdict,
         fmt::format("the worst of {} trials, seed {}: measured {:.3f} of the prediction",
                     result.trials, seed, result.verdict.ratio()));
 }
@@ -38,7 +38,7 @@ void runPicturesSuite(const Report &report, int pictures, std::uint64_t seed) {
                                factors.size(), factors[n].factor);
         report(row);
     };
-    at("the least", 0);
+    at("the smallest", 0);
     at("the median", factors.size() / 2);
     at("95 % are below", (factors.size() - 1) * 95 / 100);
     at("the largest", factors.size() - 1);

@@ -16,7 +16,7 @@ namespace pellucid::bench {
 
 namespace {
 
-// Zeros between slices, so that a shifted slice may be read beyond its ends.
+// A row of zeros that stands in for rows outside a slice.
 const std::vector<std::int16_t> &zeroRow(std::size_t length) {
     thread_local std::vector<std::int16_t> row;
     if (row.size() < length)
@@ -36,7 +36,7 @@ struct SliceStack {
     std::ptrdiff_t rowStride, sliceStride;
 };
 
-// Across the axis that the ray follows most. *Units*: the ray in voxels.
+// The slices across the axis that is closest to the ray. *Units*: the ray in voxels.
 SliceStack principalSlices(const SpatialVolume &volume, const glm::dvec3 &ray) {
     const volume::GridSize n = volume.lattice().size();
     int principal = 0;
@@ -71,7 +71,7 @@ SliceStack principalSlices(const SpatialVolume &volume, const glm::dvec3 &ray) {
             volume.planeStride()};
 }
 
-// Shifts every slice along a ray and adds them, in bands of rows.
+// Shifts every slice along a ray and adds them up, in bands of rows.
 class ShearWarp {
 public:
     ShearWarp(const SpatialVolume &volume, const glm::dvec3 &ray)
@@ -91,11 +91,11 @@ public:
 private:
     static constexpr int band = 16;
 
-    // All slices together.
+    // The extent of all shifted slices.
     int extent(int size, double perSlice) const {
         return size + int(std::ceil(std::abs(perSlice) * (m_slices.depth - 1))) + 1;
     }
-    // The first slice starts here, so that no shift is negative.
+    // The shift of the first slice, chosen so that no shift is negative.
     double firstShift(double perSlice) const {
         return perSlice < 0.0 ? -perSlice * (m_slices.depth - 1) : 0.0;
     }
@@ -220,7 +220,7 @@ SpatialImage raySum(const SpatialVolume &volume, const scene::Camera &camera, do
     job.width = camera.width;
     job.height = camera.height;
     job.farthest = int(lattice.radiusMm() / stepMm + camera.pixelMm * camera.width / stepMm) + 4;
-    // The two neighbours along x are weighed in 1/16384.
+    // The weights of the two neighbours along x are in 1/16384.
     job.scale = float(stepMm / (16384.0 * SpatialVolume::largestValue));
     SpatialImage image{std::vector<float>(std::size_t(camera.width) * camera.height), camera.width,
                        camera.height, 0};

@@ -11,8 +11,8 @@
 
 namespace pellucid::bench {
 
-/// A field as the peers in space keep it: 12 significant bits in int16, rows and planes apart by
-/// zeros that may be read.
+/// A field in the format of the spatial methods: 12 significant bits in int16, with readable zeros
+/// between rows and planes.
 class SpatialVolume {
 public:
     static constexpr int largestValue = 4095;
@@ -21,8 +21,8 @@ public:
     explicit SpatialVolume(const volume::Volume &field);
 
     const volume::Lattice &lattice() const { return m_lattice; }
-    /// The sample (0,0,0); a row ends in `gap` zeros, a plane in one row of them, and the first row
-    /// has a plane, a row and a gap of zeros before it, the last one two planes and a row after it.
+    /// The sample (0,0,0). `gap` zeros follow each row, a row of zeros each plane. Zeros also
+    /// precede the first row (a plane, a row and a gap) and follow the last (two planes and a row).
     const std::int16_t *samples() const { return m_samples.data() + m_first; }
     std::ptrdiff_t rowStride() const { return m_rowStride; }
     std::ptrdiff_t planeStride() const { return m_planeStride; }
@@ -40,21 +40,22 @@ private:
     std::ptrdiff_t m_exchangedFirst = 0, m_exchangedRowStride = 0, m_exchangedPlaneStride = 0;
 };
 
-/// What a peer made.
+/// The image of a spatial method.
 struct SpatialImage {
     std::vector<float> samples; ///< *Units*: field times mm
     int width = 0, height = 0;
-    std::size_t sampleCount = 0; ///< trilinear samples that were taken
+    std::size_t sampleCount = 0; ///< trilinear samples taken
 };
 
 /// Ray casting that only adds: parallel rays through the pixel centres, one trilinear sample every
-/// `stepMm`, on all threads of oneTBB. Vectorised over 16 neighbouring rays, in tiles that march
-/// slab by slab so that the tile's part of the volume stays in the cache.
+/// `stepMm`, on all threads of oneTBB. Vectorised over 16 neighbouring rays, in tiles that advance
+/// slab by slab, so that a tile's part of the volume stays in the cache.
 SpatialImage raySum(const SpatialVolume &volume, const scene::Camera &camera, double stepMm);
 
-/// The accumulation of the shear-warp factorisation (Lacroute and Levoy 1994) without its warp:
-/// every slice of the principal axis is shifted by a fraction of a voxel and added, one bilinear
-/// sample a voxel, on all threads of oneTBB. *Units*: field times voxels along the principal axis.
+/// The accumulation step of the shear-warp factorisation (Lacroute and Levoy 1994) without the
+/// warp: each slice across the principal axis is shifted by a fraction of a voxel and added, one
+/// bilinear sample per voxel, on all threads of oneTBB. *Units*: field times voxels along the
+/// principal axis.
 SpatialImage shearWarpSum(const SpatialVolume &volume, const scene::Camera &camera);
 
 } // namespace pellucid::bench

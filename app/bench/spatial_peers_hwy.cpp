@@ -2,7 +2,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "app/bench/spatial_peers_hwy.cpp"
 #include <hwy/foreach_target.h>
-// foreach_target comes first.
+// foreach_target must come first.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ HWY_INLINE RayVector addSamples(const RayJob &job, const RayVector *start, int f
         hn::Vec<IndexTag> whole[3];
         for (int axis = 0; axis < 3; ++axis) {
             auto p = hn::MulAdd(hn::Set(d, float(n)), hn::Set(d, job.step[axis]), start[axis]);
-            // The samples beside the volume are zero.
+            // The samples around the volume are zero.
             if constexpr (Clamped)
                 p = hn::Min(hn::Max(p, hn::Zero(d)), hn::Set(d, job.end[axis]));
             whole[axis] = hn::ConvertTo(di, p); // p >= 0
@@ -42,7 +42,7 @@ HWY_INLINE RayVector addSamples(const RayJob &job, const RayVector *start, int f
         const auto index =
             hn::Add(hn::Add(hn::Mul(whole[2], plane), hn::Mul(whole[1], row)), whole[0]);
         const auto offset = hn::ShiftLeft<1>(index); // bytes
-        // Two neighbours in one load, weighed in 1/16384.
+        // One load reads two neighbours; their weights are in 1/16384.
         const auto right =
             hn::ConvertTo(di, hn::MulAdd(fraction[0], hn::Set(d, 16384.0F), hn::Set(d, 0.5F)));
         const auto left = hn::Sub(hn::Set(di, 16384), right);
@@ -69,7 +69,7 @@ HWY_INLINE RayVector addSamples(const RayJob &job, const RayVector *start, int f
 void castTile(const RayJob &job, int tileX, int tileY, float *samples, std::size_t &count) {
     const RayTag d;
     struct Rays {
-        int any0, any1, all0, all1; // samples of some ray, of every ray
+        int any0, any1, all0, all1; // samples of any ray, of all rays
     };
     const std::size_t vectors = rayTile / hn::Lanes(d);
     std::array<Rays, std::size_t(rayTile) * 4> rays{};
@@ -97,8 +97,8 @@ void castTile(const RayJob &job, int tileX, int tileY, float *samples, std::size
                     leave = std::min(leave, std::max(a, b));
                 }
                 const int from = int(std::floor(enter)) + 1, to = int(std::ceil(leave));
-                if (enter >= leave || from >= to) { // this ray misses: no common part
-                    r.all0 = job.farthest;
+                if (enter >= leave || from >= to) {
+                    r.all0 = job.farthest; // this ray misses the volume: nothing is common to all
                     continue;
                 }
                 count +=

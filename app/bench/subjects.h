@@ -16,14 +16,14 @@ struct Subject {
     classify::DensityField field;
 };
 
-/// White noise without a mean in the inscribed sphere: a flat spectrum, so that no frequency is
-/// favoured. *Units*: field values -1..1.
+/// White noise with zero mean in the inscribed sphere: its spectrum is flat, so that no frequency
+/// is favoured. *Units*: field values -1..1.
 Subject noiseSphere(int n);
 /// A phantom through the default window.
 Subject phantomSubject(const std::string &name, phantom::Kind kind,
                        const phantom::Sampling &sampling);
-/// The fields that break projectors (metal, faces and corners, odd sizes, tilt, thick slices, one
-/// voxel, nothing, NaN, 2^16 of range, cancelling weights, extreme spacings), small enough for the
+/// Fields that break projectors (metal, faces and corners, odd sizes, tilt, thick slices, a single
+/// voxel, empty, NaN, a range of 2^16, cancelling weights, extreme spacings), small enough for the
 /// exact reference.
 struct HardSubject {
     std::string name;

@@ -15,32 +15,32 @@ using Report = std::function<void(const Row &)>;
 
 /// Phantoms and noise at 64^3 to 256^3 in the default quality: seconds to run.
 void runQuickSuite(const Report &report);
-/// Every kernel at every padding and storage on one field: error against time. 64^3 noise in a
-/// sphere and a head; or the given volume.
+/// Every kernel at every padding and storage: error against time, on a noise sphere, a head and a
+/// chest of 64^3 samples, or on the given volume.
 void runKernelsSuite(const Report &report, const Subject *given);
-/// The default quality from 128^3 to 512^3 beside the ray sum and the shear-warp sum, with the
-/// exponents of their growth.
+/// The default quality from 128^3 to 512^3 compared with the ray sum and the shear-warp sum, and
+/// the exponents of their growth.
 void runScalingSuite(const Report &report, const Subject *given);
-/// The fields that break projectors, at four tolerances.
+/// Fields that break projectors, at four tolerances.
 void runHardSuite(const Report &report);
 /// Cheng 2007, tables 4.1 to 4.6.
 void runThesisSuite(const Report &report);
-/// Looks on 128^3 and 256^3: what weights, colours and control points cost in each of the three
-/// uses of linearity.
+/// Looks on 128^3 and 256^3: the cost of weights, colours and control points in each of the three
+/// uses of linearity, see reportLook.
 void runClassesSuite(const Report &report);
-/// Depth cues and lights at 128^3 and 256^3, in turns with the plain frame.
+/// Depth cues and lights at 128^3 and 256^3, alternating with the plain frame.
 void runShadingSuite(const Report &report);
-/// Cuts of 512^2 pixels through 512 x 512 x 256 samples, thin and as slabs, against the integral
-/// and the extremes of what is between samples.
+/// Cuts of 512^2 pixels through 512 x 512 x 256 samples, thin and as slabs, against the exact mean
+/// and maximum of the interpolated volume.
 void runPlanesSuite(const Report &report);
-/// The engine on the graphics card at 128^3 to 512^3 beside the processor's and a ray sum on the
-/// same card. *Throws* Error{noSuchDevice}.
+/// The engine on the graphics card at 128^3 to 512^3 compared with the processor's and with a ray
+/// sum on the same card. *Throws* Error{noSuchDevice}.
 void runGpuSuite(const Report &report);
-/// A search for fields and views whose error is larger than what was predicted, for so many
-/// minutes; each that is worse than all before is a row.
+/// Searches for `minutes` for fields and views whose error exceeds the prediction. Each one that is
+/// worse than all before is a row.
 void runSearchSuite(const Report &report, double minutes, std::uint64_t seed);
-/// The error stated beside random pictures over the measured one: the least, the median, where 95 %
-/// are below, the largest.
+/// The predicted error of random pictures divided by the measured error: minimum, median, 95th
+/// percentile and maximum.
 void runPicturesSuite(const Report &report, int pictures, std::uint64_t seed);
 /// Totsuka and Levoy 1993, table 1, and their adaptive filter.
 void runTotsukaSuite(const Report &report);

@@ -17,12 +17,12 @@ namespace pellucid::bench {
 
 namespace {
 
-// The room that makes the slice of a square image as fine as the image, and so as a spectrum
-// without padding: the thesis's. The engine's own is finer, so that no copy of the projection
-// reaches the image, and its samples lie between the cells even in a view along an axis.
+// The field of view of the thesis: the slice of a square image has as many samples as the image,
+// and so as a spectrum without padding. The engine's own slice is finer, so that no copy of the
+// projection reaches the image; its samples are between the cells even in a view along an axis.
 plan::FieldOfView fieldOfViewOfImage(const scene::Camera &camera, const volume::Lattice &lattice) {
     plan::EnergySpread spread = plan::evenSpread(lattice, lattice.bounds());
-    // A quarter of a pixel less: rounding must not make it one more.
+    // A quarter of a pixel less, so that rounding does not add one.
     spread.radiusMm = (0.5 * camera.width - 0.25) * camera.pixelMm -
                       scene::reconstructionReach({}) * lattice.longestStepMm();
     plan::FieldOfView fieldOfView{{std::make_shared<const plan::EnergySpread>(spread)}, 1e9};
@@ -31,17 +31,17 @@ plan::FieldOfView fieldOfViewOfImage(const scene::Camera &camera, const volume::
     return fieldOfView;
 }
 
-// The thesis's cubic filter: at each frequency the Catmull-Rom value half way between trilinear
-// samples one and two cells to either side. Shifts by whole cells are a factor of period 1 on the
-// field, so that this is the trilinear filter of a field times the factor. *Units*: x in padded
-// periods. *Source*: Cheng 2007, 4.2.2, figure 4.6.
+// The thesis's cubic filter: at each frequency, the Catmull-Rom value half way between trilinear
+// samples one and two cells to either side. Shifting by whole cells multiplies the field by a
+// factor of period 1, so that the filter equals the trilinear filter of the field times the factor.
+// *Units*: x in padded periods. *Source*: Cheng 2007, 4.2.2, figure 4.6.
 double catmullRomBlend(double x) {
     return 9.0 / 8.0 * std::cos(2.0 * std::numbers::pi * x) -
            1.0 / 8.0 * std::cos(4.0 * std::numbers::pi * x);
 }
 
-// A field times a factor of each axis. *Units*: the factor's x in padded periods from the wrap
-// voxel, which is the middle one. *Shape*: the whole lattice is transformed.
+// A field times a factor for each axis. *Units*: the factor's x in padded periods from the wrap
+// voxel, which is the middle one. *Requires*: the whole lattice is transformed.
 Subject weighted(const Subject &subject, const fourier::SpectrumLayout &layout,
                  const std::function<double(const fourier::Kernel &, double x)> &factor) {
     const volume::GridSize size = layout.box.size();
@@ -94,10 +94,10 @@ struct HeadAndTruth {
           truth(head, squareCamera(head.field.values.lattice(), size.i), views) {}
 };
 
-// The engine puts the field's mass at frequency 0. The thesis's filters read the cell instead,
+// The engine sets frequency 0 to the field's exact DC. The thesis's filters read the cell instead,
 // which adds this level to every pixel.
 double levelOf(const fourier::Spectrum &spectrum, const scene::Camera &camera) {
-    const double sideMm = camera.width * camera.pixelMm; // of the period: the grid is the image's
+    const double sideMm = camera.width * camera.pixelMm; // the period's: the grid is the image's
     return (spectrum.value(0, 0, 0).real() - spectrum.dc()) / (sideMm * sideMm);
 }
 
@@ -126,8 +126,8 @@ Parts partsOf(const std::vector<float> &image, double level, const std::vector<d
             std::abs(level) * std::sqrt(double(truth.size())) / whole};
 }
 
-// The head as a figure's filter leaves it. The engine divides a field by the kernel's transform:
-// what has been multiplied by it before is not premultiplied.
+// The head darkened by a figure's filter. The engine divides a field by the kernel's transform;
+// multiplying the field by it first undoes that, which gives a filter without premultiplication.
 Subject darkenedHead(const Figure &figure, const Subject &head,
                      const fourier::SpectrumLayout &layout) {
     return weighted(head, layout, [&](const fourier::Kernel &kernel, double x) {
@@ -167,7 +167,7 @@ void measureFigure(const Report &report, const Figure &figure, HeadAndTruth &sub
     row.predictedError.reset();
     row.predictedMax.reset();
     row.note = figure.premultiplied ? "premultiplied; " : "not premultiplied; ";
-    // Slices through the cells themselves have ghosts of exactly the missing amount.
+    // Slices through the cells themselves have ghosts that exactly equal the darkening.
     if (!figure.alongAxes)
         row.note += fmt::format("darkening {:.2e}, ghosts {:.2e}, level {:.2e}; ", parts.darkening,
                                 parts.ghosts, parts.level);

@@ -21,8 +21,8 @@ namespace pellucid::bench {
 
 namespace {
 
-// What Cheng 2007 measured on platform A (Sempron 2800+ 1.6 GHz, Radeon Xpress 200) and platform B
-// (Pentium 4 3.0 GHz, Radeon X850 Pro).
+// The measurements of Cheng 2007 on platform A (Sempron 2800+ 1.6 GHz, Radeon Xpress 200) and
+// platform B (Pentium 4 3.0 GHz, Radeon X850 Pro).
 struct Times {
     double preparationSeconds = 0.0, framesPerSecond = 0.0; ///< 0: not given
 };
@@ -34,8 +34,8 @@ struct Published {
     Times b, a;
 };
 
-// Cubic convolution of 4 x 4 x 4 cells, as eq. 21 says. What the thesis made is another filter of
-// as many samples, see `catmullRomBlend`.
+// Cubic convolution of 4 x 4 x 4 cells, as in eq. 21. The thesis used a different filter of as many
+// samples, see `catmullRomBlend`.
 constexpr const char *cubicName = "4.3 cubic, 4 x 4 x 4 cells";
 
 const std::vector<Published> &publishedTables() {
@@ -73,7 +73,8 @@ Subject headOf(const volume::GridSize &size) {
     return phantomSubject("head", phantom::Kind::head, {.size = size});
 }
 
-// Table 4.6: six basis volumes, a slice of each in every frame; and what the default makes of it.
+// Table 4.6: six basis volumes, a slice of each in every frame; and the same look with the default
+// settings.
 void measureTransferFunction(const Report &report, int n, const Times &b, const Times &a) {
     LookSubject subject(n);
     classify::Look look;
@@ -89,7 +90,7 @@ int viewsOfTruth(const volume::GridSize &size) {
     return size.i > 256 ? 1 : size.i > 128 ? 2 : 4;
 }
 
-// Renders the same head at the default quality, beside the ray sum.
+// Renders the same head at the default quality, and compares with the ray sum.
 void reportDefault(const Report &report, const Subject &head, Truth &truth) {
     Measurement how{.transform = false, .peers = true};
     how.scene.camera =
@@ -97,7 +98,7 @@ void reportDefault(const Report &report, const Subject &head, Truth &truth) {
     report(measure("thesis", "default, the same head", head, truth, how));
 }
 
-// Table 4.5: frames a second of platform B with the one transform and with the other.
+// Table 4.5: frames per second on platform B with either transform.
 struct PublishedTransforms {
     volume::GridSize size;
     double fftw, card;
@@ -106,7 +107,8 @@ constexpr std::array publishedTransforms{PublishedTransforms{{128, 128, 128}, 62
                                          PublishedTransforms{{256, 256, 256}, 21.276, 21.132},
                                          PublishedTransforms{{512, 512, 256}, 8.0, 16.129}};
 
-// Median of what a transform takes on one thread; `fill` makes its input, which it overwrites.
+// Median time of a transform on one thread. `fill` prepares the input, which the transform
+// overwrites.
 double transformMs(const std::function<void()> &fill, const std::function<void()> &transform) {
     const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
     std::vector<double> times;
@@ -119,8 +121,7 @@ double transformMs(const std::function<void()> &fill, const std::function<void()
     return median(times);
 }
 
-// FFTW's inverse transform of an image, in the frame's single precision, by the best plan that it
-// finds.
+// FFTW's inverse transform of an image in the frame's single precision, with a measured plan.
 double fftwTransformMs(int n) {
     std::vector<std::complex<float>> half(std::size_t(n) * (n / 2 + 1));
     std::vector<float> image(std::size_t(n) * n);
@@ -129,7 +130,7 @@ double fftwTransformMs(int n) {
                        [&] { transform.run(half.data(), image.data()); });
 }
 
-// The graphics card; none with the reason if there is only software in its place.
+// The graphics card; null with a reason if there is none or only a software renderer.
 struct Card {
     std::shared_ptr<gpu::FramePasses> passes;
     std::string reason;
@@ -144,8 +145,8 @@ Card findCard() {
     }
 }
 
-// A frame of three images has its slices in a pass of their own, so that the rest of it is their
-// transforms; in a grey frame the first half of the transform is part of the slice's pass.
+// A frame of three images computes its slices in a separate pass, so that the rest is their
+// transforms. In a grey frame, the first half of the transform is part of the slice's pass.
 double cardTransformMs(const Card &card, const scene::Scene &scene,
                        const std::shared_ptr<const fourier::Spectrum> &spectrum,
                        const plan::FieldOfView &fieldOfView) {
@@ -184,7 +185,7 @@ Row cardRow(const Card &card, const Row &ours, const Measurement &how, const Sub
     return row;
 }
 
-// Table 4.5: one transform in place of the other, after the same slice.
+// Table 4.5: either transform after the same slice.
 void measureTransforms(const Report &report, const PublishedTransforms &published,
                        const Card &card) {
     const int n = published.size.i;
@@ -209,7 +210,7 @@ void measureTransforms(const Report &report, const PublishedTransforms &publishe
     Row onCard = cardRow(card, ours, how, head);
     onCard.note += fmt::format("; published: B {:.3g} frames/s", published.card);
     report(onCard);
-    if (n > 256) // the other sizes have theirs
+    if (n > 256) // the other sizes are already reported
         reportDefault(report, cropped, truth);
 }
 
@@ -229,7 +230,7 @@ void runThesisSuite(const Report &report) {
         Row row = measure("thesis", published.table, head, truth, how);
         row.note = publishedText(published.b, published.a);
         report(row);
-        if (published.size.i > largest) { // once for each size
+        if (published.size.i > largest) { // once per size
             reportDefault(report, head, truth);
             largest = published.size.i;
         }
@@ -241,7 +242,7 @@ void runThesisSuite(const Report &report) {
         measureTransforms(report, published, card);
     measureTransferFunction(report, 64, {1.172, 9.174}, {4.234, 7.09});
     measureTransferFunction(report, 128, {26.375, 8.0}, {44.485, 7.09});
-    // The preparation of B is a copying error of the source: see REFERENCES.md.
+    // The preparation time of B is a copying error in the source, see REFERENCES.md.
     measureTransferFunction(report, 256, {37.984, 0.57}, {640.016, 0.39});
 }
 

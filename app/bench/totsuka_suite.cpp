@@ -32,9 +32,8 @@ std::vector<shading::Light> bladeLights() {
             {.direction = {1, 0, 0}, .color = {1, 0, 0}, .strength = 0.5}};
 }
 
-// Table 1, whose times are those of figures 7 to 9. Their head came in 106^3 and was padded to
-// 128^3; of the others the same share is taken. Ellipsoids stand for the teapot, bars for the
-// blade.
+// Table 1, whose times are those of figures 7 to 9. Their head had 106^3 samples, padded to 128^3;
+// the others use the same ratio. Ellipsoids replace the teapot, bars the blade.
 const std::vector<Published> &publishedTable() {
     static const std::vector<Published> table{
         {"head",
@@ -54,12 +53,12 @@ const std::vector<Published> &publishedTable() {
     return table;
 }
 
-// Their filter of 3 x 3 x 3 samples, at their padding, in 16 bits.
+// Their filter of 3 x 3 x 3 samples with their padding and 16-bit storage.
 scene::Interpolation theirInterpolation(const Published &p) {
     return {fourier::kernelFromName("ES3"), double(p.padded) / p.field, fourier::Storage::binary16};
 }
 
-// All three figures have a linear cue and light; how strong is not said.
+// All three figures have a linear cue and light of unknown strength.
 shading::Shading theirShading(const Published &p) {
     return {.cue = {shading::CueKind::linear, 1.0}, .ambient = 0.3, .lights = p.lights};
 }
@@ -75,7 +74,7 @@ std::string operationsText(double wide, double adaptive) {
                        100.0 * adaptive / wide);
 }
 
-// One case of the table, in their setting and in ours.
+// One case of the table, with their settings and with ours.
 class Case {
 public:
     Case(const Report &report, const Published &p)
@@ -120,7 +119,7 @@ private:
         return frames;
     }
 
-    // The filters in the two slices that a frame with light takes, and what both cost.
+    // Measures the filters in the two slices of a frame with light, and counts their operations.
     void measureFilters(const prepare::PreparedEngine &theirs, const plan::RenderPlan &ours) {
         const render::EngineParts parts = theirs.engine->parts();
         const auto density = measureSlices("density", *parts.spectra.fields.front(), theirs.plan),
@@ -130,7 +129,7 @@ private:
                          multiplyAdds(density.adaptiveCells + gradient.adaptiveCells, true), ours);
     }
 
-    // At three bounds, and at the error that they use the filter at.
+    // At three bounds, and at the published error.
     AdaptiveComparison measureSlices(const std::string &what, const fourier::Spectrum &spectrum,
                                      const plan::RenderPlan &plan) {
         AdaptiveSlice slices(spectrum);
@@ -139,10 +138,10 @@ private:
         for (const double bound : {0.01, 0.1, 1.0})
             reportFilters(fmt::format("{}, bound {:g}", what, bound), plan,
                           compareFilters(slices, m_scene.camera, size, views, bound));
-        const AdaptiveComparison there =
+        const AdaptiveComparison published =
             compareFiltersAt(slices, m_scene.camera, size, views, publishedError);
-        reportFilters(fmt::format("{}, -40 dB", what), plan, there);
-        return there;
+        reportFilters(fmt::format("{}, -40 dB", what), plan, published);
+        return published;
     }
 
     void reportFilters(const std::string &name, const plan::RenderPlan &plan,
@@ -157,20 +156,20 @@ private:
         m_report(row);
     }
 
-    // Wide and adaptive: of the cells that were read at -40 dB.
+    // `wide` and `adaptive`: operations for the cells read at -40 dB.
     void reportOperations(const plan::RenderPlan &plan, double wide, double adaptive,
                           const plan::RenderPlan &ours) {
         scene::Scene scene = m_scene;
         scene.shading = theirShading(m_published);
         const double model =
             plan::modelFrame(ours, scene, {}, m_subject.field.values.lattice()).multiplyAdds;
-        // Of whole slices of density and gradient, by 27 samples.
+        // For whole slices of density and gradient with 27 samples per frequency.
         const double ofTwoSlices = 2.0 * 27.0 * std::pow(m_published.padded, 2);
         Row row = filterRow("operations", plan);
         row.note = fmt::format(
-            "multiply-adds of reals in the slices of density and gradient, half a disc of {} "
-            "frequencies across, cells weighed twice for the cue: {} at -40 dB; our default frame "
-            "{:.2e}; published: {}, {:.0f} times what 27 samples take for two slices of {} x {}",
+            "real multiply-adds in the slices of density and gradient (half a disc of diameter {}, "
+            "cells weighted twice for the cue): {} at -40 dB; our default frame "
+            "{:.2e}; published: {}, {:.0f} times those of 27 samples in two slices of {} x {}",
             sliceSize(plan), operationsText(wide, adaptive), model,
             operationsText(m_published.operations, m_published.adaptiveOperations),
             m_published.operations / ofTwoSlices, m_published.padded, m_published.padded);

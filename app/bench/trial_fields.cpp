@@ -12,7 +12,7 @@ namespace pellucid::bench {
 
 namespace {
 
-// What shapes are made of.
+// The parameters of all shapes.
 struct ShapeParameters {
     glm::dvec3 normal, place, across;
     double width, other, more;
@@ -22,7 +22,7 @@ double gauss(double x) {
     return std::exp(-x * x);
 }
 
-// Oblique or along an axis, with a diffuse blob in the middle.
+// A rod, oblique or along an axis, with a diffuse blob in the middle.
 Shape rod(const ShapeParameters &p) {
     const glm::dvec3 axis = p.more < 0.5 ? p.normal : glm::dvec3(0, 0, 1);
     return {[=](const glm::dvec3 &x) {
@@ -33,14 +33,14 @@ Shape rod(const ShapeParameters &p) {
             axis};
 }
 
-// Worst seen edge on.
+// Its worst view is edge-on.
 Shape sheet(const ShapeParameters &p) {
     return {
         [=](const glm::dvec3 &x) { return gauss(glm::dot(x - 0.7 * p.place, p.normal) / p.width); },
         p.across};
 }
 
-// It may extend beyond the lattice.
+// The shell may extend beyond the lattice.
 Shape shell(const ShapeParameters &p) {
     return {[=](const glm::dvec3 &x) {
                 return gauss((glm::length(x - 0.4 * p.place) - 0.3 - 0.9 * p.other) / p.width);
@@ -56,7 +56,7 @@ Shape slabs(const ShapeParameters &p) {
             p.across};
 }
 
-// Ever finer waves.
+// Waves that get finer outward.
 Shape chirp(const ShapeParameters &p) {
     return {[=](const glm::dvec3 &x) {
                 const double t = glm::dot(x - 0.5 * p.place, p.normal);
@@ -65,7 +65,7 @@ Shape chirp(const ShapeParameters &p) {
             p.across};
 }
 
-// With bone, cut by the lattice.
+// A body with bone, cut off by the lattice.
 Shape body(const ShapeParameters &p) {
     return {[=](const glm::dvec3 &x) {
                 const glm::dvec3 y =
@@ -89,7 +89,7 @@ Shape faintCloud(const ShapeParameters &p) {
         p.normal};
 }
 
-// Writes samples that are no function of position.
+// Writes samples that are not a function of position.
 class SampleWriter {
 public:
     SampleWriter(Genes &genes, const volume::GridSize &size, std::vector<float> &samples)
@@ -104,7 +104,7 @@ public:
         }
     }
 
-    // Opposite ones.
+    // Two opposite corners.
     void addCorners() {
         const auto end = [&](int n) { return m_genes.next() < 0.5 ? 0 : n - 1; };
         const int i = end(m_size.i), j = end(m_size.j), k = end(m_size.k);
@@ -112,7 +112,7 @@ public:
         at(m_size.i - 1 - i, m_size.j - 1 - j, m_size.k - 1 - k) = float(m_genes.between(0.3, 1.0));
     }
 
-    // Every second sample of one, two or three axes.
+    // Every second sample along one, two or three axes.
     void addPattern() {
         const std::array<bool, 3> alternates{true, m_genes.next() < 0.5, m_genes.next() < 0.3};
         const int turned = m_genes.choice(3);
@@ -129,7 +129,7 @@ public:
                 }
     }
 
-    // Positive, from white to smooth.
+    // Positive noise, from white to smooth.
     void addNoise() {
         std::minstd_rand random(unsigned(1.0 + 1e6 * m_genes.next()));
         std::uniform_real_distribution<float> value(0.0F, 1.0F);
@@ -234,9 +234,9 @@ std::vector<float> samplesOf(FieldKind kind, const Shape &shape, Genes &genes,
     else if (kind == FieldKind::noise)
         writer.addNoise();
     // Values below 1e-4 of the maximum become 0, so that the field has a bounded support.
-    const float most = *std::max_element(samples.begin(), samples.end());
+    const float maximum = *std::max_element(samples.begin(), samples.end());
     for (float &sample : samples)
-        sample = sample < 1e-4F * most ? 0.0F : sample / std::max(most, 1e-30F);
+        sample = sample < 1e-4F * maximum ? 0.0F : sample / std::max(maximum, 1e-30F);
     return samples;
 }
 

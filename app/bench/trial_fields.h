@@ -37,8 +37,8 @@ struct Shape {
 /// A small lattice, often anisotropic or tilted.
 volume::Lattice latticeOf(Genes &genes);
 Shape shapeOf(FieldKind kind, Genes &genes, const volume::Lattice &lattice);
-/// The samples of a shape, 0..1, and of what is no function of position: single bright samples,
-/// patterns, coloured noise.
+/// The samples of a shape, 0..1, with those that are not a function of position: single bright
+/// samples, patterns, coloured noise.
 std::vector<float> samplesOf(FieldKind kind, const Shape &shape, Genes &genes,
                              const volume::GridSize &size);
 

@@ -10,12 +10,12 @@ class Validator;
 
 namespace pellucid::cli {
 
-/// What every command is run with.
+/// What every command receives.
 struct Context {
     std::stop_token stop;
 };
 
-/// Each adds its subcommand with its options; the callback runs it and throws on failure.
+/// Each adds a subcommand and its options. The callback runs the command and throws on failure.
 void addInfoCommand(CLI::App &app, const Context &context);
 void addRenderCommand(CLI::App &app, const Context &context);
 void addVolumeCommand(CLI::App &app, const Context &context);

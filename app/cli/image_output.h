@@ -9,13 +9,13 @@
 
 namespace pellucid::cli {
 
-/// *Throws* Error{usage} unless the path ends in .png, .npy or .dcm, or in .nrrd for a picture
-/// without colour.
+/// *Throws* Error{usage} unless the path ends in .png, .npy or .dcm, or in .nrrd for a grey
+/// picture.
 void checkOutput(const std::filesystem::path &out, bool isGrey);
 
 /// Writes a projection: as a picture through the scene's tone (.png, .dcm), or its values (.npy,
-/// .nrrd). `labels`: of a Secondary Capture.
-/// *Throws* Error{output}, Error{usage} for a kind that cannot hold it.
+/// .nrrd). `labels`: for a Secondary Capture. *Throws* Error{output}, Error{usage} for a kind that
+/// cannot hold it.
 void writeImage(const std::filesystem::path &path, const picture::ProjectionImage &image,
                 const scene::Scene &scene, const volume::Lattice &patient,
                 const dicom::CaptureLabels &labels);

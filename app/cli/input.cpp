@@ -31,14 +31,14 @@ namespace because = task::because;
 using task::Error;
 using task::ErrorCode;
 
-// Nothing that is read is written over.
-void requireOther(const std::vector<std::filesystem::path> &outs, const std::filesystem::path &path,
-                  const dicom::Catalogue &catalogue) {
-    const files::FileIds there(outs);
-    if (there.isEmpty())
+// Input files are never overwritten.
+void requireNotRead(const std::vector<std::filesystem::path> &outs,
+                    const std::filesystem::path &path, const dicom::Catalogue &catalogue) {
+    const files::FileIds outputs(outs);
+    if (outputs.isEmpty())
         return;
     const auto check = [&](const std::filesystem::path &file) {
-        if (const auto out = there.find(file))
+        if (const auto out = outputs.find(file))
             throw Error(ErrorCode::usage, because::inWords("-o: is one of the files that are read"),
                         *out);
     };
@@ -62,29 +62,29 @@ std::size_t filesOf(const dicom::VolumeEntry &volume) {
 
 void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &shown,
                   bool isSeriesByDefault, bool isVolumeByDefault) {
-    constexpr std::size_t most = 20; // lines
+    constexpr std::size_t maxLines = 20;
     std::size_t others = 0, more = 0, lines = 0;
     for (const dicom::Skipped &skipped : catalogue.skipped)
         if (skipped.reason.is(because::isNotDicom))
-            ++others; // texts and programs lie beside images
-        else if (lines++ >= most)
+            ++others; // texts and programs beside images
+        else if (lines++ >= maxLines)
             ++more;
         else
             warn(skipped.path.string() + ": not used: " + skipped.reason.english());
     if (more > 0)
-        warn(fmt::format("more files that are not used: {}; 'info' lists them", more));
+        warn(fmt::format("more unused files: {}; 'info' lists them", more));
     if (others > 0)
-        warn(fmt::format("files of other kinds that are not used: {}; 'info' lists them", others));
+        warn(fmt::format("unused files of other kinds: {}; 'info' lists them", others));
     std::set<const dicom::Series *> series;
     for (const dicom::Selection &s : dicom::selections(catalogue))
         series.insert(s.series);
     const std::size_t patients = catalogue.patients.size();
     if (isSeriesByDefault && series.size() > 1)
-        warn(
-            fmt::format("series {} ({}) of {} series, {} patient{}; --series chooses, 'info' lists "
-                        "them",
-                        shown.series->number, shown.series->uid, series.size(), patients,
-                        patients == 1 ? "" : "s"));
+        warn(fmt::format(
+            "series {} ({}) of {} series, {} patient{}; --series selects another, 'info' "
+            "lists them",
+            shown.series->number, shown.series->uid, series.size(), patients,
+            patients == 1 ? "" : "s"));
     const std::vector<dicom::VolumeEntry> &volumes = shown.series->volumes;
     if (isVolumeByDefault && volumes.size() > 1) {
         // Volumes of one file have no frames.
@@ -97,7 +97,7 @@ void warnOfOthers(const dicom::Catalogue &catalogue, const dicom::Selection &sho
     }
 }
 
-// What is missing for want of memory tells nothing of the files.
+// Files that did not fit in memory may be good: report the lack of memory, not unusable files.
 void requireAllRead(const std::vector<dicom::Skipped> &skipped, const std::filesystem::path &path) {
     const auto lacking = std::count_if(skipped.begin(), skipped.end(), [](const auto &s) {
         return s.reason.is(because::needsTooMuchMemory);
@@ -156,8 +156,8 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
 }
 
 CLI::Validator notEmpty() {
-    return {[](std::string &text) { return text.empty() ? "it is empty" : std::string(); }, "",
-            "text"};
+    return {[](std::string &text) { return text.empty() ? "must not be empty" : std::string(); },
+            "", "text"};
 }
 
 void addLargeOption(CLI::App &command, bool &large) {
@@ -198,7 +198,7 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
     input.scanMs = watch.lapMs();
     if (catalogue.empty())
         failWithoutImages(catalogue, path);
-    requireOther(outs, path, catalogue);
+    requireNotRead(outs, path, catalogue);
     dicom::Selection selection;
     try {
         const auto holes = options.fillGaps ? dicom::Holes::fill : dicom::Holes::split;
@@ -218,7 +218,7 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
     }
     try {
         input.loaded = dicom::loadVolume(*selection.volume, progress);
-    } catch (const Error &error) { // what an archive was unpacked to is gone when they look
+    } catch (const Error &error) { // name the archive's entry: its unpacked file is deleted at exit
         throw Error(error.code(), error.reason(),
                     error.path().empty() ? path : catalogue.named(error.path()));
     }
@@ -236,7 +236,7 @@ Input openInput(const InputOptions &options, const std::vector<std::filesystem::
         skipped.path = catalogue.named(skipped.path);
     input.skipped.insert(input.skipped.end(), input.loaded.skipped.begin(),
                          input.loaded.skipped.end());
-    // Said even where no JSON is asked for: that a slice is left out, above all.
+    // Warn even without --json, above all about slices that are left out.
     warnOfOthers(catalogue, selection, options.series.empty(), options.volume == 0);
     for (const task::Reason &warning : input.loaded.volume.notes().warnings)
         warn(warning.english());
@@ -250,7 +250,7 @@ std::vector<double> parseNumbers(const std::string &option, const std::string &t
     bool areNumbers = true;
     for (std::size_t first = 0; areNumbers && first <= text.size();) {
         const std::size_t end = std::min(text.find(separator, first), text.size());
-        // Decimal numbers only: with 'x' between them, 0x10 is zero by ten.
+        // Decimal numbers only: with the separator 'x', 0x10 means 0 by 10.
         const auto value = system::numberFrom(std::string_view(text).substr(first, end - first));
         areNumbers = value && std::isfinite(*value);
         values.push_back(value.value_or(0.0));

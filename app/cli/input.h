@@ -14,43 +14,43 @@
 
 namespace pellucid::cli {
 
-/// A volume that a command works on, with everything that was said on the way.
+/// The volume that a command works on, and what scanning and loading reported.
 struct Input {
     dicom::LoadedVolume loaded;
     std::string seriesUid, seriesDescription;
-    dicom::CaptureLabels labels; ///< of pictures that are made of it
+    dicom::CaptureLabels labels; ///< for pictures of the volume
     std::vector<dicom::Skipped> skipped;
     double scanMs = 0.0, loadMs = 0.0;
 };
 
-/// For options whose text says something.
+/// Rejects an empty text.
 CLI::Validator notEmpty();
 
-/// What a command opens.
+/// The options that select a command's input.
 struct InputOptions {
     std::string path, series;
-    int volume = 0; ///< of the series, 1-based; 0 selects the default
+    int volume = 0; ///< number within the series, from 1; 0 selects the default
     bool fillGaps = false, large = false;
 };
 
-/// --large, of a command that opens something.
+/// Adds --large.
 void addLargeOption(CLI::App &command, bool &large);
 
-/// PATH, --series, --volume, --fill-gaps and --large.
+/// Adds PATH, --series, --volume, --fill-gaps and --large.
 void addInputOptions(CLI::App &command, InputOptions &options);
 
-/// Scans a path and loads one volume of it: of the series named, else the one with most voxels.
-/// What is not used or not shown is said on stderr. *Throws* Error{unusable} naming the path,
-/// Error{outOfMemory} if the volume is missing for want of it;
-/// Error{usage} if one of `outs` is one of the files that are read.
+/// Scans a path and loads one volume: that of the given series, or the one with the most voxels.
+/// Warns on stderr about unused files and other series and volumes. *Throws* Error{unusable} naming
+/// the path; Error{outOfMemory} if files were skipped for lack of memory; Error{usage} if one of
+/// `outs` is an input file.
 Input openInput(const InputOptions &options, const std::vector<std::filesystem::path> &outs,
                 const Context &context);
 
-/// Does work on an input. *Throws* as the work; what lacks memory names the input.
+/// Runs `work`. *Throws* as `work`; a lack of memory names the input `path`.
 void naming(const std::filesystem::path &path, const std::function<void()> &work);
 
-/// Why nothing of what was found can be used. *Throws* Error{unusable} naming a file and its
-/// reason, or Error{outOfMemory}.
+/// *Throws* the reason why the catalogue has no usable images: Error{unusable} naming a file and
+/// its reason, or Error{outOfMemory}.
 [[noreturn]] void failWithoutImages(const dicom::Catalogue &catalogue,
                                     const std::filesystem::path &path);
 

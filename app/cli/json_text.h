@@ -12,7 +12,7 @@
 
 namespace pellucid::cli {
 
-/// Indented JSON; bytes of a header that are no UTF-8 are replaced instead of refused.
+/// Indented JSON. Bytes that are not UTF-8, which headers may contain, are replaced.
 inline std::string jsonText(const nlohmann::json &value) {
     return escapedControls(value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }

@@ -28,7 +28,7 @@ int report(const std::string &what, int code) {
     return code;
 }
 
-// Ctrl+C asks the running command to stop instead of killing it half way.
+// Ctrl+C stops the running command cleanly instead of killing it half way.
 std::stop_source &stopOnInterrupt() {
     static std::stop_source source;
     sigset_t signals;
@@ -41,7 +41,7 @@ std::stop_source &stopOnInterrupt() {
         int received = 0;
         sigwait(&signals, &received);
         source.request_stop();
-        // Who asks twice does not want to wait for a transform to finish.
+        // A second signal does not wait for a transform to finish.
         sigwait(&signals, &received);
         std::_Exit(cancelledExit);
     }).detach();
@@ -50,16 +50,17 @@ std::stop_source &stopOnInterrupt() {
 
 int run(int argc, char **argv) {
     using namespace pellucid;
-    // A file that may not grow further is an error to report, not a reason to die.
+    // Report a file that exceeds its size limit instead of dying from the signal.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     const cli::Context context{stopOnInterrupt().get_token()};
 
-    files::removeAbandonedSessionFolders(); // what a killed program unpacked is the patient's
+    // A killed program's unpacked files contain patient data.
+    files::removeAbandonedSessionFolders();
     if (const auto cache = files::userCacheFolder())
         fourier::keepWisdomIn(*cache / "fftw-wisdom");
 
-    CLI::App app("Projections of DICOM studies in the frequency domain", "pellucid-cli");
+    CLI::App app("Fourier projections of DICOM studies", "pellucid-cli");
     app.set_version_flag("--version", "pellucid-cli " PELLUCID_VERSION);
     app.require_subcommand(1);
     cli::addInfoCommand(app, context);
@@ -67,7 +68,7 @@ int run(int argc, char **argv) {
     cli::addVolumeCommand(app, context);
     cli::addPresetCommand(app, context);
     cli::addPhantomCommand(app, context);
-    // CLI11 would say no more than that a subcommand is missing.
+    // CLI11 itself would only report that a subcommand is missing.
     const auto commands = app.get_subcommands([](const CLI::App *) { return true; });
     const auto known = [&](const std::string &word) {
         return word == "--help" || word == "-h" || word == "--version" ||
@@ -84,7 +85,7 @@ int run(int argc, char **argv) {
         return app.exit(success);
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        return report("standard output cannot be written", exitCode(task::ErrorCode::output));
+        return report("cannot write to standard output", exitCode(task::ErrorCode::output));
     return 0;
 }
 

@@ -30,9 +30,8 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     phantom::Sampling sampling;
     if (command.count("--size") > 0) {
         if (o.size.find_first_not_of("0123456789x") != std::string::npos)
-            throw Error(ErrorCode::usage,
-                        because::inWords("--size: '" + o.size +
-                                         "' is not whole numbers with 'x' between them"));
+            throw Error(ErrorCode::usage, because::inWords("--size: '" + o.size +
+                                                           "' is not integers separated by 'x'"));
         const auto n = parseNumbers("--size", o.size, 'x', 3);
         for (const double v : n)
             if (v != std::round(v) || v < 1 || v > 4096)

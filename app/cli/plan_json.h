@@ -10,12 +10,12 @@
 
 namespace pellucid::cli {
 
-/// How an engine makes the images of a scene, and the frame that results. *Shape*: the lattice is
-/// that of the rendered fields.
+/// The plan by which an engine renders a scene, and the model of its frame. `lattice`: of the
+/// rendered fields.
 nlohmann::json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
                         const plan::FrameFields &fields, const volume::Lattice &lattice);
 
-/// The same keys where the exact reference makes them, and why it does.
+/// The same keys for the exact reference. `reason`: why it renders the images.
 nlohmann::json exactPlanJson(std::size_t images, std::size_t bytes, double predictedError,
                              const std::string &reason);
 

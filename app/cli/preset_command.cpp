@@ -48,8 +48,7 @@ void validate(const Options &o) {
     if (presets::isSlicerPreset(o.path))
         throw task::Error(
             task::ErrorCode::usage,
-            because::inWords(
-                "is a volume property of 3D Slicer; 'preset import' makes a preset of it"),
+            because::inWords("is a volume property of 3D Slicer; 'preset import' converts it"),
             o.path);
     const auto preset = presets::readPreset(o.path);
     std::puts(printable(fmt::format("{}: a preset named '{}'", o.path, preset.name)).c_str());
@@ -66,12 +65,13 @@ void import(const Options &o) {
     if (presets::isSlicerPreset(o.path)) {
         auto imported = presets::importSlicerPreset(o.path, o.points);
         preset = std::move(imported.preset);
-        fit = fmt::format("; its opacity is met within {:.2g}", imported.largestError);
+        fit = fmt::format("; largest opacity error {:.2g}", imported.largestError);
         constexpr double visible = 0.1;
         if (imported.largestError > visible)
-            warn(fmt::format("the opacity changes too steeply for one curve of {} points; classes "
-                             "show steps",
-                             o.points));
+            warn(fmt::format(
+                "the opacity changes too steeply for one curve of {} points; use classes "
+                "for steps",
+                o.points));
     } else {
         preset = presets::readPreset(o.path);
     }
@@ -81,9 +81,8 @@ void import(const Options &o) {
         former != nullptr && !former->isBuiltIn() && !o.replace)
         throw task::Error(
             task::ErrorCode::usage,
-            because::inWords(
-                "there is a preset '" + preset.name +
-                "' already; --replace replaces it, --name gives this one another name"));
+            because::inWords("preset '" + preset.name +
+                             "' already exists: use --replace, or --name for a different name"));
     library.save(preset);
     std::puts(printable(fmt::format("imported '{}'{}", preset.name, fit)).c_str());
 }
@@ -92,29 +91,29 @@ void import(const Options &o) {
 
 void addPresetCommand(CLI::App &app, const Context &) {
     auto o = std::make_shared<Options>();
-    CLI::App *c =
-        app.add_subcommand("preset", "Looks that are kept: list, show, validate, move them");
+    CLI::App *c = app.add_subcommand("preset", "List, show, validate, export and import presets");
     c->require_subcommand(1);
     c->add_subcommand("list", "One line per preset")->callback([] { list(); });
     CLI::App *show = c->add_subcommand("show", "Print a preset as JSON");
-    show->add_option("NAME", o->name, "A preset of the library")->required();
+    show->add_option("NAME", o->name, "Name of the preset")->required();
     show->callback([o] {
         std::puts(escapedControls(presets::toJson(openLibrary().get(o->name).preset)).c_str());
     });
-    CLI::App *check = c->add_subcommand("validate", "Say whether a file is a preset");
+    CLI::App *check = c->add_subcommand("validate", "Check whether a file is a valid preset");
     check->add_option("FILE", o->path, "A preset file")->required();
     check->callback([o] { validate(*o); });
-    CLI::App *out = c->add_subcommand("export", "Write a preset into a file");
-    out->add_option("NAME", o->name, "A preset of the library")->required();
+    CLI::App *out = c->add_subcommand("export", "Write a preset to a file");
+    out->add_option("NAME", o->name, "Name of the preset")->required();
     out->add_option("-o,--output", o->out, "The file")->required();
     out->callback([o] { exportTo(*o); });
-    CLI::App *in =
-        c->add_subcommand("import", "Keep a preset file, or a .vp or .vp.json of 3D Slicer");
+    CLI::App *in = c->add_subcommand(
+        "import", "Add a preset file, or a .vp or .vp.json of 3D Slicer, to the library");
     in->add_option("FILE", o->path, "The file")->required();
     in->add_option("--name", o->name, "Its name in the library");
-    in->add_option("--points", o->points, "Control points for an opacity of 3D Slicer, default 8")
+    in->add_option("--points", o->points,
+                   "Control points that fit an opacity of 3D Slicer, default 8")
         ->check(CLI::Range(2, 16));
-    in->add_flag("--replace", o->replace, "Replace the user's preset of that name");
+    in->add_flag("--replace", o->replace, "Replace the user's preset with that name");
     in->callback([o] { import(*o); });
 }
 

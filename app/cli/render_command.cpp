@@ -41,7 +41,7 @@ struct Options {
     bool json = false, isDeidentified = false;
 };
 
-// Whether what a picture shows misses the tolerance that the plan keeps, and a closer plan may
+// Whether the last picture misses the tolerance although the plan keeps it, and a closer plan may
 // help.
 bool mayPlanCloser(const Renderer &renderer, const scene::Scene &scene) {
     return renderer.lastViewError() > scene.tolerance &&
@@ -58,7 +58,7 @@ public:
 
     void run() {
         const fs::path out(m_options.out);
-        // Refused before any work is done.
+        // Refuse impossible output before any work.
         m_preset = presetFor(m_options.scene);
         checkOutput(out, classify::isGrey(lookFor(m_options.scene, m_preset)) &&
                              shadingFor(m_options.scene, m_command, m_preset).isGrey());
@@ -117,9 +117,9 @@ private:
                                              (m_held >> 20) + 1, m_options.memory >> 20)),
                 m_options.input.path);
         m_fields = fieldsFor(m_scene, volume(), m_context);
-        // Asking for more than there is would end in the system killing the program.
+        // If the program asked for more than is available, the system would kill it.
         m_budget.bytes = system::availableMemoryBytes();
-        m_budget.bytes -= std::min(m_budget.bytes, forLight); // still to be asked for
+        m_budget.bytes -= std::min(m_budget.bytes, forLight); // not allocated yet
         if (isMemoryGiven())
             m_budget.bytes = std::min(m_budget.bytes, std::size_t(m_options.memory - m_held));
         m_fieldMs = watch.lapMs();
@@ -136,7 +136,7 @@ private:
                 throw;
             throw Error(error.code(),
                         because::inWords(fmt::format(
-                            "{}; {} of {} MB are the volume and its fields",
+                            "{}; the volume and its fields take {} of {} MB",
                             error.reason().english(), m_held >> 20, m_options.memory >> 20)),
                         m_options.input.path);
         }
@@ -184,8 +184,8 @@ private:
             turn->commit();
     }
 
-    // The plan is for the picture of the whole. Of a part that holds less than its share, the error
-    // is known once it is seen: then it is planned more closely.
+    // The plan is for the whole volume. The error of a part that contains little is known only
+    // after rendering it; if it misses the tolerance, plan again with a smaller one.
     picture::ProjectionImage imageOf(const scene::Camera &camera) {
         picture::ProjectionImage image = m_renderer->image(camera, m_times);
         for (int tries = 0; tries < 3 && mayPlanCloser(*m_renderer, m_scene); ++tries) {
@@ -211,8 +211,8 @@ private:
         if (!isMissed)
             return;
         warn(m_isWhole == false
-                 ? fmt::format("the tolerance of {:.2g} is met by pictures of the whole; {:.2g} is "
-                               "predicted for what this one shows",
+                 ? fmt::format("the tolerance of {:.2g} is met for the whole volume, but {:.2g} is "
+                               "predicted for this part",
                                m_scene.tolerance, m_viewError)
                  : fmt::format("the tolerance of {:.2g} is not met: {:.2g} is predicted for this "
                                "picture",
@@ -274,18 +274,18 @@ private:
     Input m_input;
     std::vector<std::string> m_warnings;
     scene::Scene m_scene;
-    scene::Scene m_planned; ///< with a closer tolerance, if a part of the picture needs one
+    scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one
     classify::FieldWindow m_window;
-    std::size_t m_held = 0; ///< bytes of the volume, its fields and what makes them
+    std::size_t m_held = 0; ///< bytes of the volume, its fields and their preparation
     classify::ShownFields m_fields;
     plan::Budget m_budget;
     std::optional<Renderer> m_renderer; ///< refers to the planned scene and the fields
     double m_fieldMs = 0.0, m_prepareMs = 0.0, m_writeMs = 0.0;
     picture::FrameTimes m_times; ///< of the last frame
-    // Of all frames.
+    // For all frames together.
     double m_viewError = 0.0;
     std::optional<bool> m_isWhole;
-    std::optional<double> m_maximum; ///< if all show the whole
+    std::optional<double> m_maximum; ///< if every frame shows the whole volume
 };
 
 } // namespace
@@ -304,8 +304,8 @@ void addRenderCommand(CLI::App &app, const Context &context) {
     addSceneOptions(*c, o->scene);
     c->add_option("--engine", o->engine, "auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
-    c->add_option("--threads", o->threads, "Most threads to use")->check(CLI::Range(1, 1024));
-    c->add_option("--memory", o->memory, "Most bytes to use, with units if you like (2GB)")
+    c->add_option("--threads", o->threads, "Largest number of threads")->check(CLI::Range(1, 1024));
+    c->add_option("--memory", o->memory, "Memory limit in bytes, or with a unit (2GB)")
         ->check(notNegative)
         ->transform(CLI::AsSizeValue(false));
     CLI::Option *frames = c->add_option("--frames", o->frames, "Number of frames of a turntable")
@@ -316,8 +316,8 @@ void addRenderCommand(CLI::App &app, const Context &context) {
             ->needs(frames);
     frames->needs(turntable);
     c->add_flag("--deidentify", o->isDeidentified,
-                "A .dcm without the patient's identity (PS3.15, basic profile)");
-    c->add_flag("--json", o->json, "Print one JSON object about what was done");
+                "Write the .dcm without the patient's identity (PS3.15, basic profile)");
+    c->add_flag("--json", o->json, "Print a report as one JSON object");
     c->callback(
         [o, c, context] { naming(o->input.path, [&] { RenderRun(*o, *c, context).run(); }); });
 }

@@ -35,9 +35,8 @@ prepare::ShadedFields shadedFor(const scene::Scene &scene, const classify::Shown
                                  progress);
 }
 
-// What is left where the exact reference makes the pictures: rounding, about 1e-10 in double
-// precision or that of a shaded field's float samples, and the tails of the roll-off that fold back
-// from its period.
+// The error of the exact reference: rounding (about 1e-10 in double precision, or that of a shaded
+// field's float samples) and the tails of the roll-off that fold back from its period.
 double exactError(const scene::Scene &scene, const std::vector<plan::FieldSummary> &summaries) {
     const double rounding = scene.shading.isPlain() ? 1e-10 : 6e-8;
     double worst = 0.0;
@@ -54,23 +53,23 @@ double exactError(const scene::Scene &scene, const std::vector<plan::FieldSummar
 } // namespace
 
 CardChoice chooseCard(const std::string &engine, int frames) {
-    CardChoice choice{engine == "gpu", nullptr, "the graphics card was asked for"};
+    CardChoice choice{engine == "gpu", nullptr, "the graphics card was requested"};
     if (engine == "cpu")
-        choice.reason = "the processor was asked for";
+        choice.reason = "the processor was requested";
     else if (engine == "auto" && frames < 2)
-        choice.reason = "one image is made sooner than a graphics card has its spectra";
+        choice.reason = "a single image is finished before its spectra would be on a graphics card";
     else
         try {
             choice.passes = std::make_shared<gpu::FramePasses>(std::make_shared<gpu::Device>(
-                std::make_unique<gpu::SurfacelessContext>(choice.isAsked)));
-            if (!choice.isAsked)
+                std::make_unique<gpu::SurfacelessContext>(choice.isRequired)));
+            if (!choice.isRequired)
                 choice.reason = "a graphics card was found";
-            if (!choice.isAsked && choice.passes->device().capabilities().software) {
+            if (!choice.isRequired && choice.passes->device().capabilities().software) {
                 choice.reason = "OpenGL runs on a software renderer";
                 choice.passes.reset();
             }
         } catch (const task::Error &error) {
-            if (choice.isAsked)
+            if (choice.isRequired)
                 throw cardRefused(error);
             choice.reason = error.reason().english();
         }
@@ -133,7 +132,7 @@ void Renderer::use(const CardChoice &card) {
     m_choice = card;
     if (isExact()) {
         m_choice.reason = whyExact;
-        if (card.isAsked)
+        if (card.isRequired)
             throw cardRefused({task::ErrorCode::noSuchDevice,
                                task::because::inWords(m_choice.reason + ", on the processor")});
         return;
@@ -146,7 +145,7 @@ void Renderer::use(const CardChoice &card) {
         m_card = gpu::copyToCard(card.passes, *m_planned, plan.fetch, m_progress);
         m_predictedError = plan.predictedError;
     } catch (const task::Error &error) {
-        if (card.isAsked)
+        if (card.isRequired)
             throw cardRefused(error);
         m_choice.reason = error.reason().english();
     }
@@ -169,7 +168,7 @@ std::optional<picture::ProjectionImage> Renderer::imageOfCard(const scene::Camer
     } catch (const task::Error &error) {
         // The card was lost, or is too small for this image: the processor takes over, unless the
         // user requires the card.
-        if (m_choice.isAsked)
+        if (m_choice.isRequired)
             throw cardRefused(error);
         m_choice.reason = error.reason().english();
         m_card.reset();

@@ -18,7 +18,7 @@ namespace pellucid::cli {
 
 /// Whether to make the images on a graphics card, and on which one.
 struct CardChoice {
-    bool isAsked = false;                     ///< the user requires the card
+    bool isRequired = false;                  ///< the user requires the card
     std::shared_ptr<gpu::FramePasses> passes; ///< null: the processor makes the images
     std::string reason;                       ///< why this engine was chosen, one line
 };

@@ -12,7 +12,7 @@ namespace pellucid::cli {
 
 namespace {
 
-// A picture asks for each step once; two classes may share one.
+// A picture needs each step once, but two classes may share one.
 constexpr std::size_t budgetOfSteps = std::size_t(1) << 30;
 
 bool isEmpty(const classify::DensityField &field) {
@@ -40,10 +40,10 @@ std::vector<std::string> lookWarnings(const CLI::App &command,
     const bool hasClasses = !scene.look.classes.empty();
     const auto isGiven = [&](const char *option) { return command.count(option) > 0; };
     if (hasClasses && isGiven("--bezier"))
-        warnings.emplace_back("--bezier weighs the whole volume; beside --class it is not seen");
+        warnings.emplace_back("--bezier has no effect together with --class");
     if (isGiven("--preset") && (isGiven("--class") || isGiven("--bezier")))
         warnings.emplace_back(
-            "what is shown is --class or --bezier; of the preset its window and light are left");
+            "--class or --bezier replaces the preset's look; its window and lights are kept");
     if (isGiven("--class") && volume.unit() != volume::ValueUnit::hounsfield)
         warnings.emplace_back(
             "the ranges of --class are in Hounsfield units, but the values may not be in HU");
@@ -58,9 +58,9 @@ std::string whyEmpty(const scene::Scene &scene, const volume::Volume &volume,
     if (!std::all_of(fields.channels.begin(), fields.channels.end(), isEmpty))
         return {};
     if (!scene.look.classes.empty())
-        return "the field is empty: no value belongs to a class that is shown";
+        return "the field is empty: no value is in a shown class";
     const classify::FieldWindow window = windowFor(scene, volume);
-    return fmt::format("the field is empty: no value lies above {} within a window of {} to {}",
+    return fmt::format("the field is empty: no value is above {} in the window from {} to {}",
                        window.low, window.low, window.high);
 }
 

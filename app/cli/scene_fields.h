@@ -12,11 +12,11 @@
 
 namespace pellucid::cli {
 
-/// The window that a scene's field has: its own, or the volume's default.
+/// The window of a scene's field: its own, or the volume's default.
 classify::FieldWindow windowFor(const scene::Scene &scene, const volume::Volume &volume);
 
-/// The fields that a scene shows of a volume, cropped; the results of steps are not kept.
-/// *Throws* Error{outOfMemory}, Cancelled.
+/// The cropped fields of a volume that a scene shows. The results of steps are not kept. *Throws*
+/// Error{outOfMemory}, Cancelled.
 classify::ShownFields fieldsFor(const scene::Scene &scene, const volume::Volume &volume,
                                 const Context &context);
 
@@ -25,7 +25,7 @@ std::vector<std::string> lookWarnings(const CLI::App &command,
                                       const std::optional<presets::Preset> &preset,
                                       const scene::Scene &scene, const volume::Volume &volume);
 
-/// Why all of the fields are empty, a line; empty if one is not.
+/// Why all fields are empty, one line; an empty text if one is not.
 std::string whyEmpty(const scene::Scene &scene, const volume::Volume &volume,
                      const classify::ShownFields &fields);
 

@@ -49,7 +49,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     const volume::Volume &volume = input.loaded.volume;
     const auto preset = presetFor(options);
     scene::Scene scene = sceneFor(options, command, preset, volume);
-    scene.shading = {}; // a preset or a scene file may have brought one
+    scene.shading = {}; // may come from a preset or a scene file
     const task::Progress progress(context.stop);
     const classify::FieldWindow window = windowFor(scene, volume);
     const classify::ShownFields fields = fieldsFor(scene, volume, context);
@@ -65,7 +65,7 @@ void writeSpectrum(const fs::path &out, const InputOptions &inputOptions,
     };
     for (const std::string &text : lookWarnings(command, preset, scene, volume))
         warnOf(text);
-    if (!prepared.viewError) // means of the samples were prepared
+    if (!prepared.viewError) // the volume was averaged to fit in memory
         warnOf(prepared.plan.reason.english());
     const int side = std::max({scene.camera.width, scene.camera.height, 2});
     const render::SpectrumSlice slice =

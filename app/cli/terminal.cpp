@@ -10,12 +10,12 @@ namespace pellucid::cli {
 
 namespace {
 
-struct Letter {
+struct CodePoint {
     char32_t code = 0;
-    std::size_t bytes = 0; ///< 0: no UTF-8
+    std::size_t bytes = 0; ///< 0: not UTF-8
 };
 
-Letter letterAt(const std::string &text, std::size_t at) {
+CodePoint codePointAt(const std::string &text, std::size_t at) {
     const auto byte = [&](std::size_t n) {
         return at + n < text.size() ? (unsigned char)(text[at + n]) : 0U;
     };
@@ -31,15 +31,15 @@ Letter letterAt(const std::string &text, std::size_t at) {
             return {};
         code = code << 6 | (byte(n) & 0x3FU);
     }
-    // Longer than needed, half of a pair, or beyond the last.
-    constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    if (code < least[bytes] || (code >= 0xD800 && code < 0xE000) || code > 0x10FFFF)
+    // Overlong, a surrogate, or beyond the last code point.
+    constexpr char32_t smallest[] = {0, 0, 0x80, 0x800, 0x10000};
+    if (code < smallest[bytes] || (code >= 0xD800 && code < 0xE000) || code > 0x10FFFF)
         return {};
     return {code, bytes};
 }
 
-// Control characters, and what ends lines or turns their direction.
-bool steers(char32_t c) {
+// Control characters, line separators and changes of direction.
+bool controlsTerminal(char32_t c) {
     return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 || c == 0x061C ||
            (c >= 0x200E && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) ||
            (c >= 0x2066 && c <= 0x2069);
@@ -50,14 +50,14 @@ bool steers(char32_t c) {
 std::string printable(const std::string &text) {
     std::string shown;
     for (std::size_t at = 0; at < text.size();) {
-        const Letter letter = letterAt(text, at);
-        if (letter.bytes == 0)
+        const CodePoint point = codePointAt(text, at);
+        if (point.bytes == 0)
             shown += '?';
-        else if (steers(letter.code))
+        else if (controlsTerminal(point.code))
             shown += ' ';
         else
-            shown.append(text, at, letter.bytes);
-        at += std::max<std::size_t>(1, letter.bytes);
+            shown.append(text, at, point.bytes);
+        at += std::max<std::size_t>(1, point.bytes);
     }
     return shown;
 }
@@ -65,10 +65,10 @@ std::string printable(const std::string &text) {
 std::string escapedControls(const std::string &json) {
     std::string escaped;
     for (std::size_t at = 0; at < json.size();) {
-        const Letter letter = letterAt(json, at);
-        const std::size_t bytes = std::max<std::size_t>(1, letter.bytes);
-        if (letter.code >= 0x7F && steers(letter.code))
-            escaped += fmt::format("\\u{:04x}", unsigned(letter.code));
+        const CodePoint point = codePointAt(json, at);
+        const std::size_t bytes = std::max<std::size_t>(1, point.bytes);
+        if (point.code >= 0x7F && controlsTerminal(point.code))
+            escaped += fmt::format("\\u{:04x}", unsigned(point.code));
         else
             escaped.append(json, at, bytes);
         at += bytes;

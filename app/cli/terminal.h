@@ -5,14 +5,15 @@
 
 namespace pellucid::cli {
 
-/// One line of UTF-8 without what a terminal obeys (control characters, ends of lines, changes of
-/// direction): names of files and patients come from outside.
+/// Makes untrusted text, such as names of files and patients, safe to print: one line of UTF-8
+/// without control characters, line breaks and changes of direction.
 std::string printable(const std::string &text);
 
-/// JSON escapes C0 by itself; the same for all else that steers a terminal, within strings.
+/// Escapes, within strings of JSON, the characters beyond C0 that control a terminal. JSON itself
+/// escapes C0.
 std::string escapedControls(const std::string &json);
 
-/// A line on stderr that keeps nothing from going on.
+/// Prints a warning on stderr, one line.
 void warn(const std::string &what);
 
 } // namespace pellucid::cli

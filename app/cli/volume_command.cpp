@@ -27,7 +27,7 @@ struct Options {
     bool field = false, edges = false, spectrum = false, gzip = false, json = false;
 };
 
-// The classes as a look has them: a name alone has the weight 1.
+// Completes the classes for a look: a name alone has the weight 1.
 SceneOptions withWeights(SceneOptions scene, bool edges) {
     if (edges)
         scene.classes = {"edges"};
@@ -51,7 +51,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
                           because::inWords("--window needs --field or --class"));
     if (o.scene.classes.size() > 1)
         throw task::Error(task::ErrorCode::usage,
-                          because::inWords("--class: one class is written at a time"));
+                          because::inWords("--class: only one class can be written"));
     std::optional<classify::TissueClass> tissue;
     if (command.count("--class") > 0 || o.edges)
         tissue = classNamed(o.edges ? "edges" : o.scene.classes.front());
@@ -67,7 +67,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
     }
     const task::Progress progress(context.stop);
     const auto wanted = window.value_or(classify::defaultFieldWindow(volume));
-    preprocess::StepCache steps(0); // nothing is asked for twice
+    preprocess::StepCache steps(0); // no step runs twice
     const auto field = tissue ? classify::classField(volume, wanted, *tissue, &steps, progress)
                               : classify::densityField(volume, wanted, progress);
     volume::writeNrrd(o.out, field.values, encoding, task::Progress(context.stop));
@@ -78,7 +78,7 @@ void run(const Options &o, const CLI::App &command, const Context &context) {
 void addVolumeCommand(CLI::App &app, const Context &context) {
     auto o = std::make_shared<Options>();
     CLI::App *c = app.add_subcommand("volume", "Write a volume, or the field that is projected, as "
-                                               "NRRD; or a picture of its spectrum");
+                                               "NRRD, or a picture of its spectrum");
     addInputOptions(*c, o->input);
     c->add_option("-o,--output", o->out, "The NRRD file; with --spectrum a .png or .npy")
         ->required();
@@ -102,13 +102,13 @@ void addVolumeCommand(CLI::App &app, const Context &context) {
             option->get_name() != "--window" && option->get_name() != "--class")
             option->needs(spectrum)->group("With --spectrum");
     for (const char *name : shadingOptions)
-        c->get_option(name)->group(""); // refused, and so not offered
+        c->get_option(name)->group(""); // refused, therefore not offered
     c->get_option("--class")
-        ->description("Write the field of a standard class, as --field otherwise; with --spectrum "
-                      "NAME[=WEIGHT[:#rrggbb]], which is repeated for several")
+        ->description("Write the field of a standard class; with --spectrum "
+                      "NAME[=WEIGHT[:#rrggbb]], may be repeated")
         ->excludes(field)
         ->excludes(edges);
-    c->add_flag("--json", o->json, "Print one JSON object about what was done")->needs(spectrum);
+    c->add_flag("--json", o->json, "Print a report as one JSON object")->needs(spectrum);
     c->callback([o, c, context] { naming(o->input.path, [&] { run(*o, *c, context); }); });
 }
 

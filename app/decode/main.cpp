@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decodes what nobody vouches for; started by the other programs, of no use to people.
+// Decodes untrusted files. The other programs start it; it is of no use by itself.
 #include <cstdio>
 #include <exception>
 #include <fcntl.h>
@@ -11,8 +11,8 @@
 
 int main() {
     using namespace pellucid;
-    // An image's memory is kept for the next one: given back to the system, it would cost a page
-    // fault for every 4 KB each time, which took five times as long as decoding a plain slice.
+    // Keep an image's memory for the next one. Returning it to the system costs a page fault for
+    // every 4 KB, which took five times as long as decoding a plain slice.
     ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
     ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
     if (::fcntl(decoder::socketDescriptor, F_GETFD) < 0 ||
@@ -20,7 +20,7 @@ int main() {
         std::fputs("pellucid-decode reads files for Pellucid and is started by it.\n", stderr);
         return 2;
     }
-    // Whatever the program left open is none of this one's business.
+    // Close every other file that the parent left open.
     ::close_range(decoder::arenaDescriptor + 1, ~0U, 0);
     try {
         parse::prepareToServe();

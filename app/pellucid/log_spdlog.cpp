@@ -10,21 +10,21 @@ namespace pellucid {
 
 namespace {
 
-constexpr std::size_t mostBytes = std::size_t(1) << 20;
-constexpr std::size_t filesBefore = 1;
+constexpr std::size_t maxBytes = std::size_t(1) << 20;
+constexpr std::size_t previousFiles = 1;
 
 } // namespace
 
 void keepLogIn(const std::filesystem::path &file) {
     try {
         const auto logger =
-            spdlog::rotating_logger_mt("pellucid", file.string(), mostBytes, filesBefore);
+            spdlog::rotating_logger_mt("pellucid", file.string(), maxBytes, previousFiles);
         logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %v");
         logger->flush_on(spdlog::level::info);
         logger->set_error_handler([](const std::string &) {});
         system::setLogSink([logger](const std::string &line) { logger->info("{}", line); });
     } catch (const spdlog::spdlog_ex &) {
-        // No such folder, or no right to it.
+        // The folder does not exist or is not writable: there is no log.
     }
 }
 

@@ -5,8 +5,8 @@
 
 namespace pellucid {
 
-/// Sends the log to a file that turns over at a megabyte and keeps its predecessor. What cannot be
-/// written is not: a log stops nobody's work.
+/// Writes the log to a file that rotates at 1 MiB and keeps one predecessor. Failures to write are
+/// ignored: the program works without a log.
 void keepLogIn(const std::filesystem::path &file);
 
 } // namespace pellucid

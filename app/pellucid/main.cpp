@@ -29,8 +29,8 @@
 
 namespace {
 
-// Whoever asks the program to end gets what the user would get: files whole or not there, a session
-// that can be taken up. The handler only writes to a socket, the rest happens in the event loop.
+// A signal ends the program as the user would: files are complete or absent, and the session can be
+// resumed. The handler only writes to a socket; the event loop does the rest.
 int signalSocket = -1;
 
 void endOnSignals(QObject &application) {
@@ -45,12 +45,12 @@ void endOnSignals(QObject &application) {
     });
     struct sigaction action {};
     action.sa_handler = [](int) {
-        const int before = errno; // of whatever it interrupts
+        const int before = errno; // the interrupted code may still read it
         const char byte = 1;
         (void)!::write(signalSocket, &byte, 1);
         errno = before;
     };
-    // The second one ends a program that does not listen.
+    // A second signal ends a program that does not respond.
     action.sa_flags = SA_RESTART | SA_RESETHAND;
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
         struct sigaction previous {};
@@ -64,11 +64,11 @@ void endOnSignals(QObject &application) {
 int main(int argc, char **argv) {
     using namespace pellucid;
     std::signal(SIGXFSZ, SIG_IGN);
-    CLI::App options("Pellucid: DICOM studies, transparent", "pellucid");
+    CLI::App options("Look through DICOM studies as if the body were transparent", "pellucid");
     std::vector<std::string> paths;
     options.set_version_flag("--version", "pellucid " PELLUCID_VERSION);
     std::string engine;
-    options.add_option("--engine", engine, "What makes the projections: auto, cpu or gpu")
+    options.add_option("--engine", engine, "Engine that renders the projections: auto, cpu or gpu")
         ->check(CLI::IsMember({"auto", "cpu", "gpu"}));
     options.add_option("PATH", paths,
                        "Files, folders, a DICOMDIR, ZIP archives or NRRD files to open");
@@ -83,11 +83,11 @@ int main(int argc, char **argv) {
     QSurfaceFormat format;
     format.setVersion(3, 3);
     format.setProfile(QSurfaceFormat::CoreProfile);
-    // All contexts that share must ask for it, or none gets it.
+    // All contexts that share must request it, or none gets it.
     format.setOption(QSurfaceFormat::ResetNotification);
     QSurfaceFormat::setDefaultFormat(format);
-    // Qt ends the program when it finds no display; it shall do so in one line and with a code.
-    static QString reason; // what was warned of before
+    // Qt aborts if it finds no display. Print one line and return an exit code instead.
+    static QString reason; // the last warning before the failure
     qInstallMessageHandler([](QtMsgType type, const QMessageLogContext &, const QString &text) {
         const QString line = text.section('\n', 0, 0).simplified();
         if (type == QtFatalMsg) {
@@ -107,7 +107,7 @@ int main(int argc, char **argv) {
         keepLogIn(*cache / "log" / "pellucid.log");
     }
 #ifdef Q_OS_LINUX
-    // Said before Qt tries each of its plugins and names them all.
+    // Checked before Qt tries and names each of its plugins.
     if (qEnvironmentVariableIsEmpty("DISPLAY") && qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") &&
         qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) {
         std::fprintf(stderr, "pellucid: there is no display (neither DISPLAY nor WAYLAND_DISPLAY "
@@ -115,7 +115,7 @@ int main(int argc, char **argv) {
         return exitCode(task::ErrorCode::noSuchDevice);
     }
 #endif
-    // Libraries map much while they begin, and some software renderers crash where they cannot.
+    // Libraries map much memory at start, and some software renderers crash if they cannot.
     constexpr std::size_t mappedToStart = std::size_t(1100) << 20;
     if (system::mappableBytes() < mappedToStart) {
         std::fprintf(
@@ -124,7 +124,8 @@ int main(int argc, char **argv) {
         return exitCode(task::ErrorCode::outOfMemory);
     }
     system::log("pellucid " PELLUCID_VERSION ", Qt " + std::string(qVersion()));
-    // The engine's context shares with those of the windows: its pictures stay on the card.
+    // The engine's context shares with the windows' contexts, so that its pictures stay on the
+    // card.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
     ui::Application application(argc, argv);
     endOnSignals(application);

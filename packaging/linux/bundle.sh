@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes a folder of an installed tree that runs by itself: libraries and Qt's plugins beside the
-# programs, wherever it lies. What belongs to the machine stays there: glibc, the display, OpenGL.
+# Makes an installed tree self-contained: copies libraries and Qt's plugins beside the programs, so that it runs from any
+# folder. glibc, the display's libraries and OpenGL stay the machine's own.
 #   bundle.sh TREE     TREE has bin, libexec, share
 set -euo pipefail
 tree=$1
@@ -9,7 +9,8 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 plugins=$(/usr/lib/qt6/bin/qtpaths --query QT_INSTALL_PLUGINS)
 translations=$(/usr/lib/qt6/bin/qtpaths --query QT_INSTALL_TRANSLATIONS)
 
-# Of the machine: they must fit its kernel, its display server and its drivers, which bring their own needs along (a newer libstdc++).
+# Not bundled: these must match the machine's kernel, display server and drivers, which have needs of their own (a newer
+# libstdc++).
 of_machine='^(linux-vdso|libstdc\+\+|libgcc_s|libz|ld-linux.*|libc|libm|libdl|librt|libpthread|libresolv|libnss_.*|libGL|libEGL|libGLX|libGLdispatch|libgbm|libdrm.*|libX11|libX11-xcb|libxcb|libxcb-dri.*|libxcb-glx|libwayland-.*|libfontconfig|libfreetype|libexpat)\.so'
 
 mkdir -p "$tree/lib" "$tree/plugins"
@@ -36,7 +37,7 @@ programs | while read -r program; do ldd "$program"; done | sed -nE 's#^\s*(\S+)
     done
 chmod 644 "$tree"/lib/*
 
-# Where each finds the rest; of the old kind, which counts for what a plugin needs, too.
+# Where each finds its libraries. DT_RPATH, the old tag, also applies to the dependencies of plugins.
 find "$tree/bin" "$tree/libexec" "$tree/lib" "$tree/plugins" -type f | while read -r file; do
     [[ $(head -c 4 "$file") == $'\x7fELF' ]] || continue
     up=$(realpath --relative-to="$(dirname "$file")" "$tree/lib")

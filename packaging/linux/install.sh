@@ -1,14 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs Pellucid for this user, or for all if the superuser runs it. Run by the self-extracting
-# archive, from the folder that it unpacked.
+# Installs Pellucid for this user, or for all users if root runs it. The self-extracting archive runs this script from
+# the folder that it unpacked.
 #   install.sh [--prefix FOLDER]
-# Whole or not there: all is copied beside FOLDER and takes its place at once; what fails, or is
-# stopped, later on is taken back. FOLDER/share/pellucid/installation lists what there is of it, in
-# FOLDER (inside) and elsewhere (link, file, folder): it is complete before anything is made elsewhere,
-# and uninstall.sh reads it.
+# An installation is complete or absent: everything is copied to a folder beside FOLDER, which then replaces FOLDER at
+# once. If a later step fails or is interrupted, everything is undone. The record FOLDER/share/pellucid/installation
+# lists all that is installed, in FOLDER (inside) and elsewhere (link, file, folder). It is complete before anything is
+# created elsewhere, and uninstall.sh reads it.
 set -eu
-umask 022 # the archive's own is 077
+umask 022 # the archive runs this with 077
 say() { echo "install.sh: $*" >&2; }
 refuse() { say "$*"; exit 1; }
 tab=$(printf '\t')
@@ -18,39 +18,39 @@ if [ "$(id -u)" = 0 ]; then
     prefix=/opt/pellucid bin=/usr/local/bin data=/usr/local/share
 else
     prefix=$HOME/.local/opt/pellucid bin=$HOME/.local/bin data=$HOME/.local/share
-    case ${XDG_DATA_HOME:-} in /*) data=$XDG_DATA_HOME ;; esac # what is relative counts for nothing
+    case ${XDG_DATA_HOME:-} in /*) data=$XDG_DATA_HOME ;; esac # the specification says to ignore relative paths
 fi
 while [ $# -gt 0 ]; do
     case $1 in
         --prefix)
             prefix=${2:-}
-            [ -n "$prefix" ] || { say "--prefix wants a folder"; exit 2; }
+            [ -n "$prefix" ] || { say "--prefix needs a folder"; exit 2; }
             shift 2
             ;;
-        *) say "unknown: $1; it takes --prefix FOLDER"; exit 2 ;;
+        *) say "unknown: $1; the only option is --prefix FOLDER"; exit 2 ;;
     esac
 done
 case $prefix in
     /*) ;;
-    *) prefix=${USER_PWD:-$PWD}/$prefix ;; # where the archive was started
+    *) prefix=${USER_PWD:-$PWD}/$prefix ;; # relative to where the archive was started
 esac
 prefix=$(readlink -m "$prefix")
-# What a menu entry cannot hold, a list of dictionaries, and the list of what is installed.
+# Characters that a menu entry, a list of dictionaries or the record cannot contain.
 case $prefix in
-    *[\"\`\$\\%:]*) refuse "$prefix cannot hold programs for one of \" \` \$ \\ % : in it; take another by --prefix" ;;
+    *[\"\`\$\\%:]*) refuse "$prefix cannot hold programs: its name contains one of \" \` \$ \\ % : ; choose another folder with --prefix" ;;
 esac
 case $prefix$bin$data in
     *"$tab"* | *'
-'*) refuse "there is a tabulator or a line break in the name of a folder" ;;
+'*) refuse "the name of a folder contains a tab or a line break" ;;
 esac
 for folder in "$data/pellucid" "${XDG_CONFIG_HOME:-$HOME/.config}/pellucid" "${XDG_CACHE_HOME:-$HOME/.cache}/pellucid" "$bin"; do
     folder=$(readlink -m "$folder")
-    case $folder/ in "${prefix%/}"/*) refuse "$prefix is no place for programs: $folder is for something else" ;; esac
-    case $prefix/ in "$folder"/*) refuse "$prefix is no place for programs: $folder is for something else" ;; esac
+    case $folder/ in "${prefix%/}"/*) refuse "$prefix is no place for programs: it overlaps $folder, which has another use" ;; esac
+    case $prefix/ in "$folder"/*) refuse "$prefix is no place for programs: it overlaps $folder, which has another use" ;; esac
 done
 record=share/pellucid/installation
 is_ours() { [ -f "$1/$record" ]; }
-# Somebody's folder, or program, that is no installation is not replaced.
+# Never replace a folder or a program that is not an installation of Pellucid.
 if [ -e "$prefix" ] && ! is_ours "$prefix" && [ -n "$(ls -A "$prefix" 2>/dev/null || echo a file)" ]; then
     refuse "$prefix already exists and is not Pellucid"
 fi
@@ -61,19 +61,20 @@ for program in pellucid pellucid-cli pellucid-uninstall; do
     case $target in "$prefix"/*) [ ! -L "$link" ] || continue ;; esac
     other=${target%/bin/*} other=${other%/uninstall.sh}
     if [ -L "$link" ] && is_ours "$other"; then
-        refuse "Pellucid is installed in $other; remove it by $other/uninstall.sh first"
+        refuse "Pellucid is already installed in $other; remove it first with $other/uninstall.sh"
     fi
     [ -L "$link" ] && [ ! -e "$link" ] || refuse "$link already exists and is not Pellucid's"
 done
 
-# One at a time: a lock on a folder that is there anyway leaves nothing behind.
+# Only one installer runs at a time. Locking a folder that exists anyway leaves no lock file behind.
 if [ "$(id -u)" = 0 ]; then exec 9</; else exec 9<"$HOME"; fi
 if command -v flock >/dev/null && ! flock -w 10 9; then
-    refuse "another one is installing Pellucid; wait for it"
+    refuse "another process is installing Pellucid; wait until it ends"
 fi
 
 new=$prefix.new old=$prefix.old state=looking made=
-# What earlier ones left that were killed: the former installation waits for its place, or to go.
+# An installer that was killed may have left the former installation in $old: move it back, or remove it if a new one is
+# in its place.
 for rest in "$old" "$old".[0-9]*; do
     is_ours "$rest" || continue
     if [ -e "$prefix" ]; then
@@ -83,7 +84,7 @@ for rest in "$old" "$old".[0-9]*; do
     fi
 done
 n=1
-while [ -e "$old" ]; do # somebody's files of a former one
+while [ -e "$old" ]; do # it contains files that are not Pellucid's
     n=$((n + 1)) old=$prefix.old.$n
 done
 if [ -e "$new" ] && ! rmdir "$new" 2>/dev/null; then
@@ -91,8 +92,8 @@ if [ -e "$new" ] && ! rmdir "$new" 2>/dev/null; then
     rm -rf "$new"
 fi
 
-# What is made elsewhere, by an installation in FOLDER: kind, from, to. Files of these names in the
-# folders of the desktop are Pellucid's, whoever wrote them.
+# Lists what an installation in FOLDER creates elsewhere: kind, source, target. Files with these names in the desktop's
+# folders count as Pellucid's.
 elsewhere() { # FOLDER
     printf "%s$tab%s$tab%s\n" link "$prefix/bin/pellucid" "$bin/pellucid" link "$prefix/bin/pellucid-cli" "$bin/pellucid-cli" \
         file "$1/share/pellucid/menu-entry" "$data/applications/org.pellucid.Pellucid.desktop" \
@@ -103,7 +104,7 @@ elsewhere() { # FOLDER
     done
     printf "%s$tab%s$tab%s\n" link "$prefix/uninstall.sh" "$bin/pellucid-uninstall"
 }
-# Each in one go: there is the former one or the new one.
+# Each is replaced atomically: either the former or the new one exists.
 make_elsewhere() { # FOLDER
     elsewhere "$1" | while IFS=$tab read -r kind source to; do
         mkdir -p "$(dirname "$to")" || exit 1
@@ -114,7 +115,7 @@ make_elsewhere() { # FOLDER
         esac && mv -fT "$to.pellucid-new" "$to" || { rm -f "$to.pellucid-new"; exit 1; }
     done
 }
-missing_folders() { # the outermost last
+missing_folders() { # outermost last
     folder=$(dirname "$1")
     while [ ! -d "$folder" ]; do
         echo "folder $folder"
@@ -122,7 +123,7 @@ missing_folders() { # the outermost last
     done
 }
 
-# Nothing of what fails stays; the former installation comes back, and what it has elsewhere.
+# A failure leaves nothing behind; the former installation is restored, with what it has elsewhere.
 finish() {
     trap '' INT TERM HUP
     case $state in
@@ -130,7 +131,7 @@ finish() {
         looking) ;;
         *)
             if [ $state = copying ]; then
-                : # the former one was not touched
+                : # the former installation was not touched
             elif [ ! -e "$new" ] && is_ours "$prefix" && is_ours "$old"; then
                 grep -vxF -f "$old/$record" "$prefix/$record" | sh "$from/uninstall.sh" --listed "$prefix" || true
                 mv "$prefix" "$new"
@@ -145,7 +146,7 @@ finish() {
             printf %s "$made" | while IFS= read -r folder; do rmdir "${folder#folder }" 2>/dev/null || true; done
             ;;
     esac
-    say "Pellucid was not installed; all is as before"
+    say "Pellucid was not installed; nothing has changed"
 }
 trap finish EXIT
 trap 'exit 130' INT TERM HUP
@@ -162,7 +163,7 @@ mkdir -p "$new/share/pellucid"
 entry=$prefix/bin/pellucid awk '/^Exec=pellucid/ { print "Exec=\"" ENVIRON["entry"] "\"" substr($0, 14); next } { print }' \
     "$new/share/applications/org.pellucid.Pellucid.desktop" >"$new/share/pellucid/menu-entry"
 {
-    # What a former installation has elsewhere, and this one lacks, goes with this one.
+    # Uninstalling also removes what only the former installation has elsewhere.
     if is_ours "$prefix"; then grep -E '^(data|link|file|folder) ' "$prefix/$record"; fi
     echo "data $data"
     elsewhere "$new" | while IFS=$tab read -r kind _ to; do
@@ -189,11 +190,11 @@ if is_ours "$old"; then
     elsewhere "$prefix" | while IFS=$tab read -r kind _ to; do echo "$kind $to"; done |
         grep -vxF -f - "$prefix/$record" | grep -E '^(link|file) ' | sh "$prefix/uninstall.sh" --listed "$prefix" || true
     sh "$prefix/uninstall.sh" --inside "$old" || true
-    [ ! -e "$old" ] || say "what somebody put into the former folder is in $old"
+    [ ! -e "$old" ] || say "files in the former folder that are not Pellucid's are now in $old"
 fi
 update-desktop-database -q "$data/applications" 2>/dev/null || true
 update-mime-database "$data/mime" 2>/dev/null || true
-echo "Pellucid is installed in $prefix; it is in the menu, and as: $bin/pellucid"
+echo "Pellucid is installed in $prefix. Start it from the menu, or as: $bin/pellucid"
 case :$PATH: in
     *:"$bin":*) ;;
     *) echo "($bin is not in PATH)" ;;

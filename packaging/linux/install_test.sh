@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the packages where nothing was installed: a bare Debian without build tools for the .deb,
-# the next Debian for the self-extracting installer, by an ordinary user. Runs as root, takes some
-# minutes and 3 GB below WORK, and leaves screenshots and a report in PACKAGES/../install-test.
+# Tests the packages in bare systems: the .deb in a Debian without build tools, the self-extracting installer in the next
+# Debian as an ordinary user. Runs as root, takes some minutes and 3 GB below WORK, and leaves screenshots and a report
+# in PACKAGES/../install-test.
 #   install_test.sh PACKAGES [WORK]
 set -euo pipefail
 packages=$(realpath "$1") work=${2:-/var/tmp/pellucid-install-test}
@@ -26,15 +26,15 @@ finish() {
 }
 trap finish EXIT
 
-# The packages come from where this machine's own come from.
+# The mirror that this machine uses.
 mirror() { apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 'Origin: Debian' | head -1; }
 
-# A system of its own with an ordinary user, made once and copied.
+# Creates a bare system with an ordinary user, from a base that is built once and copied.
 system() { # RELEASE NAME
     local base=$work/$1-base
     root=$work/$2
     if [[ ! -d $base ]]; then
-        rm -rf --one-file-system "$base.new" # of a run that was stopped
+        rm -rf --one-file-system "$base.new" # left by an interrupted run
         debootstrap --variant=minbase --include=ca-certificates "$1" "$base.new" "$(mirror)" >"$work/debootstrap.log" 2>&1 ||
             { tail -5 "$work/debootstrap.log"; fail "no bare system"; }
         for file in /etc/apt/apt.conf.d /etc/apt/apt.conf /etc/resolv.conf /etc/hosts /usr/local/share/ca-certificates /etc/ssl/certs; do
@@ -45,7 +45,7 @@ system() { # RELEASE NAME
     umount "$root"/{proc,dev} 2>/dev/null || true
     rm -rf --one-file-system "$root"
     cp -a "$base" "$root"
-    # Devices of its own: nothing of this machine can be lost in here.
+    # Its own devices, so that nothing of this machine can be damaged.
     mount -t proc proc "$root/proc" || fail "nothing can be mounted here"
     mounted+=("$root/proc")
     mount -t tmpfs -o mode=755 devices "$root/dev" || fail "nothing can be mounted here"
@@ -65,7 +65,7 @@ as_user() { chroot --userspec=tester:tester "$root" env -i HOME=/home/tester PAT
 apt_install() { as_root apt-get install -y -qq --no-install-recommends "$@" >"$work/apt.log" 2>&1 || { tail -20 "$work/apt.log"; fail "apt: $*"; }; }
 
 spread() { convert "$1" -gravity center -crop 60%x80%+0+0 -colorspace gray -format '%[fx:standard_deviation]' info:; }
-# Every program, and the window as a picture: with nothing open, with a study, and started by the menu entry.
+# Uses every program, and takes pictures of the window: with nothing open, with a study, and started from the menu entry.
 use_it() { # NAME ENTRY
     [[ $(as_user pellucid --version) == "pellucid $expected" ]] || fail "$1: $(as_user pellucid --version) is not $expected"
     as_user desktop-file-validate "$2" || fail "$1: the menu entry"
@@ -75,11 +75,11 @@ use_it() { # NAME ENTRY
     awk -v s="$(spread "$out/$1-front.png")" 'BEGIN { exit !(s > 0.15) }' || fail "$1: the projection shows nothing"
     local first
     first=$(cd "$root/home/tester" && find head -type f | sort | head -1)
-    [[ $(as_user gio mime application/dicom) == *"Default application"*org.pellucid.Pellucid.desktop* ]] || fail "$1: DICOM files are not opened by it"
-    [[ $(as_user gio info -a standard::content-type "/home/tester/$first") == *application/dicom* ]] || fail "$1: DICOM files are not known as such"
-    # A screen, the program, a moment, a picture of all of it.
+    [[ $(as_user gio mime application/dicom) == *"Default application"*org.pellucid.Pellucid.desktop* ]] || fail "$1: Pellucid is not the default program for DICOM files"
+    [[ $(as_user gio info -a standard::content-type "/home/tester/$first") == *application/dicom* ]] || fail "$1: DICOM files are not recognised"
+    # Starts a screen and the program, waits, and takes a picture of the screen.
     cat >"$root/home/tester/look.sh" <<'TEXT'
-started() { # its window, on the screen; not one of those that nobody sees
+started() { # its window is visible on the screen
     xwininfo -root -tree 2>/dev/null | grep -oE '0x[0-9a-f]+ "[^"]*Pellucid.* [0-9]{4}x[0-9]{3,4}\+' | cut -d' ' -f1 |
         xargs -r -n1 xwininfo -id 2>/dev/null | grep -q IsViewable
 }
@@ -103,7 +103,7 @@ for run in cold warm menu; do
     import -window root $run.png
     [ $run != menu ] || program=$(pgrep -x pellucid)
     kill $program
-    [ $run = menu ] || wait $program || exit 1 # it ends as one that is closed
+    [ $run = menu ] || wait $program || exit 1 # it must end normally
 done
 while pgrep -x pellucid >/dev/null; do sleep 0.1; done
 TEXT
@@ -116,28 +116,28 @@ TEXT
     awk '$1 == "warm" { exit !($2 <= 1500) }' "$root/home/tester/milliseconds" || fail "$1: the window takes more than 1.5 s"
     local run
     for run in cold warm menu; do cp "$root/home/tester/$run.png" "$out/$1-$run.png"; done
-    # Pictures of a head have more light and shade than the page that offers to open one.
+    # A picture of a head has more contrast than the start page.
     for run in warm menu; do
         awk -v s="$(spread "$out/$1-$run.png")" -v empty="$(spread "$out/$1-cold.png")" 'BEGIN { exit !(s > 2.5 * empty && s > 0.15) }' ||
             fail "$1: the window shows nothing ($run)"
         say "$1, $run: the window shows a study (spread $(spread "$out/$1-$run.png"), without one $(spread "$out/$1-cold.png"))"
     done
 }
-# A preset, and a study of the library: the list is the program's own, made by starting it.
+# Saves a preset, and adds a study to the library's list, which the program creates at its start.
 keep_something() {
     as_user sh -c 'cd; xvfb-run -a sh -c "pellucid & sleep 6; kill \$!; wait"' || fail "the workstation"
     as_user sqlite3 /home/tester/.local/share/pellucid/library/library.sqlite "insert into studies (patient_id, patient_name, birth_date,
         sex, uid, date, description, modalities, sort_name, search, added) values ('1', 'Kept^Study', '', '', '1.2.3', '', '', 'CT', 'kept', 'kept', 1)" ||
         fail "there is no library"
     as_user sh -c 'cd /home/tester && pellucid-cli preset show "Bone" | sed "s/\"Bone\"/\"Kept by the tester\"/" >mine.json &&
-        pellucid-cli preset import mine.json' >/dev/null || fail "no preset is kept"
+        pellucid-cli preset import mine.json' >/dev/null || fail "the preset is not saved"
 }
 still_kept() { # WHEN
     as_user grep -rqF "Kept by the tester" /home/tester/.local/share/pellucid || fail "$1: the preset is lost"
     [[ $(as_user sqlite3 /home/tester/.local/share/pellucid/library/library.sqlite 'select patient_name from studies') == Kept^Study ]] ||
         fail "$1: the library is lost"
 }
-# All that there is, but for what systems write of themselves.
+# Every file except those that a system writes by itself.
 all_of_it() {
     (cd "$root" && find . -xdev \( -path ./proc -o -path ./sys -o -path ./dev -o -path ./tmp -o -path ./run -o -path ./var/log -o -path ./var/cache \
         -o -path './home/tester/.cache/mesa_shader_cache*' -o -path './home/tester/.cache/qtshadercache*' -o -path ./home/tester/.cache/fontconfig \) -prune -o -print | sort)
@@ -147,7 +147,7 @@ nothing_is_left() { # WHAT BEFORE AFTER
     left=$(comm -13 "$2" "$3")
     [[ -z $left ]] || fail "$1: left behind: $left"
 }
-# What a desktop has, and what looks at it.
+# What a desktop provides, and what inspects it.
 tools=(xvfb xauth x11-utils imagemagick fonts-dejavu-core procps sqlite3 desktop-file-utils shared-mime-info libglib2.0-bin)
 
 say "$(sha256sum "$deb" "$run" | sed 's#/.*/##')"
@@ -172,22 +172,22 @@ as_root sh -c '! command -v gcc && ! command -v cmake' >/dev/null || fail "there
 use_it deb /usr/share/applications/org.pellucid.Pellucid.desktop
 still_kept "upgrade"
 as_root apt-get purge -y -qq pellucid >/dev/null 2>&1 || fail "purge"
-# What it needed stays, as with every package.
+# Its dependencies stay, as with every package.
 left=$(all_of_it | grep -i pellucid | grep -v -e '^./home/tester/' -e '^./var/lib/apt/' || true)
 [[ -z $left ]] || fail "left behind: $left"
 still_kept "removal"
-say "removed; of it remain the user's own: $(cd "$root/home/tester" && find .local .cache .config -maxdepth 2 -name 'pellucid*' 2>/dev/null | tr '\n' ' ')"
+say "removed; the user's own files remain: $(cd "$root/home/tester" && find .local .cache .config -maxdepth 2 -name 'pellucid*' 2>/dev/null | tr '\n' ' ')"
 
-say "== $(basename "$run") on the next Debian, by an ordinary user"
+say "== $(basename "$run") on the next Debian, as an ordinary user"
 system trixie run
 apt_install "${tools[@]}" libgl1 libegl1 libgl1-mesa-dri libfontconfig1 libx11-xcb1 libglib2.0-0t64
 cp "$run" "$root/home/tester/pellucid.run"
 all_of_it >"$work/before"
 as_user sh /home/tester/pellucid.run --quiet | tee -a "$report"
 keep_something
-# A file that only a former version had.
+# A file that only the former version had.
 as_user sh -c 'cd ~/.local/opt/pellucid && mkdir was && touch was/file && echo "inside /was/file" >>share/pellucid/installation'
-as_user sh /home/tester/pellucid.run --quiet >/dev/null # over itself
+as_user sh /home/tester/pellucid.run --quiet >/dev/null # reinstalls
 [[ ! -e $root/home/tester/.local/opt/pellucid/was && ! -e $root/home/tester/.local/opt/pellucid.old ]] || fail "something of the former version is still there"
 use_it run /home/tester/.local/share/applications/org.pellucid.Pellucid.desktop
 still_kept "upgrade"
@@ -199,7 +199,7 @@ nothing_is_left "an ordinary user" "$work/before" "$work/after"
 still_kept "removal"
 say "removed; the user's presets, studies and settings are kept"
 
-say "== the same by root, for all users"
+say "== the same as root, for all users"
 all_of_it >"$work/before"
 as_root sh /home/tester/pellucid.run --quiet >/dev/null
 [[ $(as_user /usr/local/bin/pellucid --version) == "pellucid $expected" ]] || fail "an ordinary user cannot start it"
@@ -211,4 +211,4 @@ as_user rm -rf /home/tester/.cache/pellucid # root's uninstaller leaves users' f
 all_of_it >"$work/after"
 nothing_is_left "root" "$work/before" "$work/after"
 say "removed; nothing is left"
-say "all passed; the bare systems stay in $work for the next time"
+say "all passed; the bare systems are kept in $work for the next run"

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an installed tree holds that others wrote: an SPDX list (2.3, JSON) and the licences.
+"""Lists the third-party components of an installed tree (SPDX 2.3, JSON) and collects their licences.
 
 inventory.py TREE VERSION LICENCES OUT.spdx.json
 
-Shared libraries that lie in TREE, and those that its programs are linked with, are looked up in
-Debian's package database; the copyright file of each package goes into the folder LICENCES, and
-with libraries in TREE, which runs where there is no Debian, the licences that those files name.
+The shared libraries in TREE, and those that its programs are linked with, are looked up in Debian's
+package database. The copyright file of each package is copied to the folder LICENCES. If TREE contains
+libraries, it also runs on other systems; then the licence texts that those files refer to are copied, too.
 """
 import hashlib
 import json
@@ -18,9 +18,9 @@ import sys
 import time
 
 
-# Where Debian's copyright files point.
+# The licence texts that Debian's copyright files refer to.
 COMMON = pathlib.Path("/usr/share/common-licenses")
-# Whose licence text stands in the copyright file beside the list.
+# Their licence texts are in the copyright file beside the list.
 SCANS = [
     ("Lung-PET-CT-Dx", "https://doi.org/10.7937/TCIA.2020.NNC2-0461", "CC-BY-4.0",
      "2020 Li P. et al., The Cancer Imaging Archive", "chest_*.png"),
@@ -39,7 +39,7 @@ def is_program(path: pathlib.Path) -> bool:
 
 
 def package_of(path: str) -> str | None:
-    """The package that a file is of; libraries moved when /lib became a link."""
+    """The package that a file belongs to. Libraries have moved since /lib became a link."""
     for candidate in (path, os.path.realpath(path), path.removeprefix("/usr")):
         try:
             return output("dpkg-query", "-S", candidate).split(": ")[0].split(",")[0].split(":")[0]
@@ -49,7 +49,7 @@ def package_of(path: str) -> str | None:
 
 
 def licences_of(package: str) -> tuple[list[str], pathlib.Path]:
-    """The names in a machine-readable copyright file; none in one for people."""
+    """The licences that a machine-readable copyright file names (none for other files), and the file."""
     copyright_file = pathlib.Path("/usr/share/doc") / package / "copyright"
     text = copyright_file.read_text(errors="replace")
     return sorted(set(re.findall(r"^License: *(\S+)", text, re.MULTILINE))), copyright_file
@@ -68,7 +68,7 @@ def main() -> None:
         for line in output("ldd", str(program)).splitlines():
             if found := re.match(r"\s*(\S+) => (/.*) \(0x", line):
                 libraries[found[1]] = found[2]
-    # A bundled copy is of the package that it was copied from.
+    # A bundled copy belongs to the package that it was copied from.
     system = {name: path for name, path in libraries.items() if not path.startswith(str(tree.resolve()))}
     for name in libraries.keys() - system.keys():
         for folder in ("/usr/lib/x86_64-linux-gnu", "/lib/x86_64-linux-gnu", "/usr/lib", "/lib"):
@@ -76,8 +76,8 @@ def main() -> None:
                 system[name] = f"{folder}/{name}"
                 break
         else:
-            sys.exit(f"inventory: nobody knows where {name} is from")
-    # What a program loads by itself, and nothing is linked with.
+            sys.exit(f"inventory: unknown origin of {name}")
+    # Plugins are loaded at run time: no program is linked with them.
     plugins = output("/usr/lib/qt6/bin/qtpaths", "--query", "QT_INSTALL_PLUGINS").strip()
     for program in programs:
         if tree / "plugins" in program.parents:
@@ -86,9 +86,9 @@ def main() -> None:
     for name, path in sorted(system.items()):
         package = package_of(path)
         if package is None:
-            sys.exit(f"inventory: {path} is of no package")
+            sys.exit(f"inventory: {path} belongs to no package")
         by_package.setdefault(package, []).append(name)
-    # Compiled in: headers without a library, or with most of it in them.
+    # Compiled in: header-only libraries, or mostly so.
     if (tree / "translations").is_dir():
         by_package.setdefault("qt6-translations-l10n", [])
     for header_only in ("libglm-dev", "nlohmann-json3-dev", "libcli11-dev", "libinsighttoolkit5-dev", "libhwy-dev"):
@@ -125,7 +125,7 @@ def main() -> None:
     packages += [{
         "SPDXID": identifier(name), "name": name, "downloadLocation": place, "filesAnalyzed": False,
         "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": whose,
-        "comment": f"scan that pictures of the manual are made of: {pictures}",
+        "comment": f"scan shown in pictures of the manual: {pictures}",
     } for name, place, licence, whose, pictures in SCANS]
     brought.update(scan[0] for scan in SCANS)
     own = {
@@ -150,7 +150,7 @@ def main() -> None:
                              "relatedSpdxElement": p["SPDXID"]} for p in packages],
     }
     pathlib.Path(out).write_text(json.dumps(document, indent=1) + "\n")
-    print(f"inventory: {len(programs)} programs and libraries, {len(packages)} packages of others")
+    print(f"inventory: {len(programs)} programs and libraries, {len(packages)} third-party packages")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Removes Pellucid, as install.sh wrote down what it made; presets, the study library and settings
-# stay, and so does what others put beside it. What cannot be removed is named, and it can be run again.
-#   uninstall.sh [--quiet]           --quiet: what a failed installation made, the cache is not its
+# Removes the files that install.sh recorded. It keeps presets, the study library, settings, and files that others put
+# beside Pellucid. It names what it cannot remove, and can be run again.
+#   uninstall.sh [--quiet]           --quiet: undoes a failed installation, and keeps the cache
 #   uninstall.sh --inside FOLDER     only the files in the folder of an installation
-#   uninstall.sh --listed PREFIX     only what is listed on the standard input as in the record
+#   uninstall.sh --listed PREFIX     only what the standard input lists, in the format of the record
 set -eu
 say() { echo "pellucid-uninstall: $*" >&2; }
 here=$(cd "$(dirname "$(readlink -f "$0")")" && pwd -P)
@@ -15,15 +15,15 @@ case $mode in
     *) say "unknown: $1"; exit 2 ;;
 esac
 record=$here/share/pellucid/installation
-[ -f "$record" ] || { say "$here is no installation of Pellucid"; exit 1; }
+[ -f "$record" ] || { say "$here is not an installation of Pellucid"; exit 1; }
 if [ ! -w "$here" ] || [ ! -w "$(dirname "$here")" ]; then
-    say "$here is not yours to remove"
+    say "you are not allowed to remove $here"
     exit 1
 fi
 of() { sed -n "s/^$1 //p" "$record"; }
 prefix=$(of prefix | head -n 1)
 
-# Lines of the record: what has been made elsewhere. Somebody else's may have taken a name since.
+# Reads lines of the record and removes what was created elsewhere, unless a name now belongs to something else.
 remove_listed() {
     while read -r kind path; do
         case $kind in
@@ -35,7 +35,7 @@ remove_listed() {
         esac
     done
 }
-remove_folders() { # the innermost first, and none that others use
+remove_folders() { # innermost first; only empty ones
     sed -n 's/^folder //p' | sort -ru | while IFS= read -r path; do rmdir "$path" 2>/dev/null || true; done
 }
 if [ "$mode" = --listed ]; then
@@ -45,7 +45,7 @@ if [ "$mode" = --listed ]; then
     exit
 fi
 
-remove_inside() { # FOLDER; what lists the rest goes last
+remove_inside() { # FOLDER; the record last
     sed -n 's/^inside //p' "$1/share/pellucid/installation" | sed "s|^|./|" | tr '\n' '\0' | (cd "$1" && xargs -0 -r rm -f)
     rm -f "$1/share/pellucid/installation"
     find "$1" -depth -type d -empty -exec rmdir {} \;
@@ -55,19 +55,19 @@ if [ "$mode" = --inside ]; then
     exit
 fi
 
-# What is elsewhere is of the installation at its place, and not of a copy of it.
+# Files elsewhere belong to the installation at $prefix, not to a copy of it.
 if [ "$here" != "$prefix" ] && [ -f "$prefix/share/pellucid/installation" ]; then
     remove_inside "$here"
-    echo "This copy is removed; the Pellucid in $prefix stays"
+    echo "This copy is removed; Pellucid in $prefix is kept"
     exit
 fi
-# The way to this file goes last of what is elsewhere.
+# The link to this script is removed last of what is elsewhere.
 all=$(cat "$record")
 printf '%s\n' "$all" | grep -v '/pellucid-uninstall$' | remove_listed
 of data | while IFS= read -r data; do
     update-desktop-database -q "$data/applications" 2>/dev/null || true
     [ ! -d "$data/mime/packages" ] || update-mime-database "$data/mime" 2>/dev/null || true
-    # Lists that the two make, where nobody else had any.
+    # Remove the caches that these two programs wrote, unless others use them.
     if of folder | grep -qxF "$data/applications" && [ "$(ls -A "$data/applications" 2>/dev/null)" = mimeinfo.cache ]; then
         rm -f "$data/applications/mimeinfo.cache"
     fi
@@ -75,7 +75,7 @@ of data | while IFS= read -r data; do
         rm -rf "$data/mime"
     fi
 done
-if [ "$mode" = all ] && [ "$(id -u)" != 0 ]; then # can be made again
+if [ "$mode" = all ] && [ "$(id -u)" != 0 ]; then # the cache can be rebuilt
     case ${XDG_CACHE_HOME:-} in
         /*) rm -rf "$XDG_CACHE_HOME/pellucid" ;;
         *) [ -z "${HOME:-}" ] || rm -rf "$HOME/.cache/pellucid" ;;
@@ -86,13 +86,13 @@ if [ -n "$left" ]; then
     say "cannot be removed: $(printf '%s' "$left" | tr '\n' ' '); then run $here/uninstall.sh again"
     exit 1
 fi
-for former in "$here".old "$here".old.[0-9]*; do # of an upgrade that was killed
+for former in "$here".old "$here".old.[0-9]*; do # left by an upgrade that was killed
     [ ! -f "$former/share/pellucid/installation" ] || remove_inside "$former"
 done
 remove_inside "$here"
 printf '%s\n' "$all" | grep '/pellucid-uninstall$' | remove_listed
 printf '%s\n' "$all" | remove_folders
 for rest in "$here" "$here".old "$here".old.[0-9]*; do
-    [ ! -e "$rest" ] || say "what is not of Pellucid stays in $rest"
+    [ ! -e "$rest" ] || say "files that are not Pellucid's are kept in $rest"
 done
-[ "$mode" = --quiet ] || echo "Pellucid is removed. Presets, studies and settings are kept, of each user: in ~/.local/share/pellucid and ~/.config/pellucid"
+[ "$mode" = --quiet ] || echo "Pellucid is removed. Each user's presets, studies and settings are kept in ~/.local/share/pellucid and ~/.config/pellucid"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the resources of a frame are bound, and its limits; gpu/bindings.h says the same, which a
-// test compares.
+// Bindings and limits of a frame. gpu/bindings.h repeats them; a test compares the two.
 #define FRAME_BLOCK 0
 #define DISC_ROWS 0
 #define ROTATIONS 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inverse transforms of a few points, in place.
+// In-place inverse transforms of a few points.
 void inverse2(inout vec2 a, inout vec2 b) {
     vec2 sum = a + b;
     b = a - b;
@@ -26,7 +26,7 @@ void inverse4(inout vec2 a, inout vec2 b, inout vec2 c, inout vec2 d) {
     b = second;
 }
 
-// Odd lengths by the symmetry of sines and cosines.
+// Odd lengths use the symmetry of sines and cosines.
 void inverse5(inout vec2 v[8]) {
     vec2 sum1 = v[1] + v[4], sum2 = v[2] + v[3];
     vec2 across1 = v[1] - v[4], across2 = v[2] - v[3];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a frequency is multiplied by. Series in place of the driver's sine, whose error nobody
-// promises.
+// Factors of a frequency. Series replace the driver's sine, whose error is unspecified.
 const float pi2 = 9.8696044;
 
 // sinc^2(r) for |r| <= 1/2 from its series in p = r^2, (-1)^k 2^(2k+1) (pi r)^(2k) / (2k+2)!, to
@@ -41,7 +40,7 @@ float raisedCosine(float through) {
     return max(0.0, 1.0 - pi2 * p * sincSquared(p));
 }
 
-// t(q), see core/scene/image_definition.h; a sharp edge is a steep one.
+// t(q), see core/scene/image_definition.h. A roll-off of 0 becomes a very steep one.
 float rollOffFactor(float rollOff, float q) {
     float steep = max(1e-5, rollOff);
     return raisedCosine((q - (1.0 - steep)) / steep);
@@ -49,7 +48,7 @@ float rollOffFactor(float rollOff, float q) {
 
 const int cubic = 0, linear = 1, bandLimited = 2, spline = 3;
 
-// One axis in each component.
+// One axis per component.
 vec3 sincSquared(vec3 p) {
     return vec3(sincSquared(p.x), sincSquared(p.y), sincSquared(p.z));
 }
@@ -73,7 +72,7 @@ float reconstructionFactor(int reconstruction, bool wraps, float rollOff, vec3 q
     if (reconstruction == bandLimited)
         return rollOffFactor(rollOff, 2.0 * abs(q.x)) * rollOffFactor(rollOff, 2.0 * abs(q.y)) *
                rollOffFactor(rollOff, 2.0 * abs(q.z));
-    // sinc q = sinc r r/q with r the rest of q, and q = r near 0.
+    // |sinc q| = |sinc(r) r/q| with r = q - round(q); ratio 1 for |q| <= 1/2, where q = r.
     vec3 r = wraps ? q - round(q) : q;
     vec3 ratio = mix(vec3(1.0), r / q, greaterThan(abs(q), vec3(0.5)));
     vec3 p = r * r, near = sincSquared(p), square = near * ratio * ratio, factor = square;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Four 64-bit numbers in two's complement: products with small numbers are exact, and turns of a
-// phase come out modulo one by themselves.
+// Four 64-bit numbers in two's complement: products with small integers are exact, and turns of a
+// phase wrap modulo one.
 const float perWhole = 2.3283064365386963e-10; // 2^-32
 
 struct Fixed {
@@ -19,7 +19,7 @@ Fixed times(Fixed a, uint n) {
     return Fixed(low, a.high * n + high);
 }
 
-// Of 24.40 bits.
+// The integer parts of 24.40 bits.
 ivec3 wholeOf(Fixed a) {
     return ivec3(a.high.xyz) >> 8;
 }
@@ -28,7 +28,7 @@ vec3 partOf(Fixed a) {
     return vec3((a.high.xyz << 24) | (a.low.xyz >> 8)) * perWhole;
 }
 
-// Of 0.64 bits, -1/2 to 1/2.
+// 0.64 bits as -1/2 to 1/2.
 float turnsOf(Fixed a) {
     return float(int(a.high.w)) * perWhole;
 }

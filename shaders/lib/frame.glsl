@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a frame's passes share: gpu/frame_block.h fills it, and a test compares the places of its
-// members.
+// The parameters that all passes of a frame share. gpu/frame_block.h has the same layout; a test
+// compares the offsets.
 struct Place {
     int page, firstPlane;
 };
@@ -12,8 +12,8 @@ struct ImageShade {
 };
 
 layout(std140, binding = FRAME_BLOCK) uniform Frame {
-    // Cells of the spectrum by axis, 24.40 bits in two's complement; .w: turns of the phase, 0.64
-    // bits. Exact whatever the size, where floats lose the fraction.
+    // xyz: cells of the spectrum by axis, 24.40 bits in two's complement; w: turns of the phase,
+    // 0.64 bits. Exact at any size, where floats would lose the fraction.
     uvec4 originLow, originHigh; // of column 0 in the lowest row, -rows/2
     uvec4 columnLow, columnHigh; // per column
     uvec4 rowLow, rowHigh;       // per row
@@ -25,24 +25,25 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     int termCount;
     int fieldCount, sourceCount; // fields come first
     int reconstruction, wraps;   // wraps: 0 or 1, see core/render/frame_geometry.h
-    int slabStep;                // planes between the beginnings of slabs
-    int columnStages, rowStages; // of the transform of a column, of a row
-    int columnRotations, rowRotations, unpackRotations; // where the rotations of each begin
+    int slabStep;                // planes from one slab's beginning to the next
+    int columnStages, rowStages; // stages of a column's and a row's transform
+    int columnRotations, rowRotations, unpackRotations; // offsets of the rotations
     float rollOff;
     float unit;                  // of the slice
     float cueBase;               // of a linear cue
-    ivec4 padded;                // by axis, as are the next ones
-    ivec4 firstCell;             // index of the first texel
+    ivec4 padded;                // by axis, like the following vectors
+    ivec4 firstCell;             // grid index of the first texel
     vec4 inversePadded;
     vec4 edgeSlack;              // see core/render/frame_geometry.h
     vec4 perMoment;
-    vec4 shares[MOST_SPECTRA];   // of a source
-    Place places[MOST_SPECTRA];  // of a source
+    vec4 shares[MOST_SPECTRA];   // by source
+    Place places[MOST_SPECTRA];  // by source
     ZeroSum zero[6];             // by kind and sum
     ImageShade shade[3];
     vec4 gradient[3];
     vec4 excess[3];
-    vec4 kernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS]; // [axis][pair][...]: even and odd coefficients, two a vector
+    // [axis][pair][...]: a vector holds two even and two odd coefficients
+    vec4 kernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS];
     vec4 momentKernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS];
     ivec4 radices[8];            // four vectors for a column, four for a row
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interpolation of a spectrum. WIDTH: of the kernel; EVEN_TERMS, MOMENT_TERMS: coefficients of the
-// even and the odd part of a tap, of the kernel and of its moment's.
+// Interpolation of a spectrum. WIDTH: the kernel's; EVEN_TERMS, MOMENT_TERMS: number of
+// coefficients of a tap's even part, and as many of its odd part, for the kernel and for its
+// moment.
 const int pairs = (WIDTH + 1) / 2;
 
-// Even and odd part of a pair of taps at the square of the offset, see PiecewiseKernel::pairs.
+// Even and odd part of a pair of taps at a squared offset, see PiecewiseKernel::pairs.
 #define EVEN_AND_ODD(polynomials, axis, pair, terms, square, sum)                                  \
     vec2 sum = vec2(0.0);                                                                          \
     for (int n = terms - 1; n >= 0; --n) {                                                         \
@@ -11,7 +12,7 @@ const int pairs = (WIDTH + 1) / 2;
         sum = sum * square + (n % 2 == 0 ? two.xy : two.zw);                                       \
     }
 
-// The weights of an axis for a centred offset.
+// The weights along an axis for a centred offset c.
 void kernelWeights(int axis, float c, out float weights[WIDTH]) {
     for (int k = 0; k < pairs; ++k) {
         EVEN_AND_ODD(frame.kernels, axis, k, EVEN_TERMS, c * c, part)
@@ -22,7 +23,7 @@ void kernelWeights(int axis, float c, out float weights[WIDTH]) {
 }
 
 #if CUED
-// Taps lie at grid index minus frequency, which turns an odd kernel's sign.
+// The offset of a tap is its grid index minus the frequency, which flips the sign of an odd kernel.
 void momentWeights(int axis, float c, out float weights[WIDTH]) {
     float scale = -frame.perMoment[axis];
     for (int k = 0; k < pairs; ++k) {
@@ -42,8 +43,8 @@ struct Taps {
 #endif
 };
 
-// A weighted sum of cells, and of a linear cue the sum of its three products with the moment's
-// weights along one axis and the plain ones along the others.
+// A weighted sum of cells. For a linear cue also the sum of three such sums, each with the moment's
+// weights along one axis and the plain weights along the other two.
 struct Sum {
     vec2 value;
 #if CUED
@@ -52,8 +53,8 @@ struct Sum {
 };
 
 #if TRILINEAR
-// Two neighbouring taps of one sign are one filtered fetch between them: 8 for the 64 of width 4.
-// *Source*: Sigg and Hadwiger 2005 (GPU Gems 2, chapter 20).
+// One filtered fetch between two neighbouring taps of the same sign replaces both: width 4 takes 8
+// fetches instead of 64. *Source*: Sigg and Hadwiger 2005 (GPU Gems 2, chapter 20).
 void pairUp(float weights[WIDTH], out float sums[pairs], out float places[pairs]) {
     for (int j = 0; j < pairs; ++j) {
         float second = 2 * j + 1 < WIDTH ? weights[min(2 * j + 1, WIDTH - 1)] : 0.0;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The slice at a frequency: as core/render/frame_*_hwy.inc, without and with cue and light.
-// FIELD_PAGES, PAGES: textures of fields, and with those of gradients after them, each of one or more
-// spectra on top of each other; SLABS: pages that a spectrum is spread over; SUMS, CHANNELS: 1 or 3;
-// SHADED, CUED, LIT: 0 or 1.
+// The slice at a frequency, with or without cue and light, as in core/render/frame_*_hwy.inc.
+// FIELD_PAGES: number of textures ("pages") of fields; PAGES: the same plus those of gradients,
+// which follow. A page holds one or more stacked spectra, or one of the SLABS slabs of a spectrum.
+// SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
 layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
 
-// The last row of each column within the band's disc.
+// The last row of each column inside the disc of the band.
 layout(std430, binding = DISC_ROWS) readonly buffer DiscRows {
     int discRows[];
 };
 
-const int kinds = LIT + 1; // fields, lengths of gradients
+const int kinds = LIT + 1; // fields; gradient lengths under light
 
 Fixed placeOf(int column, int row) {
     Fixed origin = Fixed(frame.originLow, frame.originHigh);
@@ -20,13 +20,13 @@ Fixed placeOf(int column, int row) {
                 times(perRow, uint(row + frame.rows / 2)));
 }
 
-// Where and with which weights is read; whether the conjugate of the mirrored frequency is meant.
-// q: a_d.s.
+// The cells to read and their weights. q: a_d.s. mirrored: the result is the conjugate of the value
+// read.
 Taps tapsAt(Fixed place, out vec3 q, out bool mirrored) {
     ivec3 whole = wholeOf(place);
     vec3 part = partOf(place);
     q = (vec3(whole) + part) * frame.inversePadded.xyz;
-    // The spectrum is periodic; at half a period either copy will do.
+    // The spectrum is periodic; at half a period both copies are equal.
     whole -= ivec3(round(q)) * frame.padded.xyz;
     mirrored = float(whole.x) + part.x < -frame.edgeSlack.x;
     if (mirrored) {
@@ -48,7 +48,8 @@ Taps tapsAt(Fixed place, out vec3 q, out bool mirrored) {
     return taps;
 }
 
-// Of a spectrum in several slabs each holds what a kernel needs. Pages of its kind alone are asked.
+// Each slab of a spectrum holds all cells that a kernel needs. Only the pages of the source's kind
+// are tried.
 Sum readSource(int source, Taps taps, int firstPage, int endPage) {
     int pageOfSource = frame.places[source].page;
     if (SLABS > 1) {
@@ -69,7 +70,7 @@ Sum readSource(int source, Taps taps, int firstPage, int endPage) {
 }
 
 #if SHADED
-// F, and base F + moment of F, as complex numbers.
+// F, and base F + moment of F.
 struct Shades {
     vec2 plain, cued;
 };
@@ -79,14 +80,14 @@ Shades shadesOf(Sum sum, float sign) {
     s.plain = vec2(sum.value.x, sign * sum.value.y);
     s.cued = s.plain;
 #if CUED
-    // -i z; where the mirrored frequency was read, +i conj z.
+    // -i z, or +i conj z if the mirrored frequency was read.
     s.cued = frame.cueBase * s.plain + vec2(sum.moment.y, -sign * sum.moment.x);
 #endif
     return s;
 }
 
-// A term of the shaded slice of an image, see core/render/frame_job.h. *Source*: Totsuka 1993,
-// eq. 3 to 5 and 12 to 14.
+// One term of an image's shaded slice, see core/render/frame_job.h. *Source*: Totsuka 1993, eq. 3
+// to 5 and 12 to 14.
 vec2 shaded(int channel, Shades field, Shades gradient, vec3 q) {
     vec2 slice = frame.shade[channel].ambient * field.cued;
 #if LIT
@@ -122,15 +123,16 @@ void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
         sums[s].moment = vec2(0.0);
 #endif
     }
-    // The kinds one after the other, so that no index into the sums is known at run time only: such
-    // arrays leave the registers.
+    // One kind after the other, so that every index into the sums is a compile-time constant;
+    // otherwise the array leaves the registers.
     for (int source = 0; source < frame.fieldCount; ++source)
         addSource(source, readSource(source, taps, 0, FIELD_PAGES), 0, sums);
 #if LIT
     for (int source = frame.fieldCount; source < frame.sourceCount; ++source)
         addSource(source, readSource(source, taps, FIELD_PAGES, PAGES), SUMS, sums);
 #endif
-    // Known before any rounding: it decides the brightness of the picture.
+    // Frequency 0 decides the brightness of the picture, so its exact value replaces the rounded
+    // sum.
     if (isCentre)
         for (int s = 0; s < kinds * SUMS; ++s) {
             int kindAndSum = s / SUMS * 3 + s % SUMS;
@@ -152,7 +154,7 @@ void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
     }
 }
 
-// Rows from -rows/2 to rows/2 - 1; within the disc.
+// *Requires*: a row of -rows/2 to rows/2 - 1, inside the disc.
 void sliceAt(int column, int row, out vec2 slice[CHANNELS]) {
     for (int c = 0; c < CHANNELS; ++c)
         slice[c] = vec2(0.0);
@@ -160,7 +162,7 @@ void sliceAt(int column, int row, out vec2 slice[CHANNELS]) {
     vec3 q, ofCentre;
     bool mirrored;
     for (int term = 0; term < frame.termCount; ++term) {
-        // Of the picture's own factors the central slice's are taken.
+        // The picture's own factors are those of the central slice.
         Fixed place = plus(centre, Fixed(frame.termLow[term], frame.termHigh[term]));
         Taps taps = tapsAt(place, q, mirrored);
         if (term == 0)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inverse transforms of a line in shared memory, of any length up to ROOM: Stockham's, of mixed
-// radix, without a reordering pass.
+// Inverse transforms of a line in shared memory, of any length up to ROOM: Stockham's mixed-radix
+// algorithm, which needs no reordering pass.
 shared vec2 line[2 * ROOM];
 
-// One stage between two halves of `line`: `done` is the product of the radices before it.
+// One stage from one half of `line` to the other. `done`: product of the radices of earlier stages.
 void stage(int radix, int done, int length, int from, int to, int table) {
     int count = length / radix;
     int turn = length / (done * radix);
@@ -22,8 +22,8 @@ void stage(int radix, int done, int length, int from, int to, int table) {
     }
 }
 
-// Transforms line[0 .. length-1], which all threads have written; where the result begins.
-// `plan`: 0 of a column, 1 of a row.
+// Transforms line[0 .. length-1], which all threads have written, and returns the offset of the
+// result. `plan`: 0 for a column, 1 for a row.
 int transformLine(int length, int plan, int table) {
     int from = 0, done = 1;
     int stages = plan == 0 ? frame.columnStages : frame.rowStages;
