@@ -5,7 +5,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalSpy>
-#include <QSplitter>
 #include <QToolButton>
 
 #include "ui/beside/study_beside.h"
@@ -65,10 +64,9 @@ private:
         turnWheel(projection(), 1);
         const ui::Pose pose = now().pose();
         QSignalSpy moved(&now(), &ui::Document::poseChanged);
-        auto *viewers = find<QSplitter>("viewers");
-        for (const QList<int> &sizes : {QList<int>{2, 1}, {1, 1}}) {
+        for (const int wider : {160, -160}) {
             const int width = now().scene().camera.width;
-            viewers->setSizes(sizes);
+            m_window->resize(m_window->width() + wider, m_window->height());
             QTRY_VERIFY(now().scene().camera.width != width);
             QTRY_VERIFY(std::abs(prior().scene().camera.pixelMm - now().scene().camera.pixelMm) <
                         1e-9);
