@@ -11,11 +11,11 @@ inline constexpr int slice = 2;
 inline constexpr int lines = 3;
 inline constexpr int picture = 0;
 inline constexpr int firstSpectrum = 0;
-inline constexpr int mostSpectra = 64;
-inline constexpr int mostPages = 16;
-inline constexpr int mostTerms = 16;
-inline constexpr int mostPairs = 4;
-inline constexpr int mostPairVectors = 3;
+inline constexpr int maxSpectra = 64;
+inline constexpr int maxPages = 16;
+inline constexpr int maxTerms = 16;
+inline constexpr int maxPairs = 4;
+inline constexpr int maxPairVectors = 3;
 inline constexpr int threads = 128;
 
 } // namespace pellucid::gpu::bindings

@@ -43,9 +43,9 @@ void packPairs(const Kernel &kernel, int axis,
     const std::vector<float> &pairs = kernel.pairs();
     for (std::size_t pair = 0; pair < pairs.size() / (2 * terms); ++pair)
         for (std::size_t n = 0; n < terms; ++n) {
-            auto &vector = vectors[(std::size_t(axis) * bindings::mostPairs + pair) *
-                                       bindings::mostPairVectors +
-                                   n / 2];
+            auto &vector =
+                vectors[(std::size_t(axis) * bindings::maxPairs + pair) * bindings::maxPairVectors +
+                        n / 2];
             vector[n % 2 * 2] = pairs[pair * 2 * terms + n];
             vector[n % 2 * 2 + 1] = pairs[pair * 2 * terms + terms + n];
         }
@@ -174,7 +174,8 @@ FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefin
     block.sourceCount = std::int32_t(mixing.sources.size());
     for (std::size_t s = 0; s < mixing.sources.size(); ++s) {
         const render::FrameSource &source = mixing.sources[s];
-        block.shares[s] = {source.shares[0], source.shares[1], source.shares[2]};
+        block.shares[s] = {source.channelWeights[0], source.channelWeights[1],
+                           source.channelWeights[2]};
         // Fields and their pages come before those of the gradients.
         const bool isField = source.kind == render::FrameKind::field;
         block.fieldCount += isField ? 1 : 0;

@@ -16,7 +16,7 @@ struct FrameBlock {
     template <class T> using Four = std::array<T, 4>;
     template <std::size_t n> using Vectors = std::array<Four<float>, n>;
     static constexpr std::size_t kernelVectors =
-        std::size_t(3) * bindings::mostPairs * bindings::mostPairVectors;
+        std::size_t(3) * bindings::maxPairs * bindings::maxPairVectors;
 
     struct alignas(16) Place {
         std::int32_t page, firstPlane;
@@ -29,8 +29,8 @@ struct FrameBlock {
     };
 
     Four<std::uint32_t> originLow, originHigh, columnLow, columnHigh, rowLow, rowHigh;
-    std::array<Four<std::uint32_t>, bindings::mostTerms> termLow, termHigh;
-    Vectors<bindings::mostTerms> termWeight;
+    std::array<Four<std::uint32_t>, bindings::maxTerms> termLow, termHigh;
+    Vectors<bindings::maxTerms> termWeight;
     std::int32_t columns, rows, pictureColumns, pictureRows, periodRows;
     std::int32_t termCount, fieldCount, sourceCount;
     std::int32_t reconstruction, wraps, slabStep;
@@ -40,8 +40,8 @@ struct FrameBlock {
     alignas(16) Four<std::int32_t> padded; // std140 aligns vectors to their size
     Four<std::int32_t> firstCell;
     Four<float> inversePadded, edgeSlack, perMoment;
-    Vectors<bindings::mostSpectra> shares;
-    std::array<Place, bindings::mostSpectra> places;
+    Vectors<bindings::maxSpectra> shares;
+    std::array<Place, bindings::maxSpectra> places;
     std::array<ZeroSum, 6> zero;
     std::array<ImageShade, 3> shade;
     Vectors<3> gradient, excess;

@@ -20,18 +20,19 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
     render::EngineParts parts = engine.parts();
     return std::make_shared<GpuEngine>(
         SpectrumTextures::upload(std::move(passes), std::move(parts.spectra), progress),
-        std::move(parts.shares), parts.fieldOfView, fetch);
+        std::move(parts.channelWeights), parts.fieldOfView, fetch);
 }
 
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
-                     std::vector<render::ChannelShares> shares,
+                     std::vector<render::ChannelWeights> channelWeights,
                      const plan::FieldOfView &fieldOfView, Fetch fetch)
-    : m_textures(std::move(textures)), m_shares(std::move(shares)), m_fetch(fetch),
+    : m_textures(std::move(textures)), m_channelWeights(std::move(channelWeights)), m_fetch(fetch),
       m_setup(std::make_shared<render::FrameSetup>(fieldOfView)) {}
 
-std::shared_ptr<GpuEngine> GpuEngine::withShares(std::vector<render::ChannelShares> shares) const {
+std::shared_ptr<GpuEngine>
+GpuEngine::withChannelWeights(std::vector<render::ChannelWeights> channelWeights) const {
     auto engine = std::make_shared<GpuEngine>(*this);
-    engine->m_shares = std::move(shares);
+    engine->m_channelWeights = std::move(channelWeights);
     return engine;
 }
 
@@ -42,7 +43,7 @@ std::shared_ptr<GpuEngine> GpuEngine::withoutLight() const {
 }
 
 render::EngineParts GpuEngine::parts() const {
-    return {m_textures->spectra(), m_shares, m_setup->fieldOfView()};
+    return {m_textures->spectra(), m_channelWeights, m_setup->fieldOfView()};
 }
 
 task::Reason GpuEngine::description() const {
@@ -65,14 +66,14 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
                                                            const shading::Shading &shading,
                                                            CardTimes *times) {
     const render::FrameInputs inputs =
-        m_setup->inputsFor(m_textures->spectra(), m_shares, camera, image, shading);
+        m_setup->inputsFor(m_textures->spectra(), m_channelWeights, camera, image, shading);
     if (inputs.isEmpty()) {
         if (times != nullptr)
             *times = {};
         return m_textures->passes()->empty(camera, inputs.pictureChannels());
     }
     const fourier::SpectrumLayout &layout = m_textures->spectra().fields.front()->layout();
-    const render::ChannelShares tint = inputs.tint();
+    const render::ChannelWeights tint = inputs.tint();
     FrameCommand command{.camera = camera, .grid = inputs.grid};
     command.block =
         frameBlock(inputs, image, layout, m_textures->layout(), m_textures->fieldPages());

@@ -35,13 +35,14 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
 /// only share spectra and tables and are cheap to create; only one of them may render at a time.
 class GpuEngine final : public render::ProjectionEngine {
 public:
-    /// *Shape*: shares as for CpuEngine::setShares.
+    /// *Shape*: shares as for CpuEngine::setChannelWeights.
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
-              std::vector<render::ChannelShares> shares, const plan::FieldOfView &fieldOfView,
-              Fetch fetch = Fetch::exact);
+              std::vector<render::ChannelWeights> channelWeights,
+              const plan::FieldOfView &fieldOfView, Fetch fetch = Fetch::exact);
 
     const SpectrumTextures &textures() const { return *m_textures; }
-    std::shared_ptr<GpuEngine> withShares(std::vector<render::ChannelShares> shares) const;
+    std::shared_ptr<GpuEngine>
+    withChannelWeights(std::vector<render::ChannelWeights> channelWeights) const;
     std::shared_ptr<GpuEngine> withoutLight() const;
 
     task::Reason description() const override;
@@ -59,7 +60,7 @@ public:
 
 private:
     std::shared_ptr<const SpectrumTextures> m_textures;
-    std::vector<render::ChannelShares> m_shares;
+    std::vector<render::ChannelWeights> m_channelWeights;
     Fetch m_fetch;
     std::shared_ptr<render::FrameSetup> m_setup; ///< for these spectra with any shares
 };

@@ -76,8 +76,8 @@ SpectrumTextures::SpectrumTextures(std::shared_ptr<FramePasses> passes,
     const std::size_t sources = m_spectra.fields.size() + m_spectra.gradients.size();
     const int pages =
         m_layout.pagesOf(m_spectra.fields.size()) + m_layout.pagesOf(m_spectra.gradients.size());
-    const int units = std::min(bindings::mostPages, card.textureUnits);
-    if (pages > units || sources > std::size_t(bindings::mostSpectra))
+    const int units = std::min(bindings::maxPages, card.textureUnits);
+    if (pages > units || sources > std::size_t(bindings::maxSpectra))
         throw task::Error(task::ErrorCode::outOfMemory,
                           task::because::tooManySpectraForCard(sources, pages));
 }

@@ -29,7 +29,7 @@ public:
     const render::EngineSpectra &spectra() const { return m_spectra; }
     const TexelLayout &layout() const { return m_layout; }
     /// Whether the gradients that lights need are on the card.
-    bool takesLight() const { return !m_gradients.empty(); }
+    bool canBeLit() const { return !m_gradients.empty(); }
     /// Texture names of the fields' pages, followed by the gradients' if `withGradients`.
     std::vector<unsigned> pages(bool withGradients) const;
     int fieldPages() const { return int(m_fields.size()); }

@@ -55,7 +55,7 @@ public:
         row.bytes = double(layers->bytes());
         if (const auto &loss = layers->detailLoss())
             row.predictedError =
-                std::hypot(*row.predictedError, loss->relativeError(m_mixture.shares, {}));
+                std::hypot(*row.predictedError, loss->relativeError(m_mixture.channelWeights, {}));
         report(bothMove(row, layers));
         report(weightsMove(row, *layers));
     }
@@ -79,7 +79,7 @@ private:
 
     Row bothMove(Row row, const std::shared_ptr<prepare::LayerSet> &layers) const {
         row.name = m_name + ", both move";
-        prepare::MixtureEngine engine(layers, m_mixture.shares);
+        prepare::MixtureEngine engine(layers, m_mixture.channelWeights);
         measureEngine(row, engine);
         return row;
     }
@@ -88,15 +88,15 @@ private:
         row.name = m_name + ", weights move";
         std::vector<double> first, later;
         scene::Camera camera = m_subject.scene.camera;
-        auto shares = m_mixture.shares;
+        auto channelWeights = m_mixture.channelWeights;
         const auto render = [&] {
-            return layers.render(camera, m_subject.scene.image, {}, shares);
+            return layers.render(camera, m_subject.scene.image, {}, channelWeights);
         };
         for (const glm::dquat &orientation : randomViews(stillViews)) {
             camera.orientation = orientation;
             render();
             for (int change = 0; change < changes; ++change) {
-                for (double &share : shares[std::size_t(change) % shares.size()])
+                for (double &share : channelWeights[std::size_t(change) % channelWeights.size()])
                     share *= 0.98;
                 const double start = millisecondsNow();
                 render();
@@ -104,7 +104,7 @@ private:
             }
         }
         camera = truthCamera(m_subject);
-        shares = m_mixture.shares;
+        channelWeights = m_mixture.channelWeights;
         render();
         fillError(row, compare(render().samples, m_exact));
         row.frameMs = median(later);

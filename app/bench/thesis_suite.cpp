@@ -153,7 +153,7 @@ double cardTransformMs(const Card &card, const scene::Scene &scene,
     render::CpuEngine engine(
         {{spectrum, spectrum, spectrum}, {}, shading::shadingScale(spectrum->lattice())},
         fieldOfView);
-    engine.setShares({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
+    engine.setChannelWeights({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
     const auto onCard = gpu::copyToCard(card.passes, engine);
     std::vector<double> times;
     scene::Camera camera = scene.camera;

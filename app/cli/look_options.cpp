@@ -105,10 +105,10 @@ shading::Shading shadingFor(const SceneOptions &o, const CLI::App &command,
         shading.lights.clear();
     for (const std::string &text : o.lights)
         shading.lights.push_back(read("--light", text, shading::lightFromText));
-    if (shading.lights.size() > shading::mostLights)
+    if (shading.lights.size() > shading::maxLights)
         throw Error(ErrorCode::usage,
-                    because::inWords(fmt::format("--light: at most {} lights are allowed",
-                                                 shading::mostLights)));
+                    because::inWords(
+                        fmt::format("--light: at most {} lights are allowed", shading::maxLights)));
     return shading;
 }
 

@@ -37,7 +37,7 @@ const std::map<std::string, scene::Reconstruction> reconstructions{
     {"spline", scene::Reconstruction::spline}};
 
 scene::Scene readScene(const fs::path &path) {
-    const std::string text = files::readText(path, files::mostOfPreset);
+    const std::string text = files::readText(path, files::maxPresetBytes);
     try {
         return scene::sceneFromJson(text);
     } catch (const Error &error) { // of the file, not of the command line

@@ -43,7 +43,7 @@ public:
         : m_engine(engine), m_spectrum(*engine.spectra.fields.front()),
           m_layout(m_spectrum.layout()), m_geometry(camera, grid, m_spectrum),
           m_slices(shading::sliceShading(shading, camera.axes(), engine.spectra.scale)),
-          m_mixing(engine.spectra, engine.shares, m_slices, shading.isGrey()),
+          m_mixing(engine.spectra, engine.channelWeights, m_slices, shading.isGrey()),
           m_frameShading(render::frameShading(m_slices, m_mixing, m_spectrum, m_geometry.toWrap,
                                               camera.axes()[2], engine.spectra.scale.stepMm)) {
         if (m_frameShading.cued)
@@ -199,7 +199,8 @@ private:
             if (isZero && term == 0)
                 plain.error = cued.error = 0.0;
             for (std::size_t c = 0; c < std::size_t(m_mixing.sums); ++c) {
-                const double share = double(source.shares[c]) * m_mixing.unit / spectrum.unit();
+                const double share =
+                    double(source.channelWeights[c]) * m_mixing.unit / spectrum.unit();
                 reads[0][kind][c] += share * plain;
                 reads[1][kind][c] += share * cued;
             }
@@ -283,8 +284,8 @@ CentralEnergies centralEnergies(const render::EngineParts &engine, const scene::
         std::size_t(engine.spectra.fields.front()->layout().width()) >= maxTaps)
         return {};
     if (std::all_of(
-            engine.shares.begin(), engine.shares.end(),
-            [](const render::ChannelShares &share) { return share == render::ChannelShares{}; }))
+            engine.channelWeights.begin(), engine.channelWeights.end(),
+            [](const render::ChannelWeights &share) { return share == render::ChannelWeights{}; }))
         return {}; // nothing is shown
     shading::Shading activeShading = shading;
     if (engine.spectra.gradients.empty())

@@ -201,10 +201,10 @@ DetailLoss::DetailLoss(const AxisProjections &fine, const AxisProjections &coars
     }
 }
 
-DetailLoss::Energies DetailLoss::energiesAlong(const Products &products,
-                                               std::span<const render::ChannelShares> shares,
-                                               const shading::Shading &shading,
-                                               int channels) const {
+DetailLoss::Energies
+DetailLoss::energiesAlong(const Products &products,
+                          std::span<const render::ChannelWeights> channelWeights,
+                          const shading::Shading &shading, int channels) const {
     const shading::SliceShading slices =
         shading::sliceShading(shading, glm::dmat3(1.0), {1.0, m_stepMm});
     const bool isLit = shading.isLit() && m_count > m_fields;
@@ -213,7 +213,7 @@ DetailLoss::Energies DetailLoss::energiesAlong(const Products &products,
         const shading::SliceShading::Channel &light = slices.channels[channel];
         std::vector<double> weights(m_count, 0.0), directed(m_count, 0.0);
         for (std::size_t f = 0; f < m_fields; ++f) {
-            const double share = shares[f][channel];
+            const double share = channelWeights[f][channel];
             weights[f] = share * (isLit ? light.ambient : 1.0);
             if (!isLit)
                 continue;
@@ -227,11 +227,11 @@ DetailLoss::Energies DetailLoss::energiesAlong(const Products &products,
     return sum;
 }
 
-double DetailLoss::relativeError(std::span<const render::ChannelShares> shares,
+double DetailLoss::relativeError(std::span<const render::ChannelWeights> channelWeights,
                                  const shading::Shading &shading) const {
     double worst = 0.0;
     for (const Products &products : m_along) {
-        const Energies energies = energiesAlong(products, shares, shading, 3);
+        const Energies energies = energiesAlong(products, channelWeights, shading, 3);
         if (energies.image > 0.0)
             worst = std::max(worst, std::sqrt(energies.error / energies.image));
     }
@@ -240,14 +240,15 @@ double DetailLoss::relativeError(std::span<const render::ChannelShares> shares,
 }
 
 double DetailLoss::relativeError(const picture::ProjectionImage &picture,
-                                 std::span<const render::ChannelShares> shares,
+                                 std::span<const render::ChannelWeights> channelWeights,
                                  const shading::Shading &shading) const {
     double image = 0.0, error = 0.0;
     for (const float sample : picture.samples)
         image += double(sample) * double(sample);
     image *= picture.pixelMm * picture.pixelMm;
     for (const Products &products : m_along)
-        error = std::max(error, energiesAlong(products, shares, shading, picture.channels).error);
+        error = std::max(error,
+                         energiesAlong(products, channelWeights, shading, picture.channels).error);
     return image > 0.0 ? viewMargin * rangeOf(shading.cue).most * std::sqrt(error / image) : 0.0;
 }
 

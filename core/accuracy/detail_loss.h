@@ -51,12 +51,12 @@ public:
     /// The relative L2 error of a whole coarse picture with these channel weights, this cue and
     /// light: that of the worst axis, with a margin for views between the axes. It applies to
     /// pixels the size of the samples; larger pixels lose less. *Shape*: one weight per field.
-    double relativeError(std::span<const render::ChannelShares> shares,
+    double relativeError(std::span<const render::ChannelWeights> channelWeights,
                          const shading::Shading &shading) const;
     /// The same for a picture that may be a part of the whole: the part is charged with the loss of
     /// the whole.
     double relativeError(const picture::ProjectionImage &picture,
-                         std::span<const render::ChannelShares> shares,
+                         std::span<const render::ChannelWeights> channelWeights,
                          const shading::Shading &shading) const;
 
 private:
@@ -73,7 +73,8 @@ private:
     struct Energies {
         double image = 0.0, error = 0.0;
     };
-    Energies energiesAlong(const Products &products, std::span<const render::ChannelShares> shares,
+    Energies energiesAlong(const Products &products,
+                           std::span<const render::ChannelWeights> channelWeights,
                            const shading::Shading &shading, int channels) const;
     std::size_t m_fields, m_count; ///< without and with gradients
     double m_stepMm;

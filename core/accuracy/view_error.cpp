@@ -18,15 +18,15 @@ namespace {
 // The weights of all fields in a channel. The gradients, if they were prepared for light, follow
 // the fields.
 std::vector<FieldWeight> weightsOf(std::size_t fields,
-                                   const std::vector<render::ChannelShares> &shares,
+                                   const std::vector<render::ChannelWeights> &channelWeights,
                                    std::size_t channel, const shading::Shading &shading,
                                    const shading::SliceShading &slices) {
     const bool isLit = shading.isLit();
     const shading::SliceShading::Channel &light = slices.channels[channel];
     std::vector<FieldWeight> weights(fields);
     for (std::size_t f = 0; f < fields; ++f) {
-        const bool isGradient = f >= shares.size();
-        const double share = shares[isGradient ? f - shares.size() : f][channel];
+        const bool isGradient = f >= channelWeights.size();
+        const double share = channelWeights[isGradient ? f - channelWeights.size() : f][channel];
         if (!isLit || !isGradient) {
             const double weight = isGradient ? 0.0 : share * (isLit ? light.ambient : 1.0);
             weights[f] = {weight, weight * weight, isGradient};
@@ -62,7 +62,7 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
                                      const shading::Shading &shading) const {
     if (picture.samples.empty())
         return {m_bound, true};
-    const std::vector<render::ChannelShares> &shares = engine.shares;
+    const std::vector<render::ChannelWeights> &channelWeights = engine.channelWeights;
     // Without light the weights do not depend on R and the step.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
     const plan::SliceGrid grid = plan::sliceGrid(camera, m_fieldOfView, m_fields.lattice, image);
@@ -74,13 +74,13 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
         const auto c = std::size_t(channel);
         const ChannelEnergies energies =
             channelEnergies(m_fields, m_bound, context, channel,
-                            weightsOf(m_fields.fields.size(), shares, c, shading, slices));
+                            weightsOf(m_fields.fields.size(), channelWeights, c, shading, slices));
         energy += energies.image;
         error += energies.error;
-        const auto isShown = [&](const render::ChannelShares &share) { return share[c] != 0.0; };
+        const auto isShown = [&](const render::ChannelWeights &share) { return share[c] != 0.0; };
         isWhole = isWhole && energies.isWhole;
-        hasOneFieldEach =
-            hasOneFieldEach && std::count_if(shares.begin(), shares.end(), isShown) <= 1;
+        hasOneFieldEach = hasOneFieldEach &&
+                          std::count_if(channelWeights.begin(), channelWeights.end(), isShown) <= 1;
     }
     const double estimate = relativeError(energy, error);
     return {isWhole && hasOneFieldEach ? std::min(m_bound, estimate) : estimate, isWhole};

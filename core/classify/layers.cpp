@@ -13,14 +13,14 @@ Mixture mixtureOf(const Look &look) {
         const auto &weights = look.transferFunction.weights;
         for (std::size_t n = 0; n < weights.size(); ++n) {
             mixture.layers.push_back({{}, int(n), look.transferFunction.degree()});
-            mixture.shares.push_back({weights[n], weights[n], weights[n]});
+            mixture.channelWeights.push_back({weights[n], weights[n], weights[n]});
         }
         return mixture;
     }
     for (TissueClass tissue : look.classes) {
         const double w = tissue.weight;
         const Color c = tissue.color;
-        mixture.shares.push_back({w * c.red, w * c.green, w * c.blue});
+        mixture.channelWeights.push_back({w * c.red, w * c.green, w * c.blue});
         // Weight, colour and name do not change its samples.
         tissue.weight = 1.0;
         tissue.color = {};

@@ -22,7 +22,8 @@ struct Layer {
 /// Layers and their channel weights: a look is the sum of weight times layer.
 struct Mixture {
     std::vector<Layer> layers;
-    std::vector<std::array<double, 3>> shares; ///< of red, green and blue, one entry per layer
+    std::vector<std::array<double, 3>>
+        channelWeights; ///< of red, green and blue, one entry per layer
 };
 
 /// A look as a mixture. Looks that differ only in weights, colours and control points have the same

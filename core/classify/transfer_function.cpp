@@ -57,10 +57,10 @@ bool TransferFunction::isPlain() const {
 
 void validate(const TransferFunction &function) {
     const int points = int(function.weights.size());
-    if (points < TransferFunction::fewestPoints || points > TransferFunction::mostPoints)
+    if (points < TransferFunction::minPoints || points > TransferFunction::maxPoints)
         throw task::Error(task::ErrorCode::usage,
-                          task::because::weightsOutOfRange(TransferFunction::fewestPoints,
-                                                           TransferFunction::mostPoints, points));
+                          task::because::weightsOutOfRange(TransferFunction::minPoints,
+                                                           TransferFunction::maxPoints, points));
     for (const double weight : function.weights)
         if (!(weight >= 0.0 && weight <= TransferFunction::largestWeight))
             throw task::Error(task::ErrorCode::usage,

@@ -14,7 +14,7 @@ double bernstein(int index, int degree, double f);
 /// the density is unchanged. The product has n times the bandwidth, and sampling aliases it: the
 /// field is defined by these samples. *Source*: Cheng 2007, eq. 34 to 36.
 struct TransferFunction {
-    static constexpr int fewestPoints = 2, mostPoints = 16;
+    static constexpr int minPoints = 2, maxPoints = 16;
     static constexpr double largestWeight = 2.0;
 
     std::vector<double> weights = std::vector<double>(6, 1.0); ///< P_i, 0..largestWeight

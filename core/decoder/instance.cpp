@@ -31,8 +31,8 @@ std::optional<task::Reason> whyUnusable(const InstanceHeader &h) {
         return because::hasAnImageWithoutSize;
     if (h.rows > 65535 || h.columns > 65535)
         return because::hasATooLargeImage;
-    if (h.announcedFrames != int(h.frames.size()))
-        return because::announcesTooManyFrames(h.announcedFrames);
+    if (h.declaredFrames != int(h.frames.size()))
+        return because::announcesTooManyFrames(h.declaredFrames);
     const bool isMonochrome =
         h.photometric == "MONOCHROME1" || h.photometric == "MONOCHROME2" || h.photometric.empty();
     if (!isMonochrome)
@@ -65,7 +65,7 @@ bool isHuge(const InstanceHeader &h, std::uint64_t fileBytes) {
 }
 
 bool hasSurplusPixels(const InstanceHeader &h) {
-    const double tiles = h.mosaicSide > 0 ? double(h.mosaicSide) * h.mosaicSide : h.announcedFrames;
+    const double tiles = h.mosaicSide > 0 ? double(h.mosaicSide) * h.mosaicSide : h.declaredFrames;
     const double described =
         double(h.rows) * h.columns * h.samplesPerPixel * h.bitsAllocated / 8.0 * tiles;
     return double(h.pixelBytes) > described + 1.0;

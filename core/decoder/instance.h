@@ -65,7 +65,7 @@ struct InstanceHeader {
     int seriesNumber = 0, instanceNumber = 0;
     bool hasPixels = false, floatPixels = false;
     int rows = 0, columns = 0, samplesPerPixel = 1;
-    int announcedFrames = 1;      ///< NumberOfFrames, whether or not the file has them
+    int declaredFrames = 1;       ///< NumberOfFrames, whether or not the file has them
     std::uint32_t pixelBytes = 0; ///< of uncompressed pixels, as their element states; 0: unknown
     int bitsAllocated = 0, bitsStored = 0, highBit = 0;
     int pixelRepresentation = 0; ///< 0: unsigned, 1: signed, -1: missing

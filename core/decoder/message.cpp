@@ -146,7 +146,7 @@ template <class A> void pass(A &archive, InstanceHeader &h) {
         pass(archive, *text);
     for (int *const number :
          {&h.seriesNumber, &h.instanceNumber, &h.rows, &h.columns, &h.samplesPerPixel,
-          &h.announcedFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.pixelRepresentation,
+          &h.declaredFrames, &h.bitsAllocated, &h.bitsStored, &h.highBit, &h.pixelRepresentation,
           &h.modalityTableFirst, &h.mosaicSide})
         pass(archive, *number);
     pass(archive, h.pixelBytes);
@@ -313,7 +313,7 @@ VolumeLayout unpackLayout(std::span<const std::byte> body) {
         fail();
     // Divided, not multiplied: the product of three sizes may wrap.
     if (std::uint64_t(n.i) >
-        std::uint64_t(volume::mostSamples) / std::uint64_t(n.j) / std::uint64_t(n.k))
+        std::uint64_t(volume::maxSamples) / std::uint64_t(n.j) / std::uint64_t(n.k))
         fail();
     return layout;
 }

@@ -275,8 +275,9 @@ void addVolumes(const Frames &frames, const task::Progress &progress, Stacks &st
         std::vector<task::Reason> warnings;
         for (Frames &block : spacesOf(images, warnings)) {
             sortByDepth(block);
-            const std::vector<Part> parts = placesRepeat(block) ? splitRepeats(block, progress)
-                                                                : std::vector<Part>{{{}, block}};
+            const std::vector<Part> parts = hasRepeatedPositions(block)
+                                                ? splitRepeats(block, progress)
+                                                : std::vector<Part>{{{}, block}};
             // Phases share their stacks, each run of slices is one.
             std::map<std::pair<std::size_t, bool>, std::size_t> runs;
             for (const Part &part : parts) {

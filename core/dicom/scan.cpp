@@ -238,7 +238,7 @@ private:
         std::error_code unknown;
         const auto bytes = fs::file_size(path, unknown);
         contents.reason = decoder::whyUnusable(header);
-        if (!contents.reason && !m_options.takesHuge && decoder::isHuge(header, bytes)) {
+        if (!contents.reason && !m_options.includesHuge && decoder::isHuge(header, bytes)) {
             contents.reason = hugeReason(header, bytes);
             contents.isHuge = true;
         }

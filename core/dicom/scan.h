@@ -12,7 +12,7 @@ namespace pellucid::dicom {
 struct ScanOptions {
     /// Also uses images that are unusually large, or need far more memory than their files have
     /// bytes.
-    bool takesHuge = false;
+    bool includesHuge = false;
 };
 
 /// Searches files, folders (recursively, without following links to folders), DICOMDIRs, ZIP

@@ -72,14 +72,14 @@ std::vector<Part> splitBy(const Frames &sorted, const Attribute &attribute,
 // A split is right if every part has each position exactly once.
 bool separates(const std::vector<Part> &parts, std::size_t places) {
     return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
-               return part.frames.size() == places && !placesRepeat(part.frames);
+               return part.frames.size() == places && !hasRepeatedPositions(part.frames);
            });
 }
 
 // Good enough if slices are missing: no position twice, and no very small part.
 bool nearlySeparates(const std::vector<Part> &parts, std::size_t places) {
     return parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const Part &part) {
-               return 2 * part.frames.size() > places && !placesRepeat(part.frames);
+               return 2 * part.frames.size() > places && !hasRepeatedPositions(part.frames);
            });
 }
 
@@ -108,7 +108,7 @@ std::vector<Part> splitByNumber(const Frames &sorted, const task::Progress &prog
 
 } // namespace
 
-bool placesRepeat(const Frames &sorted) {
+bool hasRepeatedPositions(const Frames &sorted) {
     return std::adjacent_find(sorted.begin(), sorted.end(), samePosition) != sorted.end();
 }
 

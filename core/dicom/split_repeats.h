@@ -15,7 +15,7 @@ struct Part {
 };
 
 /// Whether several frames have the same position. *Shape*: sorted by depth.
-bool placesRepeat(const std::vector<PlacedFrame> &sorted);
+bool hasRepeatedPositions(const std::vector<PlacedFrame> &sorted);
 
 /// Splits a stack with repeated positions into parts that have each position once. Uses the first
 /// attribute that separates them (temporal position, acquisition, echo, b-value, ...), or nearly

@@ -8,7 +8,7 @@
 namespace pellucid::files {
 
 /// Larger files are not presets or scenes.
-inline constexpr std::size_t mostOfPreset = std::size_t(1) << 20;
+inline constexpr std::size_t maxPresetBytes = std::size_t(1) << 20;
 
 /// All bytes of a file. *Throws* Error{unusable} with path and reason if it is not a regular file,
 /// cannot be read or has more than `maxBytes` bytes.

@@ -29,7 +29,7 @@ public:
 
     const std::filesystem::path &path() const { return m_path; }
     /// If set, the folder stays and is removed as an abandoned one by the next program.
-    void setLeft(bool isAbandoned) { m_isAbandoned = isAbandoned; }
+    void setAbandoned(bool isAbandoned) { m_isAbandoned = isAbandoned; }
 
 private:
     void make(const std::filesystem::path &parent);

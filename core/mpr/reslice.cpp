@@ -108,7 +108,7 @@ std::vector<Node> nodesOf(double thicknessMm, double stepMm) {
 // A part of a row: the slab at its points, node by node.
 class SlabRun {
 public:
-    static constexpr int most = SampleLine::mostPoints;
+    static constexpr int most = SampleLine::maxPoints;
 
     SlabRun(SlabMode mode, int count) : m_mode(mode), m_count(count) {
         m_values.fill(empty());
@@ -179,7 +179,7 @@ public:
         : m_data(samples.data()), m_size(size), m_samples(samples.data(), size),
           m_interpolation(interpolation) {}
 
-    // *Requires*: `count` is at most mostPoints. The points of [first, end) are inside.
+    // *Requires*: `count` is at most maxPoints. The points of [first, end) are inside.
     void sample(const glm::dvec3 &start, const glm::dvec3 &step, int count, float *values,
                 int &first, int &end) const {
         m_samples.within(start, step, count, first, end);
@@ -187,7 +187,7 @@ public:
             return;
         const glm::dvec3 from = start + double(first) * step;
         // 32-bit indices count the samples of a line, and neighbours along rows are read in pairs.
-        const double reach = SampleLine::mostPoints * (std::abs(step.z) + std::abs(step.y)) + 4.0;
+        const double reach = SampleLine::maxPoints * (std::abs(step.z) + std::abs(step.y)) + 4.0;
         if (m_interpolation == Interpolation::linear && m_size.i > 1 &&
             reach * m_size.i * m_size.j < double(1 << 29)) {
             linearSamples(m_data, m_size, {from, step, end - first}, values);
@@ -244,7 +244,7 @@ Grid gridOf(const volume::Lattice &lattice, const Plane &plane) {
 template <class T>
 void addNodes(SlabRun &run, const Lines<T> &lines, const glm::dvec3 &start, int lanes,
               const Grid &grid, const std::vector<Node> &nodes) {
-    std::array<float, SampleLine::mostPoints> values;
+    std::array<float, SampleLine::maxPoints> values;
     int first, end;
     const auto addRun = [&](const Node &node) {
         lines.sample(start + node.mm * grid.perMm, grid.lane, lanes, values.data(), first, end);
@@ -261,10 +261,10 @@ void addNodes(SlabRun &run, const Lines<T> &lines, const glm::dvec3 &start, int 
     addRun(nodes.front());
     addRun(nodes.back());
     for (int c = 0; c < lanes; ++c)
-        for (int n = 0; n < inner; n += SampleLine::mostPoints) {
+        for (int n = 0; n < inner; n += SampleLine::maxPoints) {
             const Node *const at = &nodes[std::size_t(n + 1)];
             lines.sample(start + double(c) * grid.lane + at->mm * grid.perMm, step,
-                         std::min(inner - n, SampleLine::mostPoints), values.data(), first, end);
+                         std::min(inner - n, SampleLine::maxPoints), values.data(), first, end);
             run.addTo(c, values.data(), at + first, end - first);
         }
 }

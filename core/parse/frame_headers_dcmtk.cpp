@@ -200,7 +200,7 @@ void readFrames(DcmDataset &dataset, const CharacterSets &sets, std::size_t file
     const auto count = readNumber(&dataset, DCM_NumberOfFrames);
     const bool hasCount = count && *count >= 1.0;
     const double most = std::min(double(decoder::maxFrames), double(fileBytes));
-    header.announcedFrames = hasCount ? int(std::min(*count, 2147483647.0)) : 1;
+    header.declaredFrames = hasCount ? int(std::min(*count, 2147483647.0)) : 1;
     readPerFrame(dataset, sets, shared, hasCount ? int(std::min(*count, most)) : 1, header);
     if (DcmItem *transform = sequenceItem(sharedGroups, DCM_PixelValueTransformationSequence);
         transform != nullptr && header.rescaleType.empty())

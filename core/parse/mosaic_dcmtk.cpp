@@ -133,7 +133,7 @@ void splitTiles(decoder::InstanceHeader &header, const Mosaic &mosaic) {
             *header.frames[std::size_t(n)].positionMm +=
                 double(n) * first.sliceThicknessMm * mosaic.normal;
     header.mosaicSide = mosaic.side;
-    header.announcedFrames = mosaic.slices;
+    header.declaredFrames = mosaic.slices;
     header.rows = rows;
     header.columns = columns;
 }

@@ -51,9 +51,9 @@ struct Header {
 };
 
 Header readHeader(std::span<const std::byte> file) {
-    constexpr std::size_t mostBytes = 1 << 20; // larger ones are not headers
+    constexpr std::size_t maxBytes = 1 << 20; // larger ones are not headers
     std::string_view rest(reinterpret_cast<const char *>(file.data()),
-                          std::min(file.size(), mostBytes));
+                          std::min(file.size(), maxBytes));
     Header header;
     while (!rest.empty()) {
         const auto end = rest.find('\n');

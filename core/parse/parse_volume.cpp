@@ -37,7 +37,7 @@ volume::GridSize gridSize(const std::array<long long, 3> &sizes) {
         if (n < 1 || n > std::numeric_limits<int>::max() / 4)
             throw Error(ErrorCode::unusable, because::sizeOutOfRange);
         // Divided, not multiplied: the product of three sizes may wrap.
-        if (std::uint64_t(n) > std::uint64_t(volume::mostSamples) / count)
+        if (std::uint64_t(n) > std::uint64_t(volume::maxSamples) / count)
             throw Error(ErrorCode::unusable, because::volumeTooLarge);
         count *= std::uint64_t(n);
     }

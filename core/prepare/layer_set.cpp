@@ -16,13 +16,13 @@ namespace pellucid::prepare {
 
 namespace {
 
-constexpr std::size_t mostSamples = std::size_t(1) << 25;
+constexpr std::size_t maxSamples = std::size_t(1) << 25;
 constexpr int minSamples = 32;
-constexpr render::ChannelShares none{0.0, 0.0, 0.0};
+constexpr render::ChannelWeights none{0.0, 0.0, 0.0};
 
 int minReduction(const volume::GridSize &size) {
     int reduction = 1;
-    while (size.count() / (std::size_t(reduction) * reduction * reduction) > mostSamples)
+    while (size.count() / (std::size_t(reduction) * reduction * reduction) > maxSamples)
         ++reduction;
     return reduction;
 }
@@ -114,17 +114,18 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
 }
 
 void LayerSet::keep(std::size_t layer) {
-    std::vector<render::ChannelShares> alone(count(), none);
+    std::vector<render::ChannelWeights> alone(count(), none);
     alone[layer] = {1.0, 1.0, 1.0};
-    m_engine->setShares(std::move(alone));
+    m_engine->setChannelWeights(std::move(alone));
     m_kept->projections[layer] =
         std::move(m_engine->render(m_kept->camera, m_kept->image, m_kept->shading).samples);
 }
 
-picture::ProjectionImage LayerSet::sumKept(const std::vector<render::ChannelShares> &shares) const {
+picture::ProjectionImage
+LayerSet::sumKept(const std::vector<render::ChannelWeights> &channelWeights) const {
     const scene::Camera &camera = m_kept->camera;
     picture::ProjectionImage image{
-        camera.width, camera.height, camera.pixelMm, {}, render::areGrey(shares) ? 1 : 3};
+        camera.width, camera.height, camera.pixelMm, {}, render::areGrey(channelWeights) ? 1 : 3};
     const auto channels = std::size_t(image.channels);
     const std::size_t pixels = std::size_t(camera.width) * camera.height;
     image.samples.resize(pixels * channels);
@@ -138,9 +139,9 @@ picture::ProjectionImage LayerSet::sumKept(const std::vector<render::ChannelShar
                                                 size = std::min(block, pixels - first);
                               for (std::size_t c = 0; c < channels; ++c)
                                   sums[c].fill(0.0F);
-                              for (std::size_t n = 0; n < shares.size(); ++n)
+                              for (std::size_t n = 0; n < channelWeights.size(); ++n)
                                   for (std::size_t c = 0; c < channels; ++c) {
-                                      const auto share = float(shares[n][c]);
+                                      const auto share = float(channelWeights[n][c]);
                                       if (share == 0.0F)
                                           continue;
                                       const float *const from =
@@ -161,22 +162,22 @@ picture::ProjectionImage LayerSet::sumKept(const std::vector<render::ChannelShar
 picture::ProjectionImage LayerSet::render(const scene::Camera &camera,
                                           const scene::ImageDefinition &image,
                                           const shading::Shading &shading,
-                                          const std::vector<render::ChannelShares> &shares,
+                                          const std::vector<render::ChannelWeights> &channelWeights,
                                           picture::FrameTimes *times) {
     const bool sameView =
         m_kept && m_kept->camera == camera && m_kept->image == image && m_kept->shading == shading;
     if (!sameView) {
         // While the view moves, kept projections would not be reused.
         m_kept = Kept{camera, image, shading, std::vector<std::vector<float>>(count())};
-        m_engine->setShares(shares);
+        m_engine->setChannelWeights(channelWeights);
         return m_engine->render(camera, image, shading, times);
     }
     const double start = render::frameClockSeconds();
     try {
-        for (std::size_t n = 0; n < shares.size(); ++n)
-            if (shares[n] != none && m_kept->projections[n].empty())
+        for (std::size_t n = 0; n < channelWeights.size(); ++n)
+            if (channelWeights[n] != none && m_kept->projections[n].empty())
                 keep(n);
-        picture::ProjectionImage sum = sumKept(shares);
+        picture::ProjectionImage sum = sumKept(channelWeights);
         if (times != nullptr)
             *times = {1e3 * (render::frameClockSeconds() - start), 0.0};
         return sum;
@@ -186,13 +187,14 @@ picture::ProjectionImage LayerSet::render(const scene::Camera &camera,
     }
 }
 
-render::EngineParts LayerSet::parts(const std::vector<render::ChannelShares> &shares) const {
-    return {m_engine->spectra(), shares, m_engine->fieldOfView()};
+render::EngineParts
+LayerSet::parts(const std::vector<render::ChannelWeights> &channelWeights) const {
+    return {m_engine->spectra(), channelWeights, m_engine->fieldOfView()};
 }
 
 MixtureEngine::MixtureEngine(std::shared_ptr<LayerSet> layers,
-                             std::vector<render::ChannelShares> shares)
-    : m_layers(std::move(layers)), m_shares(std::move(shares)) {}
+                             std::vector<render::ChannelWeights> channelWeights)
+    : m_layers(std::move(layers)), m_channelWeights(std::move(channelWeights)) {}
 
 task::Reason MixtureEngine::description() const {
     return m_layers->description();
@@ -202,7 +204,7 @@ picture::ProjectionImage MixtureEngine::render(const scene::Camera &camera,
                                                const scene::ImageDefinition &image,
                                                const shading::Shading &shading,
                                                picture::FrameTimes *times) {
-    return m_layers->render(camera, image, shading, m_shares, times);
+    return m_layers->render(camera, image, shading, m_channelWeights, times);
 }
 
 } // namespace pellucid::prepare

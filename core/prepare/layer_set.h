@@ -42,24 +42,25 @@ public:
     std::size_t bytes() const { return m_engine->bytes(); }
 
     /// Not thread-safe. Layers are not lit, because light is not linear in them: the length of the
-    /// gradient of a sum is not the sum of the gradients' lengths. *Shape*: `shares` has one entry
-    /// per layer. *Throws* Error{outOfMemory}.
+    /// gradient of a sum is not the sum of the gradients' lengths. *Shape*: `channelWeights` has
+    /// one entry per layer. *Throws* Error{outOfMemory}.
     picture::ProjectionImage render(const scene::Camera &camera,
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading,
-                                    const std::vector<render::ChannelShares> &shares,
+                                    const std::vector<render::ChannelWeights> &channelWeights,
                                     picture::FrameTimes *times = nullptr);
 
     task::Reason description() const { return m_engine->description(); }
     /// The engine parts with these channel weights. Thread-safe.
-    render::EngineParts parts(const std::vector<render::ChannelShares> &shares) const;
+    render::EngineParts parts(const std::vector<render::ChannelWeights> &channelWeights) const;
 
 private:
     LayerSet(std::shared_ptr<render::CpuEngine> engine, plan::RenderPlan plan, int reduction,
              std::shared_ptr<const accuracy::ViewErrorModel> viewError,
              std::shared_ptr<const accuracy::DetailLoss> detailLoss);
     void keep(std::size_t layer);
-    picture::ProjectionImage sumKept(const std::vector<render::ChannelShares> &shares) const;
+    picture::ProjectionImage
+    sumKept(const std::vector<render::ChannelWeights> &channelWeights) const;
 
     std::shared_ptr<render::CpuEngine> m_engine;
     plan::RenderPlan m_plan;
@@ -79,17 +80,18 @@ private:
 /// Layers with fixed channel weights, as an engine.
 class MixtureEngine final : public render::ProjectionEngine {
 public:
-    MixtureEngine(std::shared_ptr<LayerSet> layers, std::vector<render::ChannelShares> shares);
+    MixtureEngine(std::shared_ptr<LayerSet> layers,
+                  std::vector<render::ChannelWeights> channelWeights);
     task::Reason description() const override;
     picture::ProjectionImage render(const scene::Camera &camera,
                                     const scene::ImageDefinition &image,
                                     const shading::Shading &shading = {},
                                     picture::FrameTimes *times = nullptr) override;
-    render::EngineParts parts() const override { return m_layers->parts(m_shares); }
+    render::EngineParts parts() const override { return m_layers->parts(m_channelWeights); }
 
 private:
     std::shared_ptr<LayerSet> m_layers;
-    std::vector<render::ChannelShares> m_shares;
+    std::vector<render::ChannelWeights> m_channelWeights;
 };
 
 } // namespace pellucid::prepare

@@ -49,10 +49,10 @@ Step followWeights(const PreparedFor &look, const Have &have) {
     // The engine of an earlier sum is obsolete and would slow down the interaction.
     if (isMaking(have, Underway::Makes::engine))
         return Step::stopJob;
-    if (have.layers && have.layers->hasLayersOf(look))
+    if (have.layers && have.layers->hasSameLayersAs(look))
         return Step::showLayers;
-    if ((have.underway && have.underway->of.hasLayersOf(look)) ||
-        (have.layersGivenUp && have.layersGivenUp->hasLayersOf(look)))
+    if ((have.underway && have.underway->of.hasSameLayersAs(look)) ||
+        (have.layersGivenUp && have.layersGivenUp->hasSameLayersAs(look)))
         return Step::awaitRest;
     return start(Step::startLayers, have);
 }
@@ -66,11 +66,11 @@ Step follow(const PreparedFor &look, const Have &have) {
         return backToFull(have);
     // A coarse picture with other weights is about to arrive, and the next one follows it. If a
     // continuing drag stopped it, the user would never see any.
-    if (have.underway && have.underway->isCoarseToCome && look.hasLayersOf(have.underway->of))
+    if (have.underway && have.underway->isCoarsePending && look.hasSameLayersAs(have.underway->of))
         return Step::nothing;
     if (have.full && look.showsSameAs(*have.full))
         return followCueAndLight(look, have);
-    if (have.full && look.hasLayersOf(*have.full))
+    if (have.full && look.hasSameLayersAs(*have.full))
         return followWeights(look, have);
     return start(Step::startCoarseFirst, have);
 }
@@ -98,14 +98,15 @@ Step next(const Wanted &wanted, const Have &have) {
         return follow(look, have);
     case Occasion::handRested:
         return settle(look, have);
-    case Occasion::fullCame:
+    case Occasion::fullArrived:
         // A small volume has no coarse engine, so the user waited for the full one. If the look has
         // changed meanwhile, it gets its own brightness.
         return have.isHeld || look == have.full ? Step::nothing
                                                 : start(Step::startCoarseFirst, have);
-    case Occasion::layersCame:
-        return have.full && look != have.full && look.hasLayersOf(*have.layers) ? Step::showLayers
-                                                                                : Step::nothing;
+    case Occasion::layersArrived:
+        return have.full && look != have.full && look.hasSameLayersAs(*have.layers)
+                   ? Step::showLayers
+                   : Step::nothing;
     case Occasion::gaveUp:
         // The previous full picture is better than a coarse one that will not be completed.
         return have.full && isPlaceholderShown(have) ? Step::showFull : Step::nothing;
@@ -159,15 +160,16 @@ Have afterStep(Step step, const PreparedFor &look, Have have) {
 
 Have afterCoarse(const PreparedFor &of, Have have) {
     if (have.underway)
-        have.underway->isCoarseToCome = false;
-    have.shown = have.full && of.hasLayersOf(*have.full) ? EngineStage::live : EngineStage::coarse;
+        have.underway->isCoarsePending = false;
+    have.shown =
+        have.full && of.hasSameLayersAs(*have.full) ? EngineStage::live : EngineStage::coarse;
     return have;
 }
 
 Have afterFull(const PreparedFor &of, Have have) {
     have.underway.reset();
     have.givenUp.reset();
-    if (have.layers && !have.layers->hasLayersOf(of)) {
+    if (have.layers && !have.layers->hasSameLayersAs(of)) {
         have.layers.reset();
         have.shown.reset();
     }

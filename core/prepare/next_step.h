@@ -24,7 +24,7 @@ struct Underway {
     enum class Makes { engine, layers };
     Makes makes = Makes::engine;
     PreparedFor of;
-    bool isCoarseToCome = false; ///< the engine's coarse picture is still to come
+    bool isCoarsePending = false; ///< the engine's coarse picture is still to come
 };
 
 /// What exists, what is being made, and what was given up.
@@ -40,11 +40,11 @@ struct Have {
 
 /// What has just happened.
 enum class Occasion {
-    sceneChanged, ///< by a drag that may continue; also if the same scene is requested again
-    handRested,   ///< the weights have not changed for a while
-    fullCame,     ///< a full engine was delivered and is shown
-    layersCame,   ///< coarse or full layers were delivered
-    gaveUp        ///< a full engine was cancelled or failed
+    sceneChanged,  ///< by a drag that may continue; also if the same scene is requested again
+    handRested,    ///< the weights have not changed for a while
+    fullArrived,   ///< a full engine was delivered and is shown
+    layersArrived, ///< coarse or full layers were delivered
+    gaveUp         ///< a full engine was cancelled or failed
 };
 
 /// The requested look, and why it is asked for now.

@@ -114,9 +114,9 @@ std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
         spectra.gradients.push_back(prepare(gradient));
     auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
     if (channels.fields.size() == 1)
-        engine->setShares({{color.red, color.green, color.blue}});
+        engine->setChannelWeights({{color.red, color.green, color.blue}});
     else
-        engine->setShares({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
+        engine->setChannelWeights({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
     return engine;
 }
 
@@ -131,13 +131,13 @@ PreparedEngine prepareEngine(const scene::Scene &scene, const ShadedFields &fiel
     auto engine =
         makeEngine(fitting.reduced ? *fitting.reduced : fields, color, fitting.plan, progress);
     const std::size_t bytes = engine->bytes();
-    const bool takesLight = engine->takesLight();
+    const bool canBeLit = engine->canBeLit();
     const plan::SpectrumOf of =
         fields.fields.size() > 1 ? plan::SpectrumOf::channel : plan::SpectrumOf::look;
     return {std::move(engine),
             std::move(fitting.plan),
             bytes,
-            takesLight,
+            canBeLit,
             std::move(viewError),
             false,
             {},
@@ -168,10 +168,9 @@ std::optional<double> errorOf(const PreparedEngine &prepared,
         prepared.viewError
             ? prepared.viewError->errorOf(picture, camera, image, parts, shading).relative
             : prepared.plan.predictedError;
-    return prepared.isCoarse
-               ? std::hypot(fieldError,
-                            prepared.detailLoss->relativeError(picture, parts.shares, shading))
-               : fieldError;
+    return prepared.isCoarse ? std::hypot(fieldError, prepared.detailLoss->relativeError(
+                                                          picture, parts.channelWeights, shading))
+                             : fieldError;
 }
 
 std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double fieldError,
@@ -180,15 +179,15 @@ std::optional<double> errorAgainstStudy(const PreparedEngine &prepared, double f
         return fieldError;
     if (!prepared.detailLoss)
         return std::nullopt;
-    return std::hypot(fieldError,
-                      prepared.detailLoss->relativeError(prepared.engine->parts().shares, shading));
+    return std::hypot(fieldError, prepared.detailLoss->relativeError(
+                                      prepared.engine->parts().channelWeights, shading));
 }
 
 PreparedEngine withoutLight(const PreparedEngine &prepared) {
     render::EngineParts parts = prepared.engine->parts();
     parts.spectra.gradients.clear();
     auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.fieldOfView);
-    engine->setShares(std::move(parts.shares));
+    engine->setChannelWeights(std::move(parts.channelWeights));
     const std::size_t bytes = engine->bytes();
     plan::RenderPlan plan = prepared.plan;
     plan.bytes -= prepared.bytes - bytes;

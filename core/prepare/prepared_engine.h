@@ -40,7 +40,7 @@ struct PreparedEngine {
     std::shared_ptr<render::ProjectionEngine> engine;
     plan::RenderPlan plan;
     std::size_t bytes = 0; ///< of the spectra
-    bool takesLight = false;
+    bool canBeLit = false;
     /// Predicts the error of single pictures of the prepared fields. Null if the plan reduced the
     /// fields: then the plan's own error includes that.
     std::shared_ptr<const accuracy::ViewErrorModel> viewError;

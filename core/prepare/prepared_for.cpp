@@ -11,7 +11,7 @@ PreparedFor::PreparedFor(const scene::Scene &scene)
       interpolation(scene.interpolation), image(scene.image),
       cue(scene::plannedCue(scene.shading.cue)), isLit(scene.shading.isLit()) {}
 
-bool PreparedFor::hasLayersOf(const PreparedFor &other) const {
+bool PreparedFor::hasSameLayersAs(const PreparedFor &other) const {
     return window == other.window && crop == other.crop && tolerance == other.tolerance &&
            interpolation == other.interpolation && image == other.image && cue == other.cue &&
            isLit == other.isLit &&

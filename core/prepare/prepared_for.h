@@ -25,7 +25,7 @@ struct PreparedFor {
     bool operator==(const PreparedFor &) const = default;
 
     /// Whether only weights, colours and control points differ: the layers are the same.
-    bool hasLayersOf(const PreparedFor &other) const;
+    bool hasSameLayersAs(const PreparedFor &other) const;
     /// Whether only cue, light and interpolation between samples differ, which any engine can show.
     bool showsSameAs(const PreparedFor &other) const;
 };

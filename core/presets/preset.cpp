@@ -83,7 +83,7 @@ Preset presetOf(const std::string &name, const Look &look, const shading::Shadin
 }
 
 Preset readPreset(const fs::path &path) {
-    const std::string text = files::readText(path, files::mostOfPreset);
+    const std::string text = files::readText(path, files::maxPresetBytes);
     try {
         return presetFromJson(text);
     } catch (const Error &error) {

@@ -112,7 +112,7 @@ bool isSlicerPreset(const fs::path &path) {
 
 ImportedPreset importSlicerPreset(const fs::path &path, int points) {
     try {
-        const std::string text = files::readText(path, files::mostOfPreset);
+        const std::string text = files::readText(path, files::maxPresetBytes);
         Points curve = path.extension() == ".json" ? pointsOfJson(text) : pointsOfText(text);
         for (const Point &p : curve)
             if (!(std::abs(p.value) <= 1e30))

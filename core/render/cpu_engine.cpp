@@ -168,7 +168,7 @@ class FrameRun {
 public:
     // `pixels`: height x width x 3 of a colour picture, else null. `tint`: the colour of a single
     // image.
-    FrameRun(const FrameJob &job, std::vector<FrameScratch> &scratch, const ChannelShares &tint,
+    FrameRun(const FrameJob &job, std::vector<FrameScratch> &scratch, const ChannelWeights &tint,
              float *pixels)
         : m_job(job), m_scratch(scratch), m_tint{float(tint[0]), float(tint[1]), float(tint[2])},
           m_pixels(pixels) {
@@ -245,13 +245,13 @@ CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
 CpuEngine::CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads)
     : m_parts{std::move(spectra), {}, fieldOfView},
       m_buffers(std::make_unique<FrameBuffers>(fieldOfView, threads)) {
-    m_parts.shares.assign(fieldCount(), {1.0, 1.0, 1.0});
+    m_parts.channelWeights.assign(fieldCount(), {1.0, 1.0, 1.0});
 }
 
 CpuEngine::~CpuEngine() = default;
 
-void CpuEngine::setShares(std::vector<ChannelShares> shares) {
-    m_parts.shares = std::move(shares);
+void CpuEngine::setChannelWeights(std::vector<ChannelWeights> channelWeights) {
+    m_parts.channelWeights = std::move(channelWeights);
 }
 
 std::size_t CpuEngine::bytes() const {
@@ -273,7 +273,7 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
     const double start = frameClockSeconds();
     FrameBuffers &buffers = *m_buffers;
     const FrameInputs inputs =
-        buffers.setup.inputsFor(m_parts.spectra, m_parts.shares, camera, image, shading);
+        buffers.setup.inputsFor(m_parts.spectra, m_parts.channelWeights, camera, image, shading);
     picture::ProjectionImage result{
         camera.width, camera.height, camera.pixelMm, {}, inputs.pictureChannels()};
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {

@@ -35,15 +35,15 @@ public:
     ~CpuEngine() override;
 
     /// *Shape*: one entry per field.
-    void setShares(std::vector<ChannelShares> shares);
+    void setChannelWeights(std::vector<ChannelWeights> channelWeights);
     std::size_t fieldCount() const { return m_parts.spectra.fields.size(); }
     /// Bytes of all spectra.
     std::size_t bytes() const;
     /// Whether there are gradients, which lights need.
-    bool takesLight() const { return !m_parts.spectra.gradients.empty(); }
+    bool canBeLit() const { return !m_parts.spectra.gradients.empty(); }
 
     task::Reason description() const override;
-    /// *Requires*: no concurrent setShares().
+    /// *Requires*: no concurrent setChannelWeights().
     EngineParts parts() const override { return m_parts; }
     const EngineSpectra &spectra() const { return m_parts.spectra; }
     const plan::FieldOfView &fieldOfView() const { return m_parts.fieldOfView; }

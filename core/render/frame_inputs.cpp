@@ -19,19 +19,19 @@ double FrameInputs::unit() const {
     return geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
 }
 
-ChannelShares FrameInputs::tint() const {
-    return !mixing.grey && mixing.channels == 1 ? mixing.color : ChannelShares{1.0, 1.0, 1.0};
+ChannelWeights FrameInputs::tint() const {
+    return !mixing.grey && mixing.channels == 1 ? mixing.color : ChannelWeights{1.0, 1.0, 1.0};
 }
 
 FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
-                                  const std::vector<ChannelShares> &shares,
+                                  const std::vector<ChannelWeights> &channelWeights,
                                   const scene::Camera &camera, const scene::ImageDefinition &image,
                                   const shading::Shading &shading) {
     const fourier::Spectrum &spectrum = *spectra.fields.front();
     const glm::dmat3 axes = camera.axes();
     const shading::Shading active = activeShading(shading, spectra);
     const shading::SliceShading slices = shading::sliceShading(active, axes, spectra.scale);
-    FrameInputs inputs{.mixing = Mixing(spectra, shares, slices, active.isGrey())};
+    FrameInputs inputs{.mixing = Mixing(spectra, channelWeights, slices, active.isGrey())};
     if (inputs.isEmpty())
         return inputs;
     inputs.grid = m_framed.gridFor(camera, m_fieldOfView, spectrum.lattice(), image);

@@ -26,7 +26,7 @@ struct FrameInputs {
     /// The factor of the sums. A single grey image also has its channel weight in it.
     double unit() const;
     /// The colour of the single image of a colour picture; three images already have theirs.
-    ChannelShares tint() const;
+    ChannelWeights tint() const;
 };
 
 /// Computes the inputs of frames, and keeps what successive views share: the slice grid of a
@@ -37,9 +37,10 @@ public:
 
     const plan::FieldOfView &fieldOfView() const { return m_fieldOfView; }
     /// Lights are off if there are no spectra of gradients. The moment kernels that the shading
-    /// refers to live as long as this object. *Shape*: `shares` has one entry per field. *Throws*
-    /// Error{outOfMemory} as `plan::sliceGrid` does.
-    FrameInputs inputsFor(const EngineSpectra &spectra, const std::vector<ChannelShares> &shares,
+    /// refers to live as long as this object. *Shape*: `channelWeights` has one entry per field.
+    /// *Throws* Error{outOfMemory} as `plan::sliceGrid` does.
+    FrameInputs inputsFor(const EngineSpectra &spectra,
+                          const std::vector<ChannelWeights> &channelWeights,
                           const scene::Camera &camera, const scene::ImageDefinition &image,
                           const shading::Shading &shading);
 

@@ -51,7 +51,7 @@ enum class FrameKind { field, gradient };
 struct FrameSource {
     const std::byte *cells = nullptr;
     std::size_t field = 0; ///< index in the engine's spectra
-    std::array<float, 3> shares{1.0F, 1.0F, 1.0F};
+    std::array<float, 3> channelWeights{1.0F, 1.0F, 1.0F};
     FrameKind kind = FrameKind::field;
 };
 
@@ -72,7 +72,7 @@ struct FrameShading {
         std::array<double, 3> gradient{}, excess{};
     };
     /// The first term is the central one.
-    std::array<Term, 2 * shading::mostCurveValues> terms;
+    std::array<Term, 2 * shading::maxCurveValues> terms;
     int termCount = 1;
     bool lit = false;  ///< some magnitude is not zero
     bool cued = false; ///< there are moments

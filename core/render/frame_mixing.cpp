@@ -9,12 +9,12 @@
 
 namespace pellucid::render {
 
-Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &shares,
+Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelWeights> &channelWeights,
                const shading::SliceShading &shading, bool greyLight)
-    : grey(areGrey(shares) && greyLight) {
+    : grey(areGrey(channelWeights) && greyLight) {
     std::vector<std::size_t> shown;
     for (std::size_t n = 0; n < spectra.fields.size(); ++n)
-        if (shares[n] != ChannelShares{0.0, 0.0, 0.0})
+        if (channelWeights[n] != ChannelWeights{0.0, 0.0, 0.0})
             shown.push_back(n);
     if (shown.empty())
         return;
@@ -22,10 +22,10 @@ Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &s
     unit = first.unit();
     // A single spectrum needs one slice, whatever its colour: the image is coloured afterwards.
     const bool alone = shown.size() == 1;
-    sums = alone || areGrey(shares) ? 1 : FrameJob::maxChannels;
+    sums = alone || areGrey(channelWeights) ? 1 : FrameJob::maxChannels;
     channels = sums > 1 || !shading.isGrey() ? FrameJob::maxChannels : 1;
     if (alone)
-        color = shares[shown.front()];
+        color = channelWeights[shown.front()];
     const bool isLit =
         std::any_of(shading.channels.begin(), shading.channels.end(),
                     [](const shading::SliceShading::Channel &c) { return c.magnitude != 0.0; });
@@ -35,13 +35,13 @@ Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &s
         for (const std::size_t n : shown) {
             const fourier::Spectrum &spectrum =
                 kind == FrameKind::field ? *spectra.fields[n] : *spectra.gradients[n];
-            add(spectrum, kind, n, alone ? ChannelShares{1.0, 1.0, 1.0} : shares[n]);
+            add(spectrum, kind, n, alone ? ChannelWeights{1.0, 1.0, 1.0} : channelWeights[n]);
         }
     }
 }
 
 void Mixing::add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,
-                 const ChannelShares &share) {
+                 const ChannelWeights &share) {
     const double s = spectrum.unit() / unit;
     sources.push_back({spectrum.cells(),
                        field,

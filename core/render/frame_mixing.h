@@ -10,14 +10,14 @@ namespace pellucid::render {
 /// Without sources nothing is shown.
 struct Mixing {
     /// `greyLight`: no light is coloured, whatever colour their sum has.
-    Mixing(const EngineSpectra &spectra, const std::vector<ChannelShares> &shares,
+    Mixing(const EngineSpectra &spectra, const std::vector<ChannelWeights> &channelWeights,
            const shading::SliceShading &shading, bool greyLight);
 
     std::vector<FrameSource> sources;
     bool grey; ///< the picture has one channel
     int sums = 1, channels = 1;
-    double unit = 1.0;                  ///< of the sums
-    ChannelShares color{1.0, 1.0, 1.0}; ///< of a single source
+    double unit = 1.0;                   ///< of the sums
+    ChannelWeights color{1.0, 1.0, 1.0}; ///< of a single source
     /// The sums at frequency 0, and their first moments in samples from the wrap voxel.
     struct Dc {
         double value = 0.0;
@@ -27,7 +27,7 @@ struct Mixing {
 
 private:
     void add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,
-             const ChannelShares &share);
+             const ChannelWeights &share);
 };
 
 /// A picture's shading in terms of cells and sums, without the moment kernels. *Shape*: `toWrap`

@@ -15,13 +15,13 @@
 namespace pellucid::render {
 
 /// A field's weights in red, green and blue.
-using ChannelShares = std::array<double, 3>;
+using ChannelWeights = std::array<double, 3>;
 
 /// Whether all weights are grey, so that one channel is enough.
-inline bool areGrey(std::span<const ChannelShares> shares) {
-    return std::all_of(shares.begin(), shares.end(), [](const ChannelShares &share) {
-        return share[0] == share[1] && share[1] == share[2];
-    });
+inline bool areGrey(std::span<const ChannelWeights> channelWeights) {
+    return std::all_of(
+        channelWeights.begin(), channelWeights.end(),
+        [](const ChannelWeights &share) { return share[0] == share[1] && share[1] == share[2]; });
 }
 
 /// The spectra that an engine slices; all have the same layout.
@@ -35,7 +35,7 @@ struct EngineSpectra {
 /// The data that an engine makes pictures from. Another engine makes the same pictures from them.
 struct EngineParts {
     EngineSpectra spectra;
-    std::vector<ChannelShares> shares; ///< one entry per field
+    std::vector<ChannelWeights> channelWeights; ///< one entry per field
     plan::FieldOfView fieldOfView;
 };
 

@@ -23,7 +23,7 @@ struct WeightedSpectrum {
 std::vector<WeightedSpectrum> weightedSpectra(const EngineParts &engine) {
     std::vector<WeightedSpectrum> result;
     for (std::size_t n = 0; n < engine.spectra.fields.size(); ++n) {
-        const ChannelShares &share = engine.shares[n];
+        const ChannelWeights &share = engine.channelWeights[n];
         const double weight = (share[0] + share[1] + share[2]) / 3.0;
         if (weight != 0.0)
             result.push_back({engine.spectra.fields[n].get(), weight});
@@ -70,7 +70,7 @@ float decibelsOf(double ratio) {
 
 SpectrumSlice spectrumSlice(const EngineParts &engine, const scene::Camera &camera, int side,
                             const task::Progress &progress) {
-    assert(side >= 2 && engine.shares.size() == engine.spectra.fields.size());
+    assert(side >= 2 && engine.channelWeights.size() == engine.spectra.fields.size());
     const std::vector<WeightedSpectrum> spectra = weightedSpectra(engine);
     // The value that a frame uses, without rounding or interpolation.
     double atZero = 0.0;

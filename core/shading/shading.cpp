@@ -113,14 +113,14 @@ bool Shading::isGrey() const {
 void validate(const Shading &shading) {
     const DepthCue &cue = shading.cue;
     require(cue.strength >= 0.0 && cue.strength <= 1.0, because::cueStrengthOutOfRange);
-    require(cue.curve.size() >= fewestCurveValues && cue.curve.size() <= mostCurveValues,
-            because::cueCurveHasOtherSize(fewestCurveValues, mostCurveValues));
+    require(cue.curve.size() >= minCurveValues && cue.curve.size() <= maxCurveValues,
+            because::cueCurveHasOtherSize(minCurveValues, maxCurveValues));
     for (const double value : cue.curve)
         require(value >= 0.0 && value <= largestCurveValue,
                 because::cueCurveOutOfRange(fmt::format("{}", largestCurveValue)));
     require(shading.ambient >= 0.0 && shading.ambient <= largestAmbient,
             because::ambientOutOfRange(fmt::format("{}", largestAmbient)));
-    require(shading.lights.size() <= mostLights, because::tooManyLights(mostLights));
+    require(shading.lights.size() <= maxLights, because::tooManyLights(maxLights));
     for (const Light &light : shading.lights) {
         const double length = glm::length(light.direction);
         require(std::isfinite(length) && length > 1e-12, because::lightHasNoDirection);

@@ -38,7 +38,7 @@ struct DepthCue {
 std::function<double(double t)> cueFunction(const DepthCue &cue);
 
 /// The number of values of a curve, which are 0 to 2. A curve costs up to twice as many slices.
-inline constexpr std::size_t fewestCurveValues = 2, mostCurveValues = 8;
+inline constexpr std::size_t minCurveValues = 2, maxCurveValues = 8;
 inline constexpr double largestCurveValue = 2.0;
 
 /// The coefficients c_k of the cosines through the values of a curve. *Shape*: at least two values.
@@ -60,7 +60,7 @@ struct Light {
     bool operator==(const Light &) const = default;
 };
 
-inline constexpr std::size_t mostLights = 8;
+inline constexpr std::size_t maxLights = 8;
 inline constexpr double largestAmbient = 2.0;
 
 /// Depth cue and lighting: the field f becomes

@@ -90,8 +90,8 @@ Shading shadingFromJson(const std::string &text) {
     if (const JsonValue ambient = in["ambient"])
         shading.ambient = ambientFrom(ambient);
     if (const JsonValue lights = in["lights"]) {
-        if (lights.size() > mostLights)
-            lights.refuse(because::holdsTooManyLights(mostLights));
+        if (lights.size() > maxLights)
+            lights.refuse(because::holdsTooManyLights(maxLights));
         for (const JsonValue &light : lights.elements())
             shading.lights.push_back(lightFrom(light));
     }

@@ -36,7 +36,7 @@ Lattice Lattice::make(GridSize size, PatientPoint origin, const std::array<glm::
     using task::ErrorCode;
     if (size.i < 1 || size.j < 1 || size.k < 1)
         throw Error(ErrorCode::unusable, task::because::axisWithoutSamples);
-    if (double(size.i) * size.j * size.k > double(mostSamples))
+    if (double(size.i) * size.j * size.k > double(maxSamples))
         throw Error(ErrorCode::unusable, task::because::moreSamplesThanAnyMachineHolds);
     if (!finite(origin.mm) || !finite(steps[0]) || !finite(steps[1]) || !finite(steps[2]))
         throw Error(ErrorCode::unusable, task::because::geometryNotFinite);

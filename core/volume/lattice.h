@@ -11,7 +11,7 @@
 namespace pellucid::volume {
 
 /// No supported machine has memory for more samples.
-inline constexpr std::size_t mostSamples = std::size_t(1) << 36;
+inline constexpr std::size_t maxSamples = std::size_t(1) << 36;
 
 /// Number of samples along the three axes: columns, rows, slices.
 struct GridSize {

@@ -7,9 +7,9 @@
 #define LINES 3
 #define PICTURE 0
 #define FIRST_SPECTRUM 0
-#define MOST_SPECTRA 64
-#define MOST_PAGES 16
-#define MOST_TERMS 16
-#define MOST_PAIRS 4
-#define MOST_PAIR_VECTORS 3
+#define MAX_SPECTRA 64
+#define MAX_PAGES 16
+#define MAX_TERMS 16
+#define MAX_PAIRS 4
+#define MAX_PAIR_VECTORS 3
 #define THREADS 128

@@ -17,8 +17,8 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     uvec4 originLow, originHigh; // of column 0 in the lowest row, -rows/2
     uvec4 columnLow, columnHigh; // per column
     uvec4 rowLow, rowHigh;       // per row
-    uvec4 termLow[MOST_TERMS], termHigh[MOST_TERMS];
-    vec4 termWeight[MOST_TERMS]; // xy: complex
+    uvec4 termLow[MAX_TERMS], termHigh[MAX_TERMS];
+    vec4 termWeight[MAX_TERMS]; // xy: complex
     int columns, rows;           // of the slice's grid
     int pictureColumns, pictureRows;
     int periodRows;              // rows of the picture within the period
@@ -36,15 +36,15 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     vec4 inversePadded;
     vec4 edgeSlack;              // see core/render/frame_geometry.h
     vec4 perMoment;
-    vec4 shares[MOST_SPECTRA];   // by source
-    Place places[MOST_SPECTRA];  // by source
+    vec4 shares[MAX_SPECTRA];   // by source
+    Place places[MAX_SPECTRA];  // by source
     ZeroSum zero[6];             // by kind and sum
     ImageShade shade[3];
     vec4 gradient[3];
     vec4 excess[3];
     // [axis][pair][...]: a vector holds two even and two odd coefficients
-    vec4 kernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS];
-    vec4 momentKernels[3 * MOST_PAIRS * MOST_PAIR_VECTORS];
+    vec4 kernels[3 * MAX_PAIRS * MAX_PAIR_VECTORS];
+    vec4 momentKernels[3 * MAX_PAIRS * MAX_PAIR_VECTORS];
     ivec4 radices[8];            // four vectors for a column, four for a row
 }
 frame;

@@ -8,7 +8,7 @@ const int pairs = (WIDTH + 1) / 2;
 #define EVEN_AND_ODD(polynomials, axis, pair, terms, square, sum)                                  \
     vec2 sum = vec2(0.0);                                                                          \
     for (int n = terms - 1; n >= 0; --n) {                                                         \
-        vec4 two = polynomials[(axis * MOST_PAIRS + pair) * MOST_PAIR_VECTORS + n / 2];            \
+        vec4 two = polynomials[(axis * MAX_PAIRS + pair) * MAX_PAIR_VECTORS + n / 2];            \
         sum = sum * square + (n % 2 == 0 ? two.xy : two.zw);                                       \
     }
 

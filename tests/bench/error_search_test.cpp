@@ -20,7 +20,7 @@ void expectNoCounterexample(std::uint64_t seed, int trials) {
     const auto result =
         bench::searchCounterexample({.seed = seed, .seconds = 300, .trials = trials});
     EXPECT_LE(result.verdict.ratio(), 1.0)
-        << "seed " << seed << ", " << bench::trialOf(result.worst, bench::Asked::wholePicture).name
+        << "seed " << seed << ", " << bench::trialOf(result.worst, bench::PictureKind::whole).name
         << ": predicted " << result.verdict.predicted << ", measured " << result.verdict.measured;
     EXPECT_GT(result.verdict.ratio(), 0.0);
 }

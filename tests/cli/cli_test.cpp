@@ -218,7 +218,7 @@ TEST_F(Cli, ReadsTheNamedSeries) {
     EXPECT_EQ(render("77").exitCode, 3);
     const auto empty = render("''");
     EXPECT_EQ(empty.exitCode, 2);
-    EXPECT_NE(empty.error.find("--series: it is empty"), std::string::npos) << empty.error;
+    EXPECT_NE(empty.error.find("--series: must not be empty"), std::string::npos) << empty.error;
 }
 
 TEST_F(Cli, ReadsTheNumberedVolume) {
@@ -331,7 +331,7 @@ TEST_F(Cli, BothEnginesGiveOnePicture) {
     const json told = json::parse(said.out);
     EXPECT_EQ(told["device"], "gpu");
     EXPECT_EQ(told["engine"].get<std::string>().rfind("GPU engine, ", 0), 0U);
-    EXPECT_EQ(told["engine_reason"], "the graphics card was asked for");
+    EXPECT_EQ(told["engine_reason"], "the graphics card was requested");
     const fs::path turn = folder / "turn";
     fs::create_directory(turn);
     EXPECT_EQ(cli("render " + quoted(series) + " -o " + quoted(turn / "t.png") +

@@ -117,20 +117,20 @@ TEST(Bindings, AreThoseOfTheShaders) {
                                               {"LINES", bindings::lines},
                                               {"PICTURE", bindings::picture},
                                               {"FIRST_SPECTRUM", bindings::firstSpectrum},
-                                              {"MOST_SPECTRA", bindings::mostSpectra},
-                                              {"MOST_PAGES", bindings::mostPages},
-                                              {"MOST_TERMS", bindings::mostTerms},
-                                              {"MOST_PAIRS", bindings::mostPairs},
-                                              {"MOST_PAIR_VECTORS", bindings::mostPairVectors},
+                                              {"MAX_SPECTRA", bindings::maxSpectra},
+                                              {"MAX_PAGES", bindings::maxPages},
+                                              {"MAX_TERMS", bindings::maxTerms},
+                                              {"MAX_PAIRS", bindings::maxPairs},
+                                              {"MAX_PAIR_VECTORS", bindings::maxPairVectors},
                                               {"THREADS", bindings::threads}};
     EXPECT_EQ(defined, expected);
 }
 
 TEST(Bindings, HoldWhatThePlanMayAskFor) {
     namespace bindings = gpu::bindings;
-    EXPECT_GE(bindings::mostTerms, int(2 * shading::mostCurveValues));
-    EXPECT_GE(2 * bindings::mostPairVectors, fourier::Kernel::largestTerms);
-    EXPECT_GE(2 * bindings::mostPairs, fourier::Kernel::largestWidth);
+    EXPECT_GE(bindings::maxTerms, int(2 * shading::maxCurveValues));
+    EXPECT_GE(2 * bindings::maxPairVectors, fourier::Kernel::largestTerms);
+    EXPECT_GE(2 * bindings::maxPairs, fourier::Kernel::largestWidth);
     for (int n = 2; n <= 65536; n = fourier::smoothEvenSize(n + 1)) {
         int product = 1;
         const auto radices = gpu::radicesOf(n);

@@ -32,13 +32,13 @@ protected:
 
     // The largest difference of the engines over the views, relative L2.
     static double difference(const scene::Scene &asked, const classify::ShownFields &fields,
-                             std::size_t mostTextureBytes = std::size_t(1) << 30) {
+                             std::size_t maxTextureBytes = std::size_t(1) << 30) {
         scene::Scene scene = asked;
         const auto prepared = prepare::prepareEngine(scene, fields, {});
         const render::EngineParts parts = prepared.engine->parts();
         gpu::GpuEngine engine(
-            gpu::SpectrumTextures::upload(card, parts.spectra, {}, mostTextureBytes), parts.shares,
-            parts.fieldOfView);
+            gpu::SpectrumTextures::upload(card, parts.spectra, {}, maxTextureBytes),
+            parts.channelWeights, parts.fieldOfView);
         double worst = 0.0;
         for (const glm::dquat &view : views()) {
             scene.camera.orientation = view;
@@ -192,22 +192,23 @@ TEST_F(GpuEngine, LayersWithMovingShares) {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> uniform(0.0, 2.0);
     for (const bool grey : {true, false}) {
-        std::vector<render::ChannelShares> shares(fields.size());
-        for (auto &share : shares) {
+        std::vector<render::ChannelWeights> channelWeights(fields.size());
+        for (auto &share : channelWeights) {
             share = {uniform(random), uniform(random), uniform(random)};
             if (grey)
                 share[1] = share[2] = share[0];
         }
-        shares[5] = {0.0, 0.0, 0.0}; // costs nothing, and must not be read
-        processor.setShares(shares);
+        channelWeights[5] = {0.0, 0.0, 0.0}; // costs nothing, and must not be read
+        processor.setChannelWeights(channelWeights);
         const auto expected = processor.render(scene.camera, scene.image);
-        const auto found = engine->withShares(shares)->render(scene.camera, scene.image);
+        const auto found =
+            engine->withChannelWeights(channelWeights)->render(scene.camera, scene.image);
         EXPECT_EQ(found.channels, grey ? 1 : 3);
         EXPECT_LE(test::relativeL2(found.samples, expected.samples), withinBinary16);
     }
     // Nothing is shown.
-    const std::vector<render::ChannelShares> none(fields.size(), {0.0, 0.0, 0.0});
-    const auto dark = engine->withShares(none)->render(scene.camera, scene.image);
+    const std::vector<render::ChannelWeights> none(fields.size(), {0.0, 0.0, 0.0});
+    const auto dark = engine->withChannelWeights(none)->render(scene.camera, scene.image);
     EXPECT_EQ(dark.samples.size(), std::size_t(dark.width) * std::size_t(dark.height));
     EXPECT_EQ(*std::max_element(dark.samples.begin(), dark.samples.end()), 0.0F);
 }

@@ -86,7 +86,7 @@ refuses "is no place" --prefix "$home/.local"
 refuses "is no place" --prefix "$home/.local/share/pellucid"
 refuses "is no place" --prefix "$home/.local/share/pellucid/programs"
 refuses "unknown" --here
-refuses "wants a folder" --prefix
+refuses "needs a folder" --prefix
 mkdir -p "$home/.local/bin"
 echo mine >"$home/.local/bin/pellucid"
 refuses "is not Pellucid's"

@@ -232,9 +232,9 @@ private slots:
                 [&](const ui::ShownEngine &engine) { shown.push_back(engine); });
         const auto show = [&](double share) {
             copier.show({std::make_shared<prepare::MixtureEngine>(
-                             layers, std::vector<render::ChannelShares>{{share, 0.5, 0.5},
-                                                                        {0.1, share, 0.0},
-                                                                        {0.0, 0.2, 0.7}}),
+                             layers, std::vector<render::ChannelWeights>{{share, 0.5, 0.5},
+                                                                         {0.1, share, 0.0},
+                                                                         {0.0, 0.2, 0.7}}),
                          layers->plan(), layers->bytes()},
                         ui::EngineStage::live);
         };
@@ -245,7 +245,7 @@ private slots:
         show(0.25);
         QVERIFY(shown.back().onCard);
         QCOMPARE(&shown.back().onCard->textures(), textures); // nothing is copied again
-        QCOMPARE(shown.back().onCard->parts().shares[1][1], 0.25);
+        QCOMPARE(shown.back().onCard->parts().channelWeights[1][1], 0.25);
         const auto expected = shown.back().prepared.engine->render(scene.camera, scene.image);
         const auto found = shown.back().onCard->render(scene.camera, scene.image);
         QCOMPARE(found.channels, expected.channels);

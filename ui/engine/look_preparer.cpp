@@ -149,7 +149,7 @@ void LookPreparer::showFull() {
 void LookPreparer::showLayers() {
     // Layers of the coarse volume, or of fewer samples, lack detail.
     emit engineReady({std::make_shared<prepare::MixtureEngine>(
-                          m_layers, classify::mixtureOf(m_document.scene().look).shares),
+                          m_layers, classify::mixtureOf(m_document.scene().look).channelWeights),
                       m_layers->plan(), m_layers->bytes(), false, m_layers->viewError(),
                       m_layersAreCoarse || m_layers->reduction() > 1,
                       m_layersAreCoarse ? nullptr : m_layers->detailLoss(),
@@ -236,7 +236,7 @@ void LookPreparer::takeEngine(const PreparedFor &of, const prepare::PreparedEngi
         m_layers.reset();
     emit planChanged(PlanState::holds);
     showFull();
-    act(Occasion::fullCame);
+    act(Occasion::fullArrived);
 }
 
 void LookPreparer::takeLayers(const PreparedFor &of,
@@ -244,7 +244,7 @@ void LookPreparer::takeLayers(const PreparedFor &of,
     m_have = prepare::afterLayers(of, detail, m_have);
     m_layers = layers;
     m_layersAreCoarse = detail == Detail::coarse;
-    act(Occasion::layersCame);
+    act(Occasion::layersArrived);
 }
 
 } // namespace pellucid::ui

@@ -303,14 +303,14 @@ Removal removeStudy(Library &library, const StudyFacts &study) {
     }
     library.remove(study);
     if (removal.names)
-        removal.names->setLeft(true);
+        removal.names->setAbandoned(true);
     return removal;
 }
 
 void finish(const Removal &removal, Library &library) {
     library.removeCopies(removal.copies);
     if (removal.names)
-        removal.names->setLeft(false);
+        removal.names->setAbandoned(false);
 }
 
 ImportResult relistCopies(const LibraryPlace &place, const task::Progress &progress) {

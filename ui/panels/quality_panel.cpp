@@ -305,10 +305,10 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
                         .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
                         .arg(spectrum.bytes() >> 20));
     const render::EngineParts parts = shown.prepared.engine->parts();
-    m_frameOf = {
-        plan,
-        {int(parts.spectra.fields.size()), shown.prepared.of, !render::areGrey(parts.shares)},
-        !parts.spectra.gradients.empty()};
+    m_frameOf = {plan,
+                 {int(parts.spectra.fields.size()), shown.prepared.of,
+                  !render::areGrey(parts.channelWeights)},
+                 !parts.spectra.gradients.empty()};
     showModel();
     const QString reason = translated(plan.reason);
     const bool isSum = shown.prepared.of == plan::SpectrumOf::layer;

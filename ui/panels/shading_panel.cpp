@@ -104,7 +104,7 @@ void ShadingPanel::nameControls() {
     m_curveValues->setObjectName("curveValuesBox");
     m_curveValues->setAccessibleName(tr("Number of the curve's values"));
     m_curveValues->setToolTip(tr("Number of the curve's values: each costs up to two slices"));
-    m_curveValues->setRange(int(shading::fewestCurveValues), int(shading::mostCurveValues));
+    m_curveValues->setRange(int(shading::minCurveValues), int(shading::maxCurveValues));
     m_curveValues->setFixedWidth(44);
     m_follows->setObjectName("followsViewerBox");
     m_follows->setToolTip(
@@ -228,7 +228,7 @@ void ShadingPanel::showScene() {
     m_color->setVisible(index >= 0);
     m_remove->setVisible(index >= 0);
     m_follows->setVisible(index >= 0);
-    m_add->setEnabled(shading.lights.size() < shading::mostLights);
+    m_add->setEnabled(shading.lights.size() < shading::maxLights);
     const Light light = index >= 0 ? shading.lights[std::size_t(index)] : Light{.strength = 0.0};
     m_light->setValue(light.strength);
     m_color->setIcon(colorIcon(light.color));
@@ -266,7 +266,7 @@ void ShadingPanel::toggleCue() {
 
 void ShadingPanel::addLight() {
     const std::size_t count = m_document.scene().shading.lights.size();
-    if (count >= shading::mostLights)
+    if (count >= shading::maxLights)
         return;
     m_selected = int(count);
     change(tr("Add a light"), noDrag, [&](Shading &s) {

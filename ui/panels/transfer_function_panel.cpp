@@ -47,7 +47,7 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     m_points->setObjectName("pointsBox");
     m_points->setAccessibleName(tr("Number of control points"));
     m_points->setToolTip(tr("Number of control points: more make finer curves"));
-    m_points->setRange(TransferFunction::fewestPoints, TransferFunction::mostPoints);
+    m_points->setRange(TransferFunction::minPoints, TransferFunction::maxPoints);
     m_points->setSuffix(tr(" points"));
     m_points->setKeyboardTracking(false);
     m_weight->setObjectName("weightBox");

@@ -57,7 +57,7 @@ dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
         throw task::Error(task::ErrorCode::unusable, because::seriesIsGone,
                           skipped.empty() ? fs::path() : skipped.front().path.parent_path());
     const dicom::Catalogue catalogue =
-        dicom::scan(there, progress.part(0.0, 0.2), {.takesHuge = true}); // it is kept
+        dicom::scan(there, progress.part(0.0, 0.2), {.includesHuge = true}); // it is kept
     skipped.insert(skipped.end(), catalogue.skipped.begin(), catalogue.skipped.end());
     dicom::LoadedVolume loaded =
         dicom::loadVolume(meant(catalogue, volume), progress.part(0.2, 1.0), observer);

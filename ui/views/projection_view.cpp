@@ -228,7 +228,7 @@ void ProjectionView::requestFrame(bool moving) {
     m_pending = true;
     const double finest = m_document.volume()->lattice().shortestStepMm() / samplesPerPixel;
     shading::Shading shading = m_document.scene().shading;
-    if (shading.isLit() && !m_prepared->takesLight) // until light is prepared, the shading stays
+    if (shading.isLit() && !m_prepared->canBeLit) // until light is prepared, the shading stays
         shading = m_drawnShading;
     else
         m_tone.follow(shading);

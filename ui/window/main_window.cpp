@@ -139,7 +139,7 @@ void MainWindow::connectBench() {
     connect(&m_bench.study.opener, &StudyOpener::hugeFound, this,
             [this](const QStringList &paths, const std::vector<dicom::Skipped> &huge) {
                 askForHuge(this, huge, [this, paths] {
-                    m_bench.study.opener.openPaths(paths, {}, {.takesHuge = true});
+                    m_bench.study.opener.openPaths(paths, {}, {.includesHuge = true});
                 });
             });
     connect(&m_bench.study.document, &Document::currentSourceChanged, this,

@@ -17,10 +17,10 @@ namespace pellucid {
 namespace {
 
 using classify::DensityField;
-using render::ChannelShares;
+using render::ChannelWeights;
 
 constexpr classify::FieldWindow window{-900.0, 2000.0};
-constexpr ChannelShares grey{1.0, 1.0, 1.0};
+constexpr ChannelWeights grey{1.0, 1.0, 1.0};
 // A wide roll-off has short tails, so exact pictures are cheap; what is lost is the same.
 constexpr scene::ImageDefinition fading{scene::Reconstruction::cubic, 0.5};
 
@@ -134,7 +134,7 @@ TEST(DetailLossOfLayers, FollowsTheWeights) {
                                          projectionsOf({sumOf(coarseLayers, a, b)}), 1, 1.0);
         const double expected = ofSum.relativeError(std::vector{grey}, {}),
                      found = ofLayers.relativeError(
-                         std::vector<ChannelShares>{{a, a, a}, {b, b, b}}, {});
+                         std::vector<ChannelWeights>{{a, a, a}, {b, b, b}}, {});
         EXPECT_GT(expected, 0.0);
         // Samples of the sum are rounded to float.
         EXPECT_NEAR(found, expected, 1e-5 * expected) << a << ' ' << b;

@@ -22,7 +22,7 @@ TransferFunction alternating(int points) {
 }
 
 TEST(TransferFunction, BernsteinPolynomialsSumToOne) {
-    for (int degree = 1; degree < TransferFunction::mostPoints; ++degree)
+    for (int degree = 1; degree < TransferFunction::maxPoints; ++degree)
         for (const double f : {0.0, 0.1, 0.5, 0.77, 1.0}) {
             double sum = 0.0, mean = 0.0;
             for (int i = 0; i <= degree; ++i) {

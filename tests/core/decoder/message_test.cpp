@@ -55,7 +55,7 @@ auto fieldsOf(IsA<InstanceHeader> auto &h) {
     auto &[sopClassUid, sopClassName, sopInstanceUid, transferSyntax, unsupportedSyntax, patientId,
            patientName, birthDate, sex, studyUid, studyDate, studyDescription, frameOfReferenceUid,
            seriesUid, seriesDescription, modality, bodyPart, seriesNumber, instanceNumber,
-           hasPixels, floatPixels, rows, columns, samplesPerPixel, announcedFrames, pixelBytes,
+           hasPixels, floatPixels, rows, columns, samplesPerPixel, declaredFrames, pixelBytes,
            bitsAllocated, bitsStored, highBit, pixelRepresentation, lossy, hasDamagedPixels,
            oddities, mosaicSide, photometric, rescaleType, paddingValue, paddingLimit, windows,
            modalityTable, modalityTableFirst, frames] = h;
@@ -63,9 +63,9 @@ auto fieldsOf(IsA<InstanceHeader> auto &h) {
                     patientId, patientName, birthDate, sex, studyUid, studyDate, studyDescription,
                     frameOfReferenceUid, seriesUid, seriesDescription, modality, bodyPart,
                     seriesNumber, instanceNumber, hasPixels, floatPixels, rows, columns,
-                    samplesPerPixel, announcedFrames, pixelBytes, bitsAllocated, bitsStored,
-                    highBit, pixelRepresentation, lossy, hasDamagedPixels, oddities, mosaicSide,
-                    photometric, rescaleType, paddingValue, paddingLimit, windows, modalityTable,
+                    samplesPerPixel, declaredFrames, pixelBytes, bitsAllocated, bitsStored, highBit,
+                    pixelRepresentation, lossy, hasDamagedPixels, oddities, mosaicSide, photometric,
+                    rescaleType, paddingValue, paddingLimit, windows, modalityTable,
                     modalityTableFirst, frames);
 }
 auto fieldsOf(IsA<VolumeLayout> auto &l) {

@@ -188,7 +188,7 @@ TEST(GroupSeries, ValuesOfUnknownSignednessAreRefused) {
 TEST(GroupSeries, UnusedFramesAreNotSurplus) {
     InstanceHeader header = file("f", 0.0).header;
     header.bitsAllocated = 16;
-    header.announcedFrames = 10; // of which one is in use
+    header.declaredFrames = 10; // of which one is in use
     const auto plane = std::uint32_t(2 * header.rows * header.columns);
     header.pixelBytes = 10 * plane;
     EXPECT_FALSE(decoder::hasSurplusPixels(header));

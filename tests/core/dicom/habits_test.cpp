@@ -286,7 +286,7 @@ TEST(Habits, HugeImagesOpenOnRequest) {
     ASSERT_EQ(refused.skipped.size(), 1U);
     EXPECT_TRUE(refused.skipped[0].isHuge);
     EXPECT_TRUE(refused.empty());
-    const auto taken = dicom::scan({folder.path()}, {}, {.takesHuge = true});
+    const auto taken = dicom::scan({folder.path()}, {}, {.includesHuge = true});
     EXPECT_TRUE(taken.skipped.empty());
     EXPECT_EQ(dicom::defaultSelection(taken).volume->geometry.lattice.size().i, 20000);
 }

@@ -14,7 +14,7 @@ namespace pellucid {
 namespace {
 
 using classify::Look;
-using render::ChannelShares;
+using render::ChannelWeights;
 
 constexpr classify::FieldWindow window{-900.0, 2000.0};
 
@@ -76,7 +76,7 @@ TEST_P(Layers, AllWeightsOneIsThePlainProjection) {
     const auto engine = prepare::makeEngine(
         {{plain}, {}, shading::shadingScale(plain.values.lattice())}, {}, layers->plan());
     const auto expected = engine->render(scene.camera, scene.image).samples;
-    const std::vector<ChannelShares> ones(6, {1.0, 1.0, 1.0});
+    const std::vector<ChannelWeights> ones(6, {1.0, 1.0, 1.0});
     const auto summed = layers->render(scene.camera, scene.image, {}, ones);
     EXPECT_EQ(summed.channels, 1);
     EXPECT_LE(test::relativeL2(summed.samples, expected), rounding);
@@ -91,7 +91,7 @@ TEST_P(Layers, EachBasisProjectionIsWithinTheTolerance) {
     const auto mixture = classify::mixtureOf(look);
     EXPECT_LE(layers->plan().predictedError, scene.tolerance);
     for (std::size_t n = 0; n < mixture.layers.size(); ++n) {
-        std::vector<ChannelShares> alone(6, {0.0, 0.0, 0.0});
+        std::vector<ChannelWeights> alone(6, {0.0, 0.0, 0.0});
         alone[n] = {1.0, 1.0, 1.0};
         const auto field = classify::layerField(head(), window, mixture.layers[n], nullptr);
         const auto image = layers->render(scene.camera, scene.image, {}, alone).samples;
@@ -104,11 +104,11 @@ TEST_P(Layers, SixteenAlternatingPointsAreWithinTheTolerance) {
     const auto layers = layersOf(scene, look);
     const auto fields = classify::shownFields(head(), window, look, nullptr);
     const auto exact = exactOf(fields.channels.front(), scene);
-    const auto shares = classify::mixtureOf(look).shares;
+    const auto channelWeights = classify::mixtureOf(look).channelWeights;
     for (const char *how : {"summed", "kept"})
-        EXPECT_LE(
-            test::relativeL2(layers->render(scene.camera, scene.image, {}, shares).samples, exact),
-            scene.tolerance)
+        EXPECT_LE(test::relativeL2(
+                      layers->render(scene.camera, scene.image, {}, channelWeights).samples, exact),
+                  scene.tolerance)
             << how;
     const auto settled = prepare::prepareEngine(scene, fields, {});
     EXPECT_LE(test::relativeL2(settled.engine->render(scene.camera, scene.image).samples, exact),
@@ -128,12 +128,12 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
             ->render(scene.camera, scene.image);
     };
     const double allowed = GetParam() == fourier::Storage::binary16 ? 3e-4 : 1e-5;
-    layers->render(scene.camera, scene.image, {}, classify::mixtureOf(look).shares);
+    layers->render(scene.camera, scene.image, {}, classify::mixtureOf(look).channelWeights);
     for (const double weight : {0.4, 0.0, 1.7}) {
         look.classes[1].weight = weight;
         look.classes[2].weight = weight * 0.5;
         const auto image =
-            layers->render(scene.camera, scene.image, {}, classify::mixtureOf(look).shares);
+            layers->render(scene.camera, scene.image, {}, classify::mixtureOf(look).channelWeights);
         const auto expected = fresh(look, *layers);
         ASSERT_EQ(image.channels, expected.channels);
         EXPECT_LE(test::relativeL2(image.samples, expected.samples), allowed) << weight;
@@ -142,7 +142,7 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
     look.classes.resize(1);
     const auto single = layersOf(scene, look);
     const auto colored =
-        single->render(scene.camera, scene.image, {}, classify::mixtureOf(look).shares);
+        single->render(scene.camera, scene.image, {}, classify::mixtureOf(look).channelWeights);
     ASSERT_EQ(colored.channels, 3);
     const auto expected = fresh(look, *single);
     EXPECT_LE(test::relativeL2(colored.samples, expected.samples), allowed);
@@ -152,7 +152,7 @@ TEST(LayerSet, WithoutWeightsThePictureIsEmpty) {
     const scene::Scene scene = sceneOf(head().lattice(), fourier::Storage::binary16);
     const auto layers = layersOf(scene, alternating(3));
     const auto image = layers->render(scene.camera, scene.image, {},
-                                      std::vector<ChannelShares>(3, {0.0, 0.0, 0.0}));
+                                      std::vector<ChannelWeights>(3, {0.0, 0.0, 0.0}));
     EXPECT_EQ(image.channels, 1);
     EXPECT_TRUE(
         std::all_of(image.samples.begin(), image.samples.end(), [](float f) { return f == 0.0F; }));
@@ -179,12 +179,12 @@ TEST(LayerSet, KnowsTheErrorOfItsSums) {
     for (const std::vector<double> &weights :
          {std::vector<double>{0, 2, 0, 2}, {0.3, 0.3, 0.3, 0.3}, {0, 0, 1.5, 0}, {1, 0, 0, 2}}) {
         look.transferFunction.weights = weights;
-        const auto shares = classify::mixtureOf(look).shares;
+        const auto channelWeights = classify::mixtureOf(look).channelWeights;
         const auto fields = classify::shownFields(head(), window, look, nullptr);
         const auto truth = exactOf(fields.channels.front(), scene);
         for (const auto &layers : {whole, half}) {
             const prepare::PreparedEngine prepared{
-                std::make_shared<prepare::MixtureEngine>(layers, shares),
+                std::make_shared<prepare::MixtureEngine>(layers, channelWeights),
                 layers->plan(),
                 layers->bytes(),
                 false,

@@ -25,14 +25,14 @@ void PrintTo(Step step, std::ostream *out) {
 namespace {
 
 TEST(NextStep, LooksAreRelatedAsTheTableTakesThemToBe) {
-    EXPECT_TRUE(madeFor(plain).hasLayersOf(madeFor(weighted)));
+    EXPECT_TRUE(madeFor(plain).hasSameLayersAs(madeFor(weighted)));
     EXPECT_FALSE(madeFor(plain).showsSameAs(madeFor(weighted)));
-    EXPECT_FALSE(madeFor(plain).hasLayersOf(madeFor(classes)));
+    EXPECT_FALSE(madeFor(plain).hasSameLayersAs(madeFor(classes)));
     for (const Look look : {lit, cued, litCued}) {
         EXPECT_TRUE(madeFor(plain).showsSameAs(madeFor(look)));
-        EXPECT_FALSE(madeFor(plain).hasLayersOf(madeFor(look)));
+        EXPECT_FALSE(madeFor(plain).hasSameLayersAs(madeFor(look)));
     }
-    EXPECT_TRUE(madeFor(lit).hasLayersOf(madeFor(litWeighted)));
+    EXPECT_TRUE(madeFor(lit).hasSameLayersAs(madeFor(litWeighted)));
 }
 
 struct Row {
@@ -279,32 +279,32 @@ const Row table[] = {
      Step::nothing},
     // Something came.
     {"AFullEngineIsAllThatWasWanted",
-     fullCame,
+     fullArrived,
      plain,
      {.full = ofPlain, .shown = full},
      Step::nothing},
     {"WhatWasWaitedForIsALookOfItsOwn",
-     fullCame,
+     fullArrived,
      weighted,
      {.full = ofPlain, .shown = full},
      Step::startCoarseFirst},
     {"WhatWasWaitedForWaitsForTheScanToo",
-     fullCame,
+     fullArrived,
      weighted,
      {.full = ofPlain, .shown = full, .isHeld = true},
      Step::nothing},
     {"LayersThatCameAreShown",
-     layersCame,
+     layersArrived,
      weighted,
      {.full = ofPlain, .layers = ofWeighted, .shown = full},
      Step::showLayers},
     {"LayersOfWeightsThatWentBackAreNotShown",
-     layersCame,
+     layersArrived,
      plain,
      {.full = ofPlain, .layers = ofWeighted, .shown = full},
      Step::nothing},
     {"LayersOfAFormerLookAreNotShown",
-     layersCame,
+     layersArrived,
      classes,
      {.full = ofPlain, .layers = ofWeighted, .shown = full},
      Step::nothing},
@@ -348,7 +348,7 @@ TEST(NextStep, ACoarseEngineOfWeightsThatMoveHasTheBrightnessOfLayers) {
     const Have have{.full = ofLit, .shown = full, .underway = coarseFirstOf(litWeighted)};
     EXPECT_EQ(afterCoarse(madeFor(litWeighted), have).shown, live);
     EXPECT_EQ(afterCoarse(ofClasses, have).shown, coarse);
-    EXPECT_FALSE(afterCoarse(ofClasses, have).underway->isCoarseToCome);
+    EXPECT_FALSE(afterCoarse(ofClasses, have).underway->isCoarsePending);
 }
 
 } // namespace

@@ -41,7 +41,7 @@ auto keyOf(const State &state) {
     const auto &underway = have.underway;
     return std::tuple(indexOf(have.full), indexOf(have.layers), have.shown ? int(*have.shown) : -1,
                       underway ? int(underway->makes) : -1, underway ? indexOf(underway->of) : -1,
-                      underway && underway->isCoarseToCome, indexOf(have.givenUp),
+                      underway && underway->isCoarsePending, indexOf(have.givenUp),
                       indexOf(have.layersGivenUp), have.isHeld, int(state.wanted), state.restRuns);
 }
 
@@ -56,7 +56,7 @@ void act(State &state, Occasion occasion) {
             ASSERT_FALSE(state.have.isHeld) << "a scan is left alone";
             if (step == Step::startLayers)
                 ASSERT_FALSE(state.have.layersGivenUp &&
-                             state.have.layersGivenUp->hasLayersOf(wanted))
+                             state.have.layersGivenUp->hasSameLayersAs(wanted))
                     << "layers that were given up are not started again";
             else
                 ASSERT_FALSE(state.have.givenUp == wanted)
@@ -66,7 +66,7 @@ void act(State &state, Occasion occasion) {
             ASSERT_TRUE(state.have.full);
         }
         if (step == Step::showLayers) {
-            ASSERT_TRUE(state.have.layers && state.have.layers->hasLayersOf(wanted));
+            ASSERT_TRUE(state.have.layers && state.have.layers->hasSameLayersAs(wanted));
         }
         if (step == Step::stopJob) {
             ASSERT_TRUE(state.have.underway);
@@ -112,14 +112,14 @@ bool make(Move move, Look edited, State &state) {
         if (!makesEngine)
             return false;
         have = afterFull(of, have);
-        act(state, fullCame);
+        act(state, fullArrived);
         return true;
     case Move::coarseLayers:
     case Move::layers:
         if (!makesLayers)
             return false;
         have = afterLayers(of, move == Move::layers ? Detail::full : Detail::coarse, have);
-        act(state, layersCame);
+        act(state, layersArrived);
         return true;
     case Move::stop:
         if (!have.underway)
@@ -166,7 +166,7 @@ void expectReached(State state, bool isLarge) {
             return;
         }
         std::vector<Move> order{Move::full, Move::layers, Move::rest};
-        if (isLarge && state.have.underway && state.have.underway->isCoarseToCome)
+        if (isLarge && state.have.underway && state.have.underway->isCoarsePending)
             order.insert(order.begin(), Move::coarse);
         bool isMoved = false;
         for (const Move move : order)

@@ -24,7 +24,7 @@ protected:
     render::FrameInputs inputsOf(const render::EngineParts &parts,
                                  const shading::Shading &shading) {
         return render::FrameSetup(parts.fieldOfView)
-            .inputsFor(parts.spectra, parts.shares, camera, {}, shading);
+            .inputsFor(parts.spectra, parts.channelWeights, camera, {}, shading);
     }
 
     classify::DensityField field =
@@ -34,7 +34,7 @@ protected:
 
 TEST_F(FrameInputs, AreEmptyWhereNothingIsShown) {
     render::EngineParts parts = partsFor({});
-    parts.shares = {{0.0, 0.0, 0.0}};
+    parts.channelWeights = {{0.0, 0.0, 0.0}};
     camera.pixelMm = 1e-9; // no slice grid would do
     const render::FrameInputs inputs = inputsOf(parts, {});
     EXPECT_TRUE(inputs.isEmpty());
@@ -54,15 +54,15 @@ TEST_F(FrameInputs, LightsAreOffWithoutGradients) {
 
 TEST_F(FrameInputs, OneColorIsGivenToTheOneImage) {
     render::EngineParts parts = partsFor({});
-    parts.shares = {{0.5, 0.5, 0.5}};
+    parts.channelWeights = {{0.5, 0.5, 0.5}};
     const render::FrameInputs grey = inputsOf(parts, {});
-    EXPECT_EQ(grey.tint(), (render::ChannelShares{1.0, 1.0, 1.0}));
+    EXPECT_EQ(grey.tint(), (render::ChannelWeights{1.0, 1.0, 1.0}));
     EXPECT_EQ(grey.unit(), 0.5 * grey.geometry.cellArea * grey.mixing.unit);
-    parts.shares = {{1.0, 0.5, 0.25}};
+    parts.channelWeights = {{1.0, 0.5, 0.25}};
     const render::FrameInputs colored = inputsOf(parts, {});
     EXPECT_EQ(colored.pictureChannels(), 3);
     EXPECT_EQ(colored.mixing.channels, 1);
-    EXPECT_EQ(colored.tint(), parts.shares.front());
+    EXPECT_EQ(colored.tint(), parts.channelWeights.front());
     EXPECT_EQ(colored.unit(), colored.geometry.cellArea * colored.mixing.unit);
     EXPECT_FALSE(colored.isShaded);
 }
@@ -71,7 +71,8 @@ TEST_F(FrameInputs, TheMomentKernelsAreKeptFromFrameToFrame) {
     const render::EngineParts parts = partsFor({.cue = lit.cue});
     render::FrameSetup setup(parts.fieldOfView);
     const auto kernels = [&](const shading::Shading &shading) {
-        return setup.inputsFor(parts.spectra, parts.shares, camera, {}, shading).shading.kernels;
+        return setup.inputsFor(parts.spectra, parts.channelWeights, camera, {}, shading)
+            .shading.kernels;
     };
     EXPECT_EQ(kernels({}), nullptr);
     const auto *const first = kernels({.cue = lit.cue});

@@ -237,14 +237,14 @@ TEST(Shading, DisabledShadingChangesAndPreparesNothing) {
     Light dark = across;
     dark.strength = 0.0;
     Subject off(headField(), {.cue = {CueKind::linear, 0.0, {1.0, 1.0, 1.0}}, .lights = {dark}});
-    EXPECT_FALSE(off.prepared.takesLight);
+    EXPECT_FALSE(off.prepared.canBeLit);
     EXPECT_EQ(off.prepared.bytes, plain.prepared.bytes);
     EXPECT_EQ(off.image(someViews().front()).samples, expected);
     Subject lit(headField(), {.lights = {across}});
-    EXPECT_TRUE(lit.prepared.takesLight);
+    EXPECT_TRUE(lit.prepared.canBeLit);
     const auto out = prepare::withoutLight(lit.prepared);
     EXPECT_EQ(2 * out.bytes, lit.prepared.bytes);
-    EXPECT_FALSE(out.takesLight);
+    EXPECT_FALSE(out.canBeLit);
     EXPECT_EQ(out.engine->render(plain.scene.camera, {}, {}).samples,
               lit.prepared.engine->render(plain.scene.camera, {}, {}).samples);
 }

@@ -40,11 +40,11 @@ fourier::SpectrumLayout exactLayout(const volume::Lattice &lattice) {
     return layoutOf(lattice, fourier::Kernel::kaiserBessel(7, 2.0), 2.0);
 }
 
-render::EngineParts partsOf(const std::vector<volume::Volume> &fields,
-                            const fourier::SpectrumLayout &layout,
-                            std::vector<render::ChannelShares> shares = {{1.0, 1.0, 1.0}}) {
+render::EngineParts
+partsOf(const std::vector<volume::Volume> &fields, const fourier::SpectrumLayout &layout,
+        std::vector<render::ChannelWeights> channelWeights = {{1.0, 1.0, 1.0}}) {
     render::EngineParts parts{
-        {}, std::move(shares), plan::fieldOfViewOf(fields.front().lattice(), layout.box)};
+        {}, std::move(channelWeights), plan::fieldOfViewOf(fields.front().lattice(), layout.box)};
     for (const volume::Volume &field : fields)
         parts.spectra.fields.push_back(
             std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(field, layout)));
