@@ -127,7 +127,7 @@ protected:
 // Wherever work is when it is asked to stop, it does little more: no more than three times what an
 // eighth of the series takes, however long the whole does, where work that stops at its end takes
 // eight. It leaves no file that is not whole. (The window does not wait for it: see
-// cancelGivesTheProgramBackAtOnce.)
+// cancelTakesEffectAtOnce.)
 TEST_F(Cancel, EveryStageEndsSoon) {
     const Work whole = workOf("whole", 160), eighth = workOf("eighth", 20);
     const auto stages = whole.stages(), parts = eighth.stages();

@@ -10,7 +10,7 @@
 
 namespace pellucid::test {
 
-/// All of a file.
+/// The contents of a file.
 inline std::string readText(const std::filesystem::path &path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};

@@ -9,7 +9,7 @@
 
 namespace pellucid::test {
 
-/// What a context is to a Device, with a driver that can be told to reset.
+/// A context whose driver reports a reset on request.
 class FragileContext final : public gpu::Context {
 public:
     explicit FragileContext(std::shared_ptr<std::atomic<bool>> lost) : m_lost(std::move(lost)) {}

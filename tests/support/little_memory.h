@@ -8,8 +8,8 @@
 
 namespace pellucid::test {
 
-/// As long as it is there the program gets so much more address space and no more. Not in sanitized
-/// builds, which reserve terabytes.
+/// Limits the address space that the process may still add, as long as the object exists. Not for
+/// sanitized builds, which reserve terabytes.
 class LittleMemory {
 public:
     explicit LittleMemory(std::size_t moreMb) {

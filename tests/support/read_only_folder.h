@@ -8,8 +8,7 @@
 
 namespace pellucid::test {
 
-/// As long as it is there nothing can be written into a folder from this thread: not by root, who
-/// may otherwise write anywhere.
+/// Makes a folder read-only for this thread as long as the object exists, even for root.
 class ReadOnlyFolder {
 public:
     explicit ReadOnlyFolder(std::filesystem::path folder) : m_folder(std::move(folder)) {

@@ -8,7 +8,7 @@
 
 namespace pellucid::test {
 
-/// A folder that exists as long as the object.
+/// A temporary folder, which is removed with the object.
 class TemporaryFolder {
 public:
     TemporaryFolder() {

@@ -8,7 +8,7 @@
 
 namespace pellucid::test {
 
-/// The folder of the real series, empty where they are absent.
+/// The folder of the real series; empty if they are absent.
 inline std::filesystem::path testData() {
     const char *folder = std::getenv("PELLUCID_TEST_DATA");
     return folder != nullptr ? std::filesystem::path(folder) : std::filesystem::path();
@@ -16,7 +16,7 @@ inline std::filesystem::path testData() {
 
 } // namespace pellucid::test
 
-/// Skips a test with the reason where the real series are absent.
+/// Skips a test, with the reason, if the real series are absent.
 #define PELLUCID_NEEDS_TEST_DATA()                                                                 \
     if (pellucid::test::testData().empty())                                                        \
     GTEST_SKIP() << "PELLUCID_TEST_DATA is not set: the real series are absent"

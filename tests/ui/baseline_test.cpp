@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The looks that somebody has looked at: the window in both themes and both languages, at the
-// density of QT_SCALE_FACTOR, and every panel and dialog. With PELLUCID_ACCEPT_BASELINES the
-// pictures are written in place of being compared (`./dev accept-pictures`), those of the panels
-// into the manual.
+// Pictures that somebody has accepted: the window in both themes and both languages, at the density
+// of QT_SCALE_FACTOR, and every panel and dialog. With PELLUCID_ACCEPT_BASELINES the test writes
+// the pictures instead of comparing them (`./dev accept-pictures`), those of the panels into the
+// manual.
 #include "tests/ui/workstation.h"
 
 #include <QComboBox>
@@ -17,13 +17,12 @@
 #include "ui/views/mpr_view.h"
 #include "ui/views/spectrum_sampler.h"
 #include "ui/window/file_menu.h"
-#include "ui/window/workstation.h"
 
 namespace pellucid {
 
 using namespace test;
 
-class BaselineTest : public test::Workstation {
+class BaselineTest : public Workstation {
     Q_OBJECT
 private slots:
     void initTestCase() {
@@ -37,11 +36,7 @@ private slots:
                               .seriesDescription = "3 mm"},
                              dicom::TransferSyntax::explicitLittle);
     }
-    void init() {
-        QSettings().clear();
-        std::filesystem::remove_all(m_folder / "data");
-    }
-    void cleanup() { m_program.reset(); }
+    void init() { forgetEverything(); }
 
     void theWindow_data() {
         QTest::addColumn<QString>("theme");
@@ -56,13 +51,13 @@ private slots:
         QFETCH(QString, language);
         begin(theme, language);
         openHead();
-        compare(window().grab().toImage(), "window_" + theme + "_" + language,
-                changingParts(&window()));
+        compare(mainWindow().grab().toImage(), "window_" + theme + "_" + language,
+                changingParts(&mainWindow()));
     }
 
     void theStartPage() {
         begin("dark", "en");
-        compare(window().grab().toImage(), "start_page", changingParts(&window()));
+        compare(mainWindow().grab().toImage(), "start_page", changingParts(&mainWindow()));
     }
 
     // Each is a picture of the manual.
@@ -74,105 +69,82 @@ private slots:
         for (const char *dock :
              {"studyDock", "measurementsDock", "historyDock", "presetsDock", "classesDock",
               "transferFunctionDock", "shadingDock", "qualityDock"}) {
-            auto *panel = window().findChild<QDockWidget *>(dock);
+            auto *panel = mainWindow().findChild<QDockWidget *>(dock);
             QVERIFY2(panel != nullptr, dock);
             panel->show();
-            rest();
-            QCoreApplication::processEvents();
+            settle();
             compare(panel->grab().toImage(), "panel_" + QString(dock).remove("Dock"),
                     changingParts(panel));
         }
-        window().findChild<QDockWidget *>("historyDock")->hide();
+        mainWindow().findChild<QDockWidget *>("historyDock")->hide();
         for (const char *pane : {"axialView", "projectionView"})
-            compare(of<QWidget>(pane)->grab().toImage(), "panel_" + QString(pane).remove("View"),
-                    changingParts(of<QWidget>(pane)));
-        of<QAction>("exportPictureAction")->trigger();
-        of<QLineEdit>("exportPathEdit")->setText("/home/jane/projection.png");
+            compare(find<QWidget>(pane)->grab().toImage(), "panel_" + QString(pane).remove("View"),
+                    changingParts(find<QWidget>(pane)));
+        find<QAction>("exportPictureAction")->trigger();
+        find<QLineEdit>("exportPathEdit")->setText("/home/jane/projection.png");
         dialog("exportDialog", "panel_export");
-        window().fileMenu().importPaths({"/media/cdrom"});
+        mainWindow().fileMenu().importPaths({"/media/cdrom"});
         dialog("importDialog", "panel_import");
-        of<QAction>("preferencesAction")->trigger();
+        find<QAction>("preferencesAction")->trigger();
         dialog("preferencesDialog", "panel_preferences");
-        of<QAction>("aboutAction")->trigger();
+        find<QAction>("aboutAction")->trigger();
         dialog("aboutDialog", "panel_about");
-        of<QAction>("spectrumAction")->trigger();
-        const auto *sampler = window().findChild<ui::SpectrumSampler *>();
+        find<QAction>("spectrumAction")->trigger();
+        const auto *sampler = mainWindow().findChild<ui::SpectrumSampler *>();
         QTRY_VERIFY_WITH_TIMEOUT(!sampler->isBehind(), patienceMs);
-        compare(of<QDockWidget>("spectrumDock")->grab().toImage(), "panel_spectrum", {});
+        compare(find<QDockWidget>("spectrumDock")->grab().toImage(), "panel_spectrum", {});
     }
 
 private:
     void begin(const QString &theme, const QString &language) {
         QSettings().setValue("theme", theme);
         QSettings().setValue("language", language);
-        m_program.reset();
-        m_program = std::make_unique<ui::Workstation>();
-        window().resize(1280, 800);
-        QVERIFY(QTest::qWaitForWindowExposed(&window()));
-        window().activateWindow();
+        restart({1280, 800});
     }
 
-    // With a look, a measurement, and everything that is made aside.
+    // With a look, a measurement, and the pictures of gallery and list.
     void openHead() {
-        drop(window(),
-             {QUrl::fromLocalFile(QString::fromStdString((m_folder / "shown").string()))});
-        rest();
-        QTest::keyClick(&window(), Qt::Key_M);
-        auto *axial = of<ui::MprView>("axialView");
+        open(QString::fromStdString((m_folder / "shown").string()));
+        QTest::keyClick(&mainWindow(), Qt::Key_M);
+        auto *axial = find<ui::MprView>("axialView");
         dragMouse(axial, Qt::LeftButton, {axial->width() / 3, axial->height() / 2},
                   {axial->width() / 4, -axial->height() / 8});
-        QTest::keyClick(&window(), Qt::Key_W);
-        auto *gallery = of<QListWidget>("presetGallery");
+        QTest::keyClick(&mainWindow(), Qt::Key_W);
+        auto *gallery = find<QListWidget>("presetGallery");
         QListWidgetItem *wanted = nullptr;
         for (int n = 0; n < gallery->count(); ++n)
             if (gallery->item(n)->data(Qt::UserRole) == "Bone over soft tissue")
                 wanted = gallery->item(n);
         QVERIFY(wanted != nullptr);
-        gallery->scrollToItem(wanted);
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, {},
-                          gallery->visualItemRect(wanted).center());
+        clickItem(*gallery, *wanted);
         gallery->scrollToTop();
-        rest();
+        settle();
         const auto isBlack = [&](int n) {
             return meanGrey(gallery->item(n)->icon().pixmap(40, 40).toImage()) == 0.0;
         };
         QTRY_VERIFY_WITH_TIMEOUT(!isBlack(0) && !isBlack(gallery->count() - 1), patienceMs);
-        auto *tree = of<QTreeView>("seriesTree");
+        auto *tree = find<QTreeView>("seriesTree");
         const QModelIndex row = tree->model()->index(0, 0, tree->model()->index(0, 0));
         QTRY_VERIFY(!row.data(Qt::DecorationRole).value<QImage>().isNull());
-        projectionOf()->setFocus();
-        rest();
-        QCoreApplication::processEvents();
+        projection()->setFocus();
+        settle();
     }
 
-    ui::MainWindow &window() { return m_program->window(); }
-    ui::ProjectionView *projectionOf() { return of<ui::ProjectionView>("projectionView"); }
-    template <class T> T *of(const char *name) {
-        T *found = window().findChild<T *>(name);
-        if (found == nullptr)
-            qFatal("no %s", name);
-        return found;
-    }
-    void rest() {
-        QTRY_VERIFY_WITH_TIMEOUT(projectionOf()->showsFinalImage() &&
-                                     !m_program->bench().study.jobs.isRunning(),
-                                 patienceMs);
-    }
     QString density() const {
         return QString("%1x").arg(m_program
-                                      ? m_program->window().devicePixelRatioF()
+                                      ? mainWindow().devicePixelRatioF()
                                       : qEnvironmentVariable("QT_SCALE_FACTOR", "1").toDouble());
     }
 
     void dialog(const char *name, const QString &picture) {
-        auto *shown = of<QDialog>(name);
+        auto *shown = find<QDialog>(name);
         QVERIFY(QTest::qWaitForWindowExposed(shown));
         compare(shown->grab().toImage(), picture, changingParts(shown));
         shown->close();
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
     }
 
-    // Times, instruction sets, versions and folders are another each time.
+    // Times, instruction sets, versions and folders differ from run to run.
     QList<QRect> changingParts(QWidget *in) const {
         QList<QRect> parts;
         const auto add = [&](const QWidget *part, QRect rect) {
@@ -192,8 +164,8 @@ private:
         return parts;
     }
 
-    // Same size; few pixels clearly other, and little in the mean: the vector code of another
-    // processor rounds a grey value here and there.
+    // The same size, few pixels that differ clearly, and a small mean difference: the vector code
+    // of another processor rounds a few grey values differently.
     void compare(QImage actual, const QString &name, const QList<QRect> &masked) {
         actual = actual.convertToFormat(QImage::Format_RGB32);
         const double ratio = actual.devicePixelRatio();
@@ -249,8 +221,6 @@ private:
                            .arg(wanted.height())
                            .arg(folder)));
     }
-
-    std::unique_ptr<ui::Workstation> m_program;
 };
 
 } // namespace pellucid

@@ -20,11 +20,8 @@ private slots:
         StudiesWindow::initTestCase();
         writeChests();
     }
-    // Each test has a library of its own.
-    void init() { restartWithoutLibrary(); }
-
     // One after the other beside one study; what follows a step that fails is not tried.
-    void aPriorStandsBesideAndMovesAlong() {
+    void aPriorIsShownBesideAndMovesAlong() {
         using Step = void (BesideTest::*)();
         for (const Step step :
              {&BesideTest::openAPrior, &BesideTest::turnTheProjections, &BesideTest::resizeThePanes,
@@ -66,7 +63,7 @@ private:
         QSignalSpy moved(&now(), &ui::Document::poseChanged);
         for (const int wider : {160, -160}) {
             const int width = now().scene().camera.width;
-            m_window->resize(m_window->width() + wider, m_window->height());
+            mainWindow().resize(mainWindow().width() + wider, mainWindow().height());
             QTRY_VERIFY(now().scene().camera.width != width);
             QTRY_VERIFY(std::abs(prior().scene().camera.pixelMm - now().scene().camera.pixelMm) <
                         1e-9);
@@ -105,7 +102,7 @@ private:
         QVERIFY(glm::distance(apart(), before) < 1e-6);
         turnWheel(find<QWidget>("beside_axialView"), -1);
         QVERIFY(glm::distance(apart(), before) < 1e-6);
-        QTest::keyClick(m_window.get(), Qt::Key_S);
+        QTest::keyClick(&mainWindow(), Qt::Key_S);
         QVERIFY(prior().cut() == now().cut());
         const auto window = now().displayWindow();
         dragMouse(find<QWidget>("beside_coronalView"), Qt::LeftButton, {60, 60}, {40, -20});
@@ -117,7 +114,7 @@ private:
     }
 
     void chooseALookAndALayout() {
-        clickPreset(*m_window, "Bone");
+        clickPreset(mainWindow(), "Bone");
         settle();
         QVERIFY(prior().scene().look == now().scene().look);
         settleBeside();
@@ -150,7 +147,7 @@ private:
 
     void closeThePrior() {
         QTest::mouseClick(find<QToolButton>("closeBesideButton"), Qt::LeftButton);
-        QTRY_VERIFY(m_window->findChild<ui::StudyBeside *>("studyBeside") == nullptr);
+        QTRY_VERIFY(mainWindow().findChild<ui::StudyBeside *>("studyBeside") == nullptr);
         QVERIFY(!find<QLabel>("studyHeading")->isVisible());
         dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), {60, 20});
         settle();
@@ -158,12 +155,12 @@ private:
 
     ui::StudyBeside *beside() { return find<ui::StudyBeside>("studyBeside"); }
     ui::ProjectionView *other() { return find<ui::ProjectionView>("beside_projectionView"); }
-    ui::Document &now() { return m_window->document(); }
+    ui::Document &now() { return mainWindow().document(); }
     ui::Document &prior() { return beside()->document(); }
     // Of the crosshairs. *Units*: mm.
     glm::dvec3 apart() { return prior().crosshair().mm - now().crosshair().mm; }
     void settleBeside() {
-        QTRY_VERIFY_WITH_TIMEOUT(other()->showsFinalImage() && !beside()->jobs().isRunning(),
+        QTRY_VERIFY_WITH_TIMEOUT(other()->showsWhatIsAskedFor() && !beside()->jobs().isRunning(),
                                  patienceMs);
     }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which engine makes the projection: chosen, on the card, lost, and on machines that lack one.
+// The engine of the projection: the user's choice, a lost card, machines without one.
 #include "tests/ui/workstation.h"
 
 #include <atomic>
@@ -40,7 +40,7 @@ int largestDifference(const QImage &a, const QImage &b) {
 class EngineTest : public Workstation {
     Q_OBJECT
 private slots:
-    void startsSaysWhyAndWorks() {
+    void theProgramStartsNamesItsEngineAndWorks() {
         if (qEnvironmentVariable("PELLUCID_ENGINE") == "card")
             find<QAction>("cardEngineAction")->trigger();
         const QString reason =
@@ -68,24 +68,24 @@ private slots:
         chooseCard();
         QVERIFY(!projection()->picture().isNull());
         QVERIFY(largestDifference(projection()->picture(), processor) <= 1);
-        // What is on the screen is drawn from the card's texture.
+        // The screen is drawn from the card's texture.
         QVERIFY(std::abs(meanGrey(canvas()) - lightness) < 0.2);
         QVERIFY(largestDifference(canvas(), projection()->picture()) <= 1);
         save("on_the_card");
-        // And turns, and takes a window and a light.
+        // The view turns, and takes a light.
         dragMouse(projection(), Qt::LeftButton, QPoint(100, 100), QPoint(60, 20));
         settle();
         QVERIFY(changed(processor, projection()->picture()) > 0.02);
         find<QAction>("addLightAction")->trigger();
         settle();
-        QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !m_window->jobs().isRunning(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !jobs().isRunning(), patienceMs);
         settle();
         QVERIFY(largestDifference(canvas(), projection()->picture()) <= 1);
     }
 
-    // What the window shows is what the command line makes of its scene: pixel for pixel on the
-    // processor, within the rounding of two engines to eight bits on the card.
-    void thePictureIsTheCommandLines() {
+    // Pixel for pixel on the processor; on the card within the rounding of two engines to eight
+    // bits.
+    void theCommandLineMakesTheSamePicture() {
         useSmallWindow();
         find<QAction>("processorEngineAction")->trigger();
         open(headPath());
@@ -106,7 +106,7 @@ private slots:
         QVERIFY(largestDifference(canvas(), expected) <= 1);
     }
 
-    void withoutADisplayOneLineSaysSo() {
+    void aMissingDisplayIsReportedInOneLine() {
         QProcess program;
         QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
         for (const char *name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
@@ -119,16 +119,16 @@ private slots:
         QVERIFY2(said.contains("there is no display") && said.count('\n') == 1, said);
     }
 
-    void aCardThatFailsIsGivenUpAndChosenAgain() {
+    void theProcessorReplacesAFailedCardUntilItIsChosenAgain() {
         needCard();
         open(headPath());
         chooseCard();
         const QImage before = projection()->picture();
-        // What failed before the card was chosen again is over.
+        // A failure of the former passes does not concern the card that was chosen since.
         emit projection()->cardFailed(task::because::cardWasLost, nullptr);
         QTRY_VERIFY_WITH_TIMEOUT(isOnCard(), patienceMs);
         emit projection()->cardFailed(task::because::cardWasReset,
-                                      m_window->graphicsCard().passes());
+                                      mainWindow().graphicsCard().passes());
         settle();
         QVERIFY2(engineText().startsWith("CPU engine, "), qPrintable(engineText()));
         QVERIFY(engineText().contains("its driver was reset"));
@@ -136,8 +136,7 @@ private slots:
         chooseCard();
     }
 
-    // Frames that a lost card owes come from the processor.
-    void theFrameOfALostCardComesFromTheProcessor() {
+    void theProcessorMakesTheFramesOfALostCard() {
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 32}});
         const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
@@ -149,7 +148,7 @@ private slots:
         const auto card = std::make_shared<gpu::FramePasses>(
             std::make_shared<gpu::Device>(std::make_unique<FragileContext>(lost)));
         ui::RenderWorker worker;
-        // Frames come from the worker's thread, and may be there before anybody waits.
+        // Frames arrive from the worker's thread, maybe before the test waits for them.
         std::vector<std::shared_ptr<const ui::RenderedFrame>> frames;
         int failures = 0;
         QObject receiver;
@@ -165,7 +164,7 @@ private slots:
             return QTest::qWaitFor([&] { return !frames.empty(); }, patienceMs) ? frames.front()
                                                                                 : nullptr;
         };
-        // The card compiles for longer than a hand waits: the processor makes the first one.
+        // The card compiles for longer than a hand waits: the processor makes the first frame.
         auto onCard = next();
         QVERIFY(onCard &&
                 (onCard->onCard || onCard->refusal == task::because::cardIsBeingPrepared));
@@ -186,7 +185,7 @@ private slots:
     }
 
     // As when a pane is dragged to a second screen.
-    void thePictureSurvivesAnotherWindow() {
+    void thePictureSurvivesAMoveToAnotherWindow() {
         needCard();
         open(headPath());
         chooseCard();
@@ -209,7 +208,7 @@ private slots:
         QVERIFY(largestDifference(moved, before) <= 1);
     }
 
-    void layersOnTheCardFollowTheirShares() {
+    void layersOnTheCardFollowTheirWeights() {
         needCard();
         const auto lattice =
             phantom::phantomLattice(phantom::Kind::head, {.size = volume::GridSize{32, 32, 32}});
@@ -249,38 +248,36 @@ private slots:
         const auto expected = shown.back().prepared.engine->render(scene.camera, scene.image);
         const auto found = shown.back().onCard->render(scene.camera, scene.image);
         QCOMPARE(found.channels, expected.channels);
-        QVERIFY(relativeL2(found.samples, expected.samples) < 3e-4); // what both engines promise
+        QVERIFY(relativeL2(found.samples, expected.samples) < 3e-4); // the bound of both engines
         card.choose(ui::EngineChoice::automatic);
     }
 
-    void aCopyThatIsCancelledLeavesTheProcessor() {
+    void aCancelledCopyLeavesTheProcessorInUse() {
         needCard();
         open(headPath());
-        QSignalSpy started(&m_window->jobs(), &ui::JobRunner::started);
-        connect(&m_window->jobs(), &ui::JobRunner::started, m_window.get(),
-                [this] { m_window->jobs().cancel(); });
+        QSignalSpy started(&jobs(), &ui::JobRunner::started);
+        connect(&jobs(), &ui::JobRunner::started, &mainWindow(), [this] { jobs().cancel(); });
         find<QAction>("cardEngineAction")->trigger();
         QTRY_COMPARE_WITH_TIMEOUT(started.count(), 1, patienceMs);
         QTRY_VERIFY_WITH_TIMEOUT(engineText().contains("cancelled"), patienceMs);
         QVERIFY(engineText().startsWith("CPU engine, "));
         settle();
         QVERIFY(!projection()->picture().isNull());
-        QTest::qWait(50);
-        QCOMPARE(started.count(), 1); // and is not begun again
+        // The copier decides in a queued call, which settle() has run: it does not begin again.
+        QCOMPARE(started.count(), 1);
     }
 
-    // Spectra, programs, pictures: of three studies no more than of one.
-    void theCardGetsBackWhatAStudyTook() {
+    // Spectra and pictures: three studies leave no more than one.
+    void aClosedStudyFreesItsMemoryOnTheCard() {
         needCard();
         open(headPath());
         chooseCard();
         const auto closeAndCount = [&] {
-            m_bench->study.opener.closeSource(0);
+            bench().study.opener.closeSource(0);
+            awaitCard();
             int count = -1;
-            // The worker lets go of it a moment later.
-            const bool rests = QTest::qWaitFor(
+            const bool rests = QTest::qWaitFor( // while the window paints
                 [&] {
-                    QTest::qWait(100);
                     const int former = std::exchange(count, sharedGlObjects());
                     return former == count;
                 },
@@ -291,7 +288,7 @@ private slots:
         QVERIFY(before > 0);
         for (int n = 0; n < 3; ++n) {
             open(headPath());
-            QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !m_window->jobs().isRunning(), patienceMs);
+            QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !jobs().isRunning(), patienceMs);
             settle();
             QVERIFY(sharedGlObjects() > before);
             QCOMPARE(closeAndCount(), before);
@@ -299,7 +296,7 @@ private slots:
         find<QAction>("automaticEngineAction")->trigger();
     }
 
-    void theChoiceIsRemembered() {
+    void theEngineChoiceIsRemembered() {
         find<QAction>("processorEngineAction")->trigger();
         restart();
         QVERIFY(find<QAction>("processorEngineAction")->isChecked());
@@ -332,16 +329,23 @@ private:
         const auto rgba = picture::compose(image, projection()->sceneOfPicture().tone);
         return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
     }
+    // Waits until jobs, render worker and queued frames have released their objects on the card,
+    // and the card has deleted them.
+    void awaitCard() {
+        jobs().join();
+        // The worker drops the card first, then it answers: without a study there is no picture.
+        QVERIFY_EXCEPTION_THROWN(projection()->pictureRenderer()(document().scene().camera),
+                                 task::Error);
+        QCoreApplication::processEvents();
+        mainWindow().graphicsCard().passes()->device().run([] {});
+    }
     void chooseCard() {
         find<QAction>("cardEngineAction")->trigger();
-        QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !m_window->jobs().isRunning(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(isOnCard() && !jobs().isRunning(), patienceMs);
         settle();
     }
-    // Pixels no finer than the pictures are made: one of theirs is one of the screen's.
-    void useSmallWindow() {
-        m_window->resize(1000, 640);
-        QTest::qWait(50);
-    }
+    // A pane whose pixels are no finer than the picture's: each is one pixel of the picture.
+    void useSmallWindow() { restart({1000, 640}); }
     void needCard() {
         const auto &window = ui::windowCapabilities();
         if (!window || !window->canRender())

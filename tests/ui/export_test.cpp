@@ -28,7 +28,7 @@ class ExportTest : public Workstation {
     Q_OBJECT
 private slots:
     void init() {
-        restart();
+        Workstation::init();
         open(headPath());
     }
 
@@ -66,7 +66,7 @@ private slots:
                  image.samples[200 * std::size_t(image.width) + 100]);
     }
 
-    void whatCannotBeExportedIsSaid() {
+    void aFailedExportIsReported() {
         find<QAction>("exportPictureAction")->trigger();
         find<QComboBox>("exportPaneBox")->setCurrentText("Coronal");
         find<QComboBox>("exportFormatBox")->setCurrentIndex(2);
@@ -87,14 +87,14 @@ private slots:
         dump.start("dcmdump", {"-q", file});
         QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
         const QString said = QString::fromUtf8(dump.readAll());
-        const ui::StudyFacts study = m_window->document().sources().at(0).study;
+        const ui::StudyFacts study = mainWindow().document().sources().at(0).study;
         QVERIFY(said.contains("=SecondaryCaptureImageStorage"));
         QVERIFY(said.contains("[" + study.uid + "]"));
         QVERIFY(said.contains("[Secret^Name]"));
         QVERIFY(said.contains("[L\\F]"));
         // Letters are coloured, a grey projection is grey: everybody reads it, this program too.
         QVERIFY(said.contains("MONOCHROME2"));
-        const auto &sources = m_window->document().sources();
+        const auto &sources = mainWindow().document().sources();
         QCOMPARE(sources.size(), std::size_t(2));
         QVERIFY(!sources[1].volume.placed);
         QCOMPARE(sources[1].study.uid, study.uid);
@@ -111,7 +111,7 @@ private slots:
         QVERIFY(dump.readAll().contains("MONOCHROME2"));
     }
 
-    void aCaptureOfNobodyNamesNobody() {
+    void aDeidentifiedCaptureHasNoPatientData() {
         const QString file = QString::fromStdString((m_folder / "nobody.dcm").string());
         dialogFor("Projection", 4, 1, true);
         find<QCheckBox>("exportDeidentifiedBox")->click();
@@ -122,7 +122,7 @@ private slots:
         dump.start("dcmdump", {"-q", file});
         QVERIFY(dump.waitForFinished() && dump.exitCode() == 0);
         const QString said = QString::fromUtf8(dump.readAll());
-        const ui::StudyFacts study = m_window->document().sources().at(0).study;
+        const ui::StudyFacts study = mainWindow().document().sources().at(0).study;
         for (const QString &of : {study.patientName, study.patientId, study.uid, study.date})
             QVERIFY2(of.isEmpty() || !said.contains("[" + of + "]"), qPrintable(of));
         // PS3.15, E.1 and table E.1-1.
@@ -130,10 +130,10 @@ private slots:
             QVERIFY2(said.contains(there), there);
         for (const char *gone : {"(0008,1030)", "(0008,103e)", "(0008,2111)", "(0020,4000)"})
             QVERIFY2(!said.contains(gone), gone);
-        QCOMPARE(m_window->document().sources().size(), std::size_t(1));
+        QCOMPARE(mainWindow().document().sources().size(), std::size_t(1));
     }
 
-    void whatIsThereIsReplacedOnlyWhenThatIsWanted() {
+    void anExistingFileIsReplacedOnlyAfterAQuestion() {
         const QImage first = exported("Projection", 0, 1, false);
         dialogFor("Projection", 0, 2, false);
         answerWith(QMessageBox::No);
@@ -144,10 +144,10 @@ private slots:
         answerWith(QMessageBox::Yes);
         finish();
         QCOMPARE(QImage(path).size(), 2 * first.size());
-        QVERIFY(m_window->statusBar()->currentMessage().contains("out.png"));
+        QVERIFY(mainWindow().statusBar()->currentMessage().contains("out.png"));
     }
 
-    void noFileOfAnOpenStudyIsWrittenOver() {
+    void noExportOverwritesAFileOfAnOpenStudy() {
         const fs::path series = m_folder / "kept";
         fs::copy(headPath().toStdString(), series);
         open(QString::fromStdString(series.string()));
@@ -168,7 +168,7 @@ private slots:
         fs::remove(link);
     }
 
-    void aTurnIsWrittenAsFramesAndCancelledWithoutATrace() {
+    void aTurntableIsWrittenAsFramesAndACancelLeavesNothing() {
         dialogFor("Projection", 5, 1, false);
         find<QSpinBox>("exportFramesBox")->setValue(4);
         finish();
@@ -256,7 +256,7 @@ private:
     // Written, and the dialog is gone.
     void finish() {
         find<QPushButton>("exportWriteButton")->click();
-        QTRY_VERIFY_WITH_TIMEOUT(m_window->findChild<QDialog *>("exportDialog") == nullptr,
+        QTRY_VERIFY_WITH_TIMEOUT(mainWindow().findChild<QDialog *>("exportDialog") == nullptr,
                                  patienceMs);
     }
     QImage exported(const QString &pane, int format, int times, bool isAnnotated) {

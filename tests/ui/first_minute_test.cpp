@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A new user's first minute with the program itself, as it is installed: start it, open a study,
-// window, orbit, take a preset, save a look, export, quit; and what of it is on the disk
-// afterwards.
-#include "tests/ui/started_program.h"
+// A new user's first minute: start the program, open a study, window, orbit, choose a preset, save
+// a look, export, quit; and the files that are on the disk afterwards.
+#include "tests/ui/workstation.h"
 
 #include <filesystem>
 
@@ -17,15 +16,11 @@ namespace pellucid {
 using namespace test;
 namespace fs = std::filesystem;
 
-class FirstMinuteTest : public StartedProgram {
+class FirstMinuteTest : public Workstation {
     Q_OBJECT
 private slots:
-    void init() {}
-    void cleanup() { m_program.reset(); }
-
-    // One after the other in one program; what follows a step that fails is not tried.
+    // The steps follow each other in one program; the first that fails ends the test.
     void fromTheStartPageToFilesOnTheDisk() {
-        QSettings().clear();
         using Step = void (FirstMinuteTest::*)();
         for (const Step step : {&FirstMinuteTest::openAFolder, &FirstMinuteTest::setTheWindow,
                                 &FirstMinuteTest::orbit, &FirstMinuteTest::keepALook,
@@ -41,30 +36,29 @@ private slots:
 
 private:
     void openAFolder() {
-        begin();
         QVERIFY(find<QWidget>("startPage")->isVisible());
-        openIn(headPath());
+        open(headPath());
         QVERIFY(!find<QWidget>("startPage")->isVisible());
     }
 
-    // A key, then the hand.
+    // By a key, then by a drag.
     void setTheWindow() {
-        QTest::keyClick(&window_(), Qt::Key_4);
+        QTest::keyClick(&mainWindow(), Qt::Key_4);
         dragMouse(find<QWidget>("axialView"), Qt::LeftButton, {120, 120}, {40, -20});
         QVERIFY(document().displayWindow().width > 1500.0);
     }
 
     void orbit() {
         const auto before = document().scene().camera.orientation;
-        dragMouse(find<QWidget>("projectionView"), Qt::LeftButton, {300, 400}, {90, 10});
-        settleIn();
+        dragMouse(projection(), Qt::LeftButton, {300, 400}, {90, 10});
+        settle();
         QVERIFY(document().scene().camera.orientation != before);
     }
 
-    // A preset of the gallery, a look of one's own in two clicks.
+    // A preset of the gallery, then a look under a new name.
     void keepALook() {
         choosePreset("Bone over soft tissue");
-        QTest::keyClick(&window_(), Qt::Key_S, Qt::ControlModifier);
+        QTest::keyClick(&mainWindow(), Qt::Key_S, Qt::ControlModifier);
         auto *name = find<QLineEdit>("lookNameEdit");
         QTRY_VERIFY(name->isVisible());
         QTest::keyClicks(name, "My bones");
@@ -74,33 +68,33 @@ private:
     }
 
     void measure() {
-        QTest::keyClick(&window_(), Qt::Key_M);
+        QTest::keyClick(&mainWindow(), Qt::Key_M);
         dragMouse(find<QWidget>("axialView"), Qt::LeftButton, {100, 140}, {80, 20});
         QCOMPARE(document().measured().size(), std::size_t(1));
     }
 
     void exportAPicture() {
-        QTest::keyClick(&window_(), Qt::Key_E, Qt::ControlModifier);
+        QTest::keyClick(&mainWindow(), Qt::Key_E, Qt::ControlModifier);
         find<QLineEdit>("exportPathEdit")->setText(png());
         QTest::mouseClick(find<QPushButton>("exportWriteButton"), Qt::LeftButton);
-        QTRY_VERIFY_WITH_TIMEOUT(window_().findChild<QWidget *>("exportDialog") == nullptr,
+        QTRY_VERIFY_WITH_TIMEOUT(mainWindow().findChild<QWidget *>("exportDialog") == nullptr,
                                  patienceMs);
     }
 
-    // It asks before it keeps anything: not today.
+    // The program asks before it imports: rejected.
     void lookAtImporting() {
-        QTest::keyClick(&window_(), Qt::Key_I, Qt::ControlModifier);
-        QTRY_VERIFY(window_().findChild<QWidget *>("importDialog") != nullptr);
-        window_().findChild<QDialog *>("importDialog")->reject();
+        QTest::keyClick(&mainWindow(), Qt::Key_I, Qt::ControlModifier);
+        QTRY_VERIFY(mainWindow().findChild<QWidget *>("importDialog") != nullptr);
+        mainWindow().findChild<QDialog *>("importDialog")->reject();
     }
 
     void quit() {
-        QTest::keyClick(&window_(), Qt::Key_Q, Qt::ControlModifier);
-        QTRY_VERIFY(!window_().isVisible());
-        m_program.reset();
+        QTest::keyClick(&mainWindow(), Qt::Key_Q, Qt::ControlModifier);
+        QTRY_VERIFY(!mainWindow().isVisible());
+        endProgram();
     }
 
-    // Coloured, and said not to diagnose with.
+    // It is colored, and marked as not for diagnostic use.
     void findThePicture() {
         const QImage picture(png());
         QVERIFY(picture.width() > 400 && colorfulness(picture) > 1.0);
@@ -120,7 +114,7 @@ private:
         QCOMPARE(looks, 1);
     }
 
-    // The measurement and what was open are there, and no name of the patient anywhere.
+    // Measurement and session are kept, and no file contains the patient's name.
     void findNoName() {
         QCOMPARE(std::distance(fs::directory_iterator(data() / "measurements"), {}), 1);
         QVERIFY(fs::exists(data() / "session.json"));
@@ -133,9 +127,9 @@ private:
         }
     }
 
-    // The next start offers to go on.
+    // The next start offers to resume.
     void startAgain() {
-        begin();
+        restart();
         QVERIFY(find<QWidget>("resumeButton")->isVisible());
     }
 

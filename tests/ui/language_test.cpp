@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the core gives as reasons, in the user's language and in the files that keep it.
+// Reasons of the core in the user's language, and in files that keep them.
 #include <array>
 
 #include <QTranslator>
@@ -24,12 +24,12 @@ constexpr std::array names{
 #undef PELLUCID_REASON
 };
 
-// What fills a place; no sentence has such a number of its own.
+// A value for a place of a reason; no sentence contains such a number itself.
 std::string argument(int place) {
     return "700" + std::to_string(place);
 }
 
-// Every place is filled.
+// The reason with all places filled.
 task::Reason reasonOf(task::Reason::Id id) {
     std::string text = names.at(std::size_t(id));
     for (int n = 1; n <= task::placesIn(task::englishTemplate(id)); ++n)
@@ -55,7 +55,7 @@ private:
 class LanguageTest : public QObject {
     Q_OBJECT
 private slots:
-    void withoutATranslationAReasonIsEnglish() {
+    void aReasonWithoutATranslationIsEnglish() {
         const task::Reason reason = because::missingSlices(
             std::vector<task::Reason>{because::gapBetween("8.0", "a", "b"), because::more(2)});
         QCOMPARE(translated(reason), QString::fromStdString(reason.english()));
@@ -63,12 +63,12 @@ private slots:
         QCOMPARE(translated(label), QString::fromStdString(dicom::labelText(label)));
     }
 
-    void everyReasonIsSaidInChinese() {
+    void everyReasonHasAChineseText() {
         const Chinese chinese;
         QVERIFY(chinese.isThere());
         for (int n = 0; n < int(task::Reason::Id::count); ++n) {
             const auto id = task::Reason::Id(n);
-            // What the command line says, or a former program said, in words.
+            // A sentence of the command line or of an older version is not translated.
             const bool isSameInAll = id == because::inWords.id;
             const task::Reason reason = reasonOf(id);
             const QString english = QString::fromStdString(reason.english()),
@@ -81,7 +81,7 @@ private slots:
         }
     }
 
-    void reasonsInReasonsAreSaidInChinese() {
+    void nestedReasonsAreTranslated() {
         const Chinese chinese;
         // Names of files stay as they are.
         QCOMPARE(translated(because::missingSlices(std::vector<task::Reason>{
@@ -94,12 +94,12 @@ private slots:
         QCOMPARE(translated({because::slicesTo(1, 5), because::axial}),
                  QString::fromUtf8("第 1 至 5 張、橫斷面"));
         QCOMPARE(translatedName("Lung"), QString::fromUtf8("肺"));
-        // A name that looks like a place is a name.
+        // A name that looks like a place stays a name.
         QCOMPARE(translated(because::gapBetween("8.0", "%3", "b%1")),
                  QString::fromUtf8("%3 與 b%1 之間 8.0 mm"));
     }
 
-    void aLineKeepsAReason() {
+    void aReasonSurvivesBeingWrittenAsALine() {
         const std::vector<task::Reason> reasons{
             because::isTruncated, because::without("a\nb;%41 \xff\xe9.dcm", because::isEmpty),
             because::missingSlices(std::vector<task::Reason>{because::more(2), because::more(3)})};
@@ -112,13 +112,13 @@ private slots:
         QVERIFY(reasonsFromLines(toLines({})).empty() && labelFromLines({}).empty());
     }
 
-    void theWordsOfAnEarlierProgramStay() {
+    void reasonsInTheWordsOfOlderVersionsAreKept() {
         const std::string said = "pixel spacings differ by up to 3 %; the mean is used";
         const task::Reason reason = reasonFromLine(QString::fromStdString(said));
         QCOMPARE(reason.english(), said);
         QVERIFY(reasonFromLine(toLine(reason)) == reason);
         QCOMPARE(reasonsFromLines("one\ntwo").size(), std::size_t(2));
-        // What tells a stack from others is more than words.
+        // The label of a stack is recognized.
         const auto label = labelFromLines("slices 1 to 5, coronal 2");
         QCOMPARE(dicom::labelText(label), std::string("slices 1 to 5, coronal 2"));
         QVERIFY(label.back() == because::coronalNumber(2));

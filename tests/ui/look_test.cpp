@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is shown and how, chosen in the panels at the right of the real window.
+// The panels of the look: quality, transfer function, classes, presets, cue and lights.
 #include "tests/ui/workstation.h"
 
 #include <filesystem>
@@ -27,7 +27,7 @@ using namespace test;
 class LookTest : public Workstation {
     Q_OBJECT
 private slots:
-    void qualityIsAnUndoableChoiceThatShowsItsPrice() {
+    void qualityCanBeUndoneAndShowsItsCost() {
         open(headPath());
         const auto predicted = [&] {
             return find<QLabel>("predictedErrorLabel")->text().section(' ', -2, -2).toDouble();
@@ -42,20 +42,20 @@ private slots:
         auto *quality = find<QComboBox>("qualityBox");
         quality->setCurrentIndex(quality->findText("Fine"));
         emit quality->activated(quality->currentIndex());
-        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() <= 0.01, patienceMs);
-        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage(), patienceMs);
+        settle();
+        QVERIFY(predicted() <= 0.01);
         QVERIFY(find<QLabel>("planLabel")->text() != plan);
         QCOMPARE(find<QLineEdit>("toleranceEdit")->text(), QString("0.01 %"));
-        // A tenth of a percent is below what the eye sees in 256 greys.
+        // A tenth of a percent is less than one of 256 grey levels.
         QVERIFY(changed(before, projection()->picture()) < 0.001);
 
-        // A kernel of the user's own choice is used though it misses the tolerance, and says so.
+        // A kernel that the user chose is used even if it misses the tolerance, which the panel
+        // says.
         auto *kernel = find<QComboBox>("kernelBox");
         kernel->setCurrentIndex(kernel->findText("trilinear"));
         emit kernel->activated(kernel->currentIndex());
-        QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("planLabel")->text().startsWith("trilinear") &&
-                                     !m_window->jobs().isRunning(),
-                                 patienceMs);
+        settle();
+        QVERIFY(find<QLabel>("planLabel")->text().startsWith("trilinear"));
         QVERIFY(predicted() > 1.0);
         QVERIFY(find<QLabel>("planReasonLabel")->text().startsWith("More error than allowed"));
         save("quality_trilinear");
@@ -63,34 +63,32 @@ private slots:
         auto *tolerance = find<QLineEdit>("toleranceEdit");
         tolerance->setText("not a number");
         QTest::keyClick(tolerance, Qt::Key_Return);
-        QCOMPARE(tolerance->text(), QString("0.01 %")); // refused, what holds is shown again
+        QCOMPARE(tolerance->text(), QString("0.01 %")); // refused: the valid text is back
         QVERIFY(find<QLabel>("planReasonLabel")->text().contains("not a number"));
 
-        // A cancelled preparation leaves the former plan; choosing the same again makes up for it.
+        // A cancelled preparation leaves the former plan; the same choice repeats it.
         auto *padding = find<QComboBox>("paddingBox");
         padding->setCurrentIndex(padding->findText("1.25"));
         emit padding->activated(padding->currentIndex());
-        m_window->jobs().cancel();
+        jobs().cancel();
         QVERIFY(find<QLabel>("paddingLabel")->text().startsWith("2."));
         emit padding->activated(padding->currentIndex());
-        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() &&
-                                     find<QLabel>("paddingLabel")->text().startsWith("1."),
-                                 patienceMs);
-        m_window->document().undoStack()->undo();
-
-        m_window->document().undoStack()->undo();
-        m_window->document().undoStack()->undo();
-        QCOMPARE(m_window->document().scene().tolerance, scene::Scene().tolerance);
+        settle();
+        QVERIFY(find<QLabel>("paddingLabel")->text().startsWith("1."));
+        document().undoStack()->undo();
+        document().undoStack()->undo();
+        document().undoStack()->undo();
+        QCOMPARE(document().scene().tolerance, scene::Scene().tolerance);
         QCOMPARE(quality->currentText(), QString("Standard"));
-        QTRY_VERIFY_WITH_TIMEOUT(!m_window->jobs().isRunning() && predicted() == standard,
-                                 patienceMs);
+        settle();
+        QCOMPARE(predicted(), standard);
     }
 
-    void aBentSegmentIsShownUndoneSavedAndFoundAgain() {
+    void aChangedWeightIsShownUndoneSavedAndRestored() {
         open(headPath());
         auto *editor = find<ui::CurveEditor>("curveEditor");
         const QImage before = projection()->picture();
-        // The segment under the mouse is framed, and what the curve weighs there is told.
+        // The segment under the mouse gets a frame, and its weight is shown.
         const QImage calm = editor->grab().toImage();
         const QPoint handle = editor->handleAt(1).toPoint();
         moveMouse(editor, handle);
@@ -98,9 +96,9 @@ private slots:
         // Bone and the brain are dense: the second of six segments is skin and fat, the third
         // water.
         dragMouse(editor, Qt::LeftButton, editor->handleAt(2).toPoint(), {0, 200});
-        const auto &weights = m_window->document().scene().look.transferFunction.weights;
+        const auto &weights = document().scene().look.transferFunction.weights;
         QCOMPARE(weights[2], 0.0);
-        QCOMPARE(m_window->document().undoStack()->count(), 1); // one drag, one step
+        QCOMPARE(document().undoStack()->count(), 1); // one drag, one step
         settle();
         QVERIFY(changed(before, projection()->picture()) > 0.02);
         save("transfer_function");
@@ -116,7 +114,7 @@ private slots:
         find<QAction>("undoAction")->trigger();
         find<QAction>("undoAction")->trigger();
         QCOMPARE(weights[2], 0.0);
-        // More points hold the same curve.
+        // More points describe the same curve.
         find<QSpinBox>("pointsBox")->setValue(9);
         QCOMPARE(int(weights.size()), 9);
         settle();
@@ -125,7 +123,7 @@ private slots:
         // Copied, reset and pasted.
         QTest::mouseClick(find<QPushButton>("copyCurveButton"), Qt::LeftButton);
         QTest::mouseClick(find<QPushButton>("resetCurveButton"), Qt::LeftButton);
-        QVERIFY(m_window->document().scene().look == classify::Look());
+        QVERIFY(document().scene().look == classify::Look());
         QTest::mouseClick(find<QPushButton>("pasteCurveButton"), Qt::LeftButton);
         QCOMPARE(weights[2], 0.0);
         // Two clicks keep the look.
@@ -133,17 +131,17 @@ private slots:
         QTest::mouseClick(find<QPushButton>("keepLookButton"), Qt::LeftButton);
         auto *gallery = find<QListWidget>("presetGallery");
         QCOMPARE(int(gallery->findItems("Own look 1", Qt::MatchExactly).size()), 1);
-        while (m_window->document().undoStack()->canUndo())
+        while (document().undoStack()->canUndo())
             find<QAction>("undoAction")->trigger();
         settle();
         QVERIFY(changed(before, projection()->picture()) < 0.001);
         takeTheLookAgain(before);
     }
 
-    void presetsShowClassesInColourAndTheirWeightsMoveThePicture() {
+    void presetsShowColoredClassesWhoseWeightsChangeThePicture() {
         open(headPath());
         auto *gallery = find<QListWidget>("presetGallery");
-        // Pictures of the open study come by themselves; MR presets are not offered for CT.
+        // The gallery shows pictures of the open study, and no MR presets for CT.
         const auto item = [&](const char *name) {
             const auto items = gallery->findItems(name, Qt::MatchExactly);
             return items.isEmpty() ? nullptr : items.front();
@@ -151,31 +149,28 @@ private slots:
         QVERIFY(item("MR: brain") == nullptr);
         QTRY_VERIFY_WITH_TIMEOUT(meanGrey(item("Bone")->icon().pixmap(60, 52).toImage()) > 3.0,
                                  patienceMs);
-        gallery->scrollToItem(item("Bone over soft tissue"));
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                          gallery->visualItemRect(item("Bone over soft tissue")).center());
-        settle();
+        choosePreset("Bone over soft tissue");
         const QImage colored = projection()->picture();
         QVERIFY2(colorfulness(colored) > 2.0, "bone is ivory, soft tissue blue");
-        QCOMPARE(int(m_window->document().scene().look.classes.size()), 2);
+        QCOMPARE(int(document().scene().look.classes.size()), 2);
 
         // The weight of soft tissue by its slider: the picture follows, one drag is one step.
         auto *slider = find<QSlider>("classSlider1");
-        const int count = m_window->document().undoStack()->count();
+        const int count = document().undoStack()->count();
         dragSlider(slider, {40, 0});
-        QVERIFY(m_window->document().scene().look.classes[1].weight > 0.8);
-        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
+        QVERIFY(document().scene().look.classes[1].weight > 0.8);
+        QCOMPARE(document().undoStack()->count(), count + 1);
         settle();
         QVERIFY(changed(colored, projection()->picture()) > 0.02);
         save("classes");
         // The dot hides it and brings it back as it was.
-        const double weight = m_window->document().scene().look.classes[1].weight;
+        const double weight = document().scene().look.classes[1].weight;
         QTest::mouseClick(find<QToolButton>("classEye1"), Qt::LeftButton);
-        QCOMPARE(m_window->document().scene().look.classes[1].weight, 0.0);
+        QCOMPARE(document().scene().look.classes[1].weight, 0.0);
         settle();
         QVERIFY2(colorfulness(projection()->picture()) < colorfulness(colored), "bone alone");
         QTest::mouseClick(find<QToolButton>("classEye1"), Qt::LeftButton);
-        QCOMPARE(m_window->document().scene().look.classes[1].weight, weight);
+        QCOMPARE(document().scene().look.classes[1].weight, weight);
 
         // A range is edited with a tint on the planes.
         const QImage plane = grab("axialView");
@@ -186,16 +181,16 @@ private slots:
         save("class_tint");
         dialog->accept();
         QTRY_VERIFY(colorfulness(grab("axialView")) < colorfulness(plane) + 1.0);
-        QCOMPARE(m_window->document().scene().look.classes[0].low, -100.0);
+        QCOMPARE(document().scene().look.classes[0].low, -100.0);
         settle();
-        while (m_window->document().undoStack()->canUndo())
+        while (document().undoStack()->canUndo())
             find<QAction>("undoAction")->trigger();
-        QVERIFY(m_window->document().scene().look == classify::Look());
+        QVERIFY(document().scene().look == classify::Look());
         settle();
         QVERIFY(colorfulness(projection()->picture()) < 0.01);
     }
 
-    void aPresetThatCannotBeKeptIsRefusedAndNothingIsLost() {
+    void aPresetCannotTakeTheNameOfABuiltInOne() {
         open(headPath());
         QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
         auto *name = find<QLineEdit>("lookNameEdit");
@@ -203,12 +198,12 @@ private slots:
         QTest::keyClick(name, Qt::Key_Return);
         QVERIFY(find<QLabel>("presetSaid")->isVisible());
         QVERIFY(find<QLabel>("presetSaid")->text().contains("is built in"));
-        QVERIFY(name->isVisible()); // still there, to be given another name
+        QVERIFY(name->isVisible()); // still there for a different name
         QTest::keyClick(name, Qt::Key_Escape);
         QVERIFY(!name->isVisible());
     }
 
-    void aDepthCueFollowsTheHandAndIsUndone() {
+    void aDepthCueFollowsADragAndIsUndone() {
         open(headPath());
         const QImage plain = projection()->picture();
         auto *kind = find<QComboBox>("cueBox");
@@ -225,10 +220,10 @@ private slots:
         const QImage linear = projection()->picture();
         QVERIFY(changed(plain, linear) > 0.05);
         // One drag is one step.
-        const int count = m_window->document().undoStack()->count();
+        const int count = document().undoStack()->count();
         dragSlider(slider, {-30, 0});
         QVERIFY(shading().cue.strength < 0.8);
-        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
+        QCOMPARE(document().undoStack()->count(), count + 1);
         settle();
         QVERIFY(changed(linear, projection()->picture()) > 0.01);
         choose(2);
@@ -250,7 +245,7 @@ private slots:
         find<QSpinBox>("curveValuesBox")->setValue(5);
         QCOMPARE(int(shading().cue.curve.size()), 5);
         settle();
-        while (m_window->document().undoStack()->canUndo())
+        while (document().undoStack()->canUndo())
             find<QAction>("undoAction")->trigger();
         settle();
         QVERIFY(shading() == shading::Shading());
@@ -260,7 +255,7 @@ private slots:
         QCOMPARE(shading().cue.kind, shading::CueKind::linear);
     }
 
-    void lightsAreAddedDraggedColoredAndTakenAway() {
+    void lightsAreAddedDraggedColoredAndRemoved() {
         open(headPath());
         const QImage plain = projection()->picture();
         find<QAction>("addLightAction")->trigger();
@@ -274,7 +269,7 @@ private slots:
         moveWeightsUnderLight();
         if (QTest::currentTestFailed())
             return;
-        // Three colours make colour; what is saved as a look has its lights.
+        // Three colors make a colored picture. A saved look contains its lights.
         find<QPushButton>("addLightButton")->click();
         find<QPushButton>("addLightButton")->click();
         QCOMPARE(int(shading().lights.size()), 3);
@@ -289,31 +284,23 @@ private slots:
         QVERIFY(shading() == shading::Shading());
         settle();
         QVERIFY(changed(plain, projection()->picture()) < 0.001);
-        auto *gallery = find<QListWidget>("presetGallery");
-        const auto choose = [&](const char *name) {
-            auto *item = gallery->findItems(name, Qt::MatchExactly).front();
-            gallery->scrollToItem(item);
-            QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                              gallery->visualItemRect(item).center());
-            settle();
-        };
-        choose("Lit by a test");
+        choosePreset("Lit by a test");
         QVERIFY(shading() == kept);
-        choose("Body in three lights");
+        choosePreset("Body in three lights");
         QCOMPARE(int(shading().lights.size()), 3);
         QVERIFY(colorfulness(projection()->picture()) > 2.0);
         save("three_lights");
     }
 
 private:
-    // Over the sphere: the bright side follows it, one drag is one step.
+    // The bright side follows the light over the sphere; one drag is one step.
     void dragALight() {
         auto *sphere = find<ui::LightSphere>("lightSphere");
-        const int count = m_window->document().undoStack()->count();
+        const int count = document().undoStack()->count();
         const QPoint from = sphere->handleAt(0).toPoint();
         dragMouse(sphere, Qt::LeftButton, from,
                   QPoint(sphere->width() / 2 + 30, sphere->height() / 2) - from);
-        QCOMPARE(m_window->document().undoStack()->count(), count + 1);
+        QCOMPARE(document().undoStack()->count(), count + 1);
         QVERIFY(shading().lights[0].direction.x > 0.7);
         QVERIFY(std::abs(shading().lights[0].direction.y) < 0.1);
         settle();
@@ -329,7 +316,7 @@ private:
         QVERIFY2(balance() < fromRight - 1.0, "the left is brighter in light from the left");
     }
 
-    // It stays there while the view turns.
+    // A light that is fixed to the patient turns with the view.
     void fixTheLightToThePatient() {
         auto *sphere = find<ui::LightSphere>("lightSphere");
         QTest::mouseClick(find<QCheckBox>("followsViewerBox"), Qt::LeftButton);
@@ -342,7 +329,7 @@ private:
         settle();
     }
 
-    // The picture follows in small and comes in full.
+    // A coarse picture follows the weights, then the full one arrives.
     void moveWeightsUnderLight() {
         const QImage beforeWeight = projection()->picture();
         for (int n = 0; n < 12; ++n)
@@ -355,24 +342,22 @@ private:
         settle();
     }
 
-    // Another day: the saved look is there, and shows the same.
+    // After a restart the saved look is there and shows the same.
     void takeTheLookAgain(const QImage &before) {
         restart();
         open(headPath());
         auto *gallery = find<QListWidget>("presetGallery");
         const auto found = gallery->findItems("Own look 1", Qt::MatchExactly);
         QCOMPARE(int(found.size()), 1);
-        gallery->scrollToItem(found.front());
-        QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                          gallery->visualItemRect(found.front()).center());
-        QCOMPARE(m_window->document().scene().look.transferFunction.weights[2], 0.0);
+        clickItem(*gallery, *found.front());
+        QCOMPARE(document().scene().look.transferFunction.weights[2], 0.0);
         settle();
         QVERIFY(changed(before, projection()->picture()) > 0.02);
         find<QAction>("undoAction")->trigger();
-        QVERIFY(m_window->document().scene().look == classify::Look());
+        QVERIFY(document().scene().look == classify::Look());
     }
 
-    const shading::Shading &shading() { return m_window->document().scene().shading; }
+    const shading::Shading &shading() { return document().scene().shading; }
 };
 
 } // namespace pellucid

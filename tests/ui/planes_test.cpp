@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The planes: slabs, turning, cine, and what is measured on them.
+// The planes: slabs, turning, cine and measurements.
 #include "tests/ui/workstation.h"
 
 #include <fstream>
@@ -19,8 +19,7 @@ class PlanesTest : public Workstation {
     Q_OBJECT
 private slots:
     void init() {
-        std::filesystem::remove_all(m_folder / "data"); // measurements of the test before
-        restart();
+        Workstation::init();
         open(headPath());
     }
 
@@ -53,7 +52,7 @@ private slots:
         QCOMPARE(cut().options.slab, (mpr::Slab{5.0, mpr::SlabMode::minimum}));
     }
 
-    void nearestShowsTheSamples() {
+    void nearestInterpolationShowsTheSamples() {
         const QImage linear = grab("coronalView");
         find<QAction>("nearestPlanesAction")->trigger();
         QVERIFY(changed(linear, grab("coronalView")) > 0.005);
@@ -61,7 +60,7 @@ private slots:
         QCOMPARE(changed(linear, grab("coronalView")), 0.0);
     }
 
-    void theOtherPlanesTurnAboutTheOneWhoseCrosshairIsTurned() {
+    void turningACrosshairTurnsTheOtherPlanes() {
         auto *axial = find<ui::MprView>("axialView");
         key(Qt::Key_C);
         const QImage before = grab("coronalView");
@@ -72,7 +71,7 @@ private slots:
                   QPoint(int(reach * (std::cos(0.35) - 1.0)), -int(reach * std::sin(0.35))));
         const mpr::PlaneAxes axes = cut().axes;
         QCOMPARE(axes.of(mpr::Orientation::axial), mpr::standardAxes(mpr::Orientation::axial));
-        // What lay to the left of the patient moves to the front: the dot went up.
+        // The patient's left moves to the front: the dot went up.
         const glm::dvec3 right = axes.of(mpr::Orientation::coronal).right;
         QVERIFY(std::abs(std::atan2(-right.y, right.x) - 0.35) < 0.02);
         QVERIFY(changed(before, grab("coronalView")) > 0.05);
@@ -83,7 +82,7 @@ private slots:
         QTRY_COMPARE_WITH_TIMEOUT(changed(before, grab("coronalView")), 0.0, patienceMs);
     }
 
-    void aDistanceIsDrawnListedUndoneAndFoundAgain() {
+    void aDistanceIsDrawnListedUndoneAndRestored() {
         auto *axial = find<ui::MprView>("axialView");
         key(Qt::Key_M);
         const QPoint from(60, 80), by(90, 40);
@@ -98,7 +97,7 @@ private slots:
         QVERIFY(measured().empty());
         key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
         QCOMPARE(measured().size(), std::size_t(1));
-        // An end follows the hand, and one undo brings it back; a click alone draws nothing.
+        // An end point follows the drag, and one undo restores it. A click alone draws nothing.
         dragMouse(axial, Qt::LeftButton, from + by, QPoint(20, 10));
         QVERIFY(*measured()[0].result.lengthMm > expected + 1.0);
         QCOMPARE(measured().size(), std::size_t(1));
@@ -114,13 +113,13 @@ private slots:
         QCOMPARE(measured().size(), std::size_t(1));
         QCOMPARE(measured()[0].measurement.name, std::string("Skull"));
         QVERIFY(std::abs(*measured()[0].result.lengthMm - expected) < 1e-6 * expected);
-        // The file's name says nothing of the patient.
+        // The name of the file does not contain the patient's.
         for (const auto &entry :
              std::filesystem::directory_iterator(m_folder / "data" / "pellucid" / "measurements"))
             QVERIFY(entry.path().string().find("Secret") == std::string::npos);
     }
 
-    void anAngleIsADragAndAClick() {
+    void anAngleTakesADragAndAClick() {
         auto *sagittal = find<ui::MprView>("sagittalView");
         key(Qt::Key_A);
         dragMouse(sagittal, Qt::LeftButton, QPoint(60, 60), QPoint(0, 80));
@@ -128,14 +127,14 @@ private slots:
         QTest::mouseClick(sagittal, Qt::LeftButton, {}, QPoint(140, 140));
         QCOMPARE(measured().size(), std::size_t(1));
         QVERIFY(std::abs(*measured()[0].result.angleDegrees - 90.0) < 1e-6);
-        // What is half made goes with Esc.
+        // Esc drops an unfinished angle.
         dragMouse(sagittal, Qt::LeftButton, QPoint(160, 160), QPoint(0, 60));
         QTest::keyClick(sagittal, Qt::Key_Escape);
         QTest::mouseClick(sagittal, Qt::LeftButton, {}, QPoint(30, 200));
         QCOMPARE(measured().size(), std::size_t(1));
     }
 
-    void regionsTellTheirValuesAndAreMovedAndExported() {
+    void regionsReportTheirValuesAndAreMovedAndExported() {
         auto *axial = find<ui::MprView>("axialView");
         key(Qt::Key_E);
         const QPoint middle(axial->width() / 2 + 30, axial->height() / 2 + 20);
@@ -148,7 +147,7 @@ private slots:
         QVERIFY(measured()[0].result.values->areSamples);
         QVERIFY(measured()[0].result.values->count > 20);
         save("measurements");
-        // Taken by its outline the whole moves; another tool does it as well.
+        // A drag of the outline moves the whole region, with any tool.
         key(Qt::Key_W);
         const double mean = measured()[0].result.values->mean;
         dragMouse(axial, Qt::LeftButton, middle + QPoint(20, 0), QPoint(60, 60));
@@ -159,17 +158,17 @@ private slots:
         QCOMPARE(measured()[0].result.values->mean, mean);
 
         const QString table = QString::fromStdString((m_folder / "table.csv").string());
-        ui::MeasurementStore(m_window->document()).exportTable(table);
+        ui::MeasurementStore(document()).exportTable(table);
         QFile file(table);
         QVERIFY(file.open(QIODevice::ReadOnly));
         const QByteArray text = file.readAll();
         QCOMPARE(text.count("\r\n"), qsizetype(3));
         QVERIFY2(text.contains("\"Ellipse 1\",ellipse,") && text.contains(",HU,"), text);
-        // Gone from another slice.
+        // It is not drawn on another slice.
         axial->scroll(3);
         find<QTreeWidget>("measurementList")->setFocus();
         const QImage without = grab("axialView");
-        m_window->document().selectMeasurement(1);
+        document().selectMeasurement(1);
         key(Qt::Key_Delete);
         QCOMPARE(measured().size(), std::size_t(1));
         QCOMPARE(measured()[0].measurement.name, std::string("Ellipse 1"));
@@ -179,17 +178,17 @@ private slots:
     void aDistanceOnTheProjectionBelongsToItsView() {
         key(Qt::Key_M);
         QWidget *view = projection();
-        const auto camera = m_window->document().scene().camera;
+        const auto camera = document().scene().camera;
         dragMouse(view, Qt::LeftButton, QPoint(200, 300), QPoint(120, 0));
         QCOMPARE(measured().size(), std::size_t(1));
         QCOMPARE(measured()[0].measurement.kind, measure::Kind::projectedDistance);
         QVERIFY(std::abs(*measured()[0].result.lengthMm - 120.0 * camera.pixelMm) < 1e-6);
-        QVERIFY(m_window->document().scene().camera == camera); // nothing turned
+        QVERIFY(document().scene().camera == camera); // nothing turned
         save("projected_distance");
         const QImage shown = grab("projectionView");
         projection()->showStandardView(scene::StandardView::left);
         settle();
-        // A click on its row looks that way again.
+        // A click on its row restores the view.
         auto *list = find<QTreeWidget>("measurementList");
         QTest::mouseClick(list->viewport(), Qt::LeftButton, {},
                           list->visualItemRect(list->topLevelItem(0)).center());
@@ -197,19 +196,19 @@ private slots:
         QVERIFY(changed(shown, grab("projectionView")) < 0.01);
     }
 
-    void measurementsThatCannotBeReadAreKeptAndNamed() {
+    void unreadableMeasurementsAreKeptAndReported() {
         auto *axial = find<ui::MprView>("axialView");
         key(Qt::Key_M);
         dragMouse(axial, Qt::LeftButton, QPoint(60, 80), QPoint(90, 40));
         const auto folder = m_folder / "data" / "pellucid" / "measurements";
-        QTRY_VERIFY(std::filesystem::exists(folder)); // it is written when the hand rests
+        QTRY_VERIFY(std::filesystem::exists(folder)); // it is written when the drag has ended
         const auto path = std::filesystem::directory_iterator(folder)->path();
         std::ofstream(path) << "{\"schema\": \"pellucid-measurements/1\"";
         restart();
         open(headPath());
         QVERIFY(measured().empty());
         QVERIFY(std::filesystem::exists(path.string() + ".unreadable"));
-        const auto &problems = m_window->document().problems();
+        const auto &problems = document().problems();
         QVERIFY(std::any_of(problems.begin(), problems.end(), [](const dicom::Skipped &p) {
             return p.reason.is(task::because::measurementsCannotBeRead);
         }));
@@ -218,35 +217,35 @@ private slots:
     void cinePlaysTheFocusedPane() {
         auto *axial = find<ui::MprView>("axialView");
         axial->setFocus();
-        const auto before = m_window->document().crosshair().mm;
+        const auto before = document().crosshair().mm;
         key(Qt::Key_Space);
-        QTRY_VERIFY(m_window->document().crosshair().mm.z > before.z);
-        QVERIFY(m_window->document().crosshair().mm.x == before.x);
+        QTRY_VERIFY(document().crosshair().mm.z > before.z);
+        QVERIFY(document().crosshair().mm.x == before.x);
         QVERIFY(find<QAction>("playAction")->isChecked());
-        // At the end it begins again.
+        // After the last slice it continues with the first.
         axial->scrollToEnd(true);
-        const double last = m_window->document().crosshair().mm.z;
-        QTRY_VERIFY(m_window->document().crosshair().mm.z < last - 20.0);
+        const double last = document().crosshair().mm.z;
+        QTRY_VERIFY(document().crosshair().mm.z < last - 20.0);
         key(Qt::Key_Space);
         QVERIFY(!find<QAction>("playAction")->isChecked());
         projection()->setFocus();
-        const auto orientation = m_window->document().scene().camera.orientation;
+        const auto orientation = document().scene().camera.orientation;
         key(Qt::Key_Space);
-        QTRY_VERIFY(m_window->document().scene().camera.orientation != orientation);
+        QTRY_VERIFY(document().scene().camera.orientation != orientation);
         // The head stays upright.
-        QVERIFY(std::abs(m_window->document().scene().camera.axes()[1].z - 1.0) < 1e-9);
+        QVERIFY(std::abs(document().scene().camera.axes()[1].z - 1.0) < 1e-9);
         key(Qt::Key_Space);
         settle();
     }
 
 private:
     void key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
-        QTest::keyClick(m_window.get(), key, modifiers);
+        QTest::keyClick(&mainWindow(), key, modifiers);
     }
-    const ui::Cut &cut() { return m_window->document().cut(); }
-    const std::vector<ui::Measured> &measured() { return m_window->document().measured(); }
+    const ui::Cut &cut() { return document().cut(); }
+    const std::vector<ui::Measured> &measured() { return document().measured(); }
     QPoint crosshair(const ui::MprView *view) {
-        return view->mapping().positionOf(m_window->document().crosshair()).toPoint();
+        return view->mapping().positionOf(document().crosshair()).toPoint();
     }
 };
 

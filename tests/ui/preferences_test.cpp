@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a person chooses for the whole program: language, theme, keys; and what is there again after
-// the program has ended.
-#include "tests/ui/started_program.h"
+// Preferences of the whole program: language, theme, shortcuts; and what a restart restores.
+#include "tests/ui/workstation.h"
 
 #include <QAccessible>
 #include <QComboBox>
@@ -23,98 +22,92 @@ namespace pellucid {
 
 using namespace test;
 
-class PreferencesTest : public StartedProgram {
+class PreferencesTest : public Workstation {
     Q_OBJECT
 private slots:
-    void init() {
-        QSettings().clear();
-        std::filesystem::remove_all(m_folder / "data");
-        begin();
-    }
-    void cleanup() { m_program.reset(); }
-
-    void theLanguageChangesAtRunTimeAndNothingIsLost() {
-        openIn(headPath());
+    void theLanguageChangesAtRunTimeWithoutLosingAnything() {
+        open(headPath());
         choosePreset("Bone");
         dragMouse(find<QWidget>("axialView"), Qt::LeftButton, {150, 150}, {60, -30});
         const auto window = document().displayWindow();
         const scene::Scene scene = document().scene();
         const int edits = document().undoStack()->count();
         QVERIFY(edits >= 2);
-        // From here its brightness would be another.
-        QTest::keyClick(projectionOf(), Qt::Key_3, Qt::KeypadModifier);
-        settleIn();
+        // The brightness of the first view stays; this view alone has a different one.
+        QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
+        settle();
         const auto brightness = document().brightness();
-        const QImage picture = projectionOf()->picture();
+        const QImage picture = projection()->picture();
         choose("languageBox", "zh_TW");
-        QTRY_COMPARE(window_().menuBar()->actions().front()->text(), QString::fromUtf8("檔案(&F)"));
-        settleIn();
+        QTRY_COMPARE(mainWindow().menuBar()->actions().front()->text(),
+                     QString::fromUtf8("檔案(&F)"));
+        settle();
         QVERIFY(document().displayWindow() == window);
         QVERIFY(document().scene().look == scene.look);
-        // Menus of another script may be a little higher: the pane is smaller then.
-        const QImage now = projectionOf()->picture().scaled(picture.size());
+        // Menus in another script may be a little higher, which makes the pane smaller.
+        const QImage now = projection()->picture().scaled(picture.size());
         QVERIFY(changed(picture, now) < 0.05);
         QVERIFY(brightness && document().brightness() == brightness);
         QVERIFY(document().undoStack()->count() == edits);
-        // Nothing that is seen is English: words of three letters and more are names and units.
+        // No visible text is English. Words of three letters and more are names and units.
         const QStringList english = englishTexts();
         QVERIFY2(english.isEmpty(), qPrintable(english.join(" | ")));
-        grabAs("zh_TW");
-        // Keys and undo go on as before.
-        QTest::keyClick(&window_(), Qt::Key_Z, Qt::ControlModifier);
+        save("zh_TW");
+        // Keys and undo work as before.
+        QTest::keyClick(&mainWindow(), Qt::Key_Z, Qt::ControlModifier);
         QVERIFY(!(document().displayWindow() == window));
         choose("languageBox", "en");
-        QTRY_COMPARE(window_().menuBar()->actions().front()->text(), QString("&File"));
-        settleIn();
+        QTRY_COMPARE(mainWindow().menuBar()->actions().front()->text(), QString("&File"));
+        settle();
     }
 
     void theThemeChangesAtRunTime() {
-        openIn(headPath());
-        const double dark = meanGrey(find<QWidget>("studyPanel")->grab().toImage());
+        open(headPath());
+        const double dark = meanGrey(grab("studyPanel"));
         choose("themeBox", "light");
-        QTRY_VERIFY(meanGrey(find<QWidget>("studyPanel")->grab().toImage()) > dark + 100.0);
-        settleIn();
+        QTRY_VERIFY(meanGrey(grab("studyPanel")) > dark + 100.0);
+        settle();
         // Pictures stay on black.
-        const QImage pane = find<QWidget>("axialView")->grab().toImage();
+        const QImage pane = grab("axialView");
         QVERIFY(meanGrey(pane, QRect(4, pane.height() / 4, 10, 10)) < 3.0);
-        grabAs("light");
-        // It is there after the program has ended.
-        begin();
-        QVERIFY(meanGrey(find<QWidget>("studyPanel")->grab().toImage()) > dark + 100.0);
+        save("light");
+        // It survives a restart.
+        restart();
+        QVERIFY(meanGrey(grab("studyPanel")) > dark + 100.0);
         choose("themeBox", "dark");
     }
 
-    void keysAreGivenTakenAndKept() {
-        openDialog();
+    void shortcutsAreChangedTakenOverAndKept() {
+        openPreferences();
         find<QLineEdit>("shortcutFilter")->setText("crop");
         auto *list = find<QTreeWidget>("shortcutList");
         QCOMPARE(list->topLevelItemCount(), 1);
         list->setCurrentItem(list->topLevelItem(0));
         auto *edit = find<QKeySequenceEdit>("shortcutEdit");
         QCOMPARE(edit->keySequence(), QKeySequence("K"));
-        // The key of another command: that one is named and has none then.
+        // The key of another action: the dialog names that action, which loses the key.
         edit->setKeySequence(QKeySequence("W"));
         emit edit->editingFinished();
         QVERIFY(find<QLabel>("shortcutConflict")->text().contains("Window"));
         QVERIFY(find<QAction>("windowToolAction")->shortcut().isEmpty());
         find<QDialog>("preferencesDialog")->close();
-        QVERIFY(test::activate(window_()));
-        QTest::keyClick(&window_(), Qt::Key_W);
+        QVERIFY(activate(mainWindow()));
+        QTest::keyClick(&mainWindow(), Qt::Key_W);
         QVERIFY(find<QAction>("cropToolAction")->isChecked());
-        begin();
+        restart();
         QCOMPARE(find<QAction>("cropToolAction")->shortcut(), QKeySequence("W"));
         QVERIFY(find<QAction>("windowToolAction")->shortcut().isEmpty());
-        openDialog();
+        openPreferences();
         find<QPushButton>("defaultKeysButton")->click();
         QCOMPARE(find<QAction>("windowToolAction")->shortcut(), QKeySequence("W"));
         QCOMPARE(find<QAction>("cropToolAction")->shortcut(), QKeySequence("K"));
-        begin();
+        restart();
         QCOMPARE(find<QAction>("cropToolAction")->shortcut(), QKeySequence("K"));
     }
 
-    void everyCommandIsInTheListOnce() {
+    void everyActionIsInTheShortcutListOnce() {
         QSet<QString> names;
-        for (const ui::ShortcutEntry &entry : ui::shortcutEntries(window_())) {
+        for (const ui::ShortcutEntry &entry : ui::shortcutEntries(mainWindow())) {
             QVERIFY2(!names.contains(entry.name), qPrintable(entry.name));
             names << entry.name;
         }
@@ -123,7 +116,7 @@ private slots:
             QVERIFY2(names.contains(name), name);
         // No key is given twice.
         QHash<QString, QString> keys;
-        for (const ui::ShortcutEntry &entry : ui::shortcutEntries(window_())) {
+        for (const ui::ShortcutEntry &entry : ui::shortcutEntries(mainWindow())) {
             const QString key = entry.action->shortcut().toString();
             if (key.isEmpty())
                 continue;
@@ -132,34 +125,33 @@ private slots:
         }
     }
 
-    void whatWasOpenIsTakenUpAgainAsItWasLookedAt() {
+    void theLastStudyIsResumedWithItsView() {
         QVERIFY(!find<QWidget>("resumeButton")->isVisible());
-        openIn(headPath());
+        open(headPath());
         choosePreset("Bone");
-        QTest::keyClick(projectionOf(), Qt::Key_3, Qt::KeypadModifier);
+        QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
         turnWheel(find<QWidget>("axialView"), 3);
-        QTest::keyClick(&window_(), Qt::Key_S);
+        QTest::keyClick(&mainWindow(), Qt::Key_S);
         ui::Cut cut = document().cut();
         cut.axes = cut.axes.turned(mpr::Orientation::axial, 0.3);
         document().setCut(cut);
-        settleIn();
+        settle();
         const scene::Scene scene = document().scene();
         const auto crosshair = document().crosshair();
-        const QImage picture = projectionOf()->picture();
-        begin();
+        const QImage picture = projection()->picture();
+        restart();
         QVERIFY(!document().volume());
         QVERIFY(find<QWidget>("resumeButton")->isVisible());
         find<QPushButton>("resumeButton")->click();
-        QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(), patienceMs);
-        settleIn();
+        settle();
         QVERIFY(document().scene().look == scene.look);
         QVERIFY(glm::distance(document().crosshair().mm, crosshair.mm) < 1e-6);
         QCOMPARE(document().cut().options.slab.thicknessMm, 10.0);
         QVERIFY(document().cut().axes == cut.axes);
         QVERIFY(std::abs(glm::dot(document().scene().camera.orientation,
                                   scene.camera.orientation)) > 1.0 - 1e-9);
-        QVERIFY(changed(picture, projectionOf()->picture()) < 0.01);
-        // No name in the file.
+        QVERIFY(changed(picture, projection()->picture()) < 0.01);
+        // The file contains no name.
         QFile file(
             QString::fromStdString((m_folder / "data" / "pellucid" / "session.json").string()));
         QVERIFY(file.open(QIODevice::ReadOnly));
@@ -167,22 +159,22 @@ private slots:
     }
 
     void theHistoryGoesBackToAnyEdit() {
-        openIn(headPath());
+        open(headPath());
         const scene::Scene before = document().scene();
         choosePreset("Bone");
         find<QAction>("filmAction")->trigger();
         find<QDockWidget>("historyDock")->show();
         auto *history = find<QUndoView>("historyView");
-        QCOMPARE(history->model()->rowCount(), 3); // with how it was opened
+        QCOMPARE(history->model()->rowCount(), 3); // with the state after opening
         QVERIFY(history->model()->index(1, 0).data().toString().contains("Bone"));
         const QRect row = history->visualRect(history->model()->index(0, 0));
         QTest::mouseClick(history->viewport(), Qt::LeftButton, {}, row.center());
         QVERIFY(document().scene().look == before.look);
         QVERIFY(!document().scene().tone.inverted);
-        settleIn();
+        settle();
     }
 
-    void aboutNamesWhatTheProgramIsMadeOf() {
+    void theAboutDialogNamesTheLibraries() {
         find<QAction>("aboutAction")->trigger();
         QVERIFY(find<QLabel>("aboutWarning")->text().contains("Not for diagnostic use"));
         auto *libraries = find<QTreeWidget>("aboutLibraries");
@@ -198,13 +190,13 @@ private slots:
         find<QDialog>("aboutDialog")->close();
     }
 
-    // Who cannot see the screen hears what a control is for.
+    // A screen reader says what each control is for.
     void everyControlThatTakesTheKeyboardHasAName() {
-        openIn(headPath());
+        open(headPath());
         choosePreset("Bone");
         QStringList nameless;
-        for (QWidget *widget : window_().findChildren<QWidget *>()) {
-            // The edit line of a spin box speaks by the box.
+        for (QWidget *widget : mainWindow().findChildren<QWidget *>()) {
+            // The edit line of a spin box has the name of the box.
             if (!widget->isVisible() || widget->objectName() == "qt_spinbox_lineedit" ||
                 widget->focusPolicy() == Qt::NoFocus ||
                 widget->inherits("QAbstractScrollArea") ==
@@ -219,34 +211,30 @@ private slots:
 
 private:
     void choose(const char *box, const QString &value) {
-        openDialog();
+        openPreferences();
         auto *choice = find<QComboBox>(box);
         const bool isOther = choice->currentData().toString() != value;
-        const QPointer<QWidget> former = &window_();
+        const QPointer<QWidget> former = &mainWindow();
         choice->setCurrentIndex(choice->findData(value));
         emit choice->activated(choice->currentIndex());
-        // The window is made anew for it; the dialog stays, with what was chosen.
+        // The program makes a new window; the dialog stays open, with the choice.
         if (isOther)
             QTRY_VERIFY_WITH_TIMEOUT(!former, patienceMs);
-        auto *dialog = window_().findChild<QDialog *>("preferencesDialog");
+        auto *dialog = mainWindow().findChild<QDialog *>("preferencesDialog");
         QVERIFY(dialog != nullptr && dialog->isVisible());
         QCOMPARE(dialog->findChild<QComboBox *>(box)->currentData().toString(), value);
         dialog->close();
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-        // Each time of the window that is there then.
-        QTRY_VERIFY_WITH_TIMEOUT(window_().isVisible() && window_().windowHandle()->isExposed(),
-                                 patienceMs);
-        window_().resize(1600, 1000);
-        QVERIFY(test::activate(window_()));
-    }
-    void grabAs(const QString &name) {
-        if (const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS"); !folder.isEmpty())
-            QVERIFY(window_().grab().save(folder + "/workstation_" + name + ".png"));
+        // The window may be replaced while this waits.
+        QTRY_VERIFY_WITH_TIMEOUT(
+            mainWindow().isVisible() && mainWindow().windowHandle()->isExposed(), patienceMs);
+        mainWindow().resize(1600, 1000);
+        QVERIFY(activate(mainWindow()));
     }
 
     QStringList englishTexts() {
         static const QRegularExpression word("[A-Za-z]{3,}");
-        // Names, units and what has no other word.
+        // Names, units and terms that are not translated.
         static const QRegularExpression proper(
             "Secret|Name|DICOMDIR|DICOM|NRRD|NIfTI|MetaImage|Pellucid|MIP|MinIP|CPU|GPU|AVX\\d?|"
             "SSE\\d?|EMU\\d+|"
@@ -262,15 +250,15 @@ private:
             if (word.match(text).hasMatch())
                 found << where + ": " + text;
         };
-        for (const QAction *action : window_().findChildren<QAction *>())
+        for (const QAction *action : mainWindow().findChildren<QAction *>())
             // Edits keep the language in which they were made.
             if (!action->objectName().isEmpty() && action != find<QAction>("undoAction")) {
                 look(action->text(), action->objectName());
                 look(action->toolTip(), action->objectName());
             }
-        for (const QWidget *widget : window_().findChildren<QWidget *>()) {
+        for (const QWidget *widget : mainWindow().findChildren<QWidget *>()) {
             const QString where = widget->objectName();
-            // Kernels and steps are called by what one types.
+            // Kernels and steps have the names that the command line takes.
             if (where == "kernelBox" || where == "classRange")
                 continue;
             look(widget->toolTip(), where);

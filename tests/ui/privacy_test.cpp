@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who the patient is stays in the study: no name in what the program keeps, remembers or shows to
-// others.
-#include "tests/ui/started_program.h"
+// Nothing that the program keeps, remembers or shows to others names the patient.
+#include "tests/ui/workstation.h"
 
 #include <array>
 #include <filesystem>
@@ -21,32 +20,24 @@ namespace pellucid {
 using namespace test;
 namespace fs = std::filesystem;
 
-class PrivacyTest : public StartedProgram {
+class PrivacyTest : public Workstation {
     Q_OBJECT
 private slots:
-    void init() {
-        QSettings().clear();
-        fs::remove_all(m_folder / "data");
-    }
-    void cleanup() { m_program.reset(); }
-
-    void whoDoesNotWantToBeRememberedIsNot() {
-        begin();
-        openIn(headPath());
+    void pathsAreNotRememberedIfTheUserTurnsThatOff() {
+        open(headPath());
         QVERIFY(!QSettings().value("recentPaths").toStringList().isEmpty());
-        openDialog();
+        openPreferences();
         find<QCheckBox>("remembersBox")->click();
         find<QDialog>("preferencesDialog")->close();
         QVERIFY(QSettings().value("recentPaths").toStringList().isEmpty());
-        openIn(headPath());
-        begin();
+        open(headPath());
+        restart();
         QVERIFY(!find<QWidget>("resumeButton")->isVisible());
         QVERIFY(QSettings().value("recentPaths").toStringList().isEmpty());
         QVERIFY(!fs::exists(m_folder / "data" / "pellucid" / "session.json"));
     }
 
-    void aPathThatNamesThePatientIsNotAmongTheRecentOnes() {
-        begin();
+    void recentPathsOmitThoseThatNameThePatient() {
         ui::StudyFacts study;
         study.patientName = QString::fromUtf8("M\u00FCller^J\u00F6rg=\u738B^\u5C0F");
         study.patientId = "A-4711";
@@ -61,7 +52,7 @@ private slots:
             QVERIFY2(!ui::namesPatient(QString::fromUtf8(of), study), of);
         QVERIFY(!ui::namesPatient("/cd", {}));
         study.patientName = QString::fromUtf8(
-            "Xu^Ann=\uC774^\uC601"); // of Hangul, each letter three in Unicode's D
+            "Xu^Ann=\uC774^\uC601"); // Hangul: three code points a letter in Unicode's form D
         QVERIFY(ui::namesPatient("/cd/xu-li", study));
         QVERIFY(ui::namesPatient(QString::fromUtf8("/cd/\uC774\uC601"), study));
         QVERIFY(!ui::namesPatient("/cd/anna", study));
@@ -78,26 +69,25 @@ private slots:
         const auto isKept = [] {
             return !QSettings().value("recentPaths").toStringList().filter("SECRET").isEmpty();
         };
-        openIn(QString::fromStdString(named.string()));
+        open(QString::fromStdString(named.string()));
         QVERIFY(!isKept());
-        openDialog();
+        openPreferences();
         find<QCheckBox>("patientTitleBox")->click();
         find<QDialog>("preferencesDialog")->close();
-        openIn(QString::fromStdString(named.string()));
+        open(QString::fromStdString(named.string()));
         QVERIFY(isKept());
-        openDialog();
-        find<QCheckBox>("patientTitleBox")->click(); // chosen no more
+        openPreferences();
+        find<QCheckBox>("patientTitleBox")->click(); // switched off
         QVERIFY(!isKept());
     }
 
-    // Qt's dialogs write down where they have been.
+    // Qt's dialogs store the folders that were visited.
     void fileDialogsLeaveNoTrace() {
-        begin();
         const auto named = m_folder / "dialog_of_SECRET";
         fs::copy(headPath().toStdString(), named);
         const QString path = QString::fromStdString(named.string());
         const auto choose = [&] {
-            // Once it is there, however long that takes.
+            // When the dialog has opened, however long that takes.
             auto *waiting = new QTimer(this);
             waiting->start(20);
             connect(waiting, &QTimer::timeout, this, [path, waiting] {
@@ -119,7 +109,7 @@ private slots:
         const auto trace = [&] {
             return values()[0].toString() + values()[1].toStringList().join(" ");
         };
-        // The file is the user's, who runs this.
+        // The file belongs to the user who runs this test.
         const auto restore = qScopeGuard([before = values()] {
             QSettings ofQt(QSettings::UserScope, "QtProject");
             for (std::size_t n = 0; n < keys.size(); ++n)
@@ -127,38 +117,35 @@ private slots:
         });
         choose();
         find<QAction>("openFolderAction")->trigger();
-        settleIn();
+        settle();
         QVERIFY2(!trace().contains(path), qPrintable(trace()));
         choose();
-        QFileDialog::getExistingDirectory(); // as without care
+        QFileDialog::getExistingDirectory(); // the dialog without our precaution
         QVERIFY(trace().contains(path));
     }
 
-    void theTitleNamesThePatientOnlyWhereThatIsChosen() {
-        begin();
-        openIn(headPath());
-        QCOMPARE(window_().windowTitle(), QString("Pellucid"));
-        openDialog();
+    void theTitleNamesThePatientOnlyIfChosen() {
+        open(headPath());
+        QCOMPARE(mainWindow().windowTitle(), QString("Pellucid"));
+        openPreferences();
         find<QCheckBox>("patientTitleBox")->click();
-        QCOMPARE(window_().windowTitle(), QString("Secret Name - Pellucid"));
+        QCOMPARE(mainWindow().windowTitle(), QString("Secret Name - Pellucid"));
     }
 
-    // After a kill nothing is lost; what has ended leaves no path with a name in it.
-    void aPathThatNamesThePatientGoesWithTheProgram() {
+    // A killed program leaves its session; one that ends leaves no path that names the patient.
+    void aSessionPathThatNamesThePatientEndsWithTheProgram() {
         const fs::path named = m_folder / "Secret Name";
         fs::copy(headPath().toStdString(), named);
-        {
-            ui::Workstation program;
-            program.window().openPaths({QString::fromStdString(named.string())});
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            const auto &source = program.bench().study.document.sources().at(0);
-            QVERIFY(ui::namesPatient(source.lasting.at(0), source.study));
-        }
+        open(QString::fromStdString(named.string()));
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        const auto &source = document().sources().at(0);
+        QVERIFY(ui::namesPatient(source.lasting.at(0), source.study));
+        endProgram();
         QVERIFY(!hasSession());
     }
 
-    // No name, no number of a patient in what the program keeps for itself.
-    void nothingThatIsKeptNamesThePatient() {
+    // Neither the name nor the number of a patient is in the files that the program keeps.
+    void noKeptFileNamesThePatient() {
         const fs::path patient = m_folder / "patient";
         fs::copy(headPath().toStdString(), patient);
         QStringList change{"-nb",
@@ -173,19 +160,16 @@ private slots:
         QCOMPARE(QProcess::execute("dcmodify", change), 0);
         fs::resize_file(patient / "IM0080.dcm", 3000); // which the log may mention
         const QString path = QString::fromStdString(patient.string());
-        {
-            ui::Workstation program;
-            program.window().openPaths({path});
-            ui::Document &document = program.bench().study.document;
-            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            QVERIFY(!program.window().windowTitle().contains("Secret"));
-        }
+        open(path);
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        QVERIFY(!mainWindow().windowTitle().contains("Secret"));
+        endProgram();
+        fs::remove(sessionFile());
         QProcess program;
         startWorkstation(program, m_folder, {path});
-        QTRY_VERIFY_WITH_TIMEOUT(
-            fs::exists(m_folder / "cache" / "pellucid" / "log" / "pellucid.log"), patienceMs);
-        QTest::qWait(1500);
+        // When it keeps the session, the study is open.
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        QVERIFY(fs::exists(m_folder / "cache" / "pellucid" / "log" / "pellucid.log"));
         program.terminate();
         QVERIFY(program.waitForFinished(patienceMs));
         int looked = 0;
@@ -205,7 +189,8 @@ private slots:
     }
 
 private:
-    bool hasSession() const { return fs::exists(m_folder / "data" / "pellucid" / "session.json"); }
+    fs::path sessionFile() const { return m_folder / "data" / "pellucid" / "session.json"; }
+    bool hasSession() const { return fs::exists(sessionFile()); }
 };
 
 } // namespace pellucid

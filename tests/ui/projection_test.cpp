@@ -20,17 +20,17 @@ class ProjectionTest : public Workstation {
     Q_OBJECT
 private slots:
     void init() {
-        restart();
+        Workstation::init();
         open(headPath());
     }
 
-    void theCrosshairStaysWhereItIsWhenThePictureTurnsAboutIt() {
-        ui::Document &document = m_window->document();
+    void turningAboutTheCrosshairLeavesItInPlace() {
+        ui::Document &document = mainWindow().document();
         document.setCrosshair({document.volume()->lattice().center().mm + glm::dvec3(40, -30, 25)});
         const glm::dvec2 before = onPicture(document.crosshair());
         drag({60, 25});
         QVERIFY(glm::distance(onPicture(document.crosshair()), before) > 5.0); // about the middle
-        QTest::keyClick(m_window.get(), Qt::Key_O);
+        QTest::keyClick(&mainWindow(), Qt::Key_O);
         QVERIFY(find<QAction>("orbitCrosshairAction")->isChecked());
         const glm::dvec2 now = onPicture(document.crosshair());
         drag({-130, 70});
@@ -47,7 +47,7 @@ private slots:
         turnWheel(projection(), 1);
         drag({40, 10});
         settle();
-        ui::Document &document = m_window->document();
+        ui::Document &document = mainWindow().document();
         const ui::Pose pose = document.pose();
         QVERIFY(pose.zoom > 1.1);
         const scene::Camera before = document.scene().camera;
@@ -76,7 +76,7 @@ private slots:
 
     // Even if the pane has another size by then.
     void everyStudyComesBackWithItsOwnZoom() {
-        ui::Document &document = m_window->document();
+        ui::Document &document = mainWindow().document();
         turnWheel(projection(), 1);
         turnWheel(projection(), 1);
         const ui::Pose head = document.pose();
@@ -101,7 +101,7 @@ private slots:
     }
 
     void theZoomHasLimits() {
-        ui::Document &document = m_window->document();
+        ui::Document &document = mainWindow().document();
         for (int n = 0; n < 40; ++n)
             turnWheel(projection(), 1);
         QCOMPARE(document.pose().zoom, ui::maxZoom);
@@ -116,10 +116,10 @@ private slots:
     void theCropBoxIsDraggedInAPlaneAndUndone() {
         const QImage whole = projection()->picture();
         auto *axial = find<ui::MprView>("axialView");
-        QTest::keyClick(m_window.get(), Qt::Key_K);
+        QTest::keyClick(&mainWindow(), Qt::Key_K);
         QVERIFY(find<QAction>("cropToolAction")->isChecked());
         // The left side of the box, to the middle: the patient's right half goes.
-        const volume::Lattice &lattice = m_window->document().volume()->lattice();
+        const volume::Lattice &lattice = mainWindow().document().volume()->lattice();
         const auto at = [&](double column) {
             return axial->mapping()
                 .positionOf(lattice.patient(
@@ -129,7 +129,7 @@ private slots:
         const QImage before = grab("axialView");
         const QPoint from = at(-0.5), to = at(47.5);
         dragMouse(axial, Qt::LeftButton, from, to - from);
-        const classify::CropBox crop = m_window->document().scene().crop;
+        const classify::CropBox crop = mainWindow().document().scene().crop;
         QVERIFY2(std::abs(crop.low.x - 0.5) < 0.03, qPrintable(QString::number(crop.low.x)));
         QCOMPARE(crop.high, glm::dvec3(1.0));
         QCOMPARE(crop.low.y, 0.0);
@@ -146,16 +146,16 @@ private slots:
         settle();
         QVERIFY(changed(whole, projection()->picture()) < 0.001);
         find<QAction>("redoAction")->trigger();
-        QTest::keyClick(m_window.get(), Qt::Key_K, Qt::ShiftModifier);
-        QVERIFY(m_window->document().scene().crop.isWhole());
+        QTest::keyClick(&mainWindow(), Qt::Key_K, Qt::ShiftModifier);
+        QVERIFY(mainWindow().document().scene().crop.isWhole());
         settle();
         QVERIFY(changed(whole, projection()->picture()) < 0.001);
     }
 
-    void aDragOfTheCropBoxIsGivenUpByEscape() {
+    void escapeCancelsADragOfTheCropBox() {
         auto *axial = find<ui::MprView>("axialView");
-        QTest::keyClick(m_window.get(), Qt::Key_K);
-        const volume::Lattice &lattice = m_window->document().volume()->lattice();
+        QTest::keyClick(&mainWindow(), Qt::Key_K);
+        const volume::Lattice &lattice = mainWindow().document().volume()->lattice();
         const QPoint edge = axial->mapping()
                                 .positionOf(lattice.patient(volume::VoxelPoint{
                                     {-0.5, 0.5 * lattice.size().j, 0.5 * lattice.size().k}}))
@@ -167,14 +167,14 @@ private slots:
         QCoreApplication::sendEvent(axial, &move);
         QTest::keyClick(axial, Qt::Key_Escape);
         QTest::mouseRelease(axial, Qt::LeftButton, Qt::NoModifier, edge + QPoint(50, 0));
-        QVERIFY(m_window->document().scene().crop.isWhole());
-        QVERIFY(!m_window->document().undoStack()->canUndo());
+        QVERIFY(mainWindow().document().scene().crop.isWhole());
+        QVERIFY(!mainWindow().document().undoStack()->canUndo());
     }
 
-    void theLookBeforeStandsBesideWhileAKeyIsHeld() {
-        QTest::keyPress(m_window.get(), Qt::Key_Q);
+    void aHeldKeyShowsTheFormerLookBesideThePresentOne() {
+        QTest::keyPress(&mainWindow(), Qt::Key_Q);
         QVERIFY(!projection()->isComparing()); // nothing was before
-        QTest::keyRelease(m_window.get(), Qt::Key_Q);
+        QTest::keyRelease(&mainWindow(), Qt::Key_Q);
         const QImage xRay = grab("projectionView");
         choosePreset("Bone");
         const QImage bone = grab("projectionView");
@@ -193,28 +193,28 @@ private slots:
         QVERIFY(changed(both.copy(area), bone.copy(middle)) > 0.1);
         save("compare");
         // It follows a view that turns, by the keypad wherever the keyboard is.
-        const auto window = m_window->document().displayWindow();
+        const auto window = mainWindow().document().displayWindow();
         QTest::keyClick(find<QWidget>("axialView"), Qt::Key_3, Qt::KeypadModifier);
-        QVERIFY(m_window->document().displayWindow() == window);
+        QVERIFY(mainWindow().document().displayWindow() == window);
         settle();
         QVERIFY(changed(both.copy(area), grab("projectionView").copy(area)) > 0.05);
-        QTest::keyRelease(m_window.get(), Qt::Key_Q);
+        QTest::keyRelease(&mainWindow(), Qt::Key_Q);
         QVERIFY(!projection()->isComparing());
         QVERIFY(changed(both, grab("projectionView")) > 0.05);
     }
 
     // One after the other they would be shown as if at one place.
-    void stacksOfOtherSpacesAreNoPhases() {
+    void stacksInDifferentFramesOfReferenceAreNoPhases() {
         writePhases("spaces", false);
         open(QString::fromStdString((m_folder / "spaces").string()));
-        const auto &sources = m_window->document().sources();
+        const auto &sources = mainWindow().document().sources();
         QCOMPARE(std::count_if(sources.begin(), sources.end(),
                                [](const auto &s) { return s.volume.size.k == 40; }),
                  3);
         QVERIFY(!find<QWidget>("phaseBar")->isVisible());
     }
 
-    void phasesAreChosenAndPlayedWithLookViewAndBrightnessKept() {
+    void phasesKeepLookViewAndBrightness() {
         writePhases("phases", true);
         open(QString::fromStdString((m_folder / "phases").string()));
         QVERIFY(find<QWidget>("phaseBar")->isVisible());
@@ -223,13 +223,13 @@ private slots:
         QTest::keyClick(projection(), Qt::Key_3, Qt::KeypadModifier);
         drag({30, 10});
         settle();
-        ui::Document &document = m_window->document();
+        ui::Document &document = mainWindow().document();
         const scene::Scene before = document.scene();
         const auto window = document.displayWindow();
         auto *axial = find<ui::MprView>("axialView");
         axial->moveView({1.7, {5.0, -3.0}});
         const QImage first = projection()->picture();
-        QTest::keyClick(m_window.get(), Qt::Key_Period);
+        QTest::keyClick(&mainWindow(), Qt::Key_Period);
         QTRY_VERIFY_WITH_TIMEOUT(find<QLabel>("phaseLabel")->text().startsWith("Phase 2 of 3"),
                                  patienceMs);
         settle();
@@ -242,8 +242,8 @@ private slots:
         QVERIFY2(meanGrey(second) > meanGrey(first) + 1.0,
                  qPrintable(QString("%1 %2").arg(meanGrey(first)).arg(meanGrey(second))));
         save("phases");
-        QTest::keyClick(m_window.get(), Qt::Key_Comma);
-        QVERIFY(!m_window->jobs().isRunning()); // it was kept
+        QTest::keyClick(&mainWindow(), Qt::Key_Comma);
+        QVERIFY(!mainWindow().jobs().isRunning()); // it was kept
         settle();
         QVERIFY(changed(first, projection()->picture()) < 0.001);
         // Played: around, each loaded once.
@@ -252,7 +252,7 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT((seen << document.currentSource()).size() == 3, patienceMs);
         const int now = document.currentSource();
         QTRY_VERIFY_WITH_TIMEOUT(document.currentSource() != now, patienceMs);
-        QTest::keyClick(m_window.get(), Qt::Key_Space, Qt::ShiftModifier);
+        QTest::keyClick(&mainWindow(), Qt::Key_Space, Qt::ShiftModifier);
         QVERIFY(!find<QToolButton>("playPhasesButton")->isChecked());
         settle();
         open(headPath());
@@ -293,16 +293,16 @@ private:
         }
     }
     glm::dvec2 onPicture(volume::PatientPoint point) const {
-        const scene::Camera &camera = m_window->document().scene().camera;
+        const scene::Camera &camera = mainWindow().document().scene().camera;
         const glm::dmat3 axes = camera.axes();
-        const glm::dvec3 d = point.mm - m_window->document().volume()->lattice().center().mm;
+        const glm::dvec3 d = point.mm - mainWindow().document().volume()->lattice().center().mm;
         return glm::dvec2(glm::dot(axes[0], d), glm::dot(axes[1], d)) - camera.panMm;
     }
     void drag(QPoint by) {
         dragMouse(projection(), Qt::LeftButton, projection()->rect().center(), by);
     }
     void choosePreset(const QString &name) {
-        clickPreset(*m_window, name);
+        clickPreset(mainWindow(), name);
         settle();
     }
 };

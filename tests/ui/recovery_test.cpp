@@ -22,7 +22,6 @@
 #include "ui/opening/session.h"
 #include "ui/window/file_menu.h"
 #include "ui/window/reopening.h"
-#include "ui/window/workstation.h"
 
 namespace pellucid {
 
@@ -36,74 +35,62 @@ private slots:
         Workstation::initTestCase();
         m_sessionFile = m_folder / "data" / "pellucid" / "session.json";
     }
-    void init() {
-        for (const char *const name : {"session.json", "session-2.json"})
-            fs::remove(m_sessionFile.parent_path() / name);
-    }
+    void init() { forgetEverything(); }
 
-    void whatWasOpenIsOfferedAfterAKill() {
+    void theNextStartAfterAKillOffersTheStudy() {
         QProcess program;
         startWorkstation(program, m_folder, {headPath()});
         QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
         QVERIFY(!readText(m_sessionFile).empty());
         program.kill();
         QVERIFY(program.waitForFinished(patienceMs));
-        ui::Workstation next;
-        auto *offer = next.window().findChild<QPushButton *>("resumeButton");
+        restart();
+        auto *offer = find<QPushButton>("resumeButton");
         QVERIFY(offer->isVisible());
         QCOMPARE(offer->text(), QString("Recover what was open"));
         offer->click();
-        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.volume() &&
-                                     !next.bench().study.document.isPreview(),
-                                 patienceMs);
-        QCOMPARE(next.bench().study.document.volume()->lattice().size().k, 80);
+        waitForVolume();
+        QCOMPARE(document().volume()->lattice().size().k, 80);
     }
 
     // Neither takes the other's place, and what still runs is nothing to recover.
-    void programsAtTheSameTimeAreRecoveredEach() {
+    void concurrentProgramsAreRecoveredSeparately() {
         QProcess first;
         startWorkstation(first, m_folder, {headPath()});
         QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
         const fs::path second = m_sessionFile.parent_path() / "session-2.json";
-        {
-            ui::Workstation other;
-            QVERIFY(!other.window().findChild<QPushButton *>("resumeButton")->isVisible());
-            other.window().openPhantom("chest");
-            QTRY_VERIFY_WITH_TIMEOUT(fs::exists(second), patienceMs);
-        }
+        restart();
+        QVERIFY(!find<QPushButton>("resumeButton")->isVisible());
+        mainWindow().openPhantom("chest");
+        QTRY_VERIFY_WITH_TIMEOUT(fs::exists(second), patienceMs);
+        endProgram();
         QVERIFY(ui::sessionFromJson(readText(second)).hasEnded);
         QVERIFY(!kept().hasEnded);
         first.kill();
         QVERIFY(first.waitForFinished(patienceMs));
-        ui::Workstation next;
-        auto *offer = next.window().findChild<QPushButton *>("resumeButton");
+        restart();
+        auto *offer = find<QPushButton>("resumeButton");
         QCOMPARE(offer->text(), QString("Recover what was open")); // before what has ended
         offer->click();
-        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.volume() &&
-                                     !next.bench().study.document.isPreview(),
-                                 patienceMs);
-        QCOMPARE(next.bench().study.document.volume()->lattice().size().k, 80);
-        emit next.window().fileMenu().recentForgotten();
+        waitForVolume();
+        QCOMPARE(document().volume()->lattice().size().k, 80);
+        emit mainWindow().fileMenu().recentForgotten();
         QVERIFY(!fs::exists(m_sessionFile) && !fs::exists(second));
     }
 
     // Other files lie there by now.
-    void anotherStudyInItsPlaceIsSaid() {
+    void aDifferentStudyAtTheSamePathIsReported() {
         const fs::path place = m_folder / "place";
         fs::copy(headPath().toStdString(), place);
-        {
-            ui::Workstation program;
-            program.window().openPaths({QString::fromStdString(place.string())});
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-        }
+        keepSessionOf({QString::fromStdString(place.string())});
+        endProgram();
         QStringList change{"-nb", "-gst", "-gse", "-gin"};
         for (const auto &file : fs::directory_iterator(place))
             change << QString::fromStdString(file.path().string());
         QCOMPARE(QProcess::execute("dcmodify", change), 0);
-        ui::Workstation next;
-        next.window().reopening().resume();
-        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.volume(), patienceMs);
-        const auto &problems = next.bench().study.document.problems();
+        resume();
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume(), patienceMs);
+        const auto &problems = document().problems();
         QVERIFY(std::any_of(problems.begin(), problems.end(), [](const auto &p) {
             return p.reason.is(task::because::isAnotherStudy);
         }));
@@ -111,123 +98,95 @@ private slots:
 
     // A look that nobody has saved.
     void anUnsavedLookIsRecovered() {
-        scene::Scene edited;
-        {
-            ui::Workstation program;
-            program.window().openPaths({headPath()});
-            ui::Document &document = program.bench().study.document;
-            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
-            ui::editScene(document, "Weights", ui::noDrag, [](scene::Scene &scene) {
-                scene.look.transferFunction.weights = {0.0, 0.7, 1.9, 0.3};
-            });
-            edited = document.scene();
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession() && kept().shown.scene.look == edited.look,
-                                     patienceMs);
-            QVERIFY(!kept().hasEnded);
-            // As it would be found after a kill now.
-            fs::copy_file(m_sessionFile, m_folder / "killed.json");
-        }
+        restart();
+        mainWindow().openPaths({headPath()});
+        waitForVolume();
+        ui::editScene(document(), "Weights", ui::noDrag, [](scene::Scene &scene) {
+            scene.look.transferFunction.weights = {0.0, 0.7, 1.9, 0.3};
+        });
+        const classify::Look edited = document().scene().look;
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession() && kept().shown.scene.look == edited, patienceMs);
+        QVERIFY(!kept().hasEnded);
+        // As it would be found after a kill now.
+        fs::copy_file(m_sessionFile, m_folder / "killed.json");
+        endProgram();
         QVERIFY(kept().hasEnded);
         fs::copy_file(m_folder / "killed.json", m_sessionFile,
                       fs::copy_options::overwrite_existing);
-        ui::Workstation next;
-        next.window().reopening().resume();
-        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.scene().look == edited.look,
-                                 patienceMs);
+        resume();
+        QTRY_VERIFY_WITH_TIMEOUT(document().scene().look == edited, patienceMs);
     }
 
     // Slices that could not be used are named again when the rest is taken up.
-    void whatWasRefusedIsNamedAgain() {
+    void refusedFilesAreReportedAgain() {
         const fs::path series = m_folder / "refused";
         fs::copy(headPath().toStdString(), series);
         const fs::path damaged = series / "IM0080.dcm";
         fs::resize_file(damaged, 300);
         std::optional<task::Reason> why;
-        const auto isNamed = [&](ui::Workstation &program) {
-            const auto &problems = program.bench().study.document.problems();
+        const auto isNamed = [&] {
+            const auto &problems = document().problems();
             return std::any_of(problems.begin(), problems.end(), [&](const dicom::Skipped &p) {
                 return p.path == damaged && p.reason == why.value_or(p.reason);
             });
         };
-        {
-            ui::Workstation program;
-            program.window().openPaths({QString::fromStdString(series.string())});
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            QVERIFY(isNamed(program));
-            why = kept().leftOut.at(0).reason;
-        }
-        ui::Workstation next;
-        QVERIFY(!isNamed(next));
-        next.window().reopening().resume();
-        QTRY_VERIFY_WITH_TIMEOUT(next.bench().study.document.volume() &&
-                                     !next.bench().study.document.isPreview(),
-                                 patienceMs);
-        QVERIFY(isNamed(next));
+        keepSessionOf({QString::fromStdString(series.string())});
+        QVERIFY(isNamed());
+        why = kept().leftOut.at(0).reason;
+        restart();
+        QVERIFY(!isNamed());
+        mainWindow().reopening().resume();
+        waitForVolume();
+        QVERIFY(isNamed());
     }
 
     // A slice that was missing and is there again is no problem any more.
-    void whatIsThereAgainIsNotNamedAgain() {
+    void restoredFilesAreNotReportedAgain() {
         const fs::path series = m_folder / "away";
         fs::copy(headPath().toStdString(), series);
-        {
-            ui::Workstation program;
-            program.window().openPaths({QString::fromStdString(series.string())});
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-            program.bench().study.document.addProblems(
-                {{series / "IM0005.dcm", task::because::isGone},
-                 {series / "IM0099.dcm", task::because::isEmpty}});
-        }
+        keepSessionOf({QString::fromStdString(series.string())});
+        document().addProblems({{series / "IM0005.dcm", task::because::isGone},
+                                {series / "IM0099.dcm", task::because::isEmpty}});
+        endProgram();
         QCOMPARE(kept().leftOut.size(), 1U);
         QCOMPARE(kept().leftOut[0].path, series / "IM0099.dcm");
     }
 
     // Picture, letters, cube and scale are those of before.
-    void whatIsTakenUpIsSeenAsBefore() {
-        const auto turned = [](ui::Document &document) {
-            ui::Pose pose = document.pose();
+    void aResumedStudyLooksAsBefore() {
+        const auto turned = [this] {
+            ui::Pose pose = document().pose();
             pose.orientation = glm::normalize(glm::dquat(0.9, 0.1, 0.3, 0.0)) * pose.orientation;
             return pose;
         };
-        std::optional<picture::ToneRange> brightness;
-        QImage picture;
-        {
-            ui::Workstation program;
-            program.window().openPaths({headPath()});
-            ui::Document &document = program.bench().study.document;
-            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
-            auto *pane = program.window().findChild<ui::ProjectionView *>();
-            const auto rests = [&] { return pane->showsWhatIsAskedFor(); };
-            QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs); // and has its brightness, of the front
-            ui::Pose pose = turned(document);
-            pose.panMm = {30.0, 0.0};
-            pose.zoom = 1.3;
-            document.setPose(pose);
-            QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs);
-            brightness = document.brightness();
-            picture = pane->picture();
-        }
+        restart();
+        open(headPath()); // and its brightness is that of the front
+        ui::Pose moved = turned();
+        moved.panMm = {30.0, 0.0};
+        moved.zoom = 1.3;
+        document().setPose(moved);
+        settle();
+        const auto brightness = document().brightness();
+        const QImage picture = projection()->picture();
+        endProgram();
         QVERIFY(brightness && kept().shown.brightness == brightness);
-        ui::Workstation next;
-        next.window().reopening().resume();
-        ui::Document &document = next.bench().study.document;
-        auto *pane = next.window().findChild<ui::ProjectionView *>();
-        const auto rests = [&] { return document.volume() && pane->showsWhatIsAskedFor(); };
-        QTRY_VERIFY_WITH_TIMEOUT(rests(), patienceMs);
-        QCOMPARE(document.brightness()->high, brightness->high);
-        QVERIFY(changed(pane->picture(), picture) < 0.001);
-        auto *overlay = pane->findChild<QWidget *>("projectionOverlay");
+        resume();
+        settle();
+        QCOMPARE(document().brightness()->high, brightness->high);
+        QVERIFY(changed(projection()->picture(), picture) < 0.001);
+        auto *overlay = projection()->findChild<QWidget *>("projectionOverlay");
         const QImage shown = overlay->grab().toImage();
         // As it is after another view.
-        const ui::Pose pose = document.pose();
-        document.setPose(turned(document));
+        const ui::Pose pose = document().pose();
+        document().setPose(turned());
         const QImage other = overlay->grab().toImage();
-        document.setPose(pose);
+        document().setPose(pose);
         QVERIFY(changed(overlay->grab().toImage(), other) > 0.0);
         QVERIFY(changed(overlay->grab().toImage(), shown) == 0.0);
     }
 
     // What archives were unpacked to is gone; they are opened again, all that a series is of.
-    void whatWasOpenOfAnArchiveIsTakenUp() {
+    void studiesFromArchivesAreResumed() {
         QStringList halves;
         for (const char *const half : {"IM000", "IM00[1-8]"}) {
             const QString zip = QString::fromStdString((m_folder / "half").string()) +
@@ -238,61 +197,54 @@ private slots:
                      0);
             halves << zip + ".zip";
         }
-        classify::Look look;
-        {
-            ui::Workstation program;
-            program.window().openPaths(halves);
-            ui::Document &document = program.bench().study.document;
-            QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
-            scene::Scene scene = document.scene();
-            scene.look.transferFunction.weights = {0.0, 0.25, 1.0};
-            look = scene.look;
-            document.setScene(scene);
-            QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
-        }
+        restart();
+        mainWindow().openPaths(halves);
+        waitForVolume();
+        scene::Scene scene = document().scene();
+        scene.look.transferFunction.weights = {0.0, 0.25, 1.0};
+        document().setScene(scene);
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+        endProgram();
         QStringList opened = kept().files;
         opened.sort();
         halves.sort();
         QCOMPARE(opened, halves);
-        ui::Workstation next;
-        next.window().reopening().resume();
-        ui::Document &document = next.bench().study.document;
-        QTRY_VERIFY_WITH_TIMEOUT(document.volume() && !document.isPreview(), patienceMs);
-        QCOMPARE(document.volume()->lattice().size().k, 80);
-        QVERIFY(document.scene().look == look);
+        resume();
+        waitForVolume();
+        QCOMPARE(document().volume()->lattice().size().k, 80);
+        QVERIFY(document().scene().look == scene.look);
     }
 
-    void aDamagedSessionIsSaid() {
+    void aDamagedSessionIsReported() {
         fs::create_directories(m_sessionFile.parent_path());
         std::ofstream(m_sessionFile) << "{\"schema\": \"pellucid-sess";
-        ui::Workstation program;
-        QVERIFY(!program.window().findChild<QPushButton *>("resumeButton")->isVisible());
-        const auto &problems = program.bench().study.document.problems();
+        restart();
+        QVERIFY(!find<QPushButton>("resumeButton")->isVisible());
+        const auto &problems = document().problems();
         QCOMPARE(problems.size(), 1U);
         QCOMPARE(problems[0].path, m_sessionFile);
         QVERIFY(problems[0].reason.is(task::because::isNoSession));
     }
 
     // A home on a share that is gone, or of a guest.
-    void aHomeThatCannotBeWrittenIsSaid() {
+    void aReadOnlyHomeIsReported() {
         fs::create_directory(m_folder / "locked");
         const ReadOnlyFolder locked(m_folder / "locked");
         const auto restore =
             qScopeGuard([before = qgetenv("XDG_DATA_HOME")] { qputenv("XDG_DATA_HOME", before); });
         qputenv("XDG_DATA_HOME", QByteArray::fromStdString((m_folder / "locked/data").string()));
-        {
-            ui::Workstation program;
-            const auto &problems = program.bench().study.document.problems();
-            QCOMPARE(problems.size(), 1U);
-            const QString why = QString::fromStdString(problems[0].reason.english());
-            QVERIFY2(why.contains("cannot be written"), qPrintable(why));
-            program.window().openPaths({headPath()});
-            QTRY_VERIFY_WITH_TIMEOUT(program.bench().study.document.volume(), patienceMs);
-        }
+        restart();
+        const auto &problems = document().problems();
+        QCOMPARE(problems.size(), 1U);
+        const QString why = QString::fromStdString(problems[0].reason.english());
+        QVERIFY2(why.contains("cannot be written"), qPrintable(why));
+        mainWindow().openPaths({headPath()});
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume(), patienceMs);
+        endProgram();
         QVERIFY(fs::is_empty(m_folder / "locked"));
     }
 
-    void aProgramThatIsToldToEndEndsAsOneThatIsClosed() {
+    void aTerminatedProgramEndsLikeAClosedOne() {
         QProcess program;
         startWorkstation(program, m_folder, {headPath()});
         QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
@@ -304,7 +256,7 @@ private slots:
     }
 
     // What an archive was unpacked to is the patient's.
-    void whatAKilledProgramUnpackedIsRemovedByTheNext() {
+    void theNextProgramRemovesWhatAKilledOneUnpacked() {
         const QString zip = QString::fromStdString((m_folder / "study.zip").string());
         QProcess packer;
         packer.setWorkingDirectory(headPath());
@@ -331,6 +283,18 @@ private slots:
     }
 
 private:
+    // Starts the program and opens files; it has kept them then.
+    void keepSessionOf(const QStringList &paths) {
+        restart();
+        mainWindow().openPaths(paths);
+        QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
+    }
+    // Starts the program and goes on with what was open.
+    void resume() {
+        restart();
+        mainWindow().reopening().resume();
+    }
+
     // Of the first program: a second one has a file of its own.
     bool hasSession() const { return fs::exists(m_sessionFile); }
     ui::Session kept() const { return ui::sessionFromJson(readText(m_sessionFile)); }

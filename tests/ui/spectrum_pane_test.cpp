@@ -17,10 +17,10 @@ using namespace test;
 class SpectrumPaneTest : public Workstation {
     Q_OBJECT
 private slots:
-    void theActionShowsTheSpectrumOfTheViewAndItTurnsWithIt() {
+    void theSpectrumTurnsWithTheView() {
         open(headPath());
         QVERIFY(!dock()->isVisible());
-        QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ShiftModifier);
+        QTest::keyClick(&mainWindow(), Qt::Key_S, Qt::ShiftModifier);
         QVERIFY(dock()->isVisible());
         QVERIFY(find<QAction>("spectrumAction")->isChecked());
         follow();
@@ -37,12 +37,12 @@ private slots:
         follow();
         QCOMPARE(plot()->picture(), expected());
         save("spectrum_oblique");
-        QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ShiftModifier);
+        QTest::keyClick(&mainWindow(), Qt::Key_S, Qt::ShiftModifier);
         QVERIFY(!dock()->isVisible());
     }
 
     // Many views at once are the first and the last.
-    void whileTheViewTurnsOnlyTheLatestIsSampled() {
+    void onlyTheLatestViewIsSampledWhileItTurns() {
         open(headPath());
         find<QAction>("spectrumAction")->trigger();
         follow();
@@ -54,7 +54,7 @@ private slots:
         QCOMPARE(plot()->picture(), expected());
     }
 
-    void hiddenItCostsNothing() {
+    void aHiddenSpectrumCostsNothing() {
         const QSignalSpy sampled(sampler(), &ui::SpectrumSampler::sampled);
         const auto turn = [&] {
             projection()->turnAroundPatient(20.0);
@@ -80,7 +80,7 @@ private slots:
         QCOMPARE(sampled.size(), 2);
     }
 
-    void withoutAStudyItSaysWhatItIsFor() {
+    void withoutAStudyThePaneShowsAHint() {
         find<QAction>("spectrumAction")->trigger();
         QVERIFY(find<QLabel>("spectrumHint")->isVisible());
         QVERIFY(!plot()->isVisible());
@@ -88,18 +88,18 @@ private slots:
         follow();
         QVERIFY(plot()->isVisible());
         QVERIFY(!find<QLabel>("spectrumHint")->isVisible());
-        m_window->document().closeVolume();
+        mainWindow().document().closeVolume();
         QVERIFY(find<QLabel>("spectrumHint")->isVisible());
         QVERIFY(plot()->picture().isNull());
     }
 
-    void thePaneIsKeptWithTheWindow() {
+    void theWindowRemembersThePane() {
         find<QAction>("spectrumAction")->trigger();
-        m_window->close();
+        mainWindow().close();
         restart();
         QVERIFY(dock()->isVisible());
         find<QAction>("spectrumAction")->trigger();
-        m_window->close();
+        mainWindow().close();
         restart();
         QVERIFY(!dock()->isVisible());
     }
@@ -116,7 +116,7 @@ private slots:
         // The upper edge is at the frequency of the band's circle: that of the samples, or of the
         // picture where its pixels are larger. A logical pixel of the plot is at most a few
         // hundredths of the limit.
-        ui::Document &document = m_window->document();
+        ui::Document &document = mainWindow().document();
         const volume::Lattice &lattice = document.volume()->lattice();
         const QSizeF small(100.0, 100.0); // a pane where the zoom allows both
         document.setProjectionSize(small);
@@ -139,13 +139,13 @@ private slots:
 private:
     QDockWidget *dock() { return find<QDockWidget>("spectrumDock"); }
     ui::SpectrumPlot *plot() { return find<ui::SpectrumPlot>("spectrumPlot"); }
-    ui::SpectrumSampler *sampler() { return m_window->findChild<ui::SpectrumSampler *>(); }
+    ui::SpectrumSampler *sampler() { return mainWindow().findChild<ui::SpectrumSampler *>(); }
     void follow() {
         QTRY_VERIFY_WITH_TIMEOUT(!sampler()->isBehind() && !plot()->picture().isNull(), patienceMs);
     }
     // Zoomed in, the band is that of the samples.
     scene::Camera camera() {
-        const ui::Document &document = m_window->document();
+        const ui::Document &document = mainWindow().document();
         scene::Camera camera = document.scene().camera;
         camera.pixelMm = std::max(camera.pixelMm, document.volume()->lattice().shortestStepMm());
         return camera;
@@ -153,7 +153,7 @@ private:
     // By the core alone, of the prepared engine and the present view.
     QImage expected() {
         const auto slice =
-            render::spectrumSlice(m_bench->study.preparer.fullEngine()->engine->parts(), camera(),
+            render::spectrumSlice(bench().study.preparer.fullEngine()->engine->parts(), camera(),
                                   ui::SpectrumSampler::side);
         const auto rgba = render::greyLevels(slice);
         return QImage(rgba.data(), slice.side, slice.side, QImage::Format_RGBA8888).copy();

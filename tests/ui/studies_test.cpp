@@ -23,24 +23,21 @@ private slots:
         StudiesWindow::initTestCase();
         writeChests();
     }
-    // Each test has a library of its own.
-    void init() { restartWithoutLibrary(); }
-
     void importedStudiesAreThereAfterARestart() {
         import(m_folder / "three", false);
         QCOMPARE(rows(), QStringList({"Miller Ann", "Miller Bob", "Zhang Wei"}));
-        QVERIFY(!m_window->document().volume()); // importing opens nothing
+        QVERIFY(!document().volume()); // importing opens nothing
         restart();
         QCOMPARE(rows(), QStringList({"Miller Ann", "Miller Bob", "Zhang Wei"}));
         click(volumeRow("Miller Bob"));
         settle();
-        QVERIFY(m_window->document().volume());
-        QCOMPARE(m_window->document().volume()->lattice().size().k, 24);
+        QVERIFY(document().volume());
+        QCOMPARE(document().volume()->lattice().size().k, 24);
         QVERIFY(!tree()->currentIndex().data(Qt::DecorationRole).value<QImage>().isNull());
         save("library");
     }
 
-    void aStudyOfTheLibraryIsAmongTheRecentOnesWithoutItsName() {
+    void recentStudiesOfTheLibraryShowNoName() {
         import(m_folder / "head", false);
         click(volumeRow("Secret Name"));
         settle();
@@ -55,14 +52,14 @@ private slots:
         QVERIFY(!recent->text().contains("Secret"));
         QTest::mouseClick(recent, Qt::LeftButton);
         settle();
-        QCOMPARE(m_window->document().volume()->lattice().size().k, 80);
+        QCOMPARE(document().volume()->lattice().size().k, 80);
     }
 
-    void searchNarrowsTheListAndOrderTurnsIt() {
+    void theListIsSearchedAndSorted() {
         import(m_folder / "three", false);
         auto *search = find<QLineEdit>("studySearch");
-        m_window->setFocus();
-        QTest::keyClick(m_window.get(), Qt::Key_F, Qt::ControlModifier);
+        mainWindow().setFocus();
+        QTest::keyClick(&mainWindow(), Qt::Key_F, Qt::ControlModifier);
         QVERIFY(search->hasFocus());
         QTest::keyClicks(search, "miller b");
         QTRY_COMPARE(rows(), QStringList({"Miller Bob"}));
@@ -75,7 +72,7 @@ private slots:
         QCOMPARE(rows().size(), 3);
         find<QAction>("byNameAction")->trigger();
         QCOMPARE(rows(), QStringList({"Miller Ann", "Miller Bob", "Zhang Wei"}));
-        // Open studies that the library does not have are searched too.
+        // The search includes open studies that are not in the library.
         open(headPath());
         QCOMPARE(rows().front(), QString("Secret Name"));
         search->setText("zhang");
@@ -103,7 +100,7 @@ private slots:
         fs::remove_all(disc);
         click(volumeRow("Secret Name"));
         settle();
-        QVERIFY(m_window->document().volume());
+        QVERIFY(document().volume());
         const fs::path copies = m_folder / "data" / "pellucid" / "library" / "files";
         QVERIFY(!fs::is_empty(copies));
         choose(volumeRow("Secret Name"), "removeStudyAction");
@@ -116,18 +113,18 @@ private slots:
         QTRY_COMPARE(rows(), QStringList());
         QTRY_VERIFY(fs::is_empty(copies)); // by a job of its own
         // It was the open one: nothing is open now.
-        QVERIFY(!m_window->document().volume());
+        QVERIFY(!document().volume());
         QVERIFY(find<QWidget>("startPage")->isVisible());
     }
 
-    void aReferenceToADiscThatIsAwaySaysSo() {
+    void aReferenceToAMissingDiscIsReported() {
         const fs::path disc = m_folder / "away";
         fs::copy(m_folder / "head", disc);
         import(disc, false);
         fs::remove_all(disc);
         click(volumeRow("Secret Name"));
         QTRY_VERIFY_WITH_TIMEOUT(problems().contains("cannot be found"), patienceMs);
-        QVERIFY(!m_window->jobs().isRunning());
+        QVERIFY(!jobs().isRunning());
         QVERIFY(find<QWidget>("startPage")->isVisible());
     }
 
@@ -138,10 +135,10 @@ private slots:
         packer.start("python3", {"-m", "zipfile", "-c", zip, "."});
         QVERIFY(packer.waitForFinished() && packer.exitCode() == 0);
         open(zip);
-        QCOMPARE(m_window->document().volume()->lattice().size().k, 80);
+        QCOMPARE(document().volume()->lattice().size().k, 80);
         const fs::path sessions = m_folder / "cache" / "pellucid" / "sessions";
         QVERIFY(!fs::is_empty(sessions));
-        // What an archive was unpacked to goes with the program: it is copied whatever is chosen.
+        // Unpacked files are deleted with the program: they are copied whatever the user chose.
         choose(volumeRow("Secret Name"), "addStudyAction");
         QTRY_VERIFY(dialog("importDialog") != nullptr);
         acceptImport(false);
@@ -149,7 +146,7 @@ private slots:
         QVERIFY(fs::is_empty(sessions));
         click(volumeRow("Secret Name"));
         settle();
-        QCOMPARE(m_window->document().volume()->lattice().size().k, 80);
+        QCOMPARE(document().volume()->lattice().size().k, 80);
     }
 
     void problemsOfAnImportAreOneList() {
@@ -159,21 +156,21 @@ private slots:
             std::ofstream(mixed / ("note" + std::to_string(n) + ".txt")) << "not an image, sorry";
         std::ofstream(mixed / "IM0").flush();
         import(mixed, false);
-        QCOMPARE(m_window->document().problems().size(), std::size_t(13));
+        QCOMPARE(document().problems().size(), std::size_t(13));
         QCOMPARE(find<QListWidget>("problemList")->count(), 2);
         QVERIFY(problems().contains("12 files: is not a DICOM file"));
         QVERIFY(problems().contains("IM0: is empty"));
         QVERIFY(QApplication::activeModalWidget() == nullptr);
     }
 
-    void anImportThatFindsNothingSaysWhy() {
+    void anImportWithoutImagesIsReported() {
         fs::create_directories(m_folder / "empty");
         import(m_folder / "empty", false);
         QTRY_VERIFY(problems().contains("contains no usable images"));
         QCOMPARE(rows(), QStringList());
     }
 
-    void detailsNameGeometryAndFiles() {
+    void theDetailsShowGeometryAndFiles() {
         open(headPath());
         choose(volumeRow("Secret Name"), "volumeDetailsAction");
         QTRY_VERIFY(dialog("studyDetails") != nullptr);
@@ -195,12 +192,12 @@ private slots:
         open(headPath());
         choose(volumeRow("Secret Name"), "closeStudyAction");
         QTRY_COMPARE(rows(), QStringList());
-        QVERIFY(!m_window->document().volume());
+        QVERIFY(!document().volume());
         open(headPath());
         QCOMPARE(rows(), QStringList({"Secret Name"}));
     }
 
-    void aDropOnTheStudiesImports() {
+    void aDropOnTheStudyListImports() {
         drop(*find<QWidget>("studyPanel"), {QUrl::fromLocalFile(headPath())});
         QTRY_VERIFY(dialog("importDialog") != nullptr);
         acceptImport(false);

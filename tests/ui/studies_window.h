@@ -16,11 +16,10 @@
 
 namespace pellucid::test {
 
-/// The window with a library of the test's own, three small chests to import, and a hand in the
-/// list of studies.
+/// The fixture with three small chests to import, and the means to use the list of studies.
 class StudiesWindow : public Workstation {
 protected:
-    // In the folder "three".
+    // Writes them into the folder "three".
     void writeChests() const {
         for (const char *name : {"Miller^Ann", "Miller^Bob", "Zhang^Wei"}) {
             const auto lattice = phantom::phantomLattice(phantom::Kind::chest,
@@ -29,12 +28,6 @@ protected:
                                  phantom::makePhantom(phantom::Kind::chest, lattice),
                                  {.patientName = name}, dicom::TransferSyntax::explicitLittle);
         }
-    }
-
-    void restartWithoutLibrary() {
-        m_window.reset();
-        std::filesystem::remove_all(m_folder / "data");
-        restart();
     }
 
     QTreeView *tree() { return find<QTreeView>("seriesTree"); }
@@ -51,7 +44,7 @@ protected:
         for (int row = 0; row < list().rowCount(); ++row)
             if (list().index(row, 0).data() == patient) {
                 tree()->expand(list().index(row, 0));
-                // What is in a study is asked for when it is looked into.
+                // The volumes of a study are loaded when its row is expanded.
                 (void)QTest::qWaitFor([&] { return list().rowCount(list().index(row, 0)) > 0; },
                                       patienceMs);
                 return list().index(0, 0, list().index(row, 0));
@@ -75,10 +68,10 @@ protected:
         QTest::mouseClick(tree()->viewport(), Qt::LeftButton, Qt::NoModifier, middle(row));
     }
 
-    // By the menu of a row, as the right button opens it.
+    // Chooses from the menu that a right click on a row opens.
     void choose(const QModelIndex &row, const char *action) {
         emit tree()->customContextMenuRequested(middle(row));
-        auto *menu = m_window->findChild<QMenu *>("studyMenu");
+        auto *menu = mainWindow().findChild<QMenu *>("studyMenu");
         QVERIFY(menu != nullptr);
         QAction *wanted = menu->findChild<QAction *>(action);
         QVERIFY2(wanted != nullptr, action);
@@ -87,18 +80,18 @@ protected:
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
     }
 
-    QWidget *dialog(const char *name) { return m_window->findChild<QWidget *>(name); }
+    QWidget *dialog(const char *name) { return mainWindow().findChild<QWidget *>(name); }
 
     void acceptImport(bool copies) {
         find<QRadioButton>(copies ? "copyButton" : "referButton")->click();
-        QSignalSpy over(&m_window->library().jobs(), &ui::JobRunner::finished);
+        QSignalSpy over(&mainWindow().library().jobs(), &ui::JobRunner::finished);
         QTest::mouseClick(find<QPushButton>("importNowButton"), Qt::LeftButton);
         QTRY_VERIFY_WITH_TIMEOUT(over.count() > 0, patienceMs);
         QTRY_VERIFY(dialog("importDialog") == nullptr);
     }
 
     void import(const std::filesystem::path &path, bool copies) {
-        m_window->fileMenu().importPaths({QString::fromStdString(path.string())});
+        mainWindow().fileMenu().importPaths({QString::fromStdString(path.string())});
         QTRY_VERIFY(dialog("importDialog") != nullptr);
         acceptImport(copies);
     }

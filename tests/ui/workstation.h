@@ -3,28 +3,26 @@
 
 #include <QtTest>
 
-#include <algorithm>
-#include <cmath>
+#include <filesystem>
 #include <memory>
 
-#include <QDropEvent>
-#include <QListWidget>
-#include <QMimeData>
+#include <QDialog>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
-#include <QSlider>
 #include <QStandardPaths>
-#include <QStyleOptionSlider>
 
 #include "core/dicom/write_series.h"
 #include "core/files/user_folders.h"
 #include "core/fourier/transforms/wisdom.h"
 #include "core/phantom/phantom.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/ui/hand.h"
+#include "tests/ui/pictures.h"
 #include "ui/views/projection_view.h"
 #include "ui/window/application.h"
 #include "ui/window/main_window.h"
+#include "ui/window/workstation.h"
 
 namespace pellucid::test {
 
@@ -34,12 +32,13 @@ constexpr int patienceMs = 240000;
 constexpr int patienceMs = 60000;
 #endif
 
+/// The folder of the real series; empty if they are absent.
 inline QString testData() {
     return qEnvironmentVariable("PELLUCID_TEST_DATA");
 }
 
-// Asked for till it is granted: a window that is not on the screen yet, or that another program's
-// takes the keyboard from, is not active by being asked once.
+/// Makes a window active. It asks again until the request is granted: a window that is not on the
+/// screen yet, or one that takes the keyboard from another program, ignores the first request.
 inline bool activate(QWidget &window) {
     return QTest::qWaitFor(
         [&] {
@@ -50,99 +49,7 @@ inline bool activate(QWidget &window) {
         patienceMs);
 }
 
-inline void drop(QWidget &window, const QList<QUrl> &urls) {
-    QMimeData data;
-    data.setUrls(urls);
-    QDragEnterEvent enter(QPoint(400, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&window, &enter);
-    QVERIFY(enter.isAccepted());
-    QDropEvent dropped(QPointF(400, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&window, &dropped);
-}
-
-inline double meanGrey(const QImage &image) {
-    double sum = 0.0;
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x)
-            sum += qGray(image.pixel(x, y));
-    return sum / (double(image.width()) * image.height());
-}
-
-// The mean distance of the channels from each other.
-inline double colorfulness(const QImage &image) {
-    double sum = 0.0;
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            const QRgb p = image.pixel(x, y);
-            sum +=
-                std::max({qRed(p), qGreen(p), qBlue(p)}) - std::min({qRed(p), qGreen(p), qBlue(p)});
-        }
-    return sum / (double(image.width()) * image.height());
-}
-
-inline void moveMouse(QWidget *widget, QPoint to) {
-    QMouseEvent move(QEvent::MouseMove, to, widget->mapToGlobal(to), Qt::NoButton, Qt::NoButton,
-                     Qt::NoModifier);
-    QCoreApplication::sendEvent(widget, &move);
-}
-
-inline double meanGrey(const QImage &image, const QRect &area) {
-    return meanGrey(image.copy(area));
-}
-
-// Share of pixels that differ clearly.
-inline double changed(const QImage &a, const QImage &b) {
-    if (a.size() != b.size())
-        return 1.0;
-    qint64 count = 0;
-    for (int y = 0; y < a.height(); ++y)
-        for (int x = 0; x < a.width(); ++x)
-            count += std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y))) > 8 ? 1 : 0;
-    return double(count) / (double(a.width()) * a.height());
-}
-
-inline void dragMouse(QWidget *widget, Qt::MouseButton button, QPoint from, QPoint by) {
-    QTest::mousePress(widget, button, Qt::NoModifier, from);
-    for (int step = 1; step <= 8; ++step) {
-        // QTest's own moves carry no buttons; a person's do.
-        const QPoint at = from + by * step / 8;
-        QMouseEvent move(QEvent::MouseMove, at, widget->mapToGlobal(at), Qt::NoButton, button,
-                         Qt::NoModifier);
-        QCoreApplication::sendEvent(widget, &move);
-        QTest::qWait(5);
-    }
-    QTest::mouseRelease(widget, button, Qt::NoModifier, from + by);
-}
-
-inline void turnWheel(QWidget *widget, int steps) {
-    const QPointF at = widget->rect().center();
-    QWheelEvent event(at, widget->mapToGlobal(at), {}, QPoint(0, 120 * steps), Qt::NoButton,
-                      Qt::NoModifier, Qt::NoScrollPhase, false);
-    QCoreApplication::sendEvent(widget, &event);
-}
-
-// Drags the knob of a slider.
-inline void dragSlider(QSlider *slider, QPoint by) {
-    QStyleOptionSlider option;
-    option.initFrom(slider);
-    option.minimum = slider->minimum();
-    option.maximum = slider->maximum();
-    option.sliderPosition = option.sliderValue = slider->value();
-    const QRect knob = slider->style()->subControlRect(QStyle::CC_Slider, &option,
-                                                       QStyle::SC_SliderHandle, slider);
-    dragMouse(slider, Qt::LeftButton, knob.center(), by);
-}
-
-/// Clicks a preset in the gallery of a window.
-inline void clickPreset(QWidget &window, const QString &name) {
-    auto *gallery = window.findChild<QListWidget *>("presetGallery");
-    const auto item = gallery->findItems(name, Qt::MatchExactly).front();
-    gallery->scrollToItem(item);
-    QTest::mouseClick(gallery->viewport(), Qt::LeftButton, Qt::NoModifier,
-                      gallery->visualItemRect(item).center());
-}
-
-/// Settings, presets, library and caches of a test's own.
+/// Keeps settings, presets, library and caches of a test apart from the user's.
 inline void keepToFolder(const test::TemporaryFolder &folder) {
     QStandardPaths::setTestModeEnabled(true);
     QSettings().clear();
@@ -152,8 +59,8 @@ inline void keepToFolder(const test::TemporaryFolder &folder) {
     fourier::keepWisdomIn(*files::userCacheFolder() / "fftw-wisdom");
 }
 
-/// How many textures, buffers, programs and render buffers the program has: names of objects are
-/// small numbers, and contexts share them.
+/// The number of textures, buffers, programs and render buffers of the program. Names of objects
+/// are small numbers, and contexts share them.
 inline int sharedGlObjects() {
     QOffscreenSurface surface;
     surface.create();
@@ -170,7 +77,8 @@ inline int sharedGlObjects() {
     return count;
 }
 
-/// The real window, anew for each test, and a head to open in it.
+/// The fixture of all tests of the window: the program, which starts for the first time before each
+/// test, and a head to open in it.
 class Workstation : public QObject {
     Q_OBJECT
 protected slots:
@@ -183,60 +91,91 @@ protected slots:
             {.patientName = "Secret^Name", .windows = {{40, 100, ""}, {300, 1500, ""}}},
             dicom::TransferSyntax::explicitLittle);
     }
-
-    void init() { restart(); }
-    void cleanup() {
-        m_window.reset();
-        m_bench.reset();
+    void init() {
+        forgetEverything();
+        restart();
     }
+    void cleanup() { endProgram(); }
 
 protected:
-    // As if the program had ended and been started again.
-    void restart() {
-        m_window.reset();
-        m_bench.reset();
-        m_bench = std::make_unique<ui::Workbench>();
-        m_window = std::make_unique<ui::MainWindow>(*m_bench, ui::Theme::named("dark"));
-        m_window->resize(1600, 1000);
-        m_window->show();
-        m_window->activateWindow();
-        QVERIFY(QTest::qWaitForWindowExposed(m_window.get()));
+    /// Ends the program and removes its settings and all data that it keeps between runs.
+    void forgetEverything() {
+        endProgram();
+        QSettings().clear();
+        std::filesystem::remove_all(m_folder / "data");
     }
+    /// Ends the program, if it runs, and starts it again. `size`: of its window.
+    void restart(QSize size = {1600, 1000}) {
+        endProgram();
+        m_program = std::make_unique<ui::Workstation>();
+        mainWindow().resize(size);
+        mainWindow().activateWindow();
+        QVERIFY(QTest::qWaitForWindowExposed(&mainWindow()));
+    }
+    void endProgram() { m_program.reset(); }
 
-    QString headPath() const { return QString::fromStdString((m_folder / "head").string()); }
+    ui::Workbench &bench() const { return m_program->bench(); }
+    /// Another window after a change of language or theme.
+    ui::MainWindow &mainWindow() const { return m_program->window(); }
+    ui::Document &document() const { return mainWindow().document(); }
+    ui::JobRunner &jobs() const { return mainWindow().jobs(); }
+    ui::ProjectionView *projection() { return find<ui::ProjectionView>("projectionView"); }
 
     template <class T> T *find(const char *name) {
-        T *found = m_window->findChild<T *>(name);
+        T *found = mainWindow().findChild<T *>(name);
         if (found == nullptr)
             qFatal("no %s", name);
         return found;
     }
-    ui::ProjectionView *projection() { return find<ui::ProjectionView>("projectionView"); }
     QImage grab(const char *name) { return find<QWidget>(name)->grab().toImage(); }
-
-    void open(const QString &path) {
-        drop(*m_window, {QUrl::fromLocalFile(path)});
-        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
-                                 patienceMs);
-    }
-
-    // What the scene asks for is there.
-    void settle() {
-        QTRY_VERIFY_WITH_TIMEOUT(projection()->showsFinalImage() && !m_window->jobs().isRunning(),
-                                 patienceMs);
-    }
-
+    /// Saves a screenshot for a person to look at.
     void save(const QString &name) {
         const QString folder = qEnvironmentVariable("PELLUCID_ARTIFACTS");
         if (folder.isEmpty())
             return;
         QDir().mkpath(folder);
-        QVERIFY(m_window->grab().save(folder + "/workstation_" + name + ".png"));
+        QVERIFY(mainWindow().grab().save(folder + "/workstation_" + name + ".png"));
+    }
+
+    QString headPath() const { return QString::fromStdString((m_folder / "head").string()); }
+    void open(const QString &path) {
+        drop(mainWindow(), {QUrl::fromLocalFile(path)});
+        settle();
+    }
+    void choosePreset(const QString &name) {
+        clickPreset(mainWindow(), name);
+        settle();
+    }
+    void openPreferences() {
+        find<QAction>("preferencesAction")->trigger();
+        QVERIFY(find<QDialog>("preferencesDialog")->isVisible());
+    }
+
+    /// Waits until the projection shows the scene as it is now, at full detail, and nothing is
+    /// underway or queued that would change it.
+    void settle() { QTRY_VERIFY_WITH_TIMEOUT(staysSettled(), patienceMs); }
+    /// Waits until the whole volume is open; its projection may still be underway.
+    void waitForVolume() {
+        QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(), patienceMs);
     }
 
     test::TemporaryFolder m_folder;
-    std::unique_ptr<ui::Workbench> m_bench;
-    std::unique_ptr<ui::MainWindow> m_window;
+    std::unique_ptr<ui::Workstation> m_program;
+
+private:
+    // While the user's hand may go on, a former engine shows a scene that it was not made for, and
+    // no job runs yet.
+    bool isSettled() {
+        return projection()->showsWhatIsAskedFor() && !jobs().isRunning() &&
+               bench().study.preparer.preparedFor() == ui::wantedOf(document());
+    }
+    // An event that is still queued may ask for another picture.
+    bool staysSettled() {
+        if (!isSettled())
+            return false;
+        QCoreApplication::processEvents();
+        return isSettled();
+    }
 };
 
 /// Runs the tests of a class in an application of their own.

@@ -40,36 +40,36 @@ private slots:
         restart();
         const std::string file = (m_folder / "notes.txt").string();
         std::ofstream(file) << "this is a letter to the patient and no image at all";
-        drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
+        drop(mainWindow(), {QUrl::fromLocalFile(QString::fromStdString(file))});
         auto *list = find<QListWidget>("problemList");
-        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && !m_window->jobs().isRunning(), patienceMs);
+        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && !jobs().isRunning(), patienceMs);
         QVERIFY(list->item(0)->text().contains("not a DICOM file"));
         QVERIFY(QApplication::activeModalWidget() == nullptr);
-        drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
+        drop(mainWindow(), {QUrl::fromLocalFile("/no/such/place")});
         QTRY_VERIFY_WITH_TIMEOUT(
             list->count() == 2 && list->item(1)->text().contains("does not exist"), patienceMs);
         QVERIFY(find<QWidget>("startPage")->isVisible());
         // What was there is still there, once; until it has been read.
-        drop(*m_window, {QUrl::fromLocalFile("/no/such/place")});
-        QTRY_VERIFY(!m_window->jobs().isRunning());
+        drop(mainWindow(), {QUrl::fromLocalFile("/no/such/place")});
+        QTRY_VERIFY(!jobs().isRunning());
         QCOMPARE(list->count(), 2);
         QTest::mouseClick(find<QPushButton>("clearProblemsButton"), Qt::LeftButton);
         QVERIFY(!list->isVisible());
     }
 
     // A study that cannot be loaded gives way to the one that was shown.
-    void whatCannotBeLoadedLeavesWhatWasShown() {
+    void aFailedLoadReturnsToTheFormerStudy() {
         restart();
         open(headPath());
-        const auto shown = m_window->document().currentSource();
+        const auto shown = document().currentSource();
         const QImage before = projection()->picture();
         const std::string file = (m_folder / "damaged.nrrd").string();
         std::ofstream(file) << "NRRD0004\ntype: short\ndimension: 3\nsizes: 9 9 9\n"
                                "endian: little\nencoding: gzip\n\nno gzip stream at all";
-        drop(*m_window, {QUrl::fromLocalFile(QString::fromStdString(file))});
+        drop(mainWindow(), {QUrl::fromLocalFile(QString::fromStdString(file))});
         auto *list = find<QListWidget>("problemList");
-        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && m_window->document().volume() &&
-                                     m_window->document().currentSource() == shown,
+        QTRY_VERIFY_WITH_TIMEOUT(list->count() == 1 && document().volume() &&
+                                     document().currentSource() == shown,
                                  patienceMs);
         QVERIFY(list->item(0)->text().contains("damaged or truncated"));
         settle();
@@ -77,7 +77,7 @@ private slots:
     }
 
     // Whatever is thrown, on whatever thread: it is said, and the next thing works.
-    void whatThrowsIsSaidAndTheProgramGoesOn() {
+    void exceptionsAreReportedAndTheProgramGoesOn() {
         ui::Workstation program;
         QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
         QTimer::singleShot(0, &program, [] { throw std::bad_alloc(); });
@@ -105,25 +105,25 @@ private slots:
     }
 
 #ifndef PELLUCID_SANITIZED // which reserve terabytes
-    void aPreparationThatFailsSaysSoAndIsTriedAgainByF5() {
+    void aFailedPreparationIsReportedAndRepeatedByF5() {
         restart();
         open(headPath());
         {
             const test::LittleMemory little(2); // too little for a thread
-            ui::editScene(m_window->document(), "Tolerance", ui::noDrag,
+            ui::editScene(document(), "Tolerance", ui::noDrag,
                           [](scene::Scene &scene) { scene.tolerance = 1e-5; });
-            QTRY_VERIFY(!m_window->jobs().isRunning());
+            QTRY_VERIFY(!jobs().isRunning());
             QCOMPARE(projection()->planState(), ui::PlanState::failed);
-            QCOMPARE(m_window->document().problems().size(), 1U);
+            QCOMPARE(document().problems().size(), 1U);
         }
-        QTest::keyClick(m_window.get(), Qt::Key_F5);
+        QTest::keyClick(&mainWindow(), Qt::Key_F5);
         QCOMPARE(projection()->planState(), ui::PlanState::underway);
         settle();
         QCOMPARE(projection()->planState(), ui::PlanState::holds);
     }
 
     // A limit that is too low to start is said, before libraries that need more crash.
-    void aLowLimitIsSaidInOneLine() {
+    void aLowMemoryLimitIsReportedInOneLine() {
         for (const char *kilobytes : {"300000", "400000", "600000", "1000000"}) {
             QProcess program;
             program.start("/bin/sh",
@@ -140,7 +140,7 @@ private slots:
 
     // From too little to enough, in steps: a study is open or a reason is given, and with memory
     // the next one opens.
-    void littleMemoryIsSaidAndTheNextStudyOpens() {
+    void aLackOfMemoryIsReportedAndTheNextStudyOpens() {
         const fs::path large = m_folder / "large";
         dicom::writeCtSeries(large,
                              phantom::makePhantom(phantom::Kind::head,

@@ -9,11 +9,11 @@
 
 namespace pellucid::test {
 
-/// Starts the program itself, with settings in the test's folder.
+/// Starts the program as a process of its own, with settings in the test's folder.
 inline void startWorkstation(QProcess &program, const TemporaryFolder &folder,
                              const QStringList &arguments) {
     QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-#ifdef PELLUCID_SANITIZED // what libraries leave at their end is looked for in this program
+#ifdef PELLUCID_SANITIZED // leaks of libraries are looked for in the test's own process
     environment.insert("ASAN_OPTIONS", "detect_leaks=0");
 #endif
     environment.insert("XDG_CONFIG_HOME", QString::fromStdString((folder / "config").string()));

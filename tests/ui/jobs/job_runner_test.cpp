@@ -41,7 +41,7 @@ private slots:
     }
     void cleanup() { m_runner.reset(); }
 
-    void whatIsDoneIsDoneAfterAllWasDelivered() {
+    void aJobIsDoneAfterItsLastDelivery() {
         m_runner->start(
             "job",
             [this](const Job &job) { job.deliver([this] { m_heard.emplace_back("delivered"); }); },
@@ -52,7 +52,7 @@ private slots:
         staysSo();
     }
 
-    void whatFailsSaysWhyAndWhereItWas() {
+    void aFailureHasAReasonAndAPath() {
         const QSignalSpy failed(m_runner.get(), &JobRunner::failed);
         std::vector<Outcome> outcomes;
         const auto listen = [&](const Outcome &outcome) { outcomes.push_back(outcome); };
@@ -74,7 +74,7 @@ private slots:
         QCOMPARE(failed.size(), 2);
     }
 
-    void whatIsCancelledIsToldAtOnceAndDeliversNoMore() {
+    void aCancelledJobEndsAtOnceAndDeliversNoMore() {
         m_runner->start(
             "job",
             [this](const Job &job) {
@@ -90,13 +90,13 @@ private slots:
         staysSo();
     }
 
-    void whatStopsByItselfIsCancelled() {
+    void aJobThatStopsItselfCountsAsCancelled() {
         m_runner->start(
             "job", [](const Job &) { throw task::Cancelled(); }, listener("job"));
         QTRY_COMPARE(m_heard, QStringList({"job cancelled"}));
     }
 
-    void whatIsReplacedIsCancelledBeforeTheNextStarts() {
+    void aReplacedJobIsCancelledBeforeTheNextStarts() {
         connect(m_runner.get(), &JobRunner::started, this,
                 [this](const QString &title) { m_heard << title + " started"; });
         m_runner->start("one", endless, listener("one"));
@@ -107,8 +107,8 @@ private slots:
         staysSo();
     }
 
-    // A job cannot slip in between the one that ends and the one that replaces it.
-    void whatStartsMeanwhileGivesWay() {
+    // No job can run between the one that ends and the one that replaces it.
+    void aJobStartedDuringAReplacementIsCancelled() {
         m_runner->start("one", endless, [this](const Outcome &) {
             m_heard << (m_runner->isRunning() ? "running" : "idle");
             m_runner->start("between", endless, listener("between"));
@@ -120,13 +120,13 @@ private slots:
         QTRY_COMPARE(m_heard, QStringList({"running", "between cancelled", "two done"}));
     }
 
-    void anEndMayStartTheNext() {
+    void onEndMayStartTheNextJob() {
         const QSignalSpy finished(m_runner.get(), &JobRunner::finished);
         m_runner->start(
             "one", [](const Job &) {},
             [&](const Outcome &) {
                 m_heard << (m_runner->isRunning() ? "running" : "idle");
-                QCOMPARE(finished.size(), 1); // those who show it heard of it before
+                QCOMPARE(finished.size(), 1); // observers learned of the end before
                 m_runner->start(
                     "two", [](const Job &) {}, listener("two"));
             });
@@ -134,7 +134,7 @@ private slots:
         QCOMPARE(finished.size(), 2);
     }
 
-    void whatIsCancelledAsItStartsIsNotBegun() {
+    void aJobCancelledAtItsStartNeverRuns() {
         connect(m_runner.get(), &JobRunner::started, m_runner.get(), &JobRunner::cancel);
         std::atomic<bool> hasBegun = false;
         m_runner->start(
@@ -145,7 +145,7 @@ private slots:
         staysSo();
     }
 
-    void joiningEndsWhatRunsAndStartsNothing() {
+    void joinCancelsTheJobAndStartsNone() {
         m_runner->start("job", endless, [this](const Outcome &) {
             m_heard << "ended";
             m_runner->start("next", endless, listener("next"));
@@ -155,7 +155,7 @@ private slots:
         QVERIFY(!m_runner->isRunning());
     }
 
-    void theEndOfTheRunnerIsThatOfItsJob() {
+    void theDestructorOfTheRunnerEndsItsJob() {
         std::atomic<int> threads = 0;
         m_runner->start(
             "job",
@@ -174,12 +174,12 @@ private slots:
         connect(m_runner.get(), &JobRunner::finished, this, [&] { isShown = true; });
         m_runner.reset();
         QCOMPARE(m_heard, QStringList({"job cancelled"}));
-        QCOMPARE(threads.load(), 0); // it was waited for
+        QCOMPARE(threads.load(), 0); // the runner waited for it
         QVERIFY(!isShown);
         staysSo();
     }
 
-    void whoStartedItHearsOfTheEndWhateverSlotsThrow() {
+    void theStarterLearnsOfTheEndEvenIfSlotsThrow() {
         connect(m_runner.get(), &JobRunner::finished, this, [] { throw std::bad_alloc(); });
         m_runner->start("job", endless, listener("job"));
         QVERIFY_EXCEPTION_THROWN(m_runner->cancel(), std::bad_alloc);
