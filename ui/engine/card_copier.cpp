@@ -100,7 +100,7 @@ std::shared_ptr<gpu::GpuEngine> CardCopier::copyOf(const render::EngineParts &pa
                                    [&](const auto &copy) { return isHeld(*copy, parts); });
     if (held == m_copies.end())
         return nullptr;
-    if (parts.spectra.gradients.empty() && (*held)->textures().takesLight())
+    if (parts.spectra.gradients.empty() && (*held)->textures().canBeLit())
         *held = (*held)->withoutLight();
     return (*held)->withShares(parts.shares);
 }

@@ -236,7 +236,7 @@ void LookPreparer::takeEngine(const PreparedFor &of, const prepare::PreparedEngi
         m_layers.reset();
     emit planChanged(PlanState::holds);
     showFull();
-    act(Occasion::fullCame);
+    act(Occasion::fullArrived);
 }
 
 void LookPreparer::takeLayers(const PreparedFor &of,
@@ -244,7 +244,7 @@ void LookPreparer::takeLayers(const PreparedFor &of,
     m_have = prepare::afterLayers(of, detail, m_have);
     m_layers = layers;
     m_layersAreCoarse = detail == Detail::coarse;
-    act(Occasion::layersCame);
+    act(Occasion::layersArrived);
 }
 
 } // namespace pellucid::ui

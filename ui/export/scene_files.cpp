@@ -18,7 +18,7 @@ using task::ErrorCode;
 } // namespace
 
 scene::Scene readSceneFile(const QString &path) {
-    const std::string text = files::readText(path.toStdString(), files::mostOfPreset);
+    const std::string text = files::readText(path.toStdString(), files::maxPresetBytes);
     try {
         return scene::sceneFromJson(text);
     } catch (const Error &error) {

@@ -217,7 +217,7 @@ void ProjectionView::requestFrame(bool moving) {
     const double finest = m_document.volume()->lattice().shortestStepMm() / samplesPerPixel;
     shading::Shading shading = m_document.scene().shading;
     if (shading.isLit() &&
-        !m_prepared->takesLight) // it is being prepared: all stays as it is till then
+        !m_prepared->canBeLit) // it is being prepared: all stays as it is till then
         shading = m_drawnShading;
     else
         m_tone.follow(shading);

@@ -149,7 +149,7 @@ void MainWindow::connectBench() {
     connect(&m_bench.opener, &StudyOpener::hugeFound, this,
             [this](const QStringList &paths, const std::vector<dicom::Skipped> &huge) {
                 askForHuge(this, huge, [this, paths] {
-                    m_bench.opener.openPaths(paths, {}, {.takesHuge = true});
+                    m_bench.opener.openPaths(paths, {}, {.includesHuge = true});
                 });
             });
     connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
