@@ -22,7 +22,7 @@ class CardPicture {
 public:
     int width() const { return m_width; }
     int height() const { return m_height; }
-    /// Channels of the image, 1 or 3. Three channels may be one layer times a colour.
+    /// Channels of the image, 1 or 3. Three channels may be one layer times a color.
     int channels() const { return m_channels; }
     int layers() const { return m_layers; }
     const std::array<float, 3> &color() const { return m_color; }
@@ -68,7 +68,7 @@ struct CardTimes {
 
 /// Slice, inverse transform and picture as compute passes, with their buffers; all engines of a
 /// device share one object. A grey frame takes two dispatches: one in which each work group
-/// computes and transforms a column of the slice, and one for the rows. Colours take one more.
+/// computes and transforms a column of the slice, and one for the rows. Colors take one more.
 /// Lines that do not fit the card's shared memory take a dispatch for each stage of their
 /// transform.
 class FramePasses : public std::enable_shared_from_this<FramePasses> {

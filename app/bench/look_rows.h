@@ -23,7 +23,7 @@ void reportLook(const Report &report, const std::string &suite, const std::strin
                 const LookSubject &subject, const classify::Look &look, const std::string &note);
 
 /// Three lights across the view, 120 degrees apart, as in figure 8 of Totsuka 1993; white or in its
-/// colours.
+/// colors.
 std::vector<shading::Light> threeLights(bool colored);
 
 /// A shaded scene, ready to render, and its row.

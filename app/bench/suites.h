@@ -25,7 +25,7 @@ void runScalingSuite(const Report &report, const Subject *given);
 void runHardSuite(const Report &report);
 /// Cheng 2007, tables 4.1 to 4.6.
 void runThesisSuite(const Report &report);
-/// Looks on 128^3 and 256^3: the cost of weights, colours and control points in each of the three
+/// Looks on 128^3 and 256^3: the cost of weights, colors and control points in each of the three
 /// uses of linearity, see reportLook.
 void runClassesSuite(const Report &report);
 /// Depth cues and lights at 128^3 and 256^3, alternating with the plain frame.

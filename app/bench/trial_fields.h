@@ -38,7 +38,7 @@ struct Shape {
 volume::Lattice latticeOf(Genes &genes);
 Shape shapeOf(FieldKind kind, Genes &genes, const volume::Lattice &lattice);
 /// The samples of a shape, 0..1, with those that are not a function of position: single bright
-/// samples, patterns, coloured noise.
+/// samples, patterns, colored noise.
 std::vector<float> samplesOf(FieldKind kind, const Shape &shape, Genes &genes,
                              const volume::GridSize &size);
 

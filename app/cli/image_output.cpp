@@ -39,7 +39,7 @@ OutputKind outputKind(const fs::path &out) {
 void checkOutput(const fs::path &out, bool isGrey) {
     if (outputKind(out) == OutputKind::nrrd && !isGrey)
         throw Error(ErrorCode::usage,
-                    because::inWords("-o: coloured pictures are written as .png, .npy or .dcm"));
+                    because::inWords("-o: colored pictures are written as .png, .npy or .dcm"));
 }
 
 void writeImage(const fs::path &path, const picture::ProjectionImage &image,

@@ -33,7 +33,7 @@ classify::TissueClass classFromText(const std::string &text) {
         throw Error(ErrorCode::usage,
                     because::inWords("--class: '" + text + "' is not NAME=WEIGHT[:#rrggbb]"));
     classify::TissueClass tissue = classNamed(text.substr(0, equals));
-    // Grey unless a colour is named: so is the picture then.
+    // Grey unless a color is named: so is the picture then.
     tissue.color = colon == std::string::npos ? classify::Color{}
                                               : classify::colorFromText(text.substr(colon + 1));
     tissue.weight =

@@ -97,7 +97,7 @@ private:
         m_input = openInput(m_options.input, m_outs, m_context);
         m_warnings = englishTexts(volume().notes().warnings);
         m_scene = m_planned = sceneFor(m_options.scene, m_command, m_preset, volume());
-        // The scene file may have brought colours.
+        // The scene file may have brought colors.
         checkOutput(out, classify::isGrey(m_scene.look) && m_scene.shading.isGrey());
     }
 

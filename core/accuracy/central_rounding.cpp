@@ -117,7 +117,7 @@ private:
             addTerm(at, t, isZero, image);
         if (m_mixing.channels > 1)
             return image;
-        // A single image is coloured afterwards.
+        // A single image is colored afterwards.
         const Read grey = image[0];
         for (std::size_t c = 0; c < 3; ++c)
             image[c] = Complex(m_mixing.color[c]) * grey;

@@ -21,7 +21,7 @@ Mixture mixtureOf(const Look &look) {
         const double w = tissue.weight;
         const Color c = tissue.color;
         mixture.channelWeights.push_back({w * c.red, w * c.green, w * c.blue});
-        // Weight, colour and name do not change its samples.
+        // Weight, color and name do not change its samples.
         tissue.weight = 1.0;
         tissue.color = {};
         tissue.name = "class";

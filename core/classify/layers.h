@@ -10,10 +10,10 @@
 
 namespace pellucid::classify {
 
-/// A field that is projected once and shown with any weight and colour: a term f b_i(f) of a Bézier
+/// A field that is projected once and shown with any weight and color: a term f b_i(f) of a Bézier
 /// transfer function, or a class. *Source*: Cheng 2007, eq. 32 and 36.
 struct Layer {
-    /// The class without its own weight and colour; unnamed: the whole volume.
+    /// The class without its own weight and color; unnamed: the whole volume.
     TissueClass tissue;
     int index = -1, degree = 0; ///< b_index of the degree; -1: none
     bool operator==(const Layer &) const = default;
@@ -26,7 +26,7 @@ struct Mixture {
         channelWeights; ///< of red, green and blue, one entry per layer
 };
 
-/// A look as a mixture. Looks that differ only in weights, colours and control points have the same
+/// A look as a mixture. Looks that differ only in weights, colors and control points have the same
 /// layers. Classes with zero weight are layers too, so that they can be shown at once.
 Mixture mixtureOf(const Look &look);
 

@@ -12,7 +12,7 @@ namespace pellucid::classify {
 inline constexpr std::size_t maxClasses = 64;
 
 /// What a volume shows: its density through a transfer function, or, if there are classes, the sum
-/// of weight times class in the colours of the classes.
+/// of weight times class in the colors of the classes.
 struct Look {
     TransferFunction transferFunction;
     std::vector<TissueClass> classes;
@@ -25,7 +25,7 @@ void validate(const Look &look);
 /// The classes with a nonzero weight; the others cost nothing.
 std::vector<TissueClass> visibleClasses(const Look &look);
 
-/// Whether the picture of a look needs three channels; whether it has no colour at all.
+/// Whether the picture of a look needs three channels; whether it has no color at all.
 bool mixesColors(const Look &look);
 bool isGrey(const Look &look);
 

@@ -9,8 +9,8 @@
 
 namespace pellucid::classify {
 
-/// The fields whose projections make the picture of a look: one times a colour, or one each for
-/// red, green and blue if colours mix. Projection is linear: the sum of the fields is projected
+/// The fields whose projections make the picture of a look: one times a color, or one each for
+/// red, green and blue if colors mix. Projection is linear: the sum of the fields is projected
 /// once, whatever the number of classes. *Source*: Cheng 2007, eq. 32 and 34.
 struct ShownFields {
     std::vector<DensityField> channels; ///< one or three
@@ -27,7 +27,7 @@ std::size_t peakBytes(const Look &look, std::size_t samples);
 ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window, const Look &look,
                         StepRunner *runner, const task::Progress &progress = {});
 
-/// The field of one class without its weight and colour. *Throws* Error{outOfMemory}, Cancelled.
+/// The field of one class without its weight and color. *Throws* Error{outOfMemory}, Cancelled.
 DensityField classField(const volume::Volume &volume, const FieldWindow &window,
                         const TissueClass &tissue, StepRunner *runner,
                         const task::Progress &progress = {});

@@ -23,8 +23,8 @@ ToneRange toneRange(const ProjectionImage &image, const scene::Tone &tone);
 /// The GLSL tone pass computes the same.
 inline constexpr double toneExponent = 1.0 / 1.4;
 
-/// Applies window, inversion and colour. The brightest channel of a pixel gets the display curve
-/// and the others keep their ratio to it, so that bright colours keep their hue; inverted colours
+/// Applies window, inversion and color. The brightest channel of a pixel gets the display curve
+/// and the others keep their ratio to it, so that bright colors keep their hue; inverted colors
 /// are the negative. Values below the range are black, including those below zero, where a sharp
 /// band limit undershoots. *Shape*: height x width x 4, opaque.
 std::vector<std::uint8_t> compose(const ProjectionImage &image, const scene::Tone &tone);

@@ -23,7 +23,7 @@ FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const F
     const shading::SliceShading slices =
         shading::sliceShading(shading, scene.camera.axes(), shading::shadingScale(lattice));
     model.slices = spectra * int(slices.terms.size());
-    // Fields of one colour add up before the transform, as their slices do.
+    // Fields of one color add up before the transform, as their slices do.
     const bool hasChannels =
         (fields.count > 1 && fields.isColored) || (shading.isLit() && !shading.isGrey());
     model.images = hasChannels ? 3 : 1;
@@ -68,9 +68,9 @@ std::string spectrumText(SpectrumOf what) {
 std::string reasonText(SpectrumOf what) {
     switch (what) {
     case SpectrumOf::look:
-        return "everything has the same colour, so it adds up to one field";
+        return "everything has the same color, so it adds up to one field";
     case SpectrumOf::channel:
-        return "colours are mixed, so each channel has its own field";
+        return "colors are mixed, so each channel has its own field";
     case SpectrumOf::layer:
         return "the weights may change, so each layer has its own spectrum, and the slices are "
                "added";
@@ -91,7 +91,7 @@ std::string leftOutText(LeftOut what) {
     case LeftOut::depthCue:
         return "more slices of each spectrum: there is no depth cue";
     case LeftOut::color:
-        return "two of three images: there is one colour";
+        return "two of three images: there is one color";
     case LeftOut::cornersOfBand:
         return "frequencies beyond the circle of the band";
     }

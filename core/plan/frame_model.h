@@ -12,7 +12,7 @@ namespace pellucid::plan {
 /// How the images of a frame are made.
 enum class Combination {
     one,     ///< one spectrum, one grey image
-    tinted,  ///< one image, coloured pixel by pixel
+    tinted,  ///< one image, colored pixel by pixel
     channels ///< one image each for red, green and blue, from weighted sums of slices
 };
 
@@ -29,7 +29,7 @@ enum class LeftOut {
 /// What a spectrum represents, and therefore why it is needed.
 enum class SpectrumOf {
     look,    ///< the density of the whole look
-    channel, ///< the density of one colour channel
+    channel, ///< the density of one color channel
     layer,   ///< a class or a control point of the transfer function, whose weight may change
     gradient ///< the length of the gradient of one of the others
 };

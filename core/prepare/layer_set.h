@@ -9,7 +9,7 @@
 
 namespace pellucid::prepare {
 
-/// The layers of a look, each with its own spectrum, shown with any weights and colours at once.
+/// The layers of a look, each with its own spectrum, shown with any weights and colors at once.
 /// Projection is linear, which is used in two ways. While the view does not move, the projections
 /// of the layers are kept: a change of weights costs a sum over the pixels, but no slice and no
 /// transform. While both change, one slice is the sum of the layers' slices, and each channel is

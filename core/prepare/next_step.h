@@ -5,7 +5,7 @@
 
 #include "core/prepare/prepared_for.h"
 
-/// How the engine of the projection follows the scene. While weights and colours change, the layers
+/// How the engine of the projection follows the scene. While weights and colors change, the layers
 /// of the look are summed; when they rest, one engine is made of the sum. All decisions are pure
 /// functions here; ui/engine/look_preparer.h executes them.
 namespace pellucid::prepare {

@@ -24,7 +24,7 @@ struct PreparedFor {
     bool isLit = false;
     bool operator==(const PreparedFor &) const = default;
 
-    /// Whether only weights, colours and control points differ: the layers are the same.
+    /// Whether only weights, colors and control points differ: the layers are the same.
     bool hasSameLayersAs(const PreparedFor &other) const;
     /// Whether only cue, light and interpolation between samples differ, which any engine can show.
     bool showsSameAs(const PreparedFor &other) const;

@@ -31,7 +31,7 @@ std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSiz
 /// Summaries of the fields, then of the gradients, with what a plan with this cue needs.
 std::vector<plan::FieldSummary> summarise(const ShadedFields &fields, const shading::DepthCue &cue);
 
-/// The number of images in a frame of this many fields: a single field in coloured light makes
+/// The number of images in a frame of this many fields: a single field in colored light makes
 /// three.
 int imagesOf(std::size_t fields, const shading::Shading &shading);
 

@@ -19,7 +19,7 @@ bool isSlicerPreset(const std::filesystem::path &path);
 
 /// Converts the scalar opacity of a `.vp` or `.vp.json` file to a transfer function with this many
 /// points, over the window from where the opacity starts to where it stops changing: f B(f) is the
-/// curve closest to the opacity. Colours and gradient opacity have no equivalent in one curve and
+/// curve closest to the opacity. Colors and gradient opacity have no equivalent in one curve and
 /// are omitted. *Throws* Error{unusable} naming the file, the line if there is one, and the reason.
 ImportedPreset importSlicerPreset(const std::filesystem::path &path, int points = 8);
 

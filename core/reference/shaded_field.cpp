@@ -66,7 +66,7 @@ std::vector<double> joinedPlanes(std::vector<std::vector<double>> planes,
                                  const classify::ShownFields &fields) {
     if (planes.size() == 1 && fields.isGrey())
         return std::move(planes.front());
-    // The channels of a look are coloured already.
+    // The channels of a look are colored already.
     const classify::Color color = fields.channels.size() == 1 ? fields.color : classify::Color{};
     const std::array<double, 3> factors{color.red, color.green, color.blue};
     std::vector<double> result;
@@ -83,7 +83,7 @@ std::vector<double> shadedImage(const classify::ShownFields &fields,
                                 const task::Progress &progress) {
     const auto scale = shading::shadingScale(fields.channels.front().values.lattice());
     std::vector<std::vector<double>> planes;
-    // The channels of one field in grey light differ only by its colour.
+    // The channels of one field in grey light differ only by its color.
     const std::size_t count = fields.channels.size() == 1 && shading.isGrey() ? 1 : 3;
     for (std::size_t c = 0; c < count; ++c) {
         const auto shaded = shadedField(fields.channels[std::min(c, fields.channels.size() - 1)],

@@ -16,7 +16,7 @@ namespace pellucid::reference {
 /// The reference for cue and light: a channel's field, shaded sample by sample in double as
 /// `shading::Shading` defines, for one view. Its plain image is the exact shaded image. The lattice
 /// is larger by one sample on every side, with the same centre. *Shape*: axes are [U V W]; channel
-/// 0 to 2 of the lights' colours. *Throws* Error{outOfMemory}, Cancelled.
+/// 0 to 2 of the lights' colors. *Throws* Error{outOfMemory}, Cancelled.
 classify::DensityField shadedField(const classify::DensityField &field,
                                    const shading::Shading &shading, const glm::dmat3 &axes,
                                    int channel, const shading::ShadingScale &scale,
@@ -28,7 +28,7 @@ std::vector<double> joinedPlanes(std::vector<std::vector<double>> planes,
                                  const classify::ShownFields &fields);
 
 /// The exact picture of a look with cue and light. *Shape*: camera.height x camera.width, times 3
-/// if the look or the light has colours. *Throws* Error{outOfMemory}, Cancelled.
+/// if the look or the light has colors. *Throws* Error{outOfMemory}, Cancelled.
 std::vector<double> shadedImage(const classify::ShownFields &fields,
                                 const shading::Shading &shading, const scene::Camera &camera,
                                 const scene::ImageDefinition &image,

@@ -117,7 +117,7 @@ struct FrameBuffers {
     int allocatedChannels = 0;
     std::shared_ptr<std::byte[]> columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> lines, strips;
-    std::array<std::vector<float>, FrameJob::maxChannels> planes; ///< of colour pictures
+    std::array<std::vector<float>, FrameJob::maxChannels> planes; ///< of color pictures
     std::vector<Complex> rowPhase;
 };
 
@@ -166,7 +166,7 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
 // Runs the phases of a frame one after the other, and records when each part ran.
 class FrameRun {
 public:
-    // `pixels`: height x width x 3 of a colour picture, else null. `tint`: the colour of a single
+    // `pixels`: height x width x 3 of a color picture, else null. `tint`: the color of a single
     // image.
     FrameRun(const FrameJob &job, std::vector<FrameScratch> &scratch, const ChannelWeights &tint,
              float *pixels)

@@ -25,7 +25,7 @@ struct FrameInputs {
     int pictureChannels() const { return mixing.grey ? 1 : 3; }
     /// The factor of the sums. A single grey image also has its channel weight in it.
     double unit() const;
-    /// The colour of the single image of a colour picture; three images already have theirs.
+    /// The color of the single image of a color picture; three images already have theirs.
     ChannelWeights tint() const;
 };
 

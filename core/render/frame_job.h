@@ -148,7 +148,7 @@ double frameClockSeconds();
 void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch);
 /// Transforms 16 image rows of a channel along the columns and stores their part in the image.
 void finishRows(const FrameJob &job, int channel, int group, FrameScratch &scratch);
-/// Joins three planes, each times a colour, into pixels of red, green and blue. *Shape*: count
+/// Joins three planes, each times a color, into pixels of red, green and blue. *Shape*: count
 /// samples each.
 void joinPlanes(const std::array<const float *, 3> &planes, const std::array<float, 3> &color,
                 std::size_t count, float *pixels);

@@ -20,7 +20,7 @@ Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelWeights> &
         return;
     const fourier::Spectrum &first = *spectra.fields[shown.front()];
     unit = first.unit();
-    // A single spectrum needs one slice, whatever its colour: the image is coloured afterwards.
+    // A single spectrum needs one slice, whatever its color: the image is colored afterwards.
     const bool alone = shown.size() == 1;
     sums = alone || areGrey(channelWeights) ? 1 : FrameJob::maxChannels;
     channels = sums > 1 || !shading.isGrey() ? FrameJob::maxChannels : 1;
@@ -90,7 +90,7 @@ FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mi
         image.magnitude = float(shading.channels[c].magnitude);
         // Opposite lights cancel in the gradient, but their magnitudes add up.
         frame.lit = frame.lit || image.magnitude != 0.0F;
-        // Images of one sum are coloured here, unless a single image is coloured afterwards.
+        // Images of one sum are colored here, unless a single image is colored afterwards.
         if (mixing.sums == 1 && mixing.channels > 1) {
             const double share = mixing.color[c];
             image.ambient *= float(share);

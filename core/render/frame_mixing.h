@@ -9,7 +9,7 @@ namespace pellucid::render {
 /// The spectra with a nonzero weight in a picture, the number of sums and the number of images.
 /// Without sources nothing is shown.
 struct Mixing {
-    /// `greyLight`: no light is coloured, whatever colour their sum has.
+    /// `greyLight`: no light is colored, whatever color their sum has.
     Mixing(const EngineSpectra &spectra, const std::vector<ChannelWeights> &channelWeights,
            const shading::SliceShading &shading, bool greyLight);
 

@@ -28,7 +28,7 @@ Scene planningScene(const Scene &scene, const volume::Lattice &lattice) {
     planning.interpolation = scene.interpolation;
     planning.image = scene.image;
     planning.shading.cue = plannedCue(scene.shading.cue);
-    if (scene.shading.isLit()) // their number and place cost nothing, colours a little
+    if (scene.shading.isLit()) // their number and place cost nothing, colors a little
         planning.shading.lights.push_back({.color = {1.0, 0.5, 0.0}});
     planning.camera.pixelMm = lattice.shortestStepMm();
     planning.camera.width = planning.camera.height =

@@ -64,7 +64,7 @@ inline constexpr std::size_t maxLights = 8;
 inline constexpr double largestAmbient = 2.0;
 
 /// Depth cue and lighting: the field f becomes
-///   d (A f + sum over lights of S colour 1/2 (|g| - g.L))
+///   d (A f + sum over lights of S color 1/2 (|g| - g.L))
 /// where g is the gradient of f per shortest step (`gradientMagnitude`). Without cue and lights and
 /// with A = 1 it is f itself, at no cost.
 struct Shading {

@@ -18,7 +18,7 @@
 <context>
     <name>Dock</name>
     <message>
-        <source>Fold or unfold</source>
+        <source>Collapse or expand</source>
         <translation>摺疊或展開</translation>
     </message>
 </context>
@@ -61,7 +61,7 @@
         <translation>版本</translation>
     </message>
     <message>
-        <source>Licence</source>
+        <source>License</source>
         <translation>授權</translation>
     </message>
     <message>
@@ -103,7 +103,7 @@
         </translation>
     </message>
     <message>
-        <source>Opening may take all memory and a long time.</source>
+        <source>Opening may use all memory and take a long time.</source>
         <translation>開啟可能耗盡記憶體並花費很長時間。</translation>
     </message>
     <message>
@@ -368,10 +368,6 @@
         <translation>自訂</translation>
     </message>
     <message>
-        <source>Own range</source>
-        <translation>自訂範圍</translation>
-    </message>
-    <message>
         <source>Chest: tissues and edges</source>
         <translation>胸部：組織與邊緣</translation>
     </message>
@@ -395,7 +391,7 @@
 <context>
     <name>OverlayTexts</name>
     <message>
-        <source>Warnings are left out</source>
+        <source>Warnings omitted</source>
         <translation>已略去警告</translation>
     </message>
 </context>
@@ -414,8 +410,8 @@
         <translation>MinIP</translation>
     </message>
     <message>
-        <source>%1 of %2 mm</source>
-        <translation>%1，厚 %2 mm</translation>
+        <source>%1, %2 mm</source>
+        <translation>%1，%2 mm</translation>
     </message>
     <message>
         <source>Axial</source>
@@ -446,7 +442,7 @@
         <translation>內插</translation>
     </message>
     <message>
-        <source>interpolated: no image was taken here</source>
+        <source>interpolated: no image acquired here</source>
         <translation>內插：此處沒有影像</translation>
     </message>
 </context>
@@ -515,19 +511,19 @@
         <translation>%1 %</translation>
     </message>
     <message>
-        <source>All that is shown has one colour, so it adds up to one field</source>
+        <source>Everything shown has one color, so it adds up to one field</source>
         <translation>顯示的內容只有一種顏色，因此合成一個場</translation>
     </message>
     <message>
-        <source>Colours are mixed, so red, green and blue have a field each</source>
+        <source>Colors are mixed, so red, green and blue each have a field</source>
         <translation>顏色互相混合，因此紅、綠、藍各有一個場</translation>
     </message>
     <message>
-        <source>Weights are being changed, so each layer keeps a spectrum of its own</source>
-        <translation>正在調整權重，因此每個圖層保留各自的頻譜</translation>
+        <source>Weights are changing, so each layer keeps its own spectrum</source>
+        <translation>權重正在變動，因此每個圖層保留各自的頻譜</translation>
     </message>
     <message>
-        <source>Light shines on the gradient, which has a spectrum of its own</source>
+        <source>Light acts on the gradient, which has its own spectrum</source>
         <translation>光照作用於梯度，梯度有自己的頻譜</translation>
     </message>
     <message>
@@ -543,7 +539,7 @@
         <translation>外觀 %1</translation>
     </message>
     <message>
-        <source>colours %1</source>
+        <source>colors %1</source>
         <translation>色彩 %1</translation>
     </message>
     <message>
@@ -563,7 +559,7 @@
     <name>Reasons</name>
     <message>
         <source>a spectrum of %1 x %2 x %3 cells is larger than the graphics card&apos;s largest texture, %4 a side</source>
-        <translation>%1 x %2 x %3 格的頻譜大於顯示卡的紋理，每邊 %4</translation>
+        <translation>%1 x %2 x %3 格的頻譜大於顯示卡的最大紋理（每邊 %4）</translation>
     </message>
     <message>
         <source>the image covers more cells than the graphics card can count</source>
@@ -679,7 +675,7 @@
     </message>
     <message>
         <source>a transfer function must have %1 to %2 weights, not %3</source>
-        <translation>轉換函數有 %1 至 %2 個權重，而非 %3 個</translation>
+        <translation>轉換函數必須有 %1 至 %2 個權重，而非 %3 個</translation>
     </message>
     <message>
         <source>has contradictory attributes: Bits Stored %1, Bits Allocated %2, High Bit %3</source>
@@ -958,7 +954,7 @@
         <translation>損壞或被截斷</translation>
     </message>
     <message>
-        <source>is a colour image (%1)</source>
+        <source>is a color image (%1)</source>
         <translation>是彩色影像 (%1)</translation>
     </message>
     <message>
@@ -1091,7 +1087,7 @@
     </message>
     <message>
         <source>%1 is not used: %2</source>
-        <translation>缺少 %1：%2</translation>
+        <translation>未使用 %1：%2</translation>
     </message>
     <message>
         <source>class &apos;%1&apos;: %2</source>
@@ -1275,7 +1271,7 @@
     </message>
     <message>
         <source>the file contains more samples than its header says</source>
-        <translation>樣本數多於標頭所述</translation>
+        <translation>樣本數多於檔頭所述</translation>
     </message>
     <message>
         <source>samples that are not finite numbers: %1</source>
@@ -1283,11 +1279,11 @@
     </message>
     <message>
         <source>files with more pixels than their header says: %1</source>
-        <translation>像素多於標頭所述的檔案：%1</translation>
+        <translation>像素多於檔頭所述的檔案：%1</translation>
     </message>
     <message>
         <source>the NRRD header has &apos;%1&apos; twice</source>
-        <translation>NRRD 標頭中「%1」出現兩次</translation>
+        <translation>NRRD 檔頭中「%1」出現兩次</translation>
     </message>
     <message>
         <source>has too many data elements for an image</source>
@@ -1335,7 +1331,7 @@
     </message>
     <message>
         <source>the file names no patient space; left-posterior-superior is assumed</source>
-        <translation>未指明病人座標空間；視為左－後－上</translation>
+        <translation>未指明病患座標空間；視為左－後－上</translation>
     </message>
     <message>
         <source>NRRD units &apos;%1&apos; are not supported</source>
@@ -1411,7 +1407,7 @@
     </message>
     <message>
         <source>files whose pixels have more bits than their header says: %1</source>
-        <translation>像素位元數多於標頭所述的檔案：%1</translation>
+        <translation>像素位元數多於檔頭所述的檔案：%1</translation>
     </message>
     <message>
         <source>mosaics that could not be split into slices, shown as single images: %1</source>
@@ -1435,19 +1431,19 @@
     </message>
     <message>
         <source>a compressed frame has no header</source>
-        <translation>壓縮影格沒有標頭</translation>
+        <translation>壓縮影格沒有檔頭</translation>
     </message>
     <message>
         <source>a compressed frame has %1 x %2 pixels, but the header says %3 x %4</source>
-        <translation>壓縮影格有 %1 x %2 像素，標頭則為 %3 x %4</translation>
+        <translation>壓縮影格有 %1 x %2 像素，檔頭則為 %3 x %4</translation>
     </message>
     <message>
-        <source>a compressed frame has %1 colour components</source>
+        <source>a compressed frame has %1 color components</source>
         <translation>壓縮影格有 %1 個色彩分量</translation>
     </message>
     <message>
         <source>a compressed frame has %1 bits per sample, but the header says %2</source>
-        <translation>壓縮影格每取樣 %1 位元，標頭則為 %2</translation>
+        <translation>壓縮影格每取樣 %1 位元，檔頭則為 %2</translation>
     </message>
     <message>
         <source>a compressed frame does not match its transfer syntax (marker %1): %2</source>
@@ -1459,7 +1455,7 @@
     </message>
     <message>
         <source>a run-length frame has no header</source>
-        <translation>遊程編碼影格沒有標頭</translation>
+        <translation>遊程編碼影格沒有檔頭</translation>
     </message>
     <message>
         <source>a run-length frame has wrong offsets</source>
@@ -1522,7 +1518,7 @@
         <translation>取樣間距小於一奈米或大於十公尺</translation>
     </message>
     <message>
-        <source>contains colours; only one value per voxel is supported</source>
+        <source>contains colors; only one value per voxel is supported</source>
         <translation>含有色彩；僅支援每體素一個值的體積</translation>
     </message>
     <message>
@@ -1543,11 +1539,11 @@
     </message>
     <message>
         <source>the NIfTI header has no valid dimensions</source>
-        <translation>NIfTI 標頭沒有維度</translation>
+        <translation>NIfTI 檔頭沒有維度</translation>
     </message>
     <message>
         <source>the NIfTI header does not say where the samples are</source>
-        <translation>NIfTI 標頭未說明取樣的位置</translation>
+        <translation>NIfTI 檔頭未說明取樣的位置</translation>
     </message>
     <message>
         <source>has its samples in another file; only single-file NIfTI (.nii) is supported</source>
@@ -1555,15 +1551,15 @@
     </message>
     <message>
         <source>the MetaImage header has a line without &apos;=&apos;</source>
-        <translation>MetaImage 標頭有一行沒有「=」</translation>
+        <translation>MetaImage 檔頭有一行沒有「=」</translation>
     </message>
     <message>
         <source>the MetaImage header has no &apos;%1&apos;</source>
-        <translation>MetaImage 標頭沒有「%1」</translation>
+        <translation>MetaImage 檔頭沒有「%1」</translation>
     </message>
     <message>
         <source>the MetaImage header has &apos;%1&apos; where numbers are expected</source>
-        <translation>MetaImage 標頭中應為數字之處是「%1」</translation>
+        <translation>MetaImage 檔頭中應為數字之處是「%1」</translation>
     </message>
     <message>
         <source>MetaImage type &apos;%1&apos; is not supported</source>
@@ -1738,7 +1734,7 @@
         <translation>沒有資源 %1</translation>
     </message>
     <message>
-        <source>the role %1 has no colour</source>
+        <source>the role %1 has no color</source>
         <translation>角色 %1 沒有色彩</translation>
     </message>
     <message>
@@ -1775,7 +1771,7 @@
     </message>
     <message>
         <source>the study library was empty; its copied studies are listed again</source>
-        <translation>檢查資料庫是空的；其自有的副本將重新列出</translation>
+        <translation>檢查資料庫是空的；其自有的複本將重新列出</translation>
     </message>
     <message>
         <source>is damaged, and a new one cannot be written: %1</source>
@@ -1830,7 +1826,7 @@
         <translation>影片需要 ffmpeg，但未安裝；請改為匯出逐格影像</translation>
     </message>
     <message>
-        <source>A picture in colour has no grey values: export it as it looks, or as NumPy values</source>
+        <source>A picture in color has no grey values: export it as it looks, or as NumPy values</source>
         <translation>彩色影像沒有灰階數值：請以所見或 NumPy 格式寫出</translation>
     </message>
     <message>
@@ -2014,12 +2010,12 @@
         <translation>記憶體不足以容納精確的明暗場</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is not a colour of the form #rrggbb</source>
+        <source>&apos;%1&apos; is not a color of the form #rrggbb</source>
         <translation>「%1」不是 #rrggbb 形式的色彩</translation>
     </message>
     <message>
-        <source>the colour components must be between 0 and 1</source>
-        <translation>色彩不在 0 與 1 之間</translation>
+        <source>the color components must be between 0 and 1</source>
+        <translation>色彩分量必須在 0 與 1 之間</translation>
     </message>
     <message>
         <source>the weight %1 is not between 0 and %2</source>
@@ -2162,8 +2158,8 @@
         <translation>光源的強度必須在 0 至 1 之間</translation>
     </message>
     <message>
-        <source>the colour components of a light must be between 0 and 1</source>
-        <translation>光源的色彩必須在 0 至 1 之間</translation>
+        <source>the color components of a light must be between 0 and 1</source>
+        <translation>光源的色彩分量必須在 0 與 1 之間</translation>
     </message>
     <message>
         <source>the image size must be 1 to %1 pixels a side</source>
@@ -2345,7 +2341,7 @@
 <context>
     <name>StudyDetailsTexts</name>
     <message>
-        <source>Details of the series</source>
+        <source>Series details</source>
         <translation>序列詳細資料</translation>
     </message>
     <message>
@@ -2353,11 +2349,11 @@
         <translation>病患</translation>
     </message>
     <message>
-        <source>Identifier</source>
-        <translation>識別碼</translation>
+        <source>Patient ID</source>
+        <translation>病患識別碼</translation>
     </message>
     <message>
-        <source>Born</source>
+        <source>Date of birth</source>
         <translation>出生日期</translation>
     </message>
     <message>
@@ -2393,11 +2389,11 @@
         <translation>切片、列、行</translation>
     </message>
     <message>
-        <source>Spacing of columns, rows</source>
-        <translation>行距、列距</translation>
+        <source>Pixel spacing</source>
+        <translation>像素間距</translation>
     </message>
     <message>
-        <source>Distance of slices</source>
+        <source>Slice spacing</source>
         <translation>切片間距</translation>
     </message>
     <message>
@@ -2421,7 +2417,7 @@
         <translation>%1 個，已複製到資料庫</translation>
     </message>
     <message>
-        <source>%1, referred to where they are</source>
+        <source>%1, referenced in place</source>
         <translation>%1 個，參照原處</translation>
     </message>
     <message>
@@ -2432,7 +2428,7 @@
 <context>
     <name>StudyFactsTexts</name>
     <message>
-        <source>Without name</source>
+        <source>Unnamed</source>
         <translation>未具名</translation>
     </message>
     <message>
@@ -2487,12 +2483,12 @@
         <translation>工具</translation>
     </message>
     <message>
-        <source>Window of the planes</source>
-        <translation>切面的窗</translation>
+        <source>Window presets of the planes</source>
+        <translation>切面的窗預設值</translation>
     </message>
     <message>
-        <source>Window of the planes: width / center (keys 0 to 5)</source>
-        <translation>切面的窗：窗寬 / 窗位（按鍵 0 至 5）</translation>
+        <source>Window width / center of the planes (keys 0 to 5)</source>
+        <translation>切面的窗寬 / 窗位（按鍵 0 至 5）</translation>
     </message>
     <message>
         <source>More</source>
@@ -2520,8 +2516,8 @@
         <translation>類別</translation>
     </message>
     <message>
-        <source>Width over which the class fades in and out about its ends</source>
-        <translation>類別在兩端漸入與漸出的寬度</translation>
+        <source>Width of the soft edge at both ends of the range</source>
+        <translation>範圍兩端柔和邊緣的寬度</translation>
     </message>
     <message>
         <source>a step, such as median(radius_mm=1.5)</source>
@@ -2556,7 +2552,7 @@
         <translation>柔和度</translation>
     </message>
     <message>
-        <source>Colour</source>
+        <source>Color</source>
         <translation>顏色</translation>
     </message>
     <message>
@@ -2590,8 +2586,8 @@
         <translation>新增類別</translation>
     </message>
     <message>
-        <source>The whole volume through the transfer function. Add a class to show tissues apart.</source>
-        <translation>整個體積經由轉換函數顯示。新增類別可將組織分開顯示。</translation>
+        <source>The transfer function applies to the whole volume. Add a class to show tissues separately.</source>
+        <translation>轉換函數套用於整個體積。新增類別可將組織分開顯示。</translation>
     </message>
     <message>
         <source>Add a tissue class</source>
@@ -2610,7 +2606,7 @@
         <translation>顯示%1</translation>
     </message>
     <message>
-        <source>Own range</source>
+        <source>Custom range</source>
         <translation>自訂範圍</translation>
     </message>
     <message>
@@ -2618,12 +2614,12 @@
         <translation>編輯…</translation>
     </message>
     <message>
-        <source>Colour...</source>
+        <source>Color...</source>
         <translation>顏色…</translation>
     </message>
     <message>
-        <source>Show it alone</source>
-        <translation>單獨顯示</translation>
+        <source>Show only this class</source>
+        <translation>單獨顯示此類別</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -2638,7 +2634,7 @@
         <translation>編輯類別</translation>
     </message>
     <message>
-        <source>Colour</source>
+        <source>Color</source>
         <translation>顏色</translation>
     </message>
 </context>
@@ -2664,8 +2660,8 @@
         <translation>由遠至近的深度權重</translation>
     </message>
     <message>
-        <source>Weight by depth, far at the left, near at the right; drag its values</source>
-        <translation>深度權重：左為遠，右為近；拖曳其數值</translation>
+        <source>Weight by depth, from far (left) to near (right); drag the points</source>
+        <translation>深度權重，由遠（左）至近（右）；拖曳各點</translation>
     </message>
 </context>
 <context>
@@ -2780,11 +2776,11 @@
     </message>
     <message>
         <source>Without the patient&apos;s identity</source>
-        <translation>不含病人身分</translation>
+        <translation>不含病患身分</translation>
     </message>
     <message>
         <source>No name, number, dates or study of the patient, and a new study UID (DICOM PS3.15, basic profile)</source>
-        <translation>不含病人的姓名、編號、日期與檢查資料，並使用新的檢查 UID（DICOM PS3.15 基本設定檔）</translation>
+        <translation>不含病患的姓名、編號、日期與檢查資料，並使用新的檢查 UID（DICOM PS3.15 基本設定檔）</translation>
     </message>
     <message>
         <source>does not identify the patient</source>
@@ -2858,8 +2854,8 @@
         <translation>偏好設定(&amp;R)…</translation>
     </message>
     <message>
-        <source>For&amp;get recent studies</source>
-        <translation>清除最近的檢查(&amp;G)</translation>
+        <source>Clear recent st&amp;udies</source>
+        <translation>清除最近的檢查(&amp;U)</translation>
     </message>
     <message>
         <source>&amp;Quit</source>
@@ -2914,8 +2910,8 @@
         <translation>開啟場景</translation>
     </message>
     <message>
-        <source>Written: %1</source>
-        <translation>已寫入：%1</translation>
+        <source>Saved: %1</source>
+        <translation>已儲存：%1</translation>
     </message>
 </context>
 <context>
@@ -2932,7 +2928,7 @@
 <context>
     <name>pellucid::ui::ImportDialog</name>
     <message>
-        <source>&amp;Refer to the files where they are</source>
+        <source>&amp;Reference the files in place</source>
         <translation>參照檔案原處(&amp;R)</translation>
     </message>
     <message>
@@ -2944,12 +2940,12 @@
         <translation>匯入資料庫</translation>
     </message>
     <message>
-        <source>Takes no room; the files must stay there</source>
+        <source>Takes no space; the files must stay where they are</source>
         <translation>不佔空間；檔案必須留在原處</translation>
     </message>
     <message>
-        <source>For discs and drives that go away; archives are always copied</source>
-        <translation>適用於會移除的光碟與磁碟；壓縮檔一律複製</translation>
+        <source>For discs and removable drives; archives are always copied</source>
+        <translation>適用於光碟與可移除的磁碟；壓縮檔一律複製</translation>
     </message>
     <message>
         <source>Add &amp;files...</source>
@@ -2972,8 +2968,8 @@
         <translation>匯入</translation>
     </message>
     <message>
-        <source>Choose files, folders, a DICOMDIR or ZIP archives. Folders are looked at all the way down.</source>
-        <translation>請選擇檔案、資料夾、DICOMDIR 或 ZIP 壓縮檔。資料夾會逐層檢視到底。</translation>
+        <source>Choose files, folders, a DICOMDIR or ZIP archives. Folders are searched recursively.</source>
+        <translation>請選擇檔案、資料夾、DICOMDIR 或 ZIP 壓縮檔。資料夾會連同所有子資料夾一併搜尋。</translation>
     </message>
     <message numerus="yes">
         <source>and %n more</source>
@@ -2996,11 +2992,11 @@
 <context>
     <name>pellucid::ui::LightSphere</name>
     <message>
-        <source>Directions of the lights</source>
+        <source>Light directions</source>
         <translation>光源方向</translation>
     </message>
     <message>
-        <source>Drag a light over the sphere; beyond its rim it shines from behind</source>
+        <source>Drag a light over the sphere; beyond the rim, it shines from behind</source>
         <translation>在球面上拖曳光源；超出邊緣則由後方照射</translation>
     </message>
 </context>
@@ -3050,16 +3046,16 @@
         <translation>底片</translation>
     </message>
     <message>
-        <source>&amp;Automatic tone</source>
+        <source>&amp;Automatic brightness</source>
         <translation>自動亮度(&amp;A)</translation>
     </message>
     <message>
-        <source>Automatic tone</source>
+        <source>Automatic brightness</source>
         <translation>自動亮度</translation>
     </message>
     <message>
-        <source>&amp;Window of the planes</source>
-        <translation>切面的窗(&amp;W)</translation>
+        <source>&amp;Window presets</source>
+        <translation>窗預設值(&amp;W)</translation>
     </message>
     <message>
         <source>&amp;Depth cue</source>
@@ -3179,12 +3175,12 @@
         <translation>測量</translation>
     </message>
     <message>
-        <source>Distance, angle and regions: drag them on a plane. They stay with the study.</source>
-        <translation>距離、角度與區域：在切面上拖曳即可。測量會隨檢查保存。</translation>
+        <source>Drag distances, angles and regions on a plane. They are kept with the study.</source>
+        <translation>在切面上拖曳，即可畫出距離、角度與區域。測量會隨檢查保存。</translation>
     </message>
     <message>
-        <source>Write the measurements as a table (CSV)</source>
-        <translation>將測量寫成表格 (CSV)</translation>
+        <source>Export the measurements as a table (CSV)</source>
+        <translation>將測量匯出為表格 (CSV)</translation>
     </message>
     <message>
         <source>Rename measurement</source>
@@ -3198,8 +3194,8 @@
 <context>
     <name>pellucid::ui::MprView</name>
     <message>
-        <source>Images only: no volume to cut</source>
-        <translation>僅有影像：沒有可切的體積</translation>
+        <source>Images only: not a volume</source>
+        <translation>僅有影像：不構成體積</translation>
     </message>
     <message>
         <source>Not for diagnostic use</source>
@@ -3221,7 +3217,7 @@
         <translation>時相</translation>
     </message>
     <message>
-        <source>Phase that is shown (keys , and .)</source>
+        <source>Phase shown (keys , and .)</source>
         <translation>顯示的時相（按鍵 , 與 .）</translation>
     </message>
     <message>
@@ -3244,7 +3240,7 @@
         <translation>按鍵</translation>
     </message>
     <message>
-        <source>As the system</source>
+        <source>System default</source>
         <translation>依系統</translation>
     </message>
     <message>
@@ -3260,44 +3256,44 @@
         <translation>圖示</translation>
     </message>
     <message>
-        <source>Words</source>
+        <source>Text</source>
         <translation>文字</translation>
     </message>
     <message>
-        <source>Icons and words</source>
+        <source>Icons and text</source>
         <translation>圖示與文字</translation>
     </message>
     <message>
-        <source>Remember studies that were opened</source>
+        <source>Remember opened studies</source>
         <translation>記住開啟過的檢查</translation>
     </message>
     <message>
-        <source>Their paths, and what was open last, on this computer</source>
-        <translation>在這部電腦上記住其路徑，以及最後開啟的檢查</translation>
+        <source>Stores their paths and the last session on this computer</source>
+        <translation>在這部電腦上記住其路徑與上次的工作階段</translation>
     </message>
     <message>
-        <source>Begin with what was open last</source>
-        <translation>從最後開啟的檢查開始</translation>
+        <source>Reopen the last study at startup</source>
+        <translation>啟動時重新開啟上次的檢查</translation>
     </message>
     <message>
-        <source>Otherwise the first page offers it</source>
+        <source>Otherwise, the start page offers it</source>
         <translation>否則由起始頁提供</translation>
     </message>
     <message>
-        <source>Patients&apos; names in the window title and among recent studies</source>
-        <translation>在視窗標題與最近檢查中顯示病患姓名</translation>
+        <source>Show patient names in the window title and recent studies</source>
+        <translation>在視窗標題與最近的檢查中顯示病患姓名</translation>
     </message>
     <message>
-        <source>Titles are seen in task bars and by other programs. Otherwise paths that name a patient are not remembered either</source>
-        <translation>標題會出現在工作列並可被其他程式看見。未勾選時，含有病患資料的路徑也不會被記住</translation>
+        <source>Window titles are visible in task bars and to other programs. If this is off, paths that name a patient are not remembered either</source>
+        <translation>視窗標題會出現在工作列，也可被其他程式看見。未勾選時，含有病患姓名的路徑也不會被記住</translation>
     </message>
     <message>
         <source>Language</source>
         <translation>語言</translation>
     </message>
     <message>
-        <source>Colours</source>
-        <translation>色彩</translation>
+        <source>Theme</source>
+        <translation>佈景主題</translation>
     </message>
     <message>
         <source>Tool bar</source>
@@ -3320,7 +3316,7 @@
         <translation>按鍵</translation>
     </message>
     <message>
-        <source>Key of the chosen command</source>
+        <source>Key of the selected command</source>
         <translation>所選指令的按鍵</translation>
     </message>
     <message>
@@ -3336,11 +3332,11 @@
         <translation>全部還原</translation>
     </message>
     <message>
-        <source>%1 was the key of &quot;%2&quot;, which has none now</source>
+        <source>%1 was taken from &quot;%2&quot;, which now has no key</source>
         <translation>%1 原為「%2」的按鍵，該指令現在沒有按鍵</translation>
     </message>
     <message>
-        <source>%1 belongs to the panes: choose another key</source>
+        <source>%1 is reserved for the panes; choose a different key</source>
         <translation>%1 是各窗格固定的按鍵，請選其他按鍵</translation>
     </message>
 </context>
@@ -3355,8 +3351,8 @@
         <translation>儲存外觀</translation>
     </message>
     <message>
-        <source>Keep what is shown as a preset of your own (Ctrl+S)</source>
-        <translation>將目前所見存為自己的預設集 (Ctrl+S)</translation>
+        <source>Save the current look as your own preset (Ctrl+S)</source>
+        <translation>將目前的外觀存為自己的預設集 (Ctrl+S)</translation>
     </message>
     <message>
         <source>Name of the look</source>
@@ -3367,11 +3363,11 @@
         <translation>儲存</translation>
     </message>
     <message>
-        <source>%1 is no preset: %2</source>
+        <source>%1 is not a preset: %2</source>
         <translation>%1 不是預設集：%2</translation>
     </message>
     <message>
-        <source>Own look</source>
+        <source>Custom look</source>
         <translation>自訂外觀</translation>
     </message>
     <message>
@@ -3383,7 +3379,7 @@
         <translation>預設集%1</translation>
     </message>
     <message>
-        <source>Own look %1</source>
+        <source>Custom look %1</source>
         <translation>自訂外觀 %1</translation>
     </message>
     <message>
@@ -3391,12 +3387,12 @@
         <translation>匯入預設集</translation>
     </message>
     <message>
-        <source>Presets, 3D Slicer properties (*.json *.vp)</source>
-        <translation>預設集、3D Slicer 屬性 (*.json *.vp)</translation>
+        <source>Presets and 3D Slicer volume properties (*.json *.vp)</source>
+        <translation>預設集與 3D Slicer 體積屬性 (*.json *.vp)</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; was fitted; its opacity is met within %2</source>
-        <translation>已擬合「%1」；不透明度誤差在 %2 以內</translation>
+        <source>&apos;%1&apos; was fitted; the largest error of its opacity is %2</source>
+        <translation>已擬合「%1」；其不透明度的最大誤差為 %2</translation>
     </message>
     <message>
         <source>Export preset</source>
@@ -3418,7 +3414,7 @@
         <translation>問題</translation>
     </message>
     <message>
-        <source>Files that are not used, and why</source>
+        <source>Files not used, and why</source>
         <translation>未使用的檔案及原因</translation>
     </message>
     <message numerus="yes">
@@ -3442,8 +3438,8 @@
         <translation>清除</translation>
     </message>
     <message>
-        <source>They have been read</source>
-        <translation>已經讀過了</translation>
+        <source>Clear the list</source>
+        <translation>清除清單</translation>
     </message>
 </context>
 <context>
@@ -3480,7 +3476,7 @@
         <translation>品質</translation>
     </message>
     <message>
-        <source>The largest error that is allowed</source>
+        <source>Largest error allowed</source>
         <translation>容許的最大誤差</translation>
     </message>
     <message>
@@ -3500,7 +3496,7 @@
         <translation>精細</translation>
     </message>
     <message>
-        <source>Own</source>
+        <source>Custom</source>
         <translation>自訂</translation>
     </message>
     <message>
@@ -3508,16 +3504,16 @@
         <translation>容差</translation>
     </message>
     <message>
-        <source>Largest error of the picture, relative to it: 0.0001 to 30 percent</source>
+        <source>Largest relative error of the picture: 0.0001 to 30 percent</source>
         <translation>影像的最大相對誤差：百分之 0.0001 至 30</translation>
     </message>
     <message>
-        <source>Between</source>
-        <translation>取樣之間</translation>
+        <source>Interpolation</source>
+        <translation>內插</translation>
     </message>
     <message>
-        <source>What lies between the samples of the volume</source>
-        <translation>體積取樣點之間的內容</translation>
+        <source>Interpolation between the samples of the volume</source>
+        <translation>體積取樣之間的內插方式</translation>
     </message>
     <message>
         <source>Cubic</source>
@@ -3540,15 +3536,15 @@
         <translation>頻譜的內插方式</translation>
     </message>
     <message>
-        <source>As needed</source>
-        <translation>視需要</translation>
+        <source>Automatic</source>
+        <translation>自動</translation>
     </message>
     <message>
         <source>Padding</source>
         <translation>補零</translation>
     </message>
     <message>
-        <source>Padded size over the field&apos;s, at least, along each axis</source>
+        <source>Minimum ratio of the padded size to the field&apos;s along each axis</source>
         <translation>各軸補零後大小與原大小的最小比值</translation>
     </message>
     <message>
@@ -3556,8 +3552,8 @@
         <translation>儲存</translation>
     </message>
     <message>
-        <source>How a number of the spectrum is kept</source>
-        <translation>頻譜數值的儲存方式</translation>
+        <source>Number format of the spectrum</source>
+        <translation>頻譜數值的儲存格式</translation>
     </message>
     <message>
         <source>16 bit</source>
@@ -3572,7 +3568,7 @@
         <translation>影格</translation>
     </message>
     <message>
-        <source>Time that the last frame took</source>
+        <source>Time of the last frame</source>
         <translation>上一影格所需時間</translation>
     </message>
     <message>
@@ -3580,11 +3576,11 @@
         <translation>誤差</translation>
     </message>
     <message>
-        <source>Largest</source>
-        <translation>最大</translation>
+        <source>Worst pixel</source>
+        <translation>最差像素</translation>
     </message>
     <message>
-        <source>Largest error of a pixel over the brightest pixel of the whole, predicted</source>
+        <source>Predicted largest error of a pixel, relative to the brightest pixel of the whole</source>
         <translation>預測的最大像素誤差，相對於整體影像的最亮像素</translation>
     </message>
     <message>
@@ -3600,20 +3596,20 @@
         <translation>補零</translation>
     </message>
     <message>
-        <source>Padded size over size, along columns, rows and slices</source>
-        <translation>沿行、列與切片的補零比值</translation>
+        <source>Padded size relative to the field&apos;s, along columns, rows and slices</source>
+        <translation>沿行、列與切片，補零後大小與原大小的比值</translation>
     </message>
     <message>
-        <source>What the plan chooses, to be chosen by hand</source>
-        <translation>手動選擇原由計畫決定的項目</translation>
+        <source>Override what the planner chose</source>
+        <translation>手動取代計畫所選的項目</translation>
     </message>
     <message>
         <source>Reconstruction</source>
         <translation>重建</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is no tolerance: 0.0001 to 30 percent</source>
-        <translation>「%1」不是容差：百分之 0.0001 至 30</translation>
+        <source>&apos;%1&apos; is not a tolerance: enter 0.0001 to 30 percent</source>
+        <translation>「%1」不是容差：請輸入百分之 0.0001 至 30</translation>
     </message>
     <message>
         <source>%1 x %2 x %3</source>
@@ -3624,20 +3620,20 @@
         <translation>%1，%2 位元，%3 MB</translation>
     </message>
     <message>
-        <source>A first, coarse picture; the full one follows</source>
-        <translation>第一張粗略影像；完整影像隨後</translation>
+        <source>A coarse picture first; the full one follows</source>
+        <translation>先顯示粗略影像；完整影像隨後</translation>
     </message>
     <message>
-        <source>The parts of the look, summed while they change</source>
-        <translation>變動期間加總外觀的各部分</translation>
+        <source>The layers of the look, summed while their weights change</source>
+        <translation>權重變動期間加總外觀的各圖層</translation>
     </message>
     <message>
-        <source>More error than allowed: %1</source>
-        <translation>誤差超過容許：%1</translation>
+        <source>The error exceeds the tolerance: %1</source>
+        <translation>誤差超過容差：%1</translation>
     </message>
     <message>
-        <source>It is %1</source>
-        <translation>原因：%1</translation>
+        <source>Plan: %1</source>
+        <translation>計畫：%1</translation>
     </message>
     <message>
         <source>%1, draft</source>
@@ -3648,8 +3644,8 @@
         <translation>樣條</translation>
     </message>
     <message>
-        <source>Relative error of a picture of the whole from any side, predicted; that of the picture shown is beside it</source>
-        <translation>整體影像於任何方向的預測相對誤差；目前影像的誤差顯示於其旁</translation>
+        <source>Predicted relative error of a picture of the whole from any side; the error of the picture shown is beside it</source>
+        <translation>預測的整體影像於任何方向的相對誤差；目前影像的誤差顯示於其旁</translation>
     </message>
     <message>
         <source>not known yet</source>
@@ -3664,15 +3660,15 @@
         <translation>每影格</translation>
     </message>
     <message>
-        <source>Spectra, slices of them, images, and the multiplications of a frame</source>
+        <source>Spectra, slices, images and multiplications that a frame needs</source>
         <translation>每一影格的頻譜、切片、影像與乘法次數</translation>
     </message>
     <message>
-        <source>Left out</source>
+        <source>Skipped</source>
         <translation>省略</translation>
     </message>
     <message>
-        <source>Stages that this scene does not need and that are skipped</source>
+        <source>Stages that are skipped because this scene does not need them</source>
         <translation>場景不需要、因此不計算的部分</translation>
     </message>
     <message>
@@ -3684,7 +3680,7 @@
         <translation>深度提示</translation>
     </message>
     <message>
-        <source>colours</source>
+        <source>color</source>
         <translation>顏色</translation>
     </message>
     <message>
@@ -3715,27 +3711,27 @@
         <translation>重設</translation>
     </message>
     <message>
-        <source>No depth cue and no lights</source>
-        <translation>沒有深度提示與光源</translation>
+        <source>Remove the depth cue and all lights</source>
+        <translation>移除深度提示與所有光源</translation>
     </message>
     <message>
         <source>Add light</source>
         <translation>新增光源</translation>
     </message>
     <message>
-        <source>One more light</source>
-        <translation>再加一個光源</translation>
+        <source>Add a light</source>
+        <translation>新增光源</translation>
     </message>
     <message>
         <source>Remove</source>
         <translation>移除</translation>
     </message>
     <message>
-        <source>Take the chosen light away</source>
+        <source>Remove the selected light</source>
         <translation>移除所選光源</translation>
     </message>
     <message>
-        <source>Color of the chosen light</source>
+        <source>Color of the selected light</source>
         <translation>所選光源的顏色</translation>
     </message>
     <message>
@@ -3747,8 +3743,8 @@
         <translation>深度提示</translation>
     </message>
     <message>
-        <source>How what is near stands out from what is far</source>
-        <translation>近處如何由遠處突顯</translation>
+        <source>How near structures stand out from far ones</source>
+        <translation>近處結構如何由遠處突顯</translation>
     </message>
     <message>
         <source>No depth cue</source>
@@ -3763,8 +3759,8 @@
         <translation>正弦提示</translation>
     </message>
     <message>
-        <source>By a curve</source>
-        <translation>依曲線</translation>
+        <source>Custom curve</source>
+        <translation>自訂曲線</translation>
     </message>
     <message>
         <source>Strength of the depth cue</source>
@@ -3779,7 +3775,7 @@
         <translation>光源的強度</translation>
     </message>
     <message>
-        <source>Strength of the chosen light; double-click sets it to 0.8</source>
+        <source>Strength of the selected light; double-click sets it to 0.8</source>
         <translation>所選光源的強度；按兩下設為 0.8</translation>
     </message>
     <message>
@@ -3787,23 +3783,23 @@
         <translation>環境光</translation>
     </message>
     <message>
-        <source>How much of the density itself is seen; double-click sets it to 1</source>
+        <source>How much of the density itself is visible; double-click sets it to 1</source>
         <translation>可見的原始密度多寡；按兩下設為 1</translation>
     </message>
     <message>
-        <source>Number of the curve&apos;s values</source>
+        <source>Number of curve values</source>
         <translation>曲線數值的個數</translation>
     </message>
     <message>
-        <source>Number of the curve&apos;s values: each costs up to two slices</source>
-        <translation>曲線數值的個數：每個最多耗費兩個切片</translation>
+        <source>Number of curve values; each costs up to two slices</source>
+        <translation>曲線數值的個數；每個最多耗費兩個切片</translation>
     </message>
     <message>
-        <source>The chosen light stays where it is for the viewer, or on the patient</source>
-        <translation>所選光源固定於觀看者，或固定於病患</translation>
+        <source>The selected light follows the viewer; otherwise, it stays with the patient</source>
+        <translation>所選光源跟隨觀看者；否則固定於病患</translation>
     </message>
     <message>
-        <source>Color of the light</source>
+        <source>Light color</source>
         <translation>光源的顏色</translation>
     </message>
     <message>
@@ -3819,38 +3815,30 @@
         <translation>環境</translation>
     </message>
     <message>
-        <source>Add a light</source>
-        <translation>新增光源</translation>
-    </message>
-    <message>
-        <source>Remove a light</source>
+        <source>Remove light</source>
         <translation>移除光源</translation>
     </message>
     <message>
-        <source>Reset the shading</source>
+        <source>Reset shading</source>
         <translation>重設明暗</translation>
     </message>
     <message>
-        <source>Color of a light</source>
-        <translation>光源的顏色</translation>
+        <source>Light follows viewer or patient</source>
+        <translation>光源跟隨觀看者或病患</translation>
     </message>
     <message>
-        <source>What a light follows</source>
-        <translation>光源跟隨的對象</translation>
-    </message>
-    <message>
-        <source>Direction of a light</source>
+        <source>Light direction</source>
         <translation>光源的方向</translation>
     </message>
 </context>
 <context>
     <name>pellucid::ui::SpectrumPanel</name>
     <message>
-        <source>Frequency and strength below the mouse</source>
+        <source>Frequency and strength under the mouse</source>
         <translation>滑鼠所指的頻率與強度</translation>
     </message>
     <message>
-        <source>The spectrum of the view that the projection shows.</source>
+        <source>The spectrum of the projection&apos;s current view.</source>
         <translation>投影目前檢視的頻譜。</translation>
     </message>
 </context>
@@ -3888,12 +3876,12 @@
 <context>
     <name>pellucid::ui::StartPage</name>
     <message>
-        <source>Go on where you ended</source>
+        <source>Continue where you left off</source>
         <translation>從上次結束處繼續</translation>
     </message>
     <message>
-        <source>The study that was open last, as it was looked at</source>
-        <translation>最後開啟的檢查，依當時的檢視方式</translation>
+        <source>Reopens the last study as you left it</source>
+        <translation>重新開啟上次的檢查，並恢復您離開時的狀態</translation>
     </message>
     <message>
         <source>Open a study</source>
@@ -3916,8 +3904,8 @@
         <translation>開啟資料夾…</translation>
     </message>
     <message>
-        <source>Choose a folder; everything below it is looked at (Ctrl+Shift+O)</source>
-        <translation>選擇資料夾；其下所有內容都會檢視 (Ctrl+Shift+O)</translation>
+        <source>Choose a folder; it is searched recursively (Ctrl+Shift+O)</source>
+        <translation>選擇資料夾；會連同所有子資料夾一併搜尋 (Ctrl+Shift+O)</translation>
     </message>
     <message>
         <source>TRY A PHANTOM</source>
@@ -3948,12 +3936,12 @@
         <translation>開啟%1</translation>
     </message>
     <message>
-        <source>Recover what was open</source>
-        <translation>復原先前開啟的內容</translation>
+        <source>Recover the last session</source>
+        <translation>復原上次的工作階段</translation>
     </message>
     <message>
-        <source>Pellucid ended unexpectedly: the study that was open, with its look as it was last</source>
-        <translation>Pellucid 意外結束：開啟先前的檢查，並恢復最後的外觀</translation>
+        <source>Pellucid ended unexpectedly. Reopens the last study with its last look</source>
+        <translation>Pellucid 意外結束。重新開啟上次的檢查，並恢復最後的外觀</translation>
     </message>
 </context>
 <context>
@@ -3986,15 +3974,15 @@
         <translation>測量</translation>
     </message>
     <message>
-        <source>History of edits</source>
+        <source>Edit history</source>
         <translation>編輯歷程</translation>
     </message>
     <message>
-        <source>A click goes back to how it was after that edit</source>
-        <translation>點按即回到該次編輯後的狀態</translation>
+        <source>Click an edit to return to the state after it</source>
+        <translation>點按一項編輯，即回到該次編輯後的狀態</translation>
     </message>
     <message>
-        <source>As it was opened</source>
+        <source>As opened</source>
         <translation>剛開啟時</translation>
     </message>
     <message>
@@ -4014,7 +4002,7 @@
     </message>
     <message>
         <source>Removing copies</source>
-        <translation>正在移除副本</translation>
+        <translation>正在移除複本</translation>
     </message>
     <message>
         <source>Tidying up the study library</source>
@@ -4051,7 +4039,7 @@
         <translation>搜尋檢查</translation>
     </message>
     <message>
-        <source>Words that a study must have: name, identifier, date, modality, description (Ctrl+F)</source>
+        <source>Words that a study must contain: name, identifier, date, modality, description (Ctrl+F)</source>
         <translation>檢查必須包含的字詞：姓名、識別碼、日期、儀器類別、說明 (Ctrl+F)</translation>
     </message>
     <message>
@@ -4059,7 +4047,7 @@
         <translation>排序</translation>
     </message>
     <message>
-        <source>Order of the studies</source>
+        <source>Sort order of the studies</source>
         <translation>檢查的排序</translation>
     </message>
     <message>
@@ -4182,7 +4170,7 @@
         <translation>距離</translation>
     </message>
     <message>
-        <source>drag a line; in the projection too</source>
+        <source>drag a line, also in the projection</source>
         <translation>拖曳一條線；投影中亦可</translation>
     </message>
     <message>
@@ -4198,7 +4186,7 @@
         <translation>橢圓</translation>
     </message>
     <message>
-        <source>drag the box around it</source>
+        <source>drag its bounding box</source>
         <translation>拖曳外框</translation>
     </message>
     <message>
@@ -4226,8 +4214,8 @@
         <translation>厚切(&amp;S)</translation>
     </message>
     <message>
-        <source>Slab: planes with a thickness (S; [ and ] change it)</source>
-        <translation>厚切：有厚度的切面（S；以 [ 與 ] 調整）</translation>
+        <source>Slab: give the planes a thickness (S; [ and ] change it)</source>
+        <translation>厚切：使切面有厚度（S；以 [ 與 ] 調整）</translation>
     </message>
     <message>
         <source>&amp;Mean</source>
@@ -4262,12 +4250,12 @@
         <translation>厚切</translation>
     </message>
     <message>
-        <source>Thickness of the slab, mm</source>
+        <source>Slab thickness, mm</source>
         <translation>厚切的厚度，mm</translation>
     </message>
     <message>
-        <source>&amp;Between samples</source>
-        <translation>取樣之間(&amp;B)</translation>
+        <source>&amp;Interpolation</source>
+        <translation>內插(&amp;I)</translation>
     </message>
     <message>
         <source>&amp;Linear</source>
@@ -4282,15 +4270,15 @@
         <translation>播放(&amp;Y)</translation>
     </message>
     <message>
-        <source>Play: the slices of the plane, or the projection around the patient (Space)</source>
-        <translation>播放：切面的各切片，或繞病患旋轉投影（空白鍵）</translation>
+        <source>Play the slices of the plane, or turn the projection around the patient (Space)</source>
+        <translation>播放切面的各切片，或繞病患旋轉投影（空白鍵）</translation>
     </message>
     <message>
         <source>S&amp;peed</source>
         <translation>速度(&amp;P)</translation>
     </message>
     <message>
-        <source>%1 pictures per second</source>
+        <source>%1 frames per second</source>
         <translation>每秒 %1 張</translation>
     </message>
     <message>
@@ -4306,8 +4294,8 @@
         <translation>播放時相(&amp;H)</translation>
     </message>
     <message>
-        <source>Planes a&amp;long the scan</source>
-        <translation>沿掃描方向的平面(&amp;L)</translation>
+        <source>A&amp;lign the planes with the scan</source>
+        <translation>使切面與掃描對齊(&amp;L)</translation>
     </message>
 </context>
 <context>
@@ -4317,8 +4305,8 @@
         <translation>控制點個數</translation>
     </message>
     <message>
-        <source>Number of control points: more make finer curves</source>
-        <translation>控制點個數：越多曲線越精細</translation>
+        <source>Number of control points; more give a finer curve</source>
+        <translation>控制點個數；越多曲線越精細</translation>
     </message>
     <message>
         <source> points</source>
@@ -4337,7 +4325,7 @@
         <translation>重設</translation>
     </message>
     <message>
-        <source>All weights 1</source>
+        <source>Set all weights to 1</source>
         <translation>權重全設為 1</translation>
     </message>
     <message>
@@ -4353,7 +4341,7 @@
         <translation>貼上</translation>
     </message>
     <message>
-        <source>Paste 2 to 16 weights of 0 to 2</source>
+        <source>Paste 2 to 16 weights from 0 to 2</source>
         <translation>貼上 2 至 16 個介於 0 與 2 的權重</translation>
     </message>
     <message>
@@ -4361,7 +4349,7 @@
         <translation>控制點</translation>
     </message>
     <message>
-        <source>Reset the curve</source>
+        <source>Reset curve</source>
         <translation>重設曲線</translation>
     </message>
     <message>
@@ -4369,11 +4357,11 @@
         <translation>轉換函數</translation>
     </message>
     <message>
-        <source>The clipboard holds no weights</source>
+        <source>The clipboard contains no weights</source>
         <translation>剪貼簿中沒有權重</translation>
     </message>
     <message>
-        <source>Paste a curve</source>
+        <source>Paste curve</source>
         <translation>貼上曲線</translation>
     </message>
     <message>

@@ -268,7 +268,7 @@ TEST_F(Cli, VolumeWritesValuesAndField) {
                     std::clamp(values.value({i, 15, 4}) / 1000.0, 0.0, 1.0), 1e-6);
 }
 
-// A look against the exact projection of its own fields, in grey and in colour.
+// A look against the exact projection of its own fields, in grey and in color.
 TEST_F(Cli, ScenesTurntablesAndFormats) {
     const fs::path series = phantomFolder("--kind ellipsoids --size 32x32x32");
     ASSERT_EQ(cli("render " + quoted(series) + " -o " + quoted(folder / "turn.png") +

@@ -75,7 +75,7 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
     const auto refused =
         cli("render " + quoted(series) + " -o " + quoted(nrrd) + " --class bone=1:#ff0000");
     EXPECT_EQ(refused.exitCode, 2);
-    EXPECT_NE(refused.error.find("coloured"), std::string::npos);
+    EXPECT_NE(refused.error.find("colored"), std::string::npos);
     EXPECT_FALSE(fs::exists(nrrd));
     EXPECT_EQ(cli("volume " + quoted(series) + " -o " + quoted(nrrd) + " --class bone").exitCode,
               0);
@@ -271,10 +271,10 @@ TEST_F(Cli, BadCuesAndLightsAreOneLine) {
                                         "{\"direction\": [0, 0, 0]}]}";
     refuse("--preset " + quoted(folder / "p.json"), 3,
            "p.json: line 3: /lights/1: the direction of a light must be finite and not zero");
-    // A picture of colours needs a kind of file that holds them.
+    // A picture of colors needs a kind of file that holds them.
     const auto grey = cli("render " + quoted(series) + " -o " + quoted(folder / "x.nrrd") +
                           " --light 1,0,0:#ff0000");
-    expectOneLine(grey, 2, "coloured pictures are written as .png, .npy or .dcm");
+    expectOneLine(grey, 2, "colored pictures are written as .png, .npy or .dcm");
 }
 
 } // namespace

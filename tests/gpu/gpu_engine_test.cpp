@@ -155,7 +155,7 @@ TEST_F(GpuEngine, CuesAndLights) {
         }
 }
 
-// Three channels of their own, a single field in a colour, and both under coloured light.
+// Three channels of their own, a single field in a color, and both under colored light.
 TEST_F(GpuEngine, Colors) {
     const auto lattice = test::tiltedLattice({36, 30, 21}, {0.8, 1.0, 2.1}, 20.0);
     const classify::ShownFields channels{

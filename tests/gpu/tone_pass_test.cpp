@@ -87,7 +87,7 @@ TEST_F(TonePass, DrawsWhatComposeComputes) {
 
 class CardTone : public test::CardTest {};
 
-// One layer, one layer in a colour, and three.
+// One layer, one layer in a color, and three.
 TEST_F(CardTone, DrawsPicturesOfTheCard) {
     const auto lattice = volume::Lattice::centred({20, 21, 22}, {1, 1, 1});
     const classify::ShownFields grey{{test::noiseField(lattice)}, {}};

@@ -92,7 +92,7 @@ private slots:
         QVERIFY(said.contains("[" + study.uid + "]"));
         QVERIFY(said.contains("[Secret^Name]"));
         QVERIFY(said.contains("[L\\F]"));
-        // Letters are coloured, a grey projection is grey: everybody reads it, this program too.
+        // Letters are colored, a grey projection is grey: everybody reads it, this program too.
         QVERIFY(said.contains("MONOCHROME2"));
         const auto &sources = mainWindow().document().sources();
         QCOMPARE(sources.size(), std::size_t(2));

@@ -90,7 +90,7 @@ private slots:
                  QString::fromUtf8("缺少切片，已內插補上：a.dcm 與 b.dcm 之間 8.0 mm；c, d.dcm 與 "
                                    "e; f.dcm 之間 6.0 mm；另有 2 處"));
         QCOMPARE(translated(because::without("IM1", because::isNotReadable(because::isEmpty))),
-                 QString::fromUtf8("缺少 IM1：無法讀取：是空的"));
+                 QString::fromUtf8("未使用 IM1：無法讀取：是空的"));
         QCOMPARE(translated({because::slicesTo(1, 5), because::axial}),
                  QString::fromUtf8("第 1 至 5 張、橫斷面"));
         QCOMPARE(translatedName("Lung"), QString::fromUtf8("肺"));

@@ -130,7 +130,7 @@ private slots:
         QTest::mouseClick(find<QPushButton>("saveLookButton"), Qt::LeftButton);
         QTest::mouseClick(find<QPushButton>("keepLookButton"), Qt::LeftButton);
         auto *gallery = find<QListWidget>("presetGallery");
-        QCOMPARE(int(gallery->findItems("Own look 1", Qt::MatchExactly).size()), 1);
+        QCOMPARE(int(gallery->findItems("Custom look 1", Qt::MatchExactly).size()), 1);
         while (document().undoStack()->canUndo())
             find<QAction>("undoAction")->trigger();
         settle();
@@ -347,7 +347,7 @@ private:
         restart();
         open(headPath());
         auto *gallery = find<QListWidget>("presetGallery");
-        const auto found = gallery->findItems("Own look 1", Qt::MatchExactly);
+        const auto found = gallery->findItems("Custom look 1", Qt::MatchExactly);
         QCOMPARE(int(found.size()), 1);
         clickItem(*gallery, *found.front());
         QCOMPARE(document().scene().look.transferFunction.weights[2], 0.0);

@@ -47,7 +47,7 @@ private slots:
         restart();
         auto *offer = find<QPushButton>("resumeButton");
         QVERIFY(offer->isVisible());
-        QCOMPARE(offer->text(), QString("Recover what was open"));
+        QCOMPARE(offer->text(), QString("Recover the last session"));
         offer->click();
         waitForVolume();
         QCOMPARE(document().volume()->lattice().size().k, 80);
@@ -70,7 +70,7 @@ private slots:
         QVERIFY(first.waitForFinished(patienceMs));
         restart();
         auto *offer = find<QPushButton>("resumeButton");
-        QCOMPARE(offer->text(), QString("Recover what was open")); // before what has ended
+        QCOMPARE(offer->text(), QString("Recover the last session")); // before what has ended
         offer->click();
         waitForVolume();
         QCOMPARE(document().volume()->lattice().size().k, 80);

@@ -163,7 +163,7 @@ private slots:
         const double before = memoryAtRestMb(), inUseBefore = m_inUseMb;
         const int descriptors = openDescriptors(), glObjects = sharedGlObjects();
         const WatchedWarnings warnings;
-        QSignalSpy failed(&m_program->bench().jobs, &ui::JobRunner::failed);
+        QSignalSpy failed(&m_program->bench().study.jobs, &ui::JobRunner::failed);
         QSignalSpy said(&application(), &ui::Application::failed);
         application().isWatching = true;
         for (int pass = 0; pass < m_effort.passes; ++pass)
@@ -254,7 +254,7 @@ private:
             settleDown();
             QTRY_VERIFY_WITH_TIMEOUT(view->showsWhatIsAskedFor(), patienceMs);
             samples = view->pictureRenderer()(m_picturedScene->camera).samples;
-            m_program->bench().opener.closeSource(document().currentSource());
+            m_program->bench().study.opener.closeSource(document().currentSource());
             settleDown();
         }();
         return samples;

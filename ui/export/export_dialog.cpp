@@ -146,7 +146,7 @@ void ExportDialog::showChosen() {
 
 void ExportDialog::browse() {
     const QString suffix = suffixOf(chosen().format);
-    const QString path = askWhereToWrite(this, tr("Export picture"), m_path->text(), "*" + suffix);
+    const QString path = askForSavePath(this, tr("Export picture"), m_path->text(), "*" + suffix);
     if (path.isEmpty())
         return;
     m_path->setText(path);

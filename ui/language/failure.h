@@ -7,13 +7,13 @@
 
 namespace pellucid::ui {
 
-/// What went wrong, as it is said to the user.
+/// An error as it is shown to the user.
 struct Failure {
     task::Reason what;
-    QString path; ///< empty if it is about no file
+    QString path; ///< empty if no file is involved
 };
 
-/// Of the exception that is being handled, whatever it is.
+/// Describes the exception that is being handled, of any type.
 Failure currentFailure();
 
 } // namespace pellucid::ui

@@ -19,14 +19,13 @@ std::optional<task::Reason> decoded(const QString &line) {
     return task::Reason::decoded(QByteArray::fromPercentEncoding(line.toUtf8()).toStdString());
 }
 
-// Nothing but its words is known of a sentence that an earlier program wrote; they are shown as
-// they are, and compared.
-task::Reason inWords(const QString &text) {
+// Earlier versions wrote plain sentences, which can only be shown and compared as text.
+task::Reason plainSentence(const QString &text) {
     return because::inWords(text.toStdString());
 }
 
-// The direction of a stack tells it from phases of another: it must not be mere words.
-task::Reason partOfLabel(const QString &text) {
+// Stack directions are matched by reason: they distinguish a stack from the phases of another.
+task::Reason labelPart(const QString &text) {
     static const std::array<std::pair<task::Reason, task::Because<1>>, 4> directions{
         {{because::axial, because::axialNumber},
          {because::coronal, because::coronalNumber},
@@ -41,7 +40,7 @@ task::Reason partOfLabel(const QString &text) {
             isNumber && text == name + " " + QString::number(number))
             return numbered(number);
     }
-    return inWords(text);
+    return plainSentence(text);
 }
 
 std::vector<task::Reason> all(const QString &lines, const QString &separator,
@@ -55,13 +54,13 @@ std::vector<task::Reason> all(const QString &lines, const QString &separator,
 } // namespace
 
 QString toLine(const task::Reason &reason) {
-    // Names need not be UTF-8.
+    // Names may not be valid UTF-8.
     return QString::fromLatin1(
         QByteArray::fromStdString(reason.encoded()).toPercentEncoding(" :;,()'/=+"));
 }
 
 task::Reason reasonFromLine(const QString &line) {
-    return decoded(line).value_or(inWords(line));
+    return decoded(line).value_or(plainSentence(line));
 }
 
 QString toLines(const std::vector<task::Reason> &reasons) {
@@ -78,7 +77,7 @@ std::vector<task::Reason> reasonsFromLines(const QString &lines) {
 std::vector<task::Reason> labelFromLines(const QString &lines) {
     const QString first = lines.section('\n', 0, 0);
     return first.isEmpty() || decoded(first) ? reasonsFromLines(lines)
-                                             : all(lines, ", ", partOfLabel);
+                                             : all(lines, ", ", labelPart);
 }
 
 } // namespace pellucid::ui

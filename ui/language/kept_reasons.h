@@ -9,15 +9,16 @@
 
 namespace pellucid::ui {
 
-/// A reason as a line of a file, which a name within it cannot break, and back. Earlier programs
-/// wrote English words; these stay as they are.
+/// Converts a reason to one line of a file and back. Line breaks in names are escaped. Lines from
+/// earlier versions are English text and are returned unchanged.
 QString toLine(const task::Reason &reason);
 task::Reason reasonFromLine(const QString &line);
 
-/// Several, a line each.
+/// Several reasons, one per line.
 QString toLines(const std::vector<task::Reason> &reasons);
 std::vector<task::Reason> reasonsFromLines(const QString &lines);
-/// What tells a volume from others, which earlier programs wrote as a list with commas.
+/// Reads the label that distinguishes a volume from others. Earlier versions wrote it as a
+/// comma-separated list.
 std::vector<task::Reason> labelFromLines(const QString &lines);
 
 } // namespace pellucid::ui

@@ -12,7 +12,7 @@ struct MeasurementTextTexts {
 };
 
 QString valueText(double value, volume::ValueUnit unit) {
-    // Values without a unit may be of any size.
+    // Values without a unit may have any magnitude.
     return unit == volume::ValueUnit::hounsfield ? QString::number(value, 'f', 1)
                                                  : QString::number(value, 'g', 5);
 }

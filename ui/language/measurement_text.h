@@ -14,7 +14,7 @@ QString kindText(measure::Kind kind);
 /// The main figure with its unit: "12.3 mm", "45.2°", "36.1 HU".
 QString mainFigure(const measure::Result &result, const volume::Volume &volume);
 
-/// All figures, a line each, as they stand beside the drawing.
+/// All figures, one per line, as shown beside the drawing.
 QStringList allFigures(const measure::Measurement &measurement, const measure::Result &result,
                        const volume::Volume &volume);
 

@@ -7,7 +7,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// For whoever translates.
+// Listed here for lupdate.
 [[maybe_unused]] constexpr const char *names[] = {
     QT_TRANSLATE_NOOP("Names", "X-ray"),
     QT_TRANSLATE_NOOP("Names", "X-ray without couch"),
@@ -56,8 +56,7 @@ namespace {
     QT_TRANSLATE_NOOP("Names", "Mediastinum"),
     QT_TRANSLATE_NOOP("Names", "File"),
     QT_TRANSLATE_NOOP("Names", "Auto"),
-    QT_TRANSLATE_NOOP("Names", "Custom"),
-    QT_TRANSLATE_NOOP("Names", "Own range")};
+    QT_TRANSLATE_NOOP("Names", "Custom")};
 
 } // namespace
 

@@ -7,7 +7,7 @@
 
 namespace pellucid::ui {
 
-/// The names of presets, classes and windows that come with the program; others stay as they are.
+/// Translates the names of built-in presets, classes and windows; returns other names unchanged.
 QString translatedName(const std::string &english);
 
 } // namespace pellucid::ui

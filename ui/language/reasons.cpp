@@ -10,7 +10,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// The sentences themselves are those of core/task/reasons.inc.
+// The sentences themselves are in core/task/reasons.inc.
 constexpr const char *betweenLabels = QT_TRANSLATE_NOOP("Reasons", ", ");
 constexpr const char *betweenReasons = QT_TRANSLATE_NOOP("Reasons", "; ");
 
@@ -31,7 +31,7 @@ QString translated(const task::Argument &argument) {
 QString translated(const task::Reason &reason) {
     const std::string english(task::englishTemplate(reason.id()));
     const QString form = QCoreApplication::translate("Reasons", english.c_str());
-    // All at once: what is filled in may hold a place of its own.
+    // Fill all placeholders in one pass: an argument may itself contain one.
     QString filled;
     for (qsizetype n = 0; n < form.size(); ++n) {
         const int place = form[n] == '%' && n + 1 < form.size() ? form[n + 1].unicode() - '1' : -1;

@@ -9,9 +9,9 @@
 
 namespace pellucid::ui {
 
-/// In the user's language, with the reasons in it.
+/// A reason in the user's language, with the reasons among its arguments.
 QString translated(const task::Reason &reason);
-/// What tells a volume from others, as a list.
+/// The label that distinguishes a volume from others, as a list.
 QString translated(const std::vector<task::Reason> &label);
 
 } // namespace pellucid::ui

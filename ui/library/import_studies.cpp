@@ -27,12 +27,12 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-// In the folder of copies that have not all arrived: a line for each name that they will have.
+// A file in the folder of incoming copies, with one line for each final name.
 fs::path namesFile(const fs::path &incoming) {
     return incoming / "names";
 }
 
-// No name of a patient becomes a name of a file.
+// File names must not contain patients' names.
 std::string digest(const QString &text) {
     return QCryptographicHash::hash(text.toUtf8(), QCryptographicHash::Sha256)
         .toHex()
@@ -40,8 +40,8 @@ std::string digest(const QString &text) {
         .toStdString();
 }
 
-// Of copies that are not on the list, or will not be: the next program looks for them, should this
-// one be killed.
+// Records copies that are not, or will not be, on the list. If this program is killed, the next one
+// deletes them.
 void writeNames(const fs::path &folder, const std::vector<fs::path> &copies) {
     files::AtomicFile names(namesFile(folder));
     for (const fs::path &path : copies)
@@ -49,8 +49,8 @@ void writeNames(const fs::path &folder, const std::vector<fs::path> &copies) {
     names.commit();
 }
 
-// Copies go to a folder of their own and take their names when all are there. Which these are is
-// written down before: those of an import that is killed then are found by the next program.
+// Copies go to a separate folder and get their final names when all are complete. The names are
+// recorded first: if the import is killed during the renaming, the next program finds the copies.
 class Copies {
 public:
     explicit Copies(const LibraryPlace &place) : m_place(place) {}
@@ -62,7 +62,7 @@ public:
     Copies(const Copies &) = delete;
     Copies &operator=(const Copies &) = delete;
 
-    /// Where the copy will be.
+    /// Copies a file and returns its final path.
     fs::path add(const fs::path &from, const std::string &series, const std::string &instance) {
         if (!m_incoming)
             m_incoming.emplace(m_place.incomingFolder(), files::SessionFolder::Parent::goes);
@@ -97,7 +97,7 @@ public:
                 m_renamed.push_back(to);
         }
     }
-    /// They are on the disk, and so are their names: what refers to them may be written down.
+    /// After this, the copies and their names are on disk, and the list may refer to them.
     void flush() const {
         if (m_incoming)
             files::flush(m_place.copiesFolder());
@@ -114,7 +114,7 @@ private:
     std::vector<fs::path> m_renamed;
 };
 
-void checkRoom(const LibraryPlace &place, const std::vector<LibrarySeries> &all) {
+void checkFreeSpace(const LibraryPlace &place, const std::vector<LibrarySeries> &all) {
     std::error_code unknown;
     fs::create_directories(place.copiesFolder(), unknown);
     std::uintmax_t needed = 0;
@@ -128,7 +128,7 @@ void checkRoom(const LibraryPlace &place, const std::vector<LibrarySeries> &all)
                     place.folder);
 }
 
-// Series by series, in the catalogue's order.
+// In the catalogue's order.
 std::vector<LibrarySeries> seriesOf(const dicom::Catalogue &catalogue,
                                     const task::Progress &progress) {
     const auto all = dicom::selections(catalogue);
@@ -151,7 +151,7 @@ bool isFileThere(const dicom::InstanceFile &file) {
     return fs::is_regular_file(file.path, ignored);
 }
 
-// With what the library has of these series already: half of a series is on another disc.
+// The files that the library has of these series but the catalogue lacks: a series may span discs.
 std::vector<fs::path> missingParts(const Library &library, const dicom::Catalogue &catalogue) {
     std::set<fs::path> missing;
     for (const dicom::Selection &s : dicom::selections(catalogue)) {
@@ -169,15 +169,16 @@ std::vector<fs::path> missingParts(const Library &library, const dicom::Catalogu
     return {missing.begin(), missing.end()};
 }
 
-bool isOwn(const LibraryPlace &place, const fs::path &path) {
+bool isLibraryCopy(const LibraryPlace &place, const fs::path &path) {
     return path.string().starts_with(place.copiesFolder().string() + "/");
 }
 
-// The copies that the library has of a series, by their instances.
-std::map<std::string, fs::path> ownCopies(const Library &library, const LibrarySeries &series) {
+// The library's copies of a series, by instance UID.
+std::map<std::string, fs::path> libraryCopies(const Library &library, const LibrarySeries &series) {
     std::map<std::string, fs::path> own;
     for (const dicom::InstanceFile &file : library.files(series.study, series.volumes.front()))
-        if (!file.sopInstanceUid.empty() && isOwn(library.place(), file.path) && isFileThere(file))
+        if (!file.sopInstanceUid.empty() && isLibraryCopy(library.place(), file.path) &&
+            isFileThere(file))
             own[file.sopInstanceUid] = file.path;
     return own;
 }
@@ -187,8 +188,8 @@ std::string seriesDigest(const LibrarySeries &s) {
                   s.volumes.front().file);
 }
 
-dicom::Catalogue scanned(const Library &library, const Import &import,
-                         const task::Progress &progress) {
+dicom::Catalogue scanFiles(const Library &library, const Import &import,
+                           const task::Progress &progress) {
     dicom::Catalogue catalogue = dicom::scan(import.paths, progress.part(0.0, 0.4));
     if (catalogue.empty()) {
         if (catalogue.skipped.size() == 1)
@@ -204,7 +205,7 @@ dicom::Catalogue scanned(const Library &library, const Import &import,
     return catalogue;
 }
 
-// Brings the files of series to where the library will refer to them.
+// Determines the path of each file in the library, and copies the files that need it.
 class FilePlacer {
 public:
     FilePlacer(const Library &library, ImportMode mode, ImportResult &result)
@@ -221,15 +222,15 @@ public:
         if (copiesAny && m_library.place().inMemory)
             throw Error(ErrorCode::output, because::copiesNeedALibrary, m_library.place().folder);
         if (copiesAny)
-            checkRoom(m_library.place(), all);
+            checkFreeSpace(m_library.place(), all);
         for (LibrarySeries &series : all) {
             ++m_result.series;
             m_result.files += int(series.files.size());
             const std::string folder = seriesDigest(series);
-            const auto own = ownCopies(m_library, series);
+            const auto own = libraryCopies(m_library, series);
             std::erase_if(series.files, [&](dicom::InstanceFile &file) {
                 progress.report(double(++done) / double(count));
-                return !isPlaced(file, series, folder, own, progress);
+                return !placeFile(file, series, folder, own, progress);
             });
         }
         std::erase_if(all, [](const LibrarySeries &s) { return s.files.empty(); });
@@ -237,27 +238,27 @@ public:
     Copies &copies() { return m_copies; }
 
 private:
-    // Files unpacked from archives go with the program.
+    // Files unpacked from archives are deleted when the program ends.
     bool isCopied(const dicom::InstanceFile &file) const {
         return m_mode == ImportMode::copy || files::isInSessionFolder(file.path);
     }
-    // Whether the library can refer to the file.
-    bool isPlaced(dicom::InstanceFile &file, LibrarySeries &series, const std::string &folder,
-                  const std::map<std::string, fs::path> &own, const task::Progress &progress) {
-        if (isOwn(m_library.place(), file.path))
+    // Places a file. Returns whether the library can refer to it.
+    bool placeFile(dicom::InstanceFile &file, LibrarySeries &series, const std::string &folder,
+                   const std::map<std::string, fs::path> &own, const task::Progress &progress) {
+        if (isLibraryCopy(m_library.place(), file.path))
             return true;
         if (const auto held = own.find(file.sopInstanceUid); held != own.end()) {
-            file.path = held->second; // safer than where it is now
+            file.path = held->second; // the copy is safer than the new file
             return true;
         }
         if (!isCopied(file))
             return true;
         if (volume::isVolumeFile(file.path) &&
             decoder::readVolumeFileHeader(file.path, progress).samplesFile != file.path) {
-            const bool isGoing = files::isInSessionFolder(file.path);
+            const bool isTemporary = files::isInSessionFolder(file.path);
             m_result.skipped.push_back(
-                {file.path, isGoing ? because::notImported : because::referredNotCopied});
-            return !isGoing;
+                {file.path, isTemporary ? because::notImported : because::referredNotCopied});
+            return !isTemporary;
         }
         const std::string instance =
             file.sopInstanceUid.empty() ? file.path.string() : file.sopInstanceUid;
@@ -278,13 +279,13 @@ private:
 ImportResult importStudies(const LibraryPlace &place, const Import &import,
                            const task::Progress &progress) {
     Library library(place);
-    const dicom::Catalogue catalogue = scanned(library, import, progress);
+    const dicom::Catalogue catalogue = scanFiles(library, import, progress);
     ImportResult result;
     result.skipped = catalogue.skipped;
     std::vector<LibrarySeries> all = seriesOf(catalogue, progress.part(0.5, 0.7));
     FilePlacer placer(library, import.mode, result);
     placer.place(all, progress.part(0.7, 0.99));
-    progress.check(); // from here on it is done to the end
+    progress.check(); // from here on, the import cannot be cancelled
     placer.copies().rename();
     placer.copies().flush();
     library.put(all);
@@ -318,7 +319,7 @@ ImportResult relistCopies(const LibraryPlace &place, const task::Progress &progr
     try {
         result = importStudies(place, {{place.copiesFolder()}, ImportMode::refer}, progress);
     } catch (const Error &error) {
-        if (error.code() != ErrorCode::unusable) // there are none
+        if (error.code() != ErrorCode::unusable) // there are no copies
             throw;
     }
     std::error_code ignored;
@@ -336,17 +337,17 @@ void removeAbandonedImports(Library &library, LeftCopies left) {
                                          [&](const fs::path &folder) {
                                              if (left == LeftCopies::kept)
                                                  return;
-                                             // Copies that have their names already, without a row
-                                             // in the list.
+                                             // Copies that already have their final names, but no
+                                             // row in the list.
                                              std::ifstream names(namesFile(folder));
                                              std::vector<fs::path> copies;
                                              for (std::string name; std::getline(names, name);)
-                                                 if (isOwn(library.place(), name))
+                                                 if (isLibraryCopy(library.place(), name))
                                                      copies.emplace_back(name);
                                              library.removeCopies(copies);
                                          });
     std::error_code ignored;
-    fs::remove(library.place().incomingFolder(), ignored); // when it was the last
+    fs::remove(library.place().incomingFolder(), ignored); // succeeds only if it is empty
 }
 
 } // namespace pellucid::ui

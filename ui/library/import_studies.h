@@ -11,7 +11,7 @@
 
 namespace pellucid::ui {
 
-/// `refer`: the files stay where they are; `copy`: the library has files of its own, as from a CD.
+/// `refer`: the library references the files in place; `copy`: it copies them, as from a CD.
 enum class ImportMode { refer, copy };
 
 struct Import {
@@ -24,39 +24,37 @@ struct ImportResult {
     std::vector<dicom::Skipped> skipped;
 };
 
-/// Scans paths and puts what they hold into the library, with thumbnails. A series of which a part
-/// is there already gets the rest. What archives hold is always copied. All of it or, on an error
-/// or when cancelled, nothing. *Throws* Error{unusable} if there is nothing to import,
-/// Error{output} if it cannot be written, Cancelled.
+/// Scans paths and adds their series to the library, with thumbnails. If part of a series is in the
+/// library already, the rest joins it. The contents of archives are always copied. An error or a
+/// cancel leaves the library unchanged. *Throws* Error{unusable} if there is nothing to import,
+/// Error{output} if the library cannot be written, Cancelled.
 ImportResult importStudies(const LibraryPlace &place, const Import &import,
                            const task::Progress &progress);
 
-/// The copies of a study that is off the list, to be removed by `finish`. Their names are written
-/// down till then: those that are still there when the program ends, however, are found by the next
-/// one.
+/// The copies of a removed study, which `finish` deletes. Their names are on disk until then: if
+/// the program ends first, the next one finds and deletes the copies.
 struct Removal {
     std::vector<std::filesystem::path> copies;
     std::shared_ptr<files::SessionFolder> names;
 };
-/// Takes a study off the list. *Throws* Error{output}.
+/// Removes a study from the list. *Throws* Error{output}.
 Removal removeStudy(Library &library, const StudyFacts &study);
-/// Removes the copies. *Throws* Error{output} if the list cannot be read: the next program tries
-/// again.
+/// Deletes the copies. *Throws* Error{output} if the list cannot be read; the next start of the
+/// program tries again.
 void finish(const Removal &removal, Library &library);
 
-/// Lists the library's own copies whose rows a damaged list has lost; what is listed stays as it
-/// is. *Throws* Error{output}, Cancelled: the next program tries again.
+/// Adds copies whose rows a damaged list has lost; existing rows do not change. *Throws*
+/// Error{output}, Cancelled; the next start of the program tries again.
 ImportResult relistCopies(const LibraryPlace &place, const task::Progress &progress);
 
-/// What becomes of the copies of a killed import that had their names but no row yet: `kept` where
-/// the list may have lost the rows.
+/// What to do with copies of a killed import that have their final names but no row: `kept` if a
+/// damaged list may have lost the rows.
 enum class LeftCopies { removed, kept };
 
-/// Whether there is an import that has not ended; of a program that runs, or of one that was
-/// killed.
+/// Whether an import is unfinished, in a program that is running or that was killed.
 bool hasUnfinishedImports(const LibraryPlace &place);
-/// Removes what a killed import left in the library's folder. *Throws* Error{output} if the list
-/// cannot be read: the rest is left to the next time.
+/// Deletes the files that killed imports left in the library's folder. *Throws* Error{output} if
+/// the list cannot be read; the next call deletes the rest.
 void removeAbandonedImports(Library &library, LeftCopies left);
 
 } // namespace pellucid::ui

@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 using task::Error;
 using task::ErrorCode;
 
-// 1: labels and warnings were English words.
+// Version 1 stored labels and warnings as English text.
 constexpr int schemaVersion = 2;
 // Another window of the program may be writing.
-constexpr int patienceMs = 5000;
-constexpr int fewMatches = 2000;
+constexpr int busyTimeoutMs = 5000;
+constexpr int maxSortedMatches = 2000;
 
-// `search` is what is searched in, folded; `instance` tells copies of one instance apart.
+// `search` is the folded text to search in; `instance` distinguishes copies of one instance.
 constexpr const char *schema[] = {
     "CREATE TABLE studies (id INTEGER PRIMARY KEY, patient_id TEXT NOT NULL, "
     "patient_name TEXT NOT NULL, birth_date TEXT NOT NULL, sex TEXT NOT NULL, uid TEXT NOT NULL, "
@@ -54,8 +54,8 @@ constexpr const char *schema[] = {
     ("CREATE TABLE instances (series INTEGER NOT NULL REFERENCES series ON DELETE CASCADE, "
      "instance TEXT NOT NULL, path TEXT NOT NULL, PRIMARY KEY (series, instance)) WITHOUT ROWID")};
 
-// SQLite takes no empty value for "text without letters" where there is no string at all.
-QVariant said(const QString &text) {
+// Qt binds a null string as NULL, which the columns do not allow.
+QVariant notNull(const QString &text) {
     return text.isNull() ? QString("") : text;
 }
 
@@ -69,7 +69,7 @@ void setVersion(const QSqlDatabase &list) {
     ListQuery(list, QString("PRAGMA user_version = %1").arg(schemaVersion)).run();
 }
 
-// A connection may be taken away only when nobody holds it.
+// A connection can be removed only if no object uses it.
 void close(QSqlDatabase &&list, const QString &connection) {
     list.close();
     list = QSqlDatabase();
@@ -106,13 +106,16 @@ const char *orderText(StudyOrder order) {
 qint64 findStudy(const QSqlDatabase &list, const StudyFacts &study) {
     ListQuery found(list, "SELECT id FROM studies WHERE patient_id = ? AND patient_name = ? AND "
                           "uid = ?");
-    found.bind(said(study.patientId)).bind(said(study.patientName)).bind(said(study.uid)).run();
+    found.bind(notNull(study.patientId))
+        .bind(notNull(study.patientName))
+        .bind(notNull(study.uid))
+        .run();
     return found.next() ? found.integer(0) : 0;
 }
 
 qint64 findSeries(const QSqlDatabase &list, const StudyFacts &study, const VolumeFacts &volume) {
     ListQuery row(list, "SELECT id FROM series WHERE study = ? AND uid = ?");
-    row.bind(findStudy(list, study)).bind(said(seriesKey(volume))).run();
+    row.bind(findStudy(list, study)).bind(notNull(seriesKey(volume))).run();
     return row.next() ? row.integer(0) : 0;
 }
 
@@ -123,13 +126,13 @@ qint64 putStudy(const QSqlDatabase &list, const StudyFacts &s) {
                         "INSERT INTO studies (patient_id, patient_name, birth_date, sex, uid, "
                         "date, description, modalities, sort_name, search, added) VALUES (?, ?, "
                         "?, ?, ?, ?, ?, '', ?, '', ?)");
-        id = added.bind(said(s.patientId))
-                 .bind(said(s.patientName))
-                 .bind(said(s.birthDate))
-                 .bind(said(s.sex))
-                 .bind(said(s.uid))
-                 .bind(said(s.date))
-                 .bind(said(s.description))
+        id = added.bind(notNull(s.patientId))
+                 .bind(notNull(s.patientName))
+                 .bind(notNull(s.birthDate))
+                 .bind(notNull(s.sex))
+                 .bind(notNull(s.uid))
+                 .bind(notNull(s.date))
+                 .bind(notNull(s.description))
                  .bind(folded(patientText(s)))
                  .bind(QDateTime::currentMSecsSinceEpoch())
                  .run()
@@ -142,17 +145,17 @@ void putSeries(const QSqlDatabase &list, qint64 study, const LibrarySeries &s) {
     const VolumeFacts &first = s.volumes.front();
     ListQuery(list, "DELETE FROM series WHERE study = ? AND uid = ?")
         .bind(study)
-        .bind(said(seriesKey(first)))
+        .bind(notNull(seriesKey(first)))
         .run();
     const qint64 id =
         ListQuery(list, "INSERT INTO series (study, uid, number, modality, body_part, "
                         "description) VALUES (?, ?, ?, ?, ?, ?)")
             .bind(study)
-            .bind(said(seriesKey(first)))
+            .bind(notNull(seriesKey(first)))
             .bind(first.seriesNumber)
-            .bind(said(first.modality))
-            .bind(said(first.bodyPart))
-            .bind(said(first.description))
+            .bind(notNull(first.modality))
+            .bind(notNull(first.bodyPart))
+            .bind(notNull(first.description))
             .run()
             .lastId();
     for (const VolumeFacts &v : s.volumes)
@@ -161,7 +164,7 @@ void putSeries(const QSqlDatabase &list, qint64 study, const LibrarySeries &s) {
                   "slice_mm, tilt_deg, placed, warnings, file, thumbnail) VALUES (?, ?, ?, ?, ?, "
                   "?, ?, ?, ?, ?, ?, ?, ?)")
             .bind(id)
-            .bind(said(toLines(v.label)))
+            .bind(notNull(toLines(v.label)))
             .bind(v.size.i)
             .bind(v.size.j)
             .bind(v.size.k)
@@ -170,11 +173,11 @@ void putSeries(const QSqlDatabase &list, qint64 study, const LibrarySeries &s) {
             .bind(v.spacingMm.z)
             .bind(v.tiltDeg)
             .bind(v.placed)
-            .bind(said(toLines(v.warnings)))
-            .bind(said(v.file))
+            .bind(notNull(toLines(v.warnings)))
+            .bind(notNull(v.file))
             .bind(png(v.thumbnail))
             .run();
-    // Prepared once: a series has hundreds.
+    // Prepared once: a series has hundreds of instances.
     ListQuery instance(
         list, "INSERT OR REPLACE INTO instances (series, instance, path) VALUES (?, ?, ?)");
     for (const dicom::InstanceFile &file : s.files) {
@@ -186,28 +189,28 @@ void putSeries(const QSqlDatabase &list, qint64 study, const LibrarySeries &s) {
     }
 }
 
-// What a study is found by changes with its series.
+// Updates the modalities and the search text of a study, which depend on its series.
 void describeStudy(const QSqlDatabase &list, qint64 id) {
     ListQuery row(list, QString("SELECT %1 FROM studies WHERE id = ?").arg(studyColumns));
     row.bind(id).run();
     if (!row.next())
         return;
     const StudyFacts study = studyOf(row);
-    QStringList modalities, said{study.patientId, patientText(study), study.date,
-                                 dateText(study.date), study.description};
+    QStringList modalities, terms{study.patientId, patientText(study), study.date,
+                                  dateText(study.date), study.description};
     ListQuery series(list, "SELECT modality, body_part, description FROM series WHERE study = ? "
                            "ORDER BY number");
     series.bind(id).run();
     while (series.next()) {
         if (!series.text(0).isEmpty() && !modalities.contains(series.text(0)))
             modalities << series.text(0);
-        said << series.text(1) << series.text(2);
+        terms << series.text(1) << series.text(2);
     }
-    said << modalities;
-    said.removeDuplicates();
+    terms << modalities;
+    terms.removeDuplicates();
     ListQuery(list, "UPDATE studies SET modalities = ?, search = ? WHERE id = ?")
         .bind(modalities.isEmpty() ? QString("") : modalities.join(' '))
-        .bind(folded(said.join('\n')))
+        .bind(folded(terms.join('\n')))
         .bind(id)
         .run();
 }
@@ -218,7 +221,7 @@ Library::Library(const LibraryPlace &place) : m_place(place) {
     static std::atomic<int> number = 0;
     m_connection = QString("library-%1").arg(++number);
     QSqlDatabase list = QSqlDatabase::addDatabase("QSQLITE", m_connection);
-    QString options = QString("QSQLITE_BUSY_TIMEOUT=%1").arg(patienceMs);
+    QString options = QString("QSQLITE_BUSY_TIMEOUT=%1").arg(busyTimeoutMs);
     if (place.inMemory) {
         list.setDatabaseName("file:pellucid-library?mode=memory&cache=shared");
         options += ";QSQLITE_OPEN_URI";
@@ -234,14 +237,14 @@ Library::Library(const LibraryPlace &place) : m_place(place) {
     try {
         ListQuery(list, "PRAGMA foreign_keys = ON").run();
         if (versionOf(list) == 0) {
-            ListTransaction making(list);
-            // Another window may have made it while this one waited.
+            ListTransaction transaction(list);
+            // Another window may have created it while this one waited.
             if (versionOf(list) == 0) {
                 for (const char *statement : schema)
                     ListQuery(list, statement).run();
                 setVersion(list);
             }
-            making.commit();
+            transaction.commit();
         }
         if (versionOf(list) > schemaVersion)
             throw Error(ErrorCode::output, task::because::isANewerLibrary, place.listFile());
@@ -265,9 +268,9 @@ StudyPage Library::find(const QString &search, StudyOrder order, int offset, int
         number.bind(term);
     number.run();
     page.count = number.next() ? int(number.integer(0)) : 0;
-    // Many matches are soon met along the index; few are found by one way through the table and
-    // sorted, which the plus sign asks for.
-    const bool isAlongIndex = page.count > fewMatches || terms.isEmpty();
+    // With many matches, walking the index fills a page soonest. With few, scanning the table and
+    // sorting is faster: the plus sign prevents use of the index.
+    const bool isAlongIndex = page.count > maxSortedMatches || terms.isEmpty();
     ListQuery rows(list, QString("SELECT %1 FROM studies").arg(studyColumns) + matching +
                              QString(orderText(order)).arg(isAlongIndex ? "" : "+") +
                              " LIMIT ? OFFSET ?");
@@ -279,7 +282,7 @@ StudyPage Library::find(const QString &search, StudyOrder order, int offset, int
     return page;
 }
 
-bool Library::holds(const StudyFacts &study, const VolumeFacts &volume) const {
+bool Library::contains(const StudyFacts &study, const VolumeFacts &volume) const {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
     return findSeries(list, study, volume) != 0;
 }
@@ -300,19 +303,19 @@ std::vector<VolumeFacts> Library::volumes(const StudyFacts &study) const {
         QString("SELECT %1 FROM series WHERE study = ? ORDER BY number, id").arg(seriesColumns));
     series.bind(findStudy(list, study)).run();
     while (series.next()) {
-        VolumeFacts ofSeries = seriesOf(series);
+        VolumeFacts seriesFacts = seriesOf(series);
         ListQuery files(list, "SELECT count(*), min(path) FROM instances WHERE series = ?");
         files.bind(series.integer(0)).run();
         if (files.next()) {
-            ofSeries.files = int(files.integer(0));
-            ofSeries.isCopied = files.text(1).toStdString().starts_with(copies);
+            seriesFacts.files = int(files.integer(0));
+            seriesFacts.isCopied = files.text(1).toStdString().starts_with(copies);
         }
         ListQuery rows(
             list,
             QString("SELECT %1 FROM volumes WHERE series = ? ORDER BY id").arg(volumeColumns));
         rows.bind(series.integer(0)).run();
         while (rows.next()) {
-            volumes.push_back(ofSeries);
+            volumes.push_back(seriesFacts);
             readVolume(rows, volumes.back());
         }
     }
@@ -328,7 +331,7 @@ std::vector<dicom::InstanceFile> Library::files(const StudyFacts &study,
 
 void Library::put(const std::vector<LibrarySeries> &series) {
     const QSqlDatabase list = QSqlDatabase::database(m_connection);
-    ListTransaction putting(list);
+    ListTransaction transaction(list);
     std::vector<qint64> touched;
     for (const LibrarySeries &s : series) {
         if (s.volumes.empty())
@@ -340,10 +343,10 @@ void Library::put(const std::vector<LibrarySeries> &series) {
     }
     for (const qint64 study : touched)
         describeStudy(list, study);
-    // Till now an earlier program could read it all. The rows that it wrote stay as they are.
+    // From now on, earlier versions cannot read the list. Their rows stay unchanged.
     if (versionOf(list) < schemaVersion)
         setVersion(list);
-    putting.commit();
+    transaction.commit();
 }
 
 std::vector<fs::path> Library::copiesOf(const StudyFacts &study) const {
@@ -379,7 +382,7 @@ void Library::removeCopies(const std::vector<fs::path> &copies) {
             continue;
         std::error_code ignored;
         fs::remove(path, ignored);
-        fs::remove(path.parent_path(), ignored); // when it was the last
+        fs::remove(path.parent_path(), ignored); // succeeds only if it is empty
     }
 }
 

@@ -12,23 +12,24 @@
 
 namespace pellucid::ui {
 
-/// Where a library keeps its list and its copies.
+/// Where a library stores its list and its copies.
 struct LibraryPlace {
     std::filesystem::path folder;
-    /// The list is in memory, because the folder cannot be written; gone with the program.
+    /// The list is in memory because the folder cannot be written; it is lost when the program
+    /// ends.
     bool inMemory = false;
 
     std::filesystem::path listFile() const { return folder / "library.sqlite"; }
     std::filesystem::path copiesFolder() const { return folder / "files"; }
-    /// Where copies are that have not all arrived.
+    /// Contains copies of unfinished imports.
     std::filesystem::path incomingFolder() const { return copiesFolder() / "incoming"; }
-    /// There from a rebuild of the list until its copies have been looked for.
+    /// A file that exists from a rebuild of the list until its copies are listed again.
     std::filesystem::path rebuiltMark() const { return folder / "rebuilt"; }
 };
 
 enum class StudyOrder { newestFirst, byName, lastAddedFirst };
 
-/// A series as it goes into the library.
+/// A series to be stored in the library.
 struct LibrarySeries {
     StudyFacts study;
     std::vector<VolumeFacts> volumes;
@@ -37,29 +38,30 @@ struct LibrarySeries {
 
 struct StudyPage {
     std::vector<StudyFacts> studies;
-    int count = 0; ///< of all that match
+    int count = 0; ///< number of all matches
 };
 
-/// What `openLibrary` found and did.
+/// The result of `openLibrary`.
 struct OpenedLibrary {
     LibraryPlace place;
-    /// One line each: the list was damaged, cannot be written, ...
+    /// For the user: the list was damaged, cannot be written, ...
     std::vector<dicom::Skipped> notices;
     bool wasDamaged = false;
-    /// Copies may be missing from a list that was rebuilt, now or by a program that was killed.
+    /// The list was rebuilt, now or by a program that was killed, and may lack rows of copies.
     bool mayLackCopies = false;
-    /// What could be read of a damaged list whose place cannot be written: for the one in memory.
+    /// The readable series of a damaged list that cannot be replaced, for the list in memory.
     std::vector<LibrarySeries> readable;
 };
 
-/// Finds a library below a folder, or makes it. A list that is damaged is kept under another name
-/// and what can be read of it goes into a new one; where nothing can be written, or the list is of
-/// a newer program, it is in memory. Throws nothing of that: what was done is in the notices.
+/// Opens the library in a folder, or creates one. A damaged list is kept under a different name,
+/// and its readable rows go into a new list. If the folder cannot be written, or the list is from a
+/// newer version of the program, the list is in memory. Reports all this in the notices instead of
+/// throwing.
 OpenedLibrary openLibrary(const std::filesystem::path &folder);
 
-/// The studies that are kept: SQLite through Qt SQL. Every thread has an object of its own, because
-/// SQLite's connections belong to threads. All functions *throw* Error{output} when the list cannot
-/// be read or written.
+/// The stored studies: SQLite through Qt SQL. Each thread needs its own object, because SQLite's
+/// connections belong to threads. All functions *throw* Error{output} if the list cannot be read or
+/// written.
 class Library {
 public:
     explicit Library(const LibraryPlace &place);
@@ -69,33 +71,34 @@ public:
 
     const LibraryPlace &place() const { return m_place; }
 
-    /// Studies whose patient, date, descriptions, modalities and body parts hold every word of
-    /// `search`, whatever its case and accents. *Shape*: at most `limit`, from `offset`.
+    /// Finds studies whose patient, date, descriptions, modalities and body parts contain every
+    /// word of `search`, ignoring case and accents. *Shape*: at most `limit`, from `offset`.
     StudyPage find(const QString &search, StudyOrder order, int offset, int limit) const;
-    /// Whether it has the series of a volume.
-    bool holds(const StudyFacts &study, const VolumeFacts &volume) const;
-    /// In the order of the series' numbers; none if the study is not there, as everywhere below:
-    /// studies are asked for by what tells them apart, because another program may make the list
-    /// anew and give other numbers.
+    /// Whether the library contains the series of a volume.
+    bool contains(const StudyFacts &study, const VolumeFacts &volume) const;
+    /// In the order of the series numbers; empty if the study is not in the library. Studies are
+    /// identified by their facts, because another process may rebuild the list with other row
+    /// numbers.
     std::vector<VolumeFacts> volumes(const StudyFacts &study) const;
-    /// Of the series that a volume belongs to.
+    /// The files of the series that a volume belongs to.
     std::vector<dicom::InstanceFile> files(const StudyFacts &study,
                                            const VolumeFacts &volume) const;
 
-    /// By the number that it had when it was found; it may be another one by now.
+    /// The study with this row number. After a rebuild of the list, the number may belong to a
+    /// different study.
     std::optional<StudyFacts> study(qint64 id) const;
 
-    /// Adds series, in place of those that are there already, all of them or none.
+    /// Adds or replaces series, all of them or none.
     void put(const std::vector<LibrarySeries> &series);
-    /// The files of a study that are the library's own.
+    /// The files of a study that are copies in the library.
     std::vector<std::filesystem::path> copiesOf(const StudyFacts &study) const;
-    /// Takes a study off the list; its copies first have their names written down, as `removeStudy`
-    /// does: files without a row are litter, a row without files is a broken promise.
+    /// Removes a study from the list. Record the names of its copies first, as `removeStudy` does:
+    /// otherwise, nothing would find and delete them.
     void remove(const StudyFacts &study);
-    /// Removes copies unless a study has come to use them meanwhile.
+    /// Deletes copies, except those that a study now uses.
     void removeCopies(const std::vector<std::filesystem::path> &copies);
 
-    /// The name that Qt knows its connection by.
+    /// Qt's name of the database connection.
     const QString &connection() const { return m_connection; }
 
 private:

@@ -9,19 +9,20 @@
 namespace pellucid::ui {
 
 void failOnList(const QSqlError &error, const std::filesystem::path &path) {
-    const std::string said =
+    const std::string message =
         (error.driverText() + " " + error.databaseText()).simplified().toStdString();
-    // SQLite's "not a database" and "corrupt", and what is finer than that.
+    // SQLITE_NOTADB and SQLITE_CORRUPT; the mask removes extended error codes.
     constexpr int notAList = 26, corrupt = 11, plain = 0xff;
     const int code = error.nativeErrorCode().toInt() & plain;
     const bool isDamaged = code == notAList || code == corrupt;
-    throw task::Error(
-        task::ErrorCode::output,
-        isDamaged ? task::because::libraryIsDamaged(said) : task::because::ofLibrary(said), path);
+    throw task::Error(task::ErrorCode::output,
+                      isDamaged ? task::because::libraryIsDamaged(message)
+                                : task::because::ofLibrary(message),
+                      path);
 }
 
 ListQuery::ListQuery(const QSqlDatabase &list, const QString &text) : m_query(list), m_list(list) {
-    // Rows are read once and forwards; keeping them would cost twice.
+    // Rows are read once, forwards; caching them would cost time and memory.
     m_query.setForwardOnly(true);
     if (!m_query.prepare(text))
         failOnList(m_query.lastError(), path());
@@ -45,7 +46,7 @@ ListQuery &ListQuery::run() {
 bool ListQuery::next() {
     if (m_query.next())
         return true;
-    // Rows that cannot be read are not rows that are not there.
+    // An unreadable row must not look like the end of the rows.
     if (m_query.lastError().isValid())
         failOnList(m_query.lastError(), path());
     return false;
@@ -99,7 +100,7 @@ void readVolume(const ListQuery &row, VolumeFacts &v) {
     v.warnings = reasonsFromLines(row.text(11));
     v.file = row.text(12);
     if (!v.file.isEmpty())
-        v.seriesUid.clear(); // there it stands for the file
+        v.seriesUid.clear(); // the column contains the path of the file
     v.thumbnail.loadFromData(row.bytes(13), "PNG");
 }
 
@@ -114,7 +115,7 @@ std::vector<dicom::InstanceFile> filesOfSeries(const QSqlDatabase &list, qint64 
     return files;
 }
 
-// The volumes of one file have no series of their own.
+// A volume file has no series UID.
 QString seriesKey(const VolumeFacts &volume) {
     return volume.file.isEmpty() ? volume.seriesUid : volume.file;
 }

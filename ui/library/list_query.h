@@ -15,11 +15,11 @@ class QSqlError;
 
 namespace pellucid::ui {
 
-/// *Throws* Error{output} with what SQLite says.
+/// *Throws* Error{output} with SQLite's message.
 [[noreturn]] void failOnList(const QSqlError &error, const std::filesystem::path &path);
 
-/// A statement on the list of a library that *throws* Error{output} where it fails, while its rows
-/// are read too. It may be run again with other values.
+/// A statement on the list of a library. *Throws* Error{output} if it fails, also while its rows
+/// are read. It may be run again with different values.
 class ListQuery {
 public:
     ListQuery(const QSqlDatabase &list, const QString &text);
@@ -39,7 +39,7 @@ private:
     QSqlDatabase m_list;
 };
 
-/// All of it or nothing.
+/// A transaction: rolled back unless committed.
 class ListTransaction {
 public:
     explicit ListTransaction(const QSqlDatabase &list);
@@ -53,22 +53,22 @@ private:
     bool m_isDone = false;
 };
 
-/// What stands in the rows of the tables, by columns in this order.
+/// The columns of the tables, in the order in which the functions below read them.
 inline constexpr const char *studyColumns = "id, patient_id, patient_name, birth_date, sex, uid, "
                                             "date, description, modalities";
 StudyFacts studyOf(const ListQuery &row);
 inline constexpr const char *seriesColumns =
     "id, study, uid, number, modality, body_part, description";
-/// What a series says of all of its volumes.
+/// The facts that all volumes of a series share.
 VolumeFacts seriesOf(const ListQuery &row);
 inline constexpr const char *volumeColumns =
     "id, series, label, columns, rows, slices, column_mm, row_mm, slice_mm, tilt_deg, placed, "
     "warnings, file, thumbnail";
-/// `volume`: of its series already.
+/// Reads a row into `volume`, which already has the facts of its series.
 void readVolume(const ListQuery &row, VolumeFacts &volume);
 std::vector<dicom::InstanceFile> filesOfSeries(const QSqlDatabase &list, qint64 series);
 
-/// What a series is kept under: its UID, or the file of a volume that is one file.
+/// The key of a series: its UID, or the path of a volume that is a single file.
 QString seriesKey(const VolumeFacts &volume);
 
 } // namespace pellucid::ui

@@ -25,8 +25,8 @@ namespace because = task::because;
 namespace fs = std::filesystem;
 using task::Error;
 
-// Whether a row is what a scan wrote and not the noise of a disk. Not all that scans find is by the
-// letter of the standard, but it can be printed.
+// Whether a scan wrote this row, as opposed to disk damage. Values may violate the DICOM standard,
+// but they are printable.
 bool isPlausible(const LibrarySeries &s) {
     static const QRegularExpression printable("^[ -~]{0,64}$");
     const auto texts = {s.study.uid, s.study.date, s.volumes.front().seriesUid};
@@ -34,8 +34,8 @@ bool isPlausible(const LibrarySeries &s) {
                        [](const QString &text) { return printable.match(text).hasMatch(); });
 }
 
-// Rows are asked for one by one, by their numbers: each way down the tree of pages that is whole
-// still leads to its rows, whatever is broken beside it.
+// Reads rows one by one, by number: each intact path down the tree of pages still leads to its
+// rows, even if pages beside it are damaged.
 void forEachReadableRow(const QSqlDatabase &list, const QString &table, const QString &columns,
                         const std::function<void(const ListQuery &)> &f) {
     qint64 last = 0;
@@ -44,9 +44,9 @@ void forEachReadableRow(const QSqlDatabase &list, const QString &table, const QS
         numbers.run();
         last = numbers.next() ? numbers.integer(0) : 0;
     } catch (const Error &) {
-        return; // the root of the tree is gone
+        return; // the root of the tree is damaged
     }
-    // Numbers beyond what the file could hold are noise.
+    // A number that exceeds the file size is damaged.
     std::error_code unknown;
     const auto bytes = fs::file_size(list.databaseName().toStdString(), unknown);
     if (!unknown)
@@ -58,12 +58,12 @@ void forEachReadableRow(const QSqlDatabase &list, const QString &table, const QS
             if (row.next())
                 f(row);
         } catch (const Error &) {
-            // On a broken page.
+            // The row is on a damaged page.
         }
     }
 }
 
-std::vector<LibrarySeries> readWhatIsThere(const QSqlDatabase &list, int &lost) {
+std::vector<LibrarySeries> salvage(const QSqlDatabase &list, int &lost) {
     std::map<qint64, StudyFacts> studies;
     forEachReadableRow(list, "studies", studyColumns,
                        [&](const ListQuery &row) { studies[row.integer(0)] = studyOf(row); });
@@ -78,7 +78,7 @@ std::vector<LibrarySeries> readWhatIsThere(const QSqlDatabase &list, int &lost) 
         try {
             s.files = filesOfSeries(list, row.integer(0));
         } catch (const Error &) {
-            // Without files there is nothing to keep.
+            // A series without files cannot be kept.
         }
     });
     std::set<qint64> described;
@@ -120,13 +120,13 @@ fs::path freeName(const LibraryPlace &place) {
 
 struct Found {
     enum class State { sound, damaged, unusable } state;
-    std::optional<task::Reason> reason{}; ///< of one that is unusable
+    std::optional<task::Reason> reason{}; ///< why it is unusable
     std::vector<LibrarySeries> saved{};
-    int lost = 0;        ///< of those that are still in the list
-    bool isRead = false; ///< false: how many there were is not known
+    int lost = 0;        ///< number of series in the list that could not be read
+    bool isRead = false; ///< false: the number of series is unknown
 };
 
-Found lookAt(const LibraryPlace &place) {
+Found inspect(const LibraryPlace &place) {
     Found found{Found::State::damaged};
     bool isOpen = false;
     try {
@@ -137,10 +137,11 @@ Found lookAt(const LibraryPlace &place) {
             return found;
         }
         isOpen = true;
-        found.saved = readWhatIsThere(connection, found.lost);
+        found.saved = salvage(connection, found.lost);
         found.isRead = !found.saved.empty() || found.lost > 0;
     } catch (const Error &error) {
-        // Not a list at all is damage; a folder or a version that forbids writing is not.
+        // A file that is not a list is damaged; a folder or version that prevents writing is not
+        // damage.
         std::error_code unknown;
         const bool isThere = fs::exists(place.listFile(), unknown);
         const bool isList = !error.reason().is(because::libraryIsDamaged);
@@ -152,8 +153,8 @@ Found lookAt(const LibraryPlace &place) {
     return found;
 }
 
-// The damaged list stays under a free name, and a new one takes its place when it is whole: whoever
-// is killed meanwhile finds the damaged one.
+// Keeps the damaged list under a free name and replaces it once the new one is complete: if the
+// program is killed before, the next one finds the damaged list.
 fs::path replaceList(const LibraryPlace &place, const std::vector<LibrarySeries> &saved) {
     const fs::path list = place.listFile(), kept = freeName(place);
     try {
@@ -162,9 +163,9 @@ fs::path replaceList(const LibraryPlace &place, const std::vector<LibrarySeries>
         Library(rebuilt).put(saved);
         std::error_code failed;
         fs::create_hard_link(list, kept, failed);
-        if (failed) // not every file system has them
+        if (failed) // not every file system supports hard links
             fs::copy_file(list, kept);
-        // What the damaged one had left undone is not the new one's.
+        // The journal of the damaged list must not be applied to the new one.
         fs::path undone = list, keptUndone = kept;
         fs::rename(undone += "-journal", keptUndone += "-journal", failed);
         files::AtomicFile mark(place.rebuiltMark());
@@ -176,8 +177,8 @@ fs::path replaceList(const LibraryPlace &place, const std::vector<LibrarySeries>
     return kept;
 }
 
-// Copies without a list, as after a power cut.
-bool isLost(const LibraryPlace &place) {
+// Whether there are copies without a list, as after a power failure.
+bool hasCopiesWithoutList(const LibraryPlace &place) {
     std::error_code none, failed;
     const auto bytes = fs::file_size(place.listFile(), none);
     if (!none && bytes > 0)
@@ -189,7 +190,7 @@ bool isLost(const LibraryPlace &place) {
     return false;
 }
 
-OpenedLibrary forThisRun(OpenedLibrary opened, const task::Reason &reason) {
+OpenedLibrary listInMemory(OpenedLibrary opened, const task::Reason &reason) {
     opened.place.inMemory = true;
     opened.notices.push_back({opened.place.listFile(), because::listedForThisRun(reason)});
     return opened;
@@ -202,23 +203,23 @@ OpenedLibrary openLibrary(const fs::path &folder) {
     opened.place.folder = folder;
     std::error_code failed;
     fs::create_directories(folder, failed);
-    const bool wasLost = isLost(opened.place);
-    if (wasLost) {
+    const bool hadNoList = hasCopiesWithoutList(opened.place);
+    if (hadNoList) {
         try {
             files::AtomicFile(opened.place.rebuiltMark()).commit();
         } catch (const Error &) {
-            // This program looks for them all the same.
+            // This program lists the copies again in any case.
         }
     }
-    Found found = lookAt(opened.place);
+    Found found = inspect(opened.place);
     std::optional<files::FileLock> lock;
     if (found.state == Found::State::damaged) {
-        // Another program may be mending it, or have mended it by then.
+        // Another process may be repairing it, or may have repaired it by then.
         lock.emplace(folder / "library.lock");
-        found = lookAt(opened.place);
+        found = inspect(opened.place);
     }
     if (found.state == Found::State::unusable)
-        return forThisRun(std::move(opened), *found.reason);
+        return listInMemory(std::move(opened), *found.reason);
     if (found.state == Found::State::damaged) {
         opened.wasDamaged = true;
         try {
@@ -230,12 +231,12 @@ OpenedLibrary openLibrary(const fs::path &folder) {
         } catch (const Error &error) {
             system::log("the study library is damaged and cannot be rebuilt");
             opened.readable = std::move(found.saved);
-            return forThisRun(std::move(opened), because::cannotBeRebuilt(error.reason()));
+            return listInMemory(std::move(opened), because::cannotBeRebuilt(error.reason()));
         }
     }
-    if (wasLost)
+    if (hadNoList)
         opened.notices.push_back({opened.place.listFile(), because::libraryWasEmpty});
-    opened.mayLackCopies = wasLost || fs::exists(opened.place.rebuiltMark(), failed);
+    opened.mayLackCopies = hadNoList || fs::exists(opened.place.rebuiltMark(), failed);
     return opened;
 }
 

@@ -22,7 +22,7 @@ StudyLibrary::StudyLibrary(QObject *parent) : QObject(parent) {
         if (!opened.readable.empty())
             m_library->put(opened.readable);
     } catch (const task::Error &error) {
-        // Even memory may be refused; the program goes on without a library.
+        // Even a list in memory may fail; the program then continues without a library.
         m_notices.push_back({error.path(), error.reason()});
         return;
     }
@@ -62,12 +62,12 @@ void StudyLibrary::start(Work work) {
 void StudyLibrary::workEnded(const Outcome &outcome) {
     if (outcome.kind == Outcome::Kind::failed)
         emit failed(*outcome.reason, outcome.path);
-    // Queued, so that the destructor, which ends the job, starts nothing.
+    // Queued, so that the destructor, which ends the job, does not start the next one.
     QMetaObject::invokeMethod(this, &StudyLibrary::startNext, Qt::QueuedConnection);
 }
 
 void StudyLibrary::startNext() {
-    emit changed(); // an import that was cancelled too late is there all the same
+    emit changed(); // an import that was cancelled too late has changed the list
     if (m_waiting.empty() || m_jobs.isRunning())
         return;
     const Work next = m_waiting.front();
@@ -76,15 +76,15 @@ void StudyLibrary::startNext() {
 }
 
 void StudyLibrary::open(const LibraryPlace &place) {
-    // First: of one that is replaced meanwhile the next look tells.
+    // Before opening: if the list is replaced in between, openIfReplaced() notices.
     files::FileIds listFile(std::vector{place.listFile()});
     m_library = std::make_unique<Library>(place);
-    if (listFile.isEmpty()) // it made the list
+    if (listFile.isEmpty()) // opening created the list
         listFile = files::FileIds(std::vector{place.listFile()});
     m_listFile = std::move(listFile);
 }
 
-// Another program may have found the list damaged and put a new one in its place.
+// Another process may have found the list damaged and replaced it.
 void StudyLibrary::openIfReplaced() {
     const LibraryPlace place = m_library->place();
     std::error_code unknown;
@@ -92,7 +92,7 @@ void StudyLibrary::openIfReplaced() {
         m_listFile->find(place.listFile()))
         return;
     open(place);
-    // Whoever shows rows of the former one shows them anew.
+    // Views of the former list must reload.
     QMetaObject::invokeMethod(this, &StudyLibrary::changed, Qt::QueuedConnection);
 }
 
@@ -112,8 +112,8 @@ StudyPage StudyLibrary::find(const QString &search, StudyOrder order, int offset
     return attempt([&](Library &l) { return l.find(search, order, offset, limit); });
 }
 
-bool StudyLibrary::holds(const StudyFacts &study, const VolumeFacts &volume) {
-    return attempt([&](Library &l) { return l.holds(study, volume); });
+bool StudyLibrary::contains(const StudyFacts &study, const VolumeFacts &volume) {
+    return attempt([&](Library &l) { return l.contains(study, volume); });
 }
 
 std::optional<StudyFacts> StudyLibrary::study(qint64 id) {

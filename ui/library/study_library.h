@@ -15,20 +15,20 @@
 
 namespace pellucid::ui {
 
-/// The library as the window uses it: opened once, imports as jobs of their own beside those of the
-/// open study, removal. What fails is said by `failed`, never thrown.
+/// The library as the window uses it: opens it once, and imports and removes studies in its own job
+/// runner, separate from the jobs of the open study. Reports errors by `failed` and never throws.
 class StudyLibrary : public QObject {
     Q_OBJECT
 public:
     explicit StudyLibrary(QObject *parent = nullptr);
     ~StudyLibrary() override;
 
-    /// What opening it had to do.
+    /// The notices of `openLibrary`.
     const std::vector<dicom::Skipped> &notices() const { return m_notices; }
 
     StudyPage find(const QString &search, StudyOrder order, int offset, int limit);
-    bool holds(const StudyFacts &study, const VolumeFacts &volume);
-    /// None if it has been removed.
+    bool contains(const StudyFacts &study, const VolumeFacts &volume);
+    /// None if the study has been removed.
     std::optional<StudyFacts> study(qint64 id);
     std::vector<VolumeFacts> volumes(const StudyFacts &study);
     std::vector<dicom::InstanceFile> files(const StudyFacts &study, const VolumeFacts &volume);
@@ -48,11 +48,11 @@ private:
     template <class F> auto attempt(F &&f) -> decltype(f(std::declval<Library &>()));
 
     std::vector<dicom::Skipped> m_notices;
-    /// Work on the files of the library, one piece after the other.
+    /// Work on the library's files; one piece runs at a time.
     struct Work {
         QString title;
         std::function<void(const Job &)> run;
-        bool isOptional; ///< what is left when the program ends is not done
+        bool isOptional; ///< skipped if it has not started when the program ends
     };
     void start(Work work);
     void workEnded(const Outcome &outcome);
@@ -60,7 +60,7 @@ private:
     void importBy(std::function<ImportResult(const task::Progress &)> work);
 
     std::unique_ptr<Library> m_library;
-    std::optional<files::FileIds> m_listFile; ///< that it has open
+    std::optional<files::FileIds> m_listFile; ///< the open list
     JobRunner m_jobs;
     std::deque<Work> m_waiting;
 };

@@ -23,7 +23,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// As fine as the values are: a thousandth of the window counts.
+// The decimals resolve a thousandth of the window.
 QDoubleSpinBox *valueBox(const char *name, double value, double windowWidth) {
     auto *box = new QDoubleSpinBox;
     box->setObjectName(name);
@@ -54,7 +54,7 @@ QString stepHelp() {
 ClassDialog::ClassDialog(Document &document, const classify::TissueClass &tissue, QWidget *parent)
     : QDialog(parent), m_document(document), m_tissue(tissue), m_name(new QLineEdit),
       m_step(new QLineEdit), m_color(new QPushButton), m_steps(new QListWidget),
-      m_said(new QLabel) {
+      m_message(new QLabel) {
     setObjectName("classDialog");
     setWindowTitle(tr("Class"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -69,7 +69,7 @@ ClassDialog::ClassDialog(Document &document, const classify::TissueClass &tissue
     m_shownLow = m_low->value();
     m_shownHigh = m_high->value();
     m_shownSoftness = m_softness->value();
-    m_softness->setToolTip(tr("Width over which the class fades in and out about its ends"));
+    m_softness->setToolTip(tr("Width of the soft edge at both ends of the range"));
     m_color->setObjectName("classColorButton");
     m_steps->setObjectName("classSteps");
     m_steps->setMaximumHeight(90);
@@ -86,9 +86,9 @@ ClassDialog::ClassDialog(Document &document, const classify::TissueClass &tissue
     removal->setObjectName("removeStepButton");
     removal->setAutoDefault(false);
     m_color->setAutoDefault(false);
-    m_said->setObjectName("classSaid");
-    m_said->setProperty("role", "warning");
-    m_said->setWordWrap(true);
+    m_message->setObjectName("classSaid");
+    m_message->setProperty("role", "warning");
+    m_message->setWordWrap(true);
 
     auto *stepRow = new QHBoxLayout;
     stepRow->addWidget(m_step, 1);
@@ -104,10 +104,10 @@ ClassDialog::ClassDialog(Document &document, const classify::TissueClass &tissue
     form->addRow(tr("From"), m_low);
     form->addRow(tr("To"), m_high);
     form->addRow(tr("Softness"), m_softness);
-    form->addRow(tr("Colour"), m_color);
+    form->addRow(tr("Color"), m_color);
     form->addRow(tr("Steps"), m_steps);
     form->addRow(QString(), stepRow);
-    form->addRow(m_said);
+    form->addRow(m_message);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
     form->addRow(buttons);
 
@@ -128,7 +128,7 @@ void ClassDialog::done(int result) {
     QDialog::done(result);
 }
 
-// What nobody touched is not rounded.
+// A value that was not edited must not be rounded.
 double ClassDialog::valueOf(const QDoubleSpinBox &box, double shown, double former) const {
     return box.value() == shown ? former : box.value();
 }
@@ -152,7 +152,7 @@ void ClassDialog::accept() {
         typed(m_tissue);
         QDialog::accept();
     } catch (const task::Error &error) {
-        m_said->setText(translated(error.reason()));
+        m_message->setText(translated(error.reason()));
     }
 }
 
@@ -161,16 +161,16 @@ void ClassDialog::addStep() {
         const auto step = classify::stepFromText(m_step->text().trimmed().toStdString());
         m_steps->addItem(QString::fromStdString(classify::stepText(step)));
         m_step->clear();
-        m_said->clear();
+        m_message->clear();
     } catch (const task::Error &error) {
-        m_said->setText(translated(error.reason()));
+        m_message->setText(translated(error.reason()));
     }
 }
 
 void ClassDialog::chooseColor() {
     const classify::Color &c = m_tissue.color;
     const QColor chosen = QColorDialog::getColor(
-        QColor::fromRgbF(float(c.red), float(c.green), float(c.blue)), this, tr("Colour"));
+        QColor::fromRgbF(float(c.red), float(c.green), float(c.blue)), this, tr("Color"));
     if (!chosen.isValid())
         return;
     m_tissue.color = classify::colorFromText(chosen.name().toStdString());

@@ -15,12 +15,13 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Everything about one class. While it is open the planes are tinted where values belong to it.
+/// Edits one class. While the dialog is open, the planes are tinted where values belong to the
+/// class.
 class ClassDialog : public QDialog {
     Q_OBJECT
 public:
     ClassDialog(Document &document, const classify::TissueClass &tissue, QWidget *parent = nullptr);
-    /// What is typed: a class with all else as it is now. *Throws* task::Error if it makes no
+    /// Applies the dialog's values to `now`. *Throws* task::Error if the result is not a valid
     /// class.
     classify::TissueClass typed(const classify::TissueClass &now) const;
 
@@ -38,10 +39,10 @@ private:
     classify::TissueClass m_tissue;
     QLineEdit *m_name, *m_step;
     QDoubleSpinBox *m_low, *m_high, *m_softness;
-    double m_shownLow, m_shownHigh, m_shownSoftness; ///< as the boxes round them
+    double m_shownLow, m_shownHigh, m_shownSoftness; ///< as rounded by the boxes
     QPushButton *m_color;
     QListWidget *m_steps;
-    QLabel *m_said;
+    QLabel *m_message;
 };
 
 } // namespace pellucid::ui

@@ -21,12 +21,12 @@ QColor colorOf(const classify::Color &color) {
 
 // Filled while the class is shown.
 QIcon dotIcon(const QColor &color, bool isShown) {
-    constexpr int side = 32; // drawn at half the size: sharp at 200 %
+    constexpr int side = 32; // shown at half the size, so that it is sharp at 200 %
     QPixmap pixmap(side, side);
     pixmap.fill(Qt::transparent);
     QPainter painter(&pixmap);
     painter.setRenderHint(QPainter::Antialiasing);
-    // An edge of its own: white on white is a dot, too.
+    // A darker outline keeps a white dot visible on white.
     painter.setPen(isShown ? QPen(color.darker(150), 1.5) : QPen(color, 3.0));
     painter.setBrush(isShown ? QBrush(color) : QBrush(Qt::NoBrush));
     painter.drawEllipse(QRectF(5, 5, side - 10, side - 10));

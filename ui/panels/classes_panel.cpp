@@ -20,10 +20,10 @@ namespace pellucid::ui {
 
 namespace {
 
-// A class for values that are no HU: a band of the window.
+// A class for values that are not in HU: a band of the window.
 classify::TissueClass ownClass(const classify::FieldWindow &window) {
     const double width = window.high - window.low;
-    return {"Own", window.low + 0.4 * width, window.low + 0.6 * width, 0.05 * width, 1.0, {}};
+    return {"Custom", window.low + 0.4 * width, window.low + 0.6 * width, 0.05 * width, 1.0, {}};
 }
 
 QString capitalised(const std::string &name) {
@@ -36,8 +36,8 @@ QString capitalised(const std::string &name) {
 ClassesPanel::ClassesPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_add(new QPushButton(tr("Add class"))),
       m_list(new QWidget), m_rows(new QVBoxLayout(m_list)),
-      m_empty(new QLabel(tr("The whole volume through the transfer function. Add a class to show "
-                            "tissues apart."))),
+      m_empty(new QLabel(tr("The transfer function applies to the whole volume. Add a class to "
+                            "show tissues separately."))),
       m_area(new QScrollArea) {
     setObjectName("classesPanel");
     setAttribute(Qt::WA_StyledBackground);
@@ -82,7 +82,7 @@ QWidget *ClassesPanel::corner() {
 void ClassesPanel::showScene() {
     const auto &classes = m_document.scene().look.classes;
     m_empty->setVisible(classes.empty());
-    // A dialog is about a class that was there by its place.
+    // The dialog refers to its class by index, which may have changed.
     if (m_dialog && m_shown.size() != classes.size())
         m_dialog->close();
     while (m_shown.size() > classes.size()) {
@@ -111,7 +111,7 @@ void ClassesPanel::change(const QString &what, const std::function<void(classify
 void ClassesPanel::changeClass(int index, const QString &what,
                                const std::function<void(classify::TissueClass &)> &edit,
                                DragId drag) {
-    // A study may have come while a menu or a dialog was open.
+    // A different study may have been opened while a menu or a dialog was open.
     if (index < int(m_document.scene().look.classes.size()))
         change(
             what, [&](classify::Look &look) { edit(look.classes[std::size_t(index)]); }, drag);
@@ -128,8 +128,9 @@ void ClassesPanel::toggle(int index) {
     if (tissue.weight > 0.0)
         m_hiddenWeight[name] = tissue.weight;
     const double weight = tissue.weight > 0.0 ? 0.0 : m_hiddenWeight.value(name, 1.0);
-    const QString said = translatedName(tissue.name);
-    changeClass(index, tissue.weight > 0.0 ? tr("Hide %1").arg(said) : tr("Show %1").arg(said),
+    const QString shownName = translatedName(tissue.name);
+    changeClass(index,
+                tissue.weight > 0.0 ? tr("Hide %1").arg(shownName) : tr("Show %1").arg(shownName),
                 [&](classify::TissueClass &shown) { shown.weight = weight; });
 }
 
@@ -151,7 +152,7 @@ void ClassesPanel::showAddMenu() {
         }
         menu.addSeparator();
     }
-    menu.addAction(tr("Own range"), this, [this] {
+    menu.addAction(tr("Custom range"), this, [this] {
         add(ownClass(m_document.fieldWindow()));
         edit(int(m_document.scene().look.classes.size()) - 1);
     });
@@ -163,9 +164,9 @@ void ClassesPanel::showMenu(int index, const QPoint &globalAt) {
     QMenu menu;
     menu.setObjectName("classMenu");
     menu.addAction(tr("Edit..."), this, [this, index] { edit(index); });
-    menu.addAction(tr("Colour..."), this, [this, index] { chooseColor(index); });
-    menu.addAction(tr("Show it alone"), this, [this, index] {
-        change(tr("Show it alone"), [&](classify::Look &look) {
+    menu.addAction(tr("Color..."), this, [this, index] { chooseColor(index); });
+    menu.addAction(tr("Show only this class"), this, [this, index] {
+        change(tr("Show only this class"), [&](classify::Look &look) {
             for (std::size_t n = 0; n < look.classes.size(); ++n)
                 if (int(n) != index)
                     look.classes[n].weight = 0.0;
@@ -203,9 +204,9 @@ void ClassesPanel::chooseColor(int index) {
         return;
     const classify::Color c = classes[std::size_t(index)].color;
     const QColor chosen = QColorDialog::getColor(
-        QColor::fromRgbF(float(c.red), float(c.green), float(c.blue)), this, tr("Colour"));
+        QColor::fromRgbF(float(c.red), float(c.green), float(c.blue)), this, tr("Color"));
     if (chosen.isValid())
-        changeClass(index, tr("Colour"), [&](classify::TissueClass &tissue) {
+        changeClass(index, tr("Color"), [&](classify::TissueClass &tissue) {
             tissue.color = classify::colorFromText(chosen.name().toStdString());
         });
 }

@@ -21,13 +21,13 @@ class ClassDialog;
 class ClassRow;
 class Document;
 
-/// The tissue classes of the look: shown or not, weight, range and color of each.
+/// The tissue classes of the look, with visibility, weight, range and color.
 class ClassesPanel : public QWidget {
     Q_OBJECT
 public:
     explicit ClassesPanel(Document &document, QWidget *parent = nullptr);
 
-    /// Stands beside the panel's heading.
+    /// The button beside the panel's heading.
     QWidget *corner();
 
 private:
@@ -53,7 +53,7 @@ private:
     QScrollArea *m_area;
     std::vector<ClassRow *> m_shown;
     QPointer<ClassDialog> m_dialog;
-    /// The weight that a hidden class had, by its name.
+    /// The former weights of hidden classes, by name.
     QHash<QString, double> m_hiddenWeight;
 };
 

@@ -13,7 +13,7 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr double mostWeight = classify::TransferFunction::largestWeight;
+constexpr double maxWeight = classify::TransferFunction::largestWeight;
 constexpr double keyStep = 0.05;
 constexpr double handleRadius = 4.5;
 
@@ -78,7 +78,7 @@ int CurveEditor::segmentAt(double x) const {
 
 double CurveEditor::yOf(double weight) const {
     const QRectF area = plot();
-    return area.bottom() - weight / mostWeight * area.height();
+    return area.bottom() - weight / maxWeight * area.height();
 }
 
 QPointF CurveEditor::handleAt(int index) const {
@@ -192,8 +192,8 @@ void CurveEditor::mouseMoveEvent(QMouseEvent *event) {
         update();
         return;
     }
-    const double moved = (m_dragFromY - event->position().y()) / plot().height() * mostWeight;
-    emit weightChanged(m_selected, std::clamp(m_dragFromWeight + moved, 0.0, mostWeight), m_drag);
+    const double moved = (m_dragFromY - event->position().y()) / plot().height() * maxWeight;
+    emit weightChanged(m_selected, std::clamp(m_dragFromWeight + moved, 0.0, maxWeight), m_drag);
     update();
 }
 
@@ -218,7 +218,7 @@ void CurveEditor::keyPressEvent(QKeyEvent *event) {
     case Qt::Key_Down:
         emit weightChanged(
             m_selected,
-            std::clamp(weight + (event->key() == Qt::Key_Up ? keyStep : -keyStep), 0.0, mostWeight),
+            std::clamp(weight + (event->key() == Qt::Key_Up ? keyStep : -keyStep), 0.0, maxWeight),
             nextDragId());
         break;
     default:

@@ -12,10 +12,10 @@
 
 namespace pellucid::ui {
 
-/// A Bézier transfer function over the values of the field's window: weight 0 to 2 above, the
-/// histogram behind. The width is cut into as many segments as there are control points; the one
-/// under the mouse is framed and dragged up and down, a line follows the mouse and the weight there
-/// is told. *Source*: Cheng 2007, section 4.3.1.
+/// Edits a Bézier transfer function over the field's window: weights from 0 to 2, with the
+/// histogram behind. The width has one segment for each control point; the segment under the mouse
+/// is framed and can be dragged up and down. A line follows the mouse and shows the weight there.
+/// *Source*: Cheng 2007, section 4.3.1.
 class CurveEditor : public QWidget {
     Q_OBJECT
 public:
@@ -23,16 +23,16 @@ public:
 
     void setFunction(const classify::TransferFunction &function);
     void setWindow(const classify::FieldWindow &window, const QString &unit);
-    /// Heights 0..1 over the window; empty: none.
+    /// Heights from 0 to 1 over the window; empty for no histogram.
     void setHistogram(std::vector<double> heights);
     int selectedPoint() const { return m_selected; }
     void selectPoint(int index);
-    /// Where the handle of a control point is drawn.
+    /// The center of a control point's handle.
     QPointF handleAt(int index) const;
 
 signals:
     void pointSelected(int index);
-    /// `drag`: the same number during one drag.
+    /// `drag`: constant during one drag.
     void weightChanged(int index, double weight, pellucid::ui::DragId drag);
 
 protected:

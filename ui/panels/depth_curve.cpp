@@ -16,7 +16,7 @@ using shading::largestCurveValue;
 DepthCurve::DepthCurve(const Theme &theme, QWidget *parent) : QWidget(parent), m_theme(theme) {
     setObjectName("depthCurve");
     setAccessibleName(tr("Weight by depth, far to near"));
-    setToolTip(tr("Weight by depth, far at the left, near at the right; drag its values"));
+    setToolTip(tr("Weight by depth, from far (left) to near (right); drag the points"));
     setFocusPolicy(Qt::StrongFocus);
     setFixedHeight(52);
 }
@@ -82,7 +82,7 @@ void DepthCurve::mouseMoveEvent(QMouseEvent *event) {
         return;
     const double value =
         (plot().bottom() - event->position().y()) / plot().height() * largestCurveValue;
-    // Round values: drags end where one would have typed.
+    // Drags produce round values, as if typed.
     emit valueChanged(m_selected,
                       std::clamp(std::round(value * 20.0) / 20.0, 0.0, largestCurveValue), m_drag);
 }

@@ -9,19 +9,19 @@
 
 namespace pellucid::ui {
 
-/// A depth cue as a curve from the far end (left) to the near one (right), weight 0 to 2 above. The
-/// values of a curve are dragged up and down; a double-click makes one 1.
+/// Edits a depth cue as a curve from the far end (left) to the near end (right), with weights from
+/// 0 to 2. Points are dragged up and down; a double-click resets one to 1.
 class DepthCurve : public QWidget {
     Q_OBJECT
 public:
     explicit DepthCurve(const Theme &theme, QWidget *parent = nullptr);
 
     void setCue(const shading::DepthCue &cue);
-    /// Where the handle of a value is drawn.
+    /// The center of a point's handle.
     QPointF handleAt(int index) const;
 
 signals:
-    /// `drag`: the same number during one drag.
+    /// `drag`: constant during one drag.
     void valueChanged(int index, double value, pellucid::ui::DragId drag);
 
 protected:

@@ -16,9 +16,9 @@ namespace pellucid::ui {
 
 namespace {
 
-// Of the widget's half side: around the sphere is room for lights behind it.
+// Fraction of the widget's half side. The margin is for lights behind the sphere.
 constexpr double sphereShare = 0.64;
-// How far from the middle a handle can be, in radii: a light straight behind.
+// The largest distance of a handle from the center, in radii: a light directly behind.
 constexpr double farthest = 1.3;
 constexpr double grabPixels = 9.0;
 constexpr double degreesPerKey = 5.0;
@@ -27,8 +27,8 @@ constexpr double degreesPerKey = 5.0;
 
 LightSphere::LightSphere(const Theme &theme, QWidget *parent) : QWidget(parent), m_theme(theme) {
     setObjectName("lightSphere");
-    setAccessibleName(tr("Directions of the lights"));
-    setToolTip(tr("Drag a light over the sphere; beyond its rim it shines from behind"));
+    setAccessibleName(tr("Light directions"));
+    setToolTip(tr("Drag a light over the sphere; beyond the rim, it shines from behind"));
     setFocusPolicy(Qt::StrongFocus);
     setFixedSize(96, 96);
 }
@@ -47,14 +47,14 @@ double LightSphere::radius() const {
     return 0.5 * sphereShare * std::min(width(), height());
 }
 
-// On the sphere a handle lies where its light's pole is; from the rim to `farthest` the angle to
-// the viewer grows from a right one to a straight one.
+// On the sphere, a handle is at its light's pole. From the rim to `farthest`, the angle to the
+// viewer increases from 90 to 180 degrees.
 QPointF LightSphere::handleAt(int index) const {
     const glm::dvec3 d = glm::normalize(m_lights[std::size_t(index)].direction);
     const double across = std::hypot(d.x, d.y);
-    const double beyond = std::atan2(-d.z, across) / (0.5 * std::numbers::pi); // of a right angle
+    const double beyond = std::atan2(-d.z, across) / (0.5 * std::numbers::pi); // in right angles
     const double shown = d.z < 0.0 ? 1.0 + beyond * (farthest - 1.0) : across;
-    // A light straight behind is nowhere on the rim: it is drawn above.
+    // A light directly behind has no direction on the rim: it is drawn at the top.
     const double x = across > 1e-9 ? d.x / across : 0.0, y = across > 1e-9 ? d.y / across : 1.0;
     return QPointF(0.5 * width() + radius() * shown * x, 0.5 * height() - radius() * shown * y);
 }
@@ -82,13 +82,13 @@ QImage LightSphere::drawnSphere() const {
                      glm::dvec3(one.color.red, one.color.green, one.color.blue);
         return light;
     };
-    // The brightest point is as bright as it gets: two lights leave a shape too. A sum of poles is
-    // brightest where they point on the whole.
-    glm::dvec3 on(0.0, 0.0, 1e-6), most(0.0);
+    // Scale so that the brightest point is not clipped: several lights must still show the shape. A
+    // sum of such lights is brightest in the direction of the weighted sum of their poles.
+    glm::dvec3 poles(0.0, 0.0, 1e-6), brightest(0.0);
     for (const shading::Light &one : m_lights)
-        on += one.strength * glm::normalize(one.direction);
-    most = lightAt(glm::normalize(on));
-    const double scale = 1.0 / std::max({1.0, most.x, most.y, most.z});
+        poles += one.strength * glm::normalize(one.direction);
+    brightest = lightAt(glm::normalize(poles));
+    const double scale = 1.0 / std::max({1.0, brightest.x, brightest.y, brightest.z});
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column) {
             const double x = 2.0 * (column + 0.5) / side - 1.0, y = 1.0 - 2.0 * (row + 0.5) / side;
@@ -97,7 +97,7 @@ QImage LightSphere::drawnSphere() const {
                 continue;
             const glm::dvec3 light = scale * lightAt({x, y, std::sqrt(1.0 - r)});
             const auto level = [](double l) { return int(std::lround(230.0 * std::min(1.0, l))); };
-            // The rim is smoothed over a pixel.
+            // Antialias the rim over one pixel.
             const double cover = std::clamp((1.0 - std::sqrt(r)) * 0.5 * side, 0.0, 1.0);
             image.setPixelColor(
                 column, row,
@@ -133,17 +133,17 @@ void LightSphere::paintEvent(QPaintEvent *) {
 void LightSphere::mousePressEvent(QMouseEvent *event) {
     m_drag = nextDragId();
     int nearest = -1;
-    double least = grabPixels;
+    double nearestDistance = grabPixels;
     for (int n = 0; n < int(m_lights.size()); ++n) {
         const QPointF away = handleAt(n) - event->position();
-        if (std::hypot(away.x(), away.y()) < least) {
-            least = std::hypot(away.x(), away.y());
+        if (std::hypot(away.x(), away.y()) < nearestDistance) {
+            nearestDistance = std::hypot(away.x(), away.y());
             nearest = n;
         }
     }
     if (nearest >= 0)
         emit lightSelected(nearest);
-    else // the chosen light goes where the click is
+    else // move the selected light to the click
         mouseMoveEvent(event);
 }
 

@@ -14,9 +14,9 @@
 
 namespace pellucid::ui {
 
-/// A sphere as the lights shine on it, seen by the viewer. Each light has a handle where its pole
-/// is: on the sphere, or around its rim when it is behind; it is dragged, or moved with the arrow
-/// keys.
+/// A sphere under the lights, as the viewer sees it. Each light has a handle at its pole: on the
+/// sphere, or outside its rim if the light is behind. Handles are moved by dragging or with the
+/// arrow keys.
 class LightSphere : public QWidget {
     Q_OBJECT
 public:
@@ -24,12 +24,12 @@ public:
 
     /// Lights in the viewer's frame.
     void setLights(const std::vector<shading::Light> &lights, double ambient, int selected);
-    /// Where the handle of a light is drawn.
+    /// The center of a light's handle.
     QPointF handleAt(int index) const;
 
 signals:
     void lightSelected(int index);
-    /// In the viewer's frame. `drag`: the same number during one drag.
+    /// `direction`: in the viewer's frame. `drag`: constant during one drag.
     void directionChanged(int index, const glm::dvec3 &direction, pellucid::ui::DragId drag);
 
 protected:
@@ -48,7 +48,7 @@ private:
     std::vector<shading::Light> m_lights;
     double m_ambient = 1.0;
     int m_selected = -1;
-    QImage m_sphere; ///< of these lights; null: to be drawn
+    QImage m_sphere; ///< cached for these lights; null: must be drawn
     DragId m_drag = noDrag;
 };
 

@@ -32,13 +32,13 @@ MeasurementsPanel::MeasurementsPanel(Document &document, QWidget *parent)
     m_list->header()->setStretchLastSection(false);
     m_list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     m_list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
-    m_hint->setText(tr("Distance, angle and regions: drag them on a plane. They stay with the "
-                       "study."));
+    m_hint->setText(
+        tr("Drag distances, angles and regions on a plane. They are kept with the study."));
     m_hint->setProperty("role", "muted");
     m_hint->setWordWrap(true);
     m_export->setObjectName("exportMeasurementsButton");
     m_export->setProperty("role", "link");
-    m_export->setToolTip(tr("Write the measurements as a table (CSV)"));
+    m_export->setToolTip(tr("Export the measurements as a table (CSV)"));
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(14, 0, 14, 8);
     column->addWidget(m_hint, 0, Qt::AlignTop);
@@ -63,7 +63,7 @@ QWidget *MeasurementsPanel::corner() {
 void MeasurementsPanel::showAll() {
     const QSignalBlocker quiet(m_list);
     const auto &all = m_document.measured();
-    // Rows stay while a drag changes their figures.
+    // Reuse rows: a drag changes only their figures.
     while (m_list->topLevelItemCount() > int(all.size()))
         delete m_list->takeTopLevelItem(m_list->topLevelItemCount() - 1);
     while (m_list->topLevelItemCount() < int(all.size())) {
@@ -100,7 +100,7 @@ void MeasurementsPanel::goTo(int index) {
     for (const glm::dvec3 &p : m.pointsMm)
         middle += p / double(m.pointsMm.size());
     m_document.setCrosshair({middle});
-    // A region drawn on a turned plane lies on none of the straight ones.
+    // A region drawn on a turned plane is visible only on a plane of that orientation.
     for (const mpr::Orientation o : mpr::allOrientations)
         if (std::abs(glm::dot(m_document.cut().axes.scrollAxis(o), m.axes.toViewer())) > 0.999)
             return;
@@ -113,7 +113,7 @@ void MeasurementsPanel::rename(int index, const QString &name) {
     auto all = m_document.measurements();
     const std::string wanted = name.simplified().toStdString();
     if (wanted.empty() || wanted == all[std::size_t(index)].name) {
-        showAll(); // back to the name it has
+        showAll(); // restore the name
         return;
     }
     all[std::size_t(index)].name = wanted;

@@ -13,20 +13,20 @@ namespace pellucid::ui {
 
 class Document;
 
-/// The measurements of the open study: name and figure. A click shows one, a second click on the
-/// name renames it, Delete removes it.
+/// Lists the measurements of the open study with name and figure. A click shows a measurement, a
+/// second click on its name renames it, Delete removes it.
 class MeasurementsPanel : public QWidget {
     Q_OBJECT
 public:
     explicit MeasurementsPanel(Document &document, QWidget *parent = nullptr);
 
-    /// Stands beside the panel's heading: writes the table.
+    /// The button beside the panel's heading, which exports the table.
     QWidget *corner();
     void removeSelected();
 
 signals:
     void exportRequested();
-    /// A distance in the plane of a projection: the view that it was measured in.
+    /// The view in which a projected distance was measured.
     void viewRequested(const glm::dvec3 &right, const glm::dvec3 &up);
 
 private:

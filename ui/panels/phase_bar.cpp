@@ -22,7 +22,7 @@ PhaseBar::PhaseBar(Phases &phases, QWidget *parent)
     m_play->setToolTip(tr("Play the phases (Shift+Space)"));
     m_slider->setObjectName("phaseSlider");
     m_slider->setAccessibleName(tr("Phase"));
-    m_slider->setToolTip(tr("Phase that is shown (keys , and .)"));
+    m_slider->setToolTip(tr("Phase shown (keys , and .)"));
     m_slider->setPageStep(1);
     m_slider->setTickPosition(QSlider::NoTicks);
     m_label->setObjectName("phaseLabel");

@@ -11,7 +11,7 @@ namespace pellucid::ui {
 
 class Phases;
 
-/// Chooses and plays the phases of the open series; hidden while it has one.
+/// Selects and plays the phases of the open series; hidden if there is only one.
 class PhaseBar : public QWidget {
     Q_OBJECT
 public:

@@ -28,7 +28,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// What a preset is kept under; its text is in the user's language.
+// The untranslated name of a preset.
 constexpr int nameRole = Qt::UserRole;
 
 constexpr QSize pictureSize{LookPreviewer::pictureWidth, LookPreviewer::pictureHeight};
@@ -44,7 +44,7 @@ QIcon emptyIcon() {
 PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_library(presets::PresetLibrary::ofUser()),
       m_save(new QPushButton), m_gallery(new QListWidget), m_name(new QLineEdit),
-      m_keep(new QPushButton(tr("Save"))), m_nameRow(new QWidget), m_said(new QLabel) {
+      m_confirm(new QPushButton(tr("Save"))), m_nameRow(new QWidget), m_message(new QLabel) {
     setObjectName("presetsPanel");
     setAttribute(Qt::WA_StyledBackground);
     m_gallery->setObjectName("presetGallery");
@@ -62,28 +62,28 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
     m_gallery->setContextMenuPolicy(Qt::CustomContextMenu);
     m_save->setText(tr("Save look"));
     m_save->setObjectName("saveLookButton");
-    m_save->setToolTip(tr("Keep what is shown as a preset of your own (Ctrl+S)"));
+    m_save->setToolTip(tr("Save the current look as your own preset (Ctrl+S)"));
     m_save->setProperty("role", "link");
     m_name->setObjectName("lookNameEdit");
     m_name->setAccessibleName(tr("Name of the look"));
     m_name->setMaxLength(60);
     m_name->installEventFilter(this);
-    m_keep->setObjectName("keepLookButton");
-    m_said->setObjectName("presetSaid");
-    m_said->setProperty("role", "warning");
-    m_said->setWordWrap(true);
-    m_said->hide();
+    m_confirm->setObjectName("keepLookButton");
+    m_message->setObjectName("presetSaid");
+    m_message->setProperty("role", "warning");
+    m_message->setWordWrap(true);
+    m_message->hide();
 
     auto *nameLayout = new QHBoxLayout(m_nameRow);
     nameLayout->setContentsMargins(0, 0, 0, 0);
     nameLayout->addWidget(m_name, 1);
-    nameLayout->addWidget(m_keep);
+    nameLayout->addWidget(m_confirm);
     m_nameRow->hide();
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(12, 0, 4, 6);
     column->setSpacing(2);
     column->addWidget(m_nameRow);
-    column->addWidget(m_said);
+    column->addWidget(m_message);
     column->addWidget(m_gallery, 1);
     connectControls();
     setEnabled(false);
@@ -93,7 +93,7 @@ PresetsPanel::PresetsPanel(Document &document, QWidget *parent)
 
 void PresetsPanel::connectControls() {
     connect(m_save, &QPushButton::clicked, this, &PresetsPanel::askForName);
-    connect(m_keep, &QPushButton::clicked, this, &PresetsPanel::saveLook);
+    connect(m_confirm, &QPushButton::clicked, this, &PresetsPanel::saveLook);
     connect(m_name, &QLineEdit::returnPressed, this, &PresetsPanel::saveLook);
     connect(m_gallery, &QListWidget::itemClicked, this, &PresetsPanel::apply);
     connect(m_gallery, &QListWidget::itemActivated, this, &PresetsPanel::apply);
@@ -114,12 +114,12 @@ QWidget *PresetsPanel::corner() {
 }
 
 template <class F> void PresetsPanel::attempt(const F &what) {
-    m_said->hide();
+    m_message->hide();
     try {
         what();
     } catch (const task::Error &error) {
-        m_said->setText(translated(error.reason()));
-        m_said->show();
+        m_message->setText(translated(error.reason()));
+        m_message->show();
         emit failed(error.reason(), QString::fromStdString(error.path().string()));
     }
 }
@@ -147,12 +147,12 @@ void PresetsPanel::list() {
     showCurrent();
     if (!m_library.skipped().empty()) {
         const auto &first = m_library.skipped().front();
-        m_said->setText(tr("%1 is no preset: %2")
-                            .arg(QString::fromStdString(first.path.filename().string()),
-                                 translated(first.reason)));
-        m_said->show();
+        m_message->setText(tr("%1 is not a preset: %2")
+                               .arg(QString::fromStdString(first.path.filename().string()),
+                                    translated(first.reason)));
+        m_message->show();
     }
-    if (m_document.volume()) // without presets there is still a histogram
+    if (m_document.volume()) // even without presets: the previewer also makes the histogram
         emit presetsListed(listed);
 }
 
@@ -178,10 +178,10 @@ void PresetsPanel::showCurrent() {
         emit lookNamed({});
         return;
     }
-    // Values without a unit have the window of their first phase.
+    // All phases of values without a unit use the window of the first.
     const bool isFree = m_document.volume()->unit() == volume::ValueUnit::none;
     const classify::FieldWindow defaultWindow = isFree ? shown : m_document.defaultFieldWindow();
-    QString current = tr("Own look");
+    QString current = tr("Custom look");
     if (scene.look == classify::Look() && scene.shading == shading::Shading() &&
         shown == defaultWindow)
         current = tr("Plain density");
@@ -214,12 +214,12 @@ void PresetsPanel::apply(QListWidgetItem *item) {
 void PresetsPanel::askForName() {
     if (!isEnabled())
         return;
-    // A name that is free: the second click is enough.
+    // Suggest an unused name, so that a second click is enough.
     int number = 1;
-    const auto name = [&] { return tr("Own look %1").arg(number); };
+    const auto name = [&] { return tr("Custom look %1").arg(number); };
     while (m_library.find(name().toStdString()) != nullptr)
         ++number;
-    m_said->hide();
+    m_message->hide();
     m_name->setText(name());
     m_nameRow->show();
     m_name->setFocus();
@@ -260,8 +260,8 @@ void PresetsPanel::remove(const QString &name) {
 }
 
 void PresetsPanel::importPreset() {
-    const QString path =
-        askForFile(this, tr("Import preset"), tr("Presets, 3D Slicer properties (*.json *.vp)"));
+    const QString path = askForFile(this, tr("Import preset"),
+                                    tr("Presets and 3D Slicer volume properties (*.json *.vp)"));
     if (path.isEmpty())
         return;
     attempt([&] {
@@ -270,20 +270,20 @@ void PresetsPanel::importPreset() {
         if (presets::isSlicerPreset(path.toStdString())) {
             auto imported = presets::importSlicerPreset(path.toStdString());
             preset = std::move(imported.preset);
-            fit = tr("'%1' was fitted; its opacity is met within %2")
+            fit = tr("'%1' was fitted; the largest error of its opacity is %2")
                       .arg(QString::fromStdString(preset.name))
                       .arg(imported.largestError, 0, 'g', 2);
         } else {
             preset = presets::readPreset(path.toStdString());
         }
-        // Nothing that is kept is lost to a file of the same name.
+        // An import must not replace a saved preset of the same name.
         const std::string wanted = preset.name;
         for (int n = 2; m_library.find(preset.name) != nullptr; ++n)
             preset.name = wanted + " " + std::to_string(n);
         m_library.save(preset);
         list();
-        m_said->setText(fit);
-        m_said->setVisible(!fit.isEmpty());
+        m_message->setText(fit);
+        m_message->setVisible(!fit.isEmpty());
     });
 }
 
@@ -294,14 +294,14 @@ void PresetsPanel::exportPreset() {
     const auto *entry = current != nullptr
                             ? m_library.find(current->data(nameRole).toString().toStdString())
                             : nullptr;
-    const QString name = entry != nullptr ? current->data(nameRole).toString() : tr("Own look");
+    const QString name = entry != nullptr ? current->data(nameRole).toString() : tr("Custom look");
     const auto exported = entry != nullptr
                               ? entry->preset
                               : presets::presetOf(name.toStdString(), m_document.scene().look,
                                                   m_document.scene().shading,
                                                   m_document.fieldWindow(), *m_document.volume());
     const QString path =
-        askWhereToWrite(this, tr("Export preset"), name + ".json", tr("Preset (*.json)"));
+        askForSavePath(this, tr("Export preset"), name + ".json", tr("Preset (*.json)"));
     if (path.isEmpty())
         return;
     attempt([&] {
@@ -312,7 +312,7 @@ void PresetsPanel::exportPreset() {
 
 void PresetsPanel::showMenu(const QPoint &at) {
     const QListWidgetItem *item = m_gallery->itemAt(at);
-    // The gallery may be listed anew while the menu is open.
+    // The gallery may be rebuilt while the menu is open.
     const QString name = item != nullptr ? item->data(nameRole).toString() : QString();
     const auto *entry = m_library.find(name.toStdString());
     if (entry == nullptr)

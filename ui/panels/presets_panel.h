@@ -16,26 +16,26 @@ namespace pellucid::ui {
 
 class Document;
 
-/// The presets that suit the open study, each with a small picture of it; choosing one shows the
-/// study through it, and the look that is shown is kept by two clicks.
+/// The presets that suit the open study, each with a small picture of it. A click applies a preset;
+/// two clicks save the current look as one.
 class PresetsPanel : public QWidget {
     Q_OBJECT
 public:
     explicit PresetsPanel(Document &document, QWidget *parent = nullptr);
 
-    /// Stands beside the panel's heading.
+    /// The button beside the panel's heading.
     QWidget *corner();
     void setPicture(const QString &preset, const QImage &picture);
-    /// Asks for the name that the shown look is to be kept under.
+    /// Asks for a name under which to save the current look.
     void askForName();
     void importPreset();
     void exportPreset();
     const presets::PresetLibrary &library() const { return m_library; }
 
 signals:
-    /// The presets that are listed; pictures are wanted of them.
+    /// The presets in the list, which need pictures.
     void presetsListed(const std::vector<pellucid::presets::Preset> &presets);
-    /// The name of the preset that is shown, or that it is one's own.
+    /// The name of the current preset, or text for a look that is not a preset.
     void lookNamed(const QString &name);
     void failed(const pellucid::task::Reason &what, const QString &path);
 
@@ -51,7 +51,7 @@ private:
     void saveLook();
     void remove(const QString &name);
     void showMenu(const QPoint &at);
-    /// Runs it and reports what it throws.
+    /// Runs `what` and reports a task::Error that it throws.
     template <class F> void attempt(const F &what);
     bool suits(const presets::Preset &preset) const;
 
@@ -60,9 +60,9 @@ private:
     QPushButton *m_save;
     QListWidget *m_gallery;
     QLineEdit *m_name;
-    QPushButton *m_keep;
+    QPushButton *m_confirm;
     QWidget *m_nameRow;
-    QLabel *m_said;
+    QLabel *m_message;
 };
 
 } // namespace pellucid::ui

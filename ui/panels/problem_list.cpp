@@ -19,11 +19,11 @@ namespace {
 
 namespace because = task::because;
 
-// So many files of one reason still have a row each; so many paths a tip names.
-constexpr std::size_t mostRows = 3, mostInTip = 20;
-constexpr int mostHeight = 170;
+// More files than this with the same reason share a row; a tooltip names at most this many paths.
+constexpr std::size_t maxRows = 3, maxTipPaths = 20;
+constexpr int maxHeight = 170;
 
-// Files that are no images at all are no errors.
+// Files that are not images are not errors.
 bool isNoImage(const task::Reason &reason) {
     return reason.is(because::isNotDicom) || reason.is(because::hasNoPixels) ||
            reason.is(because::hasNoPixelsBut) || reason.is(because::isAnIndex) ||
@@ -37,7 +37,7 @@ ProblemList::ProblemList(Document &document, const Theme &theme, QWidget *parent
       m_list(new QListWidget) {
     m_list->setObjectName("problemList");
     m_list->setAccessibleName(tr("Problems"));
-    m_list->setToolTip(tr("Files that are not used, and why"));
+    m_list->setToolTip(tr("Files not used, and why"));
     m_list->setWordWrap(true);
     m_list->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
@@ -49,7 +49,7 @@ ProblemList::ProblemList(Document &document, const Theme &theme, QWidget *parent
     auto *clear = new QPushButton(tr("Clear"));
     clear->setObjectName("clearProblemsButton");
     clear->setProperty("role", "link");
-    clear->setToolTip(tr("They have been read"));
+    clear->setToolTip(tr("Clear the list"));
     connect(clear, &QPushButton::clicked, &document, &Document::clearProblems);
     auto *row = new QHBoxLayout;
     row->addWidget(m_heading, 1);
@@ -83,10 +83,10 @@ void ProblemList::showProblems() {
         QStringList paths;
         for (const dicom::Skipped *problem : same)
             paths << QString::fromStdString(problem->path.string());
-        if (same.size() > mostRows) {
-            QString tip = paths.mid(0, mostInTip).join("\n");
-            if (same.size() > mostInTip)
-                tip += "\n" + tr("and %n more", "", int(same.size() - mostInTip));
+        if (same.size() > maxRows) {
+            QString tip = paths.mid(0, maxTipPaths).join("\n");
+            if (same.size() > maxTipPaths)
+                tip += "\n" + tr("and %n more", "", int(same.size() - maxTipPaths));
             add(tr("%n files: %1", "", int(same.size())).arg(why), tip, *reason);
             continue;
         }
@@ -100,14 +100,14 @@ void ProblemList::showProblems() {
     setVisible(!problems.empty());
 }
 
-// As high as the lines are at this width, within bounds.
+// Fits the height to the wrapped lines, up to a maximum.
 void ProblemList::fitHeight() {
     m_list->doItemsLayout();
     int height = 2 * m_list->frameWidth() + 2;
-    for (int row = 0; row < m_list->count() && height < mostHeight; ++row)
+    for (int row = 0; row < m_list->count() && height < maxHeight; ++row)
         height += std::max(m_list->sizeHintForRow(row),
                            m_list->visualItemRect(m_list->item(row)).height());
-    m_list->setFixedHeight(std::min(height, mostHeight));
+    m_list->setFixedHeight(std::min(height, maxHeight));
 }
 
 void ProblemList::resizeEvent(QResizeEvent *event) {

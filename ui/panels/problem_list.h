@@ -12,8 +12,8 @@ namespace pellucid::ui {
 
 class Document;
 
-/// What openings and imports did not use, and why, until it is cleared: one list, not a message for
-/// each file. Many files of one reason are one row. Hidden while there is nothing to say.
+/// Lists the files that were not used when opening or importing, with reasons, until the user
+/// clears it. Many files with the same reason share a row. Hidden while empty.
 class ProblemList : public QWidget {
     Q_OBJECT
 public:

@@ -21,7 +21,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// The exact reference is not an engine: it takes seconds a picture.
+// Without the exact reference, which takes seconds for each picture.
 constexpr std::size_t qualityCount = 4;
 
 QString percent(double share) {
@@ -42,7 +42,7 @@ QString spectraName(plan::SpectrumOf what) {
     case plan::SpectrumOf::look:
         return QObject::tr("look %1");
     case plan::SpectrumOf::channel:
-        return QObject::tr("colours %1");
+        return QObject::tr("colors %1");
     case plan::SpectrumOf::layer:
         return QObject::tr("layers %1");
     case plan::SpectrumOf::gradient:
@@ -54,13 +54,13 @@ QString spectraName(plan::SpectrumOf what) {
 QString whySpectra(plan::SpectrumOf what) {
     switch (what) {
     case plan::SpectrumOf::look:
-        return QObject::tr("All that is shown has one colour, so it adds up to one field");
+        return QObject::tr("Everything shown has one color, so it adds up to one field");
     case plan::SpectrumOf::channel:
-        return QObject::tr("Colours are mixed, so red, green and blue have a field each");
+        return QObject::tr("Colors are mixed, so red, green and blue each have a field");
     case plan::SpectrumOf::layer:
-        return QObject::tr("Weights are being changed, so each layer keeps a spectrum of its own");
+        return QObject::tr("Weights are changing, so each layer keeps its own spectrum");
     case plan::SpectrumOf::gradient:
-        return QObject::tr("Light shines on the gradient, which has a spectrum of its own");
+        return QObject::tr("Light acts on the gradient, which has its own spectrum");
     }
     return {};
 }
@@ -89,7 +89,7 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_more->setObjectName("moreQualityButton");
     m_more->setProperty("role", "link");
     m_more->setCheckable(true);
-    m_more->setToolTip(tr("What the plan chooses, to be chosen by hand"));
+    m_more->setToolTip(tr("Override what the planner chose"));
     const std::array<QWidget *, 8> expert{m_kernel, m_padding,   m_storage, m_largest,
                                           m_padded, m_tolerance, m_model,   m_leftOut};
     const auto showExpert = [form, expert](bool isShown) {
@@ -110,65 +110,62 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
 }
 
 void QualityPanel::addChoices(QFormLayout *form) {
-    m_quality = addBox(form, tr("Quality"), "qualityBox", tr("The largest error that is allowed"));
+    m_quality = addBox(form, tr("Quality"), "qualityBox", tr("Largest error allowed"));
     const std::array<QString, qualityCount> names{tr("Draft"), tr("Interactive"), tr("Standard"),
                                                   tr("Fine")};
     for (std::size_t n = 0; n < qualityCount; ++n)
         m_quality->addItem(names[n], scene::namedTolerances[n].tolerance);
-    m_quality->addItem(tr("Own"));
+    m_quality->addItem(tr("Custom"));
     m_tolerance = new QLineEdit;
     m_tolerance->setObjectName("toleranceEdit");
     m_tolerance->setAccessibleName(tr("Tolerance"));
-    m_tolerance->setToolTip(
-        tr("Largest error of the picture, relative to it: 0.0001 to 30 percent"));
+    m_tolerance->setToolTip(tr("Largest relative error of the picture: 0.0001 to 30 percent"));
     form->addRow(tr("Tolerance"), m_tolerance);
-    m_reconstruction = addBox(form, tr("Between"), "reconstructionBox",
-                              tr("What lies between the samples of the volume"));
+    m_reconstruction = addBox(form, tr("Interpolation"), "reconstructionBox",
+                              tr("Interpolation between the samples of the volume"));
     m_reconstruction->addItem(tr("Cubic"), int(scene::Reconstruction::cubic));
     m_reconstruction->addItem(tr("Linear"), int(scene::Reconstruction::linear));
     m_reconstruction->addItem(tr("Spline"), int(scene::Reconstruction::spline));
     m_reconstruction->addItem(tr("Sharp (band-limited)"), int(scene::Reconstruction::bandLimited));
     m_kernel = addBox(form, tr("Kernel"), "kernelBox", tr("How the spectrum is interpolated"));
-    m_kernel->addItem(tr("As needed"), QString());
+    m_kernel->addItem(tr("Automatic"), QString());
     for (const char *name : {"LS3", "LS4", "LS5", "LS6", "LS7", "ES4", "ES5", "KB4", "KB5",
                              "hamming-sinc", "b-spline", "catmull-rom", "trilinear", "nearest"})
         m_kernel->addItem(name, QString(name));
     m_padding = addBox(form, tr("Padding"), "paddingBox",
-                       tr("Padded size over the field's, at least, along each axis"));
-    m_padding->addItem(tr("As needed"), 0.0);
+                       tr("Minimum ratio of the padded size to the field's along each axis"));
+    m_padding->addItem(tr("Automatic"), 0.0);
     for (const double padding : {1.25, 1.5, 2.0})
         m_padding->addItem(QString::number(padding), padding);
-    m_storage =
-        addBox(form, tr("Storage"), "storageBox", tr("How a number of the spectrum is kept"));
-    m_storage->addItem(tr("As needed"), QString());
+    m_storage = addBox(form, tr("Storage"), "storageBox", tr("Number format of the spectrum"));
+    m_storage->addItem(tr("Automatic"), QString());
     m_storage->addItem(tr("16 bit"), QString("f16"));
     m_storage->addItem(tr("32 bit"), QString("f32"));
 }
 
 void QualityPanel::addFigures(QFormLayout *form) {
-    m_time = addFigure(form, tr("Frame"), "frameTimeLabel", tr("Time that the last frame took"));
-    m_error = addFigure(
-        form, tr("Error"), "predictedErrorLabel",
-        tr("Relative error of a picture of the whole from any side, predicted; that of the picture "
-           "shown is beside it"));
-    m_largest =
-        addFigure(form, tr("Largest"), "predictedMaximumLabel",
-                  tr("Largest error of a pixel over the brightest pixel of the whole, predicted"));
+    m_time = addFigure(form, tr("Frame"), "frameTimeLabel", tr("Time of the last frame"));
+    m_error = addFigure(form, tr("Error"), "predictedErrorLabel",
+                        tr("Predicted relative error of a picture of the whole from any side; the "
+                           "error of the picture shown is beside it"));
+    m_largest = addFigure(
+        form, tr("Worst pixel"), "predictedMaximumLabel",
+        tr("Predicted largest error of a pixel, relative to the brightest pixel of the whole"));
     m_plan = addFigure(form, tr("Plan"), "planLabel", tr("Kernel, storage and memory in use"));
     m_padded = addFigure(form, tr("Padded"), "paddingLabel",
-                         tr("Padded size over size, along columns, rows and slices"));
+                         tr("Padded size relative to the field's, along columns, rows and slices"));
     m_model = addFigure(form, tr("Per frame"), "modelLabel",
-                        tr("Spectra, slices of them, images, and the multiplications of a frame"));
+                        tr("Spectra, slices, images and multiplications that a frame needs"));
     m_model->setWordWrap(true);
-    m_leftOut = addFigure(form, tr("Left out"), "leftOutLabel",
-                          tr("Stages that this scene does not need and that are skipped"));
+    m_leftOut = addFigure(form, tr("Skipped"), "leftOutLabel",
+                          tr("Stages that are skipped because this scene does not need them"));
     m_leftOut->setWordWrap(true);
     m_reason = new QLabel;
     m_reason->setObjectName("planReasonLabel");
     m_reason->setProperty("role", "muted");
     m_reason->setWordWrap(true);
     m_reason->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-    // Room for the usual reason: a dock does not grow with the text of its panel.
+    // Reserve two lines: a dock does not grow with the text of its panel.
     m_reason->setMinimumHeight(2 * m_reason->fontMetrics().lineSpacing());
     form->addRow(m_reason);
 }
@@ -219,7 +216,7 @@ void QualityPanel::change(const QString &what, const std::function<void(scene::S
 
 void QualityPanel::chooseTolerance(int index) {
     const QVariant tolerance = m_quality->itemData(index);
-    if (!tolerance.isValid()) { // a tolerance of one's own is typed
+    if (!tolerance.isValid()) { // custom: typed in the edit box
         m_more->setChecked(true);
         m_tolerance->setFocus();
         m_tolerance->selectAll();
@@ -232,17 +229,17 @@ void QualityPanel::typeTolerance() {
     if (m_tolerance->text() == percent(m_document.scene().tolerance))
         return;
     bool isNumber = false;
-    // Both decimal signs are typed, whatever the machine's language.
+    // Accept both decimal separators in any locale.
     const QString text = m_tolerance->text().remove('%').replace(',', '.').trimmed();
     const double typed = text.toDouble(&isNumber) / 100.0;
-    // Below what single precision holds there is nothing to choose, above a third nothing to see.
+    // Below 1e-6, single precision cannot follow; above 0.3, the picture is useless.
     const bool good = isNumber && std::isfinite(typed) && typed >= 1e-6 && typed <= 0.3;
     if (good) {
-        // The box would take the undo keys for itself.
+        // With focus, the edit box would take the undo keys.
         m_tolerance->clearFocus();
         change(tr("Tolerance"), [&](scene::Scene &scene) { scene.tolerance = typed; });
     } else {
-        say(tr("'%1' is no tolerance: 0.0001 to 30 percent").arg(text), true);
+        showReason(tr("'%1' is not a tolerance: enter 0.0001 to 30 percent").arg(text), true);
     }
     showScene();
 }
@@ -259,7 +256,7 @@ void QualityPanel::showScene() {
     m_reconstruction->setCurrentIndex(m_reconstruction->findData(int(scene.image.reconstruction)));
     const auto show = [](QComboBox *box, const std::string &name) {
         const QString text = QString::fromStdString(name);
-        if (box->findData(text) < 0) // from a scene file
+        if (box->findData(text) < 0) // a value from a scene file
             box->addItem(text, text);
         box->setCurrentIndex(box->findData(text));
     };
@@ -276,7 +273,7 @@ void QualityPanel::clearPlan() {
     for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_leftOut})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
-    m_frameOf.reset();
+    m_shownFrame.reset();
 }
 
 void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
@@ -284,12 +281,12 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     const plan::RenderPlan &plan = shown.prepared.plan;
     const auto &spectrum = plan.spectrum;
     const bool missed = shown.predictedError > m_document.scene().tolerance;
-    // A coarse picture lacks detail of the study, which no plan knows of.
+    // A coarse picture lacks detail of the study, which the plan does not include.
     const bool isCoarse = shown.prepared.isCoarse;
     const QString unknown = tr("not known yet");
     const std::optional<double> error = prepare::errorAgainstStudy(
         shown.prepared, shown.predictedError, m_document.scene().shading);
-    // No bound is known for a sum of layers, only for each layer.
+    // A bound is known for each layer, but not for their sum.
     const bool isBound = !isCoarse && shown.prepared.of != plan::SpectrumOf::layer;
     m_error->setText(!error    ? unknown
                      : isBound ? tr("at most %1").arg(percent(*error))
@@ -305,28 +302,29 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
                         .arg(8 * fourier::bytesPerCell(spectrum.storage) / 2)
                         .arg(spectrum.bytes() >> 20));
     const render::EngineParts parts = shown.prepared.engine->parts();
-    m_frameOf = {plan,
-                 {int(parts.spectra.fields.size()), shown.prepared.of,
-                  !render::areGrey(parts.channelWeights)},
-                 !parts.spectra.gradients.empty()};
+    m_shownFrame = {plan,
+                    {int(parts.spectra.fields.size()), shown.prepared.of,
+                     !render::areGrey(parts.channelWeights)},
+                    !parts.spectra.gradients.empty()};
     showModel();
     const QString reason = translated(plan.reason);
     const bool isSum = shown.prepared.of == plan::SpectrumOf::layer;
-    say(isSum ? tr("The parts of the look, summed while they change")
-        : coarse || stage == EngineStage::live ? tr("A first, coarse picture; the full one follows")
-        : missed                               ? tr("More error than allowed: %1").arg(reason)
-                                               : tr("It is %1").arg(reason),
-        missed && (stage == EngineStage::full || stage == EngineStage::settled));
+    showReason(isSum ? tr("The layers of the look, summed while their weights change")
+               : coarse || stage == EngineStage::live
+                   ? tr("A coarse picture first; the full one follows")
+               : missed ? tr("The error exceeds the tolerance: %1").arg(reason)
+                        : tr("Plan: %1").arg(reason),
+               missed && (stage == EngineStage::full || stage == EngineStage::settled));
 }
 
 void QualityPanel::showModel() {
-    if (!m_document.volume() || !m_frameOf)
+    if (!m_document.volume() || !m_shownFrame)
         return;
     scene::Scene scene = m_document.scene();
-    if (!m_frameOf->isLit)
+    if (!m_shownFrame->isLit)
         scene.shading.lights.clear();
-    const plan::FrameModel model =
-        plan::modelFrame(m_frameOf->plan, scene, m_frameOf->fields, m_document.volume()->lattice());
+    const plan::FrameModel model = plan::modelFrame(m_shownFrame->plan, scene, m_shownFrame->fields,
+                                                    m_document.volume()->lattice());
     QStringList spectra, reasons;
     for (const plan::FrameModel::Spectra &kind : model.spectra) {
         spectra << spectraName(kind.of).arg(kind.count);
@@ -348,28 +346,28 @@ void QualityPanel::showModel() {
             leftOut << tr("depth cue");
             break;
         case plan::LeftOut::color:
-            leftOut << tr("colours");
+            leftOut << tr("color");
             break;
         case plan::LeftOut::emptySpace:
             leftOut << tr("empty space");
             break;
-        case plan::LeftOut::secondHalf: // of every plan
+        case plan::LeftOut::secondHalf: // skipped in every plan
         case plan::LeftOut::cornersOfBand:
             break;
         }
     m_leftOut->setText(leftOut.isEmpty() ? tr("nothing") : leftOut.join(", "));
 }
 
-void QualityPanel::say(const QString &text, bool isWarning) {
+void QualityPanel::showReason(const QString &text, bool isWarning) {
     m_reason->setText(text);
     m_reason->setProperty("role", isWarning ? "warning" : "muted");
-    m_reason->style()->polish(m_reason); // the style sheet asks for the role
+    m_reason->style()->polish(m_reason); // the style sheet depends on the role
 }
 
 void QualityPanel::showFrame(const picture::FrameTimes &times, bool draft) {
     const QString text = millisecondsText(times.totalMs());
     m_time->setText(draft ? tr("%1, draft").arg(text) : text);
-    if (!draft) // the pane may have another size
+    if (!draft) // the size of the pane may have changed
         showModel();
 }
 

@@ -20,19 +20,19 @@ namespace pellucid::ui {
 
 class Document;
 
-/// How exact and how fast the projection is: what the user asks for, and what came of it.
+/// The requested quality of the projection, and the resulting error, speed and plan.
 class QualityPanel : public QWidget {
     Q_OBJECT
 public:
     explicit QualityPanel(Document &document, QWidget *parent = nullptr);
 
-    /// Stands beside the panel's heading: shows what experts choose.
+    /// The button beside the panel's heading, which shows the expert settings.
     QWidget *corner();
     void showPlan(const ShownEngine &shown, EngineStage stage);
     void showFrame(const picture::FrameTimes &times, bool draft);
 
 signals:
-    /// What the scene asks for already was chosen once more, as after a cancelled preparation.
+    /// The current value was chosen again, for example to repeat a cancelled preparation.
     void chosenAgain();
 
 private:
@@ -42,20 +42,20 @@ private:
     void showScene();
     void clearPlan();
     void showModel();
-    void say(const QString &text, bool isWarning);
+    void showReason(const QString &text, bool isWarning);
     void chooseTolerance(int index);
     void typeTolerance();
     void change(const QString &what, const std::function<void(scene::Scene &)> &edit);
 
-    /// What the frames shown are made of.
-    struct FrameOf {
+    /// The plan and fields of the frames shown.
+    struct ShownFrame {
         plan::RenderPlan plan;
         plan::FrameFields fields;
         bool isLit = false;
     };
 
     Document &m_document;
-    std::optional<FrameOf> m_frameOf;
+    std::optional<ShownFrame> m_shownFrame;
     QPushButton *m_more;
     QComboBox *m_quality, *m_reconstruction, *m_kernel, *m_padding, *m_storage;
     QLineEdit *m_tolerance;

@@ -30,7 +30,7 @@ using shading::LightFrame;
 using shading::Shading;
 
 constexpr double defaultCue = 0.6, defaultLight = 0.8;
-// Beside the density as it is the light of surfaces is faint.
+// Lit surfaces are faint beside the full density.
 constexpr double ambientUnderLight = 0.1;
 
 QPushButton *linkButton(const QString &text, const char *name, const QString &tip) {
@@ -47,8 +47,8 @@ QIcon colorIcon(const classify::Color &color) {
     return QIcon(pixmap);
 }
 
-// The first light comes from the upper left; each further one is a third of a turn away, and the
-// next three lie between them.
+// The first light comes from the upper left; the next two are a third of a turn apart, and each
+// further three are between those.
 Light newLight(std::size_t count) {
     const double turn =
         2.0 * std::numbers::pi * (0.35 + double(count % 3) / 3.0 + double(count / 3) / 9.0);
@@ -63,10 +63,11 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
       m_strength(new ValueSlider({1.0, defaultCue}, "cueSlider", "cueValue")),
       m_light(new ValueSlider({1.0, defaultLight}, "lightSlider", "lightValue")),
       m_ambient(new ValueSlider({shading::largestAmbient, 1.0}, "ambientSlider", "ambientValue")),
-      m_reset(linkButton(tr("Reset"), "resetShadingButton", tr("No depth cue and no lights"))),
-      m_add(linkButton(tr("Add light"), "addLightButton", tr("One more light"))),
-      m_remove(linkButton(tr("Remove"), "removeLightButton", tr("Take the chosen light away"))),
-      m_color(linkButton({}, "lightColorButton", tr("Color of the chosen light"))),
+      m_reset(
+          linkButton(tr("Reset"), "resetShadingButton", tr("Remove the depth cue and all lights"))),
+      m_add(linkButton(tr("Add light"), "addLightButton", tr("Add a light"))),
+      m_remove(linkButton(tr("Remove"), "removeLightButton", tr("Remove the selected light"))),
+      m_color(linkButton({}, "lightColorButton", tr("Color of the selected light"))),
       m_follows(new QCheckBox(tr("Follows viewer"))) {
     setObjectName("shadingPanel");
     setAttribute(Qt::WA_StyledBackground);
@@ -89,27 +90,27 @@ ShadingPanel::ShadingPanel(Document &document, const Theme &theme, QWidget *pare
 void ShadingPanel::nameControls() {
     m_cue->setObjectName("cueBox");
     m_cue->setAccessibleName(tr("Depth cue"));
-    m_cue->setToolTip(tr("How what is near stands out from what is far"));
+    m_cue->setToolTip(tr("How near structures stand out from far ones"));
     for (const auto &[text, kind] : {std::pair{tr("No depth cue"), CueKind::none},
                                      {tr("Linear cue"), CueKind::linear},
                                      {tr("Sine cue"), CueKind::sine},
-                                     {tr("By a curve"), CueKind::curve}})
+                                     {tr("Custom curve"), CueKind::curve}})
         m_cue->addItem(text, int(kind));
     m_strength->setNames(tr("Strength of the depth cue"),
                          tr("Strength of the depth cue; double-click sets it to 0.6"));
     m_light->setNames(tr("Strength of the light"),
-                      tr("Strength of the chosen light; double-click sets it to 0.8"));
+                      tr("Strength of the selected light; double-click sets it to 0.8"));
     m_ambient->setNames(tr("Ambient light"),
-                        tr("How much of the density itself is seen; double-click sets it to 1"));
+                        tr("How much of the density itself is visible; double-click sets it to 1"));
     m_curveValues->setObjectName("curveValuesBox");
-    m_curveValues->setAccessibleName(tr("Number of the curve's values"));
-    m_curveValues->setToolTip(tr("Number of the curve's values: each costs up to two slices"));
+    m_curveValues->setAccessibleName(tr("Number of curve values"));
+    m_curveValues->setToolTip(tr("Number of curve values; each costs up to two slices"));
     m_curveValues->setRange(int(shading::minCurveValues), int(shading::maxCurveValues));
     m_curveValues->setFixedWidth(44);
     m_follows->setObjectName("followsViewerBox");
     m_follows->setToolTip(
-        tr("The chosen light stays where it is for the viewer, or on the patient"));
-    m_color->setAccessibleName(tr("Color of the light"));
+        tr("The selected light follows the viewer; otherwise, it stays with the patient"));
+    m_color->setAccessibleName(tr("Light color"));
 }
 
 void ShadingPanel::layOut() {
@@ -157,7 +158,7 @@ void ShadingPanel::connectCue() {
     });
     connect(m_curveValues, &QSpinBox::valueChanged, this, [this](int count) {
         change(tr("Depth cue"), noDrag, [&](Shading &s) {
-            // The same curve by other values.
+            // Resample the same curve.
             std::vector<double> values;
             for (int n = 0; n < count; ++n)
                 values.push_back(std::clamp(shading::DepthCue{CueKind::curve, 1.0, s.cue.curve}.at(
@@ -246,7 +247,7 @@ void ShadingPanel::chooseCue(int index) {
     change(tr("Depth cue"), noDrag, [&](Shading &s) {
         s.cue.kind = CueKind(m_cue->itemData(index).toInt());
         if (s.cue.kind == CueKind::curve && s.cue.curve == shading::DepthCue().curve)
-            s.cue.curve = {0.0, 2.0, 0.0}; // the middle stands out
+            s.cue.curve = {0.0, 2.0, 0.0}; // emphasize the middle
     });
 }
 
@@ -269,7 +270,7 @@ void ShadingPanel::addLight() {
     if (count >= shading::maxLights)
         return;
     m_selected = int(count);
-    change(tr("Add a light"), noDrag, [&](Shading &s) {
+    change(tr("Add light"), noDrag, [&](Shading &s) {
         if (s.lights.empty() && s.ambient == 1.0)
             s.ambient = ambientUnderLight;
         s.lights.push_back(newLight(count));
@@ -279,7 +280,7 @@ void ShadingPanel::addLight() {
 void ShadingPanel::removeLight() {
     const int index = selectedLight();
     if (index >= 0)
-        change(tr("Remove a light"), noDrag, [&](Shading &s) {
+        change(tr("Remove light"), noDrag, [&](Shading &s) {
             s.lights.erase(s.lights.begin() + index);
             if (s.lights.empty() && s.ambient == ambientUnderLight)
                 s.ambient = 1.0;
@@ -287,7 +288,7 @@ void ShadingPanel::removeLight() {
 }
 
 void ShadingPanel::reset() {
-    change(tr("Reset the shading"), noDrag, [](Shading &s) { s = {}; });
+    change(tr("Reset shading"), noDrag, [](Shading &s) { s = {}; });
 }
 
 void ShadingPanel::chooseColor() {
@@ -297,9 +298,9 @@ void ShadingPanel::chooseColor() {
     const classify::Color &now = m_document.scene().shading.lights[std::size_t(index)].color;
     const QColor chosen =
         QColorDialog::getColor(QColor::fromRgbF(float(now.red), float(now.green), float(now.blue)),
-                               this, tr("Color of the light"));
+                               this, tr("Light color"));
     if (chosen.isValid())
-        change(tr("Color of a light"), noDrag, [&](Shading &s) {
+        change(tr("Light color"), noDrag, [&](Shading &s) {
             s.lights[std::size_t(index)].color = {chosen.red() / 255.0, chosen.green() / 255.0,
                                                   chosen.blue() / 255.0};
         });
@@ -309,9 +310,9 @@ void ShadingPanel::setFollowsViewer(bool followsViewer) {
     const int index = selectedLight();
     if (index < 0)
         return;
-    // The light stays where it is now.
+    // Keep the current direction of the light.
     const glm::dmat3 axes = m_document.scene().camera.axes();
-    change(tr("What a light follows"), noDrag, [&](Shading &s) {
+    change(tr("Light follows viewer or patient"), noDrag, [&](Shading &s) {
         Light &light = s.lights[std::size_t(index)];
         const bool followed = light.frame == LightFrame::viewer;
         if (followed && !followsViewer)
@@ -324,7 +325,7 @@ void ShadingPanel::setFollowsViewer(bool followsViewer) {
 
 void ShadingPanel::turnLight(int index, const glm::dvec3 &direction, DragId drag) {
     const glm::dmat3 axes = m_document.scene().camera.axes();
-    change(tr("Direction of a light"), drag, [&](Shading &s) {
+    change(tr("Light direction"), drag, [&](Shading &s) {
         Light &light = s.lights[std::size_t(index)];
         light.direction = light.frame == LightFrame::patient ? axes * direction : direction;
     });

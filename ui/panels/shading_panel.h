@@ -21,15 +21,15 @@ class Document;
 class LightSphere;
 class ValueSlider;
 
-/// What gives the projection depth: the depth cue, the lights on a sphere, the ambient light.
+/// The shading of the projection: depth cue, lights on a sphere, ambient light.
 class ShadingPanel : public QWidget {
     Q_OBJECT
 public:
     ShadingPanel(Document &document, const Theme &theme, QWidget *parent = nullptr);
 
-    /// Stands beside the panel's heading: takes cue and lights away.
+    /// The button beside the panel's heading, which removes the cue and all lights.
     QWidget *corner();
-    /// What the menu does too.
+    /// Also used by the menu.
     void toggleCue();
     void addLight();
     void reset();
@@ -59,7 +59,7 @@ private:
     QPushButton *m_reset, *m_add, *m_remove, *m_color;
     QCheckBox *m_follows;
     int m_selected = 0;
-    shading::CueKind m_lastCue = shading::CueKind::linear; ///< what was switched off
+    shading::CueKind m_lastCue = shading::CueKind::linear; ///< used when switched on again
 };
 
 } // namespace pellucid::ui

@@ -19,8 +19,8 @@ SpectrumPanel::SpectrumPanel(const Theme &theme, QWidget *parent)
     m_hint->setAlignment(Qt::AlignTop | Qt::AlignLeft);
     m_readout->setObjectName("spectrumReadout");
     m_readout->setProperty("role", "small");
-    m_readout->setAccessibleName(tr("Frequency and strength below the mouse"));
-    m_readout->setFixedHeight(m_readout->fontMetrics().height()); // nothing moves when it is empty
+    m_readout->setAccessibleName(tr("Frequency and strength under the mouse"));
+    m_readout->setFixedHeight(m_readout->fontMetrics().height()); // also when empty
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(14, 2, 14, 8);
     column->setSpacing(0);
@@ -44,7 +44,7 @@ void SpectrumPanel::clear(const std::optional<task::Reason> &reason) {
     m_plot->hide();
     m_readout->hide();
     m_hint->setText(reason ? translated(*reason)
-                           : tr("The spectrum of the view that the projection shows."));
+                           : tr("The spectrum of the projection's current view."));
     m_hint->show();
 }
 

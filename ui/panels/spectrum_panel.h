@@ -15,18 +15,18 @@ namespace pellucid::ui {
 
 class SpectrumPlot;
 
-/// The slice of the spectrum that the projection's view takes, with what lies below the mouse.
+/// The slice of the spectrum that the projection's view takes, with a readout at the mouse.
 class SpectrumPanel : public QWidget {
     Q_OBJECT
 public:
     explicit SpectrumPanel(const Theme &theme, QWidget *parent = nullptr);
 
     void showSlice(const render::SpectrumSlice &slice);
-    /// `reason`: why there is none; none: nothing is open.
+    /// `reason`: why there is no slice; none if no study is open.
     void clear(const std::optional<task::Reason> &reason);
 
 signals:
-    /// Whether it is on the screen.
+    /// Whether the panel is visible.
     void visibilityChanged(bool isVisible);
 
 protected:

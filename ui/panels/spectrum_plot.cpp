@@ -13,12 +13,12 @@ namespace pellucid::ui {
 
 namespace {
 
-// Room for what stands around the square. Logical pixels.
-constexpr double left = 30.0, above = 6.0, besides = 10.0, below = 54.0;
+// Margins around the square. *Units*: logical pixels.
+constexpr double leftMargin = 30.0, topMargin = 6.0, rightMargin = 10.0, bottomMargin = 54.0;
 constexpr double tick = 4.0, labelHeight = 14.0, scaleHeight = 6.0;
 constexpr int labelPixels = 10;
 
-// 1, 2 or 5 times a power of ten: at most two steps to either side of 0.
+// 1, 2 or 5 times a power of ten, with at most two steps on either side of 0.
 double roundStep(double limit) {
     const double decade = std::pow(10.0, std::floor(std::log10(limit)));
     for (const double step : {0.5, 1.0, 2.0, 5.0})
@@ -27,7 +27,7 @@ double roundStep(double limit) {
     return 10.0 * decade;
 }
 
-// With a true minus, and no more decimals than the step has.
+// Formats a value with a true minus sign and the decimals of the step.
 QString numberText(double value, double step) {
     const int decimals = std::max(0, int(std::ceil(-std::log10(step) - 1e-9)));
     return QString::number(value, 'f', decimals).replace('-', QChar(0x2212));
@@ -59,9 +59,10 @@ void SpectrumPlot::setSlice(const std::optional<render::SpectrumSlice> &slice) {
 }
 
 QRectF SpectrumPlot::square() const {
-    const double side =
-        std::max(16.0, std::floor(std::min(width() - left - besides, height() - above - below)));
-    return {left + std::floor(0.5 * (width() - left - besides - side)), above, side, side};
+    const double side = std::max(16.0, std::floor(std::min(width() - leftMargin - rightMargin,
+                                                           height() - topMargin - bottomMargin)));
+    return {leftMargin + std::floor(0.5 * (width() - leftMargin - rightMargin - side)), topMargin,
+            side, side};
 }
 
 void SpectrumPlot::paintEvent(QPaintEvent *) {
@@ -72,7 +73,7 @@ void SpectrumPlot::paintEvent(QPaintEvent *) {
         return;
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     painter.drawImage(square, m_picture);
-    // The middle of the pixel of frequency 0 lies half a pixel from the middle of an even square.
+    // If the number of pixels is even, the pixel of frequency 0 is half a pixel off the center.
     const double pixel = square.width() / m_slice->side;
     const QPointF zero = square.topLeft() + (m_slice->side / 2 + 0.5) * QPointF(pixel, pixel);
     const double radius = m_slice->limitPerMm / m_slice->stepPerMm * pixel;
@@ -96,8 +97,8 @@ void SpectrumPlot::drawAxes(QPainter &painter) const {
     font.setPixelSize(labelPixels);
     painter.setFont(font);
     painter.setPen(m_theme.color("muted"));
-    const int most = int(m_slice->limitPerMm / step + 1e-9);
-    for (int n = -most; n <= most; ++n) {
+    const int maxTick = int(m_slice->limitPerMm / step + 1e-9);
+    for (int n = -maxTick; n <= maxTick; ++n) {
         const double away = n * step / m_slice->stepPerMm * pixel;
         const double x = std::floor(zero.x() + away) + 0.5, y = std::floor(zero.y() - away) + 0.5;
         const QString text = n == 0 ? QString("0") : numberText(n * step, step);
@@ -105,13 +106,13 @@ void SpectrumPlot::drawAxes(QPainter &painter) const {
         painter.drawText(QRectF(x - 30.0, square.bottom() + tick, 60.0, labelHeight),
                          Qt::AlignHCenter | Qt::AlignTop, text);
         painter.drawLine(QPointF(square.left() - tick, y), QPointF(square.left(), y));
-        painter.drawText(
-            QRectF(square.left() - left, y - 0.5 * labelHeight, left - tick - 2.0, labelHeight),
-            Qt::AlignRight | Qt::AlignVCenter, text);
+        painter.drawText(QRectF(square.left() - leftMargin, y - 0.5 * labelHeight,
+                                leftMargin - tick - 2.0, labelHeight),
+                         Qt::AlignRight | Qt::AlignVCenter, text);
     }
 }
 
-// Below the axis: its unit, and what grey means.
+// Draws the unit and the grey scale below the axis.
 void SpectrumPlot::drawScale(QPainter &painter) const {
     const QRectF square = this->square();
     const double unitTop = square.bottom() + tick + labelHeight;

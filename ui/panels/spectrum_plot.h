@@ -11,25 +11,25 @@
 
 namespace pellucid::ui {
 
-/// A slice of a spectrum with its axes in cycles per mm, the circle of its band, and the grey scale
+/// Draws a slice of a spectrum with axes in cycles per mm, the circle of its band, and a grey scale
 /// in decibels.
 class SpectrumPlot : public QWidget {
     Q_OBJECT
 public:
     explicit SpectrumPlot(const Theme &theme, QWidget *parent = nullptr);
 
-    /// None: an empty square.
+    /// None shows an empty square.
     void setSlice(const std::optional<render::SpectrumSlice> &slice);
-    /// The slice alone, one pixel for each frequency; null if there is none.
+    /// The slice without axes, one pixel for each frequency; null if there is no slice.
     const QImage &picture() const { return m_picture; }
-    /// The square of the slice. *Units*: logical pixels.
+    /// The square that contains the slice. *Units*: logical pixels.
     QRectF square() const;
 
     QSize sizeHint() const override { return {222, 260}; }
     QSize minimumSizeHint() const override { return {180, 230}; }
 
 signals:
-    /// What lies below the mouse, or nothing.
+    /// The readout at the mouse; empty if there is none.
     void pointedAt(const QString &text);
 
 protected:

@@ -34,7 +34,7 @@ StartPage::StartPage(QWidget *parent)
     auto *files =
         button(tr("Open files..."), "openFilesButton", tr("Choose DICOM or volume files (Ctrl+O)"));
     auto *folder = button(tr("Open folder..."), "openFolderButton",
-                          tr("Choose a folder; everything below it is looked at (Ctrl+Shift+O)"));
+                          tr("Choose a folder; it is searched recursively (Ctrl+Shift+O)"));
     auto *phantomTitle = new QLabel(tr("TRY A PHANTOM"));
     phantomTitle->setProperty("role", "heading");
     auto *head = button(tr("Head phantom"), "headPhantomButton",
@@ -48,7 +48,7 @@ StartPage::StartPage(QWidget *parent)
         layout->addWidget(widget, 0, Qt::AlignHCenter);
     };
     add(title, 0);
-    layout->addWidget(hint); // as wide as the page, and no wider
+    layout->addWidget(hint); // wraps at the width of the page
     add(m_resume, 12);
     add(files, 12);
     add(folder, 0);
@@ -67,17 +67,17 @@ StartPage::StartPage(QWidget *parent)
 }
 
 void StartPage::setOffersResuming(bool offers, bool hasEnded) {
-    m_resume->setText(hasEnded ? tr("Go on where you ended") : tr("Recover what was open"));
-    m_resume->setToolTip(hasEnded
-                             ? tr("The study that was open last, as it was looked at")
-                             : tr("Pellucid ended unexpectedly: the study that was open, with its "
-                                  "look as it was last"));
+    m_resume->setText(hasEnded ? tr("Continue where you left off")
+                               : tr("Recover the last session"));
+    m_resume->setToolTip(
+        hasEnded ? tr("Reopens the last study as you left it")
+                 : tr("Pellucid ended unexpectedly. Reopens the last study with its last look"));
     m_resume->setVisible(offers);
 }
 
 void StartPage::setRecent(const std::vector<Recent> &recent) {
     while (QLayoutItem *item = m_recent->takeAt(0)) {
-        // Its click may be what this is the answer to.
+        // This may run inside the button's own click: delete it later.
         item->widget()->hide();
         item->widget()->deleteLater();
         delete item;

@@ -10,18 +10,18 @@ class QVBoxLayout;
 
 namespace pellucid::ui {
 
-/// What is offered while nothing is open: files, a folder, the phantoms, recent studies.
+/// Shown while no study is open: offers files, a folder, the phantoms and recent studies.
 class StartPage : public QWidget {
     Q_OBJECT
 public:
     explicit StartPage(QWidget *parent = nullptr);
 
-    /// What is opened again by a click: its name, and what `recentRequested` gives.
+    /// A recent study: its text, and the argument of `recentRequested`.
     struct Recent {
         QString text, entry;
     };
     void setRecent(const std::vector<Recent> &recent);
-    /// What was open when the program ended is there to be taken up; `hasEnded`: as it should.
+    /// Offers to reopen the last session. `hasEnded`: it ended normally.
     void setOffersResuming(bool offers, bool hasEnded);
 
 signals:

@@ -41,8 +41,8 @@ void addFacts(QFormLayout *form, const StudyFacts &study, const VolumeFacts &vol
         form->addRow(label, value(text));
     };
     row(StudyDetailsTexts::tr("Patient"), patientText(study));
-    row(StudyDetailsTexts::tr("Identifier"), study.patientId);
-    row(StudyDetailsTexts::tr("Born"), dateText(study.birthDate));
+    row(StudyDetailsTexts::tr("Patient ID"), study.patientId);
+    row(StudyDetailsTexts::tr("Date of birth"), dateText(study.birthDate));
     row(StudyDetailsTexts::tr("Sex"), study.sex);
     row(StudyDetailsTexts::tr("Study"), studyText(study));
     row(StudyDetailsTexts::tr("Study UID"), study.uid);
@@ -53,21 +53,19 @@ void addFacts(QFormLayout *form, const StudyFacts &study, const VolumeFacts &vol
     row(StudyDetailsTexts::tr("Slices, rows, columns"),
         QString::fromUtf8("%1 × %2 × %3").arg(volume.size.k).arg(volume.size.j).arg(volume.size.i));
     if (volume.spacingMm.x > 0.0)
-        row(StudyDetailsTexts::tr("Spacing of columns, rows"),
-            QString::fromUtf8("%1 × %2 mm")
-                .arg(volume.spacingMm.x, 0, 'f', 3)
-                .arg(volume.spacingMm.y, 0, 'f', 3));
+        row(StudyDetailsTexts::tr("Pixel spacing"), QString::fromUtf8("%1 × %2 mm")
+                                                        .arg(volume.spacingMm.x, 0, 'f', 3)
+                                                        .arg(volume.spacingMm.y, 0, 'f', 3));
     if (volume.placed) {
-        row(StudyDetailsTexts::tr("Distance of slices"),
+        row(StudyDetailsTexts::tr("Slice spacing"),
             StudyDetailsTexts::tr("%1 mm").arg(volume.spacingMm.z, 0, 'f', 3));
         row(StudyDetailsTexts::tr("Tilt"),
             StudyDetailsTexts::tr("%1 degrees").arg(volume.tiltDeg, 0, 'f', 1));
     }
     row(StudyDetailsTexts::tr("Files"),
         volume.libraryId == 0 ? QString::number(files.size())
-        : volume.isCopied
-            ? StudyDetailsTexts::tr("%1, copied into the library").arg(files.size())
-            : StudyDetailsTexts::tr("%1, referred to where they are").arg(files.size()));
+        : volume.isCopied ? StudyDetailsTexts::tr("%1, copied into the library").arg(files.size())
+                          : StudyDetailsTexts::tr("%1, referenced in place").arg(files.size()));
     row(StudyDetailsTexts::tr("Folder"), folderOf(files));
     for (const QString &warning : warningTexts(volume)) {
         QLabel *const text = value(warning);
@@ -83,7 +81,7 @@ void showStudyDetails(const StudyFacts &study, const VolumeFacts &volume, const 
     auto *dialog = new QDialog(parent);
     dialog->setObjectName("studyDetails");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(StudyDetailsTexts::tr("Details of the series"));
+    dialog->setWindowTitle(StudyDetailsTexts::tr("Series details"));
     auto *form = new QFormLayout;
     form->setLabelAlignment(Qt::AlignLeft);
     form->setHorizontalSpacing(18);

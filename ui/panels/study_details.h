@@ -7,8 +7,8 @@ class QWidget;
 
 namespace pellucid::ui {
 
-/// Shows what is known of a volume, beside the window: patient, study, series, geometry with its
-/// warnings, files. Texts can be selected and copied.
+/// Shows a non-modal dialog with the patient, study, series, geometry, warnings and files of a
+/// volume. Texts can be selected and copied.
 void showStudyDetails(const StudyFacts &study, const VolumeFacts &volume, const QStringList &files,
                       const QImage &thumbnail, QWidget *parent);
 

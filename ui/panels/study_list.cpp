@@ -41,10 +41,10 @@ void StudyList::setOrder(StudyOrder order) {
 }
 
 bool StudyList::matches(const StudyFacts &study, const std::vector<VolumeFacts> &volumes) const {
-    QStringList said{study.patientId, patientText(study), study.date, studyText(study)};
+    QStringList texts{study.patientId, patientText(study), study.date, studyText(study)};
     for (const VolumeFacts &v : volumes)
-        said << seriesText(v) << v.modality << v.bodyPart;
-    return holdsWords(said.join('\n'), m_search);
+        texts << seriesText(v) << v.modality << v.bodyPart;
+    return containsWords(texts.join('\n'), m_search);
 }
 
 void StudyList::append(StudyFacts study, bool isRead) {
@@ -52,7 +52,7 @@ void StudyList::append(StudyFacts study, bool isRead) {
         std::make_unique<Entry>(Entry{std::move(study), {}, {}, isRead, int(m_entries.size())}));
 }
 
-// A series of many phases is one row: the phase bar chooses among them.
+// The phases of a series share one row; the phase bar selects among them.
 void StudyList::addVolumes(Entry &entry, const std::vector<VolumeFacts> &volumes) {
     for (const VolumeFacts &volume : volumes) {
         const auto row = std::find_if(entry.volumes.begin(), entry.volumes.end(),
@@ -70,9 +70,9 @@ void StudyList::addVolumes(Entry &entry, const std::vector<VolumeFacts> &volumes
 void StudyList::rebuild() {
     beginResetModel();
     m_entries.clear();
-    QHash<QString, std::size_t> rows; // of studies
+    QHash<QString, std::size_t> rows; // by study
     for (const StudySource &source : m_document.sources()) {
-        if (source.isClosed || m_library.holds(source.study, source.volume))
+        if (source.isClosed || m_library.contains(source.study, source.volume))
             continue;
         const QString key = source.study.key();
         if (!rows.contains(key)) {
@@ -107,7 +107,7 @@ const VolumeFacts *StudyList::volume(const QModelIndex &at) const {
 int StudyList::source(const QModelIndex &at) const {
     if (volume(at) == nullptr)
         return -1;
-    // The one that is shown, if it is among them.
+    // Prefer the source that is shown in the panes.
     int found = -1;
     const QString study = this->study(at).key();
     for (const QString &key :
@@ -149,14 +149,14 @@ QImage StudyList::thumbnail(const QModelIndex &at) const {
     const QString key = study(at).key() + "\n" + facts->key();
     if (const auto it = m_thumbnails.constFind(key); it != m_thumbnails.constEnd())
         return *it;
-    m_thumbnails.insert(key, {}); // asked for once
+    m_thumbnails.insert(key, {}); // request it only once
     if (const int open = source(at); open >= 0)
         if (const auto &make = m_document.sources()[std::size_t(open)].makeThumbnail)
             m_maker.ask(key, make);
     return {};
 }
 
-// The parent of a volume is known by its entry; studies have none.
+// A volume's index points to its study's entry; a study's index has no pointer.
 QModelIndex StudyList::index(int row, int column, const QModelIndex &parent) const {
     if (row < 0 || row >= rowCount(parent) || column != 0)
         return {};
@@ -193,7 +193,7 @@ void StudyList::fetchMore(const QModelIndex &parent) {
     if (!parent.isValid()) {
         const auto offset = int(m_entries.size()) - m_openCount;
         auto page = m_library.find(m_search, m_order, offset, pageSize).studies;
-        if (page.empty()) { // less than was counted: somebody else removes
+        if (page.empty()) { // fewer than counted: another process has removed some
             m_libraryCount = offset;
             return;
         }

@@ -15,8 +15,9 @@ namespace pellucid::ui {
 
 class Document;
 
-/// What the list of studies shows: the open ones that the library does not have, then those of the
-/// library that match, a page at a time; below each its volumes, read when somebody looks.
+/// The model of the list of studies: matching open studies that are not in the library, then
+/// matching studies of the library, a page at a time. Each has its volumes as children, read on
+/// demand.
 class StudyList : public QAbstractItemModel {
     Q_OBJECT
 public:
@@ -26,19 +27,19 @@ public:
     void setOrder(StudyOrder order);
     const QString &search() const { return m_search; }
     StudyOrder order() const { return m_order; }
-    /// How many there are, shown or not yet.
+    /// The number of matching studies, fetched or not.
     int studyCount() const { return m_openCount + m_libraryCount; }
 
-    /// Of a row, or of the study that a volume's row is below.
+    /// The study of a row; for a volume, its parent.
     const StudyFacts &study(const QModelIndex &index) const;
     /// Null for the row of a study.
     const VolumeFacts *volume(const QModelIndex &index) const;
     QImage thumbnail(const QModelIndex &index) const;
-    /// The row of a source of the document; not valid if it is not among those that are read.
+    /// The row of a source of the document; invalid if it has not been fetched.
     QModelIndex find(int source);
-    /// The source of the document that a volume is open as; -1: none.
+    /// The source of the document for an open volume; -1 if it is not open.
     int source(const QModelIndex &index) const;
-    /// Whether it is the volume that is shown.
+    /// Whether the volume is shown in the panes.
     bool isOpen(const QModelIndex &index) const;
 
     QModelIndex index(int row, int column, const QModelIndex &parent = {}) const override;
@@ -53,8 +54,8 @@ public:
 private:
     struct Entry {
         StudyFacts study;
-        std::vector<VolumeFacts> volumes; ///< a row each: phases have one
-        std::vector<QStringList> keys;    ///< of the volumes of each row
+        std::vector<VolumeFacts> volumes; ///< one per row; phases share a row
+        std::vector<QStringList> keys;    ///< of all volumes of each row
         bool isRead = false;
         int row = 0;
     };
@@ -69,7 +70,7 @@ private:
     StudyOrder m_order = StudyOrder::newestFirst;
     std::vector<std::unique_ptr<Entry>> m_entries;
     int m_openCount = 0, m_libraryCount = 0;
-    /// Of volumes that are open only, by key; asked for when first looked at.
+    /// Thumbnails of open volumes that are not in the library, by key; made on demand.
     mutable QHash<QString, QImage> m_thumbnails;
     mutable ThumbnailMaker m_maker;
 };

@@ -28,9 +28,9 @@ namespace pellucid::ui {
 
 namespace {
 
-// So many studies are shown with what is in them.
-constexpr int fewStudies = 20;
-// A search begins when the hand rests.
+// Up to this many studies are expanded.
+constexpr int maxExpandedStudies = 20;
+// A search starts when typing pauses.
 constexpr int typingMs = 120;
 
 QStringList localPaths(const QMimeData &data) {
@@ -52,15 +52,15 @@ StudyPanel::StudyPanel(Document &document, StudyLibrary &library, const Theme &t
     setAcceptDrops(true);
     m_search->setObjectName("studySearch");
     m_search->setPlaceholderText(tr("Search studies"));
-    m_search->setToolTip(tr("Words that a study must have: name, identifier, date, modality, "
-                            "description (Ctrl+F)"));
+    m_search->setToolTip(tr(
+        "Words that a study must contain: name, identifier, date, modality, description (Ctrl+F)"));
     m_search->setAccessibleName(tr("Search studies"));
     m_search->setClearButtonEnabled(true);
     auto *order = new QToolButton;
     order->setObjectName("studyOrderButton");
     order->setText(tr("Sort"));
     order->setProperty("role", "heading");
-    order->setToolTip(tr("Order of the studies"));
+    order->setToolTip(tr("Sort order of the studies"));
     order->setPopupMode(QToolButton::InstantPopup);
     order->setMenu(orderMenu());
     m_corner->setObjectName("importButton");
@@ -145,7 +145,7 @@ void StudyPanel::focusSearch() {
 }
 
 void StudyPanel::expandFew() {
-    if (m_list.studyCount() > fewStudies)
+    if (m_list.studyCount() > maxExpandedStudies)
         return;
     for (int row = 0; row < m_list.rowCount(); ++row)
         m_tree->expand(m_list.index(row, 0));
@@ -163,7 +163,7 @@ void StudyPanel::showCurrent() {
 void StudyPanel::activate(const QModelIndex &index) {
     const VolumeFacts *const volume = m_list.volume(index);
     if (volume == nullptr) {
-        // A click may come as an activation, too, and a double click as three.
+        // A click may also arrive as an activation, and a double-click as three events.
         if (!m_sinceToggle.isValid() ||
             m_sinceToggle.elapsed() > QApplication::doubleClickInterval())
             m_tree->setExpanded(index, !m_tree->isExpanded(index));

@@ -18,15 +18,15 @@ namespace pellucid::ui {
 
 class Document;
 
-/// The studies: those that are open and those of the library, with search and order, what can be
-/// done with one, the import that runs, and the problems of the last one.
+/// The open studies and those of the library, with search, sort order, a context menu, the running
+/// import and the problem list.
 class StudyPanel : public QWidget {
     Q_OBJECT
 public:
     StudyPanel(Document &document, StudyLibrary &library, const Theme &theme,
                QWidget *parent = nullptr);
 
-    /// Stands beside the panel's heading: imports.
+    /// The button beside the panel's heading, which imports.
     QWidget *corner();
     void focusSearch();
 
@@ -34,7 +34,7 @@ signals:
     void sourceActivated(int index);
     void libraryVolumeActivated(const pellucid::ui::StudyFacts &study,
                                 const pellucid::ui::VolumeFacts &volume);
-    /// Empty: the user is asked for the paths too.
+    /// `paths`: if empty, the user is asked for them.
     void importRequested(const QStringList &paths);
     void closeRequested(int index);
     void besideRequested(const pellucid::ui::StudySource &source);
@@ -60,7 +60,7 @@ private:
     StudyLibrary &m_library;
     StudyList m_list;
     QLineEdit *m_search;
-    QElapsedTimer m_sinceToggle; ///< of a study
+    QElapsedTimer m_sinceToggle; ///< since a study was expanded or collapsed
     QTreeView *m_tree;
     QPushButton *m_corner;
     QTimer m_typing;

@@ -14,8 +14,8 @@ namespace pellucid::ui {
 namespace {
 
 constexpr int gap = 8, thumbnailSide = 48, cardSpace = 4, cornerRadius = 5;
-// The rest of a long warning is in the tip and among the details.
-constexpr int mostWarningLines = 4;
+// The tooltip and the details show long warnings in full.
+constexpr int maxWarningLines = 4;
 
 QFont bold(QFont font) {
     font.setBold(true);
@@ -26,13 +26,13 @@ int lineHeight(const QFont &font) {
     return QFontMetrics(font).lineSpacing();
 }
 
-// What is left for texts beside a thumbnail.
+// The width for text beside a thumbnail.
 int textWidth(int cardWidth) {
     return std::max(40, cardWidth - thumbnailSide - 3 * gap);
 }
 
 int cardWidth(const QStyleOptionViewItem &option) {
-    // A row's height is asked before there is a row, and kept when a scroll bar takes its part.
+    // The height of a row is requested before it has a width, and kept when a scroll bar appears.
     const auto *const view = qobject_cast<const QAbstractItemView *>(option.widget);
     if (view == nullptr)
         return option.rect.width();
@@ -41,7 +41,7 @@ int cardWidth(const QStyleOptionViewItem &option) {
     return view->width() - std::max(bar, indent);
 }
 
-// Broken into lines that fit.
+// Wraps warnings to a width.
 QStringList warningLines(const QFont &font, int width, const QStringList &warnings) {
     QStringList lines;
     for (const QString &warning : warnings) {
@@ -53,8 +53,8 @@ QStringList warningLines(const QFont &font, int width, const QStringList &warnin
         }
         layout.endLayout();
     }
-    if (lines.size() > mostWarningLines) {
-        lines.resize(mostWarningLines);
+    if (lines.size() > maxWarningLines) {
+        lines.resize(maxWarningLines);
         lines.back() += QString::fromUtf8("…");
     }
     return lines;
@@ -142,7 +142,7 @@ void StudyRowPainter::paintVolume(QPainter &painter, const QStyleOptionViewItem 
                          option.fontMetrics.elidedText(text, elide, texts.width()));
         texts.translate(0, line);
     };
-    // What tells phases and stacks apart stands at the end.
+    // The end of the text distinguishes phases and stacks.
     draw(seriesText(volume), "text", volume.label.empty() ? Qt::ElideRight : Qt::ElideMiddle);
     for (const QString &text : sizeText(volume).split('\n'))
         draw(text, "muted");

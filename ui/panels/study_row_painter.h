@@ -9,8 +9,8 @@ namespace pellucid::ui {
 
 class StudyList;
 
-/// Rows of the list of studies: a study as its patient over date and description; a volume as a
-/// card with thumbnail, name, size, spacing, and what is to be known of its geometry.
+/// Paints the list of studies: a study as its patient above date and description; a volume as a
+/// card with thumbnail, name, size, spacing and geometry warnings.
 class StudyRowPainter : public QStyledItemDelegate {
     Q_OBJECT
 public:

@@ -46,7 +46,7 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     m_subject->setProperty("role", "muted");
     m_points->setObjectName("pointsBox");
     m_points->setAccessibleName(tr("Number of control points"));
-    m_points->setToolTip(tr("Number of control points: more make finer curves"));
+    m_points->setToolTip(tr("Number of control points; more give a finer curve"));
     m_points->setRange(TransferFunction::minPoints, TransferFunction::maxPoints);
     m_points->setSuffix(tr(" points"));
     m_points->setKeyboardTracking(false);
@@ -56,7 +56,7 @@ TransferFunctionPanel::TransferFunctionPanel(Document &document, const Theme &th
     m_weight->setRange(0.0, TransferFunction::largestWeight);
     m_weight->setSingleStep(0.05);
     m_weight->setDecimals(2);
-    m_weight->setKeyboardTracking(false); // typed to the end before it counts
+    m_weight->setKeyboardTracking(false); // apply only complete input
     layOut();
     connect(m_editor, &CurveEditor::weightChanged, this, &TransferFunctionPanel::setWeight);
     connect(m_editor, &CurveEditor::pointSelected, this, &TransferFunctionPanel::showScene);
@@ -87,11 +87,12 @@ void TransferFunctionPanel::layOut() {
     bottom->setSpacing(2);
     bottom->addWidget(m_weight);
     bottom->addStretch();
-    QPushButton *reset = addLink(bottom, tr("Reset"), "resetCurveButton", tr("All weights 1"));
+    QPushButton *reset =
+        addLink(bottom, tr("Reset"), "resetCurveButton", tr("Set all weights to 1"));
     QPushButton *copyLink =
         addLink(bottom, tr("Copy"), "copyCurveButton", tr("Copy the weights as text"));
     QPushButton *pasteLink =
-        addLink(bottom, tr("Paste"), "pasteCurveButton", tr("Paste 2 to 16 weights of 0 to 2"));
+        addLink(bottom, tr("Paste"), "pasteCurveButton", tr("Paste 2 to 16 weights from 0 to 2"));
     auto *column = new QVBoxLayout(this);
     column->setContentsMargins(14, 2, 14, 8);
     column->setSpacing(4);
@@ -99,7 +100,7 @@ void TransferFunctionPanel::layOut() {
     column->addWidget(m_editor, 1);
     column->addLayout(bottom);
     connect(reset, &QPushButton::clicked, this, [this] {
-        change({std::vector<double>(function().weights.size(), 1.0)}, tr("Reset the curve"));
+        change({std::vector<double>(function().weights.size(), 1.0)}, tr("Reset curve"));
     });
     connect(copyLink, &QPushButton::clicked, this, &TransferFunctionPanel::copy);
     connect(pasteLink, &QPushButton::clicked, this, &TransferFunctionPanel::paste);
@@ -149,13 +150,13 @@ void TransferFunctionPanel::paste() {
         bool isNumber = false;
         pasted.weights.push_back(part.trimmed().toDouble(&isNumber));
         if (!isNumber) {
-            m_subject->setText(tr("The clipboard holds no weights"));
+            m_subject->setText(tr("The clipboard contains no weights"));
             return;
         }
     }
     try {
         classify::validate(pasted);
-        change(pasted, tr("Paste a curve"));
+        change(pasted, tr("Paste curve"));
     } catch (const task::Error &error) {
         m_subject->setText(translated(error.reason()));
     }
@@ -171,7 +172,7 @@ void TransferFunctionPanel::showHistogram() {
     const double step = (m_histogram.high - m_histogram.low) / double(m_histogram.counts.size());
     std::vector<double> heights;
     if (!m_histogram.counts.empty() && window.high > window.low && step > 0.0) {
-        // Logarithms: bone is a thousandth of air.
+        // Logarithmic: bone has a thousandth of the samples of air.
         heights.assign(histogramBins, 0.0);
         for (std::size_t n = 0; n < m_histogram.counts.size(); ++n) {
             const double value = m_histogram.low + (double(n) + 0.5) * step;

@@ -16,16 +16,16 @@ namespace pellucid::ui {
 class CurveEditor;
 class Document;
 
-/// The transfer function of the whole volume, or of the selected class: its curve, the number of
-/// its control points, typed weights, copy and paste.
+/// Edits the transfer function of the whole volume or the selected class: curve, number of control
+/// points, typed weights, copy and paste.
 class TransferFunctionPanel : public QWidget {
     Q_OBJECT
 public:
     TransferFunctionPanel(Document &document, const Theme &theme, QWidget *parent = nullptr);
 
-    /// Stands beside the panel's heading.
+    /// The box beside the panel's heading.
     QWidget *corner();
-    /// The counts of the open volume's values.
+    /// The histogram of the open volume.
     void setHistogram(const volume::Histogram &histogram);
 
 private:

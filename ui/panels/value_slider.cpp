@@ -28,7 +28,7 @@ ValueSlider::ValueSlider(const Range &range, const QString &sliderName, const QS
     m_value->setObjectName(valueName);
     m_value->setRange(0.0, range.largest);
     m_value->setDecimals(2);
-    m_value->setKeyboardTracking(false); // typed to the end before it counts
+    m_value->setKeyboardTracking(false); // apply only complete input
     m_value->setSingleStep(0.05);
     m_value->setButtonSymbols(QAbstractSpinBox::NoButtons);
     m_value->setFixedWidth(44);
@@ -51,7 +51,7 @@ ValueSlider::ValueSlider(const Range &range, const QString &sliderName, const QS
 
 void ValueSlider::setValue(double value) {
     const QSignalBlocker noSlider(m_slider), noValue(m_value);
-    // A slider in the hand is where the hand is.
+    // Do not move a slider while it is dragged.
     if (!m_slider->isSliderDown())
         m_slider->setValue(int(std::lround(value / perStep)));
     m_value->setValue(value);

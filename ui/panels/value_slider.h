@@ -10,8 +10,7 @@ class QSlider;
 
 namespace pellucid::ui {
 
-/// A slider with its value beside it, which can be typed; a double-click brings back the initial
-/// one.
+/// A slider with a number box beside it; a double-click restores the initial value.
 class ValueSlider : public QWidget {
     Q_OBJECT
 public:
@@ -19,7 +18,7 @@ public:
         double largest = 1.0; ///< from 0
         double initial = 1.0;
     };
-    /// The object names of the two controls.
+    /// Takes the object names of the two controls.
     ValueSlider(const Range &range, const QString &sliderName, const QString &valueName,
                 QWidget *parent = nullptr);
 
@@ -27,7 +26,7 @@ public:
     void setNames(const QString &accessibleName, const QString &tip);
 
 signals:
-    /// `drag`: the same number during one drag.
+    /// `drag`: constant during one drag.
     void changed(double value, pellucid::ui::DragId drag);
     void pressed();
 

@@ -11,50 +11,50 @@ namespace pellucid::ui {
 
 namespace {
 
-// What the dialogs write down when they go is as it was before them.
-class WithoutTrace {
+// Restores the history settings that Qt's dialogs write when they close.
+class DialogHistoryGuard {
 public:
-    WithoutTrace() {
+    DialogHistoryGuard() {
         for (std::size_t n = 0; n < keys.size(); ++n)
-            m_before[n] = m_ofQt.value(keys[n]);
+            m_before[n] = m_qtSettings.value(keys[n]);
     }
-    ~WithoutTrace() {
-        m_ofQt.sync();
+    ~DialogHistoryGuard() {
+        m_qtSettings.sync();
         for (std::size_t n = 0; n < keys.size(); ++n)
             if (m_before[n].isValid())
-                m_ofQt.setValue(keys[n], m_before[n]);
+                m_qtSettings.setValue(keys[n], m_before[n]);
             else
-                m_ofQt.remove(keys[n]);
+                m_qtSettings.remove(keys[n]);
     }
-    WithoutTrace(const WithoutTrace &) = delete;
-    WithoutTrace &operator=(const WithoutTrace &) = delete;
+    DialogHistoryGuard(const DialogHistoryGuard &) = delete;
+    DialogHistoryGuard &operator=(const DialogHistoryGuard &) = delete;
 
 private:
     static constexpr std::array keys{"FileDialog/history", "FileDialog/lastVisited"};
-    QSettings m_ofQt{QSettings::UserScope, "QtProject"};
+    QSettings m_qtSettings{QSettings::UserScope, "QtProject"};
     std::array<QVariant, 2> m_before;
 };
 
 } // namespace
 
 QStringList askForFiles(QWidget *parent, const QString &title) {
-    const WithoutTrace none;
+    const DialogHistoryGuard guard;
     return QFileDialog::getOpenFileNames(parent, title);
 }
 
 QString askForFile(QWidget *parent, const QString &title, const QString &filter) {
-    const WithoutTrace none;
+    const DialogHistoryGuard guard;
     return QFileDialog::getOpenFileName(parent, title, {}, filter);
 }
 
 QString askForFolder(QWidget *parent, const QString &title) {
-    const WithoutTrace none;
+    const DialogHistoryGuard guard;
     return QFileDialog::getExistingDirectory(parent, title);
 }
 
-QString askWhereToWrite(QWidget *parent, const QString &title, const QString &path,
-                        const QString &filter) {
-    const WithoutTrace none;
+QString askForSavePath(QWidget *parent, const QString &title, const QString &path,
+                       const QString &filter) {
+    const DialogHistoryGuard guard;
     return QFileDialog::getSaveFileName(parent, title, path, filter);
 }
 

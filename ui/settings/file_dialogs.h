@@ -8,14 +8,14 @@ class QWidget;
 
 namespace pellucid::ui {
 
-// Files and folders, asked for by Qt's dialogs. These write down where they have been, for all
-// programs of Qt: here they do not, as folders may name patients. Empty: nothing was chosen.
+// Qt's file dialogs, without the history of folders that they store for all Qt programs: folders
+// may name patients. The result is empty if the user cancels.
 
 QStringList askForFiles(QWidget *parent, const QString &title);
 QString askForFile(QWidget *parent, const QString &title, const QString &filter);
 QString askForFolder(QWidget *parent, const QString &title);
-/// Asks before what is there is replaced.
-QString askWhereToWrite(QWidget *parent, const QString &title, const QString &path,
-                        const QString &filter);
+/// Asks before replacing an existing file.
+QString askForSavePath(QWidget *parent, const QString &title, const QString &path,
+                       const QString &filter);
 
 } // namespace pellucid::ui

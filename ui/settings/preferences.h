@@ -5,19 +5,19 @@
 
 namespace pellucid::ui {
 
-/// What stands on the buttons of the tool bar.
+/// What the buttons of the tool bar show.
 enum class ToolBarStyle { icons, words, both };
 
-/// What a person chooses once for the whole program; kept in the user's settings.
+/// Choices for the whole program, stored in the user's settings.
 struct Preferences {
     QString language; ///< "en", "zh_TW"; empty: the system's
     QString theme = "dark";
     ToolBarStyle toolBar = ToolBarStyle::icons;
-    /// Paths that were opened, and what was open last.
+    /// Stores opened paths and the last session.
     bool remembersStudies = true;
-    /// The start begins with what was open last; else it offers it.
+    /// Reopens the last session at startup; otherwise, the start page offers it.
     bool resumesAtStart = false;
-    /// Off by default: titles are seen by others, and by other programs.
+    /// Off by default: window titles are visible to other people and programs.
     bool showsPatient = false;
 
     bool operator==(const Preferences &) const = default;

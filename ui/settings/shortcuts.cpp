@@ -14,18 +14,18 @@ namespace {
 
 constexpr const char *defaultProperty = "defaultShortcut";
 
-QString keyOf(const QString &name) {
+QString settingsKey(const QString &name) {
     return "shortcuts/" + name;
 }
 
 QString plain(QString text) {
-    text = text.section('\t', 0, 0); // a hint of a fixed key stands behind
-    // Chinese names its access key behind the text.
+    text = text.section('\t', 0, 0); // a hint of a fixed key follows the tab
+    // Chinese puts the access key in brackets after the text.
     static const QRegularExpression accessKey("\\(&.\\)");
     return text.remove(accessKey).remove('&').remove("...").remove(QString::fromUtf8("…"));
 }
 
-// The usual key is remembered before another one is given for the first time.
+// Remember the default key before it is changed for the first time.
 QKeySequence defaultKeyOf(QAction *action) {
     const QVariant known = action->property(defaultProperty);
     if (known.isValid())
@@ -58,16 +58,16 @@ std::vector<ShortcutEntry> shortcutEntries(const QWidget &window) {
 void applyShortcuts(const QWidget &window) {
     const QSettings settings;
     for (const ShortcutEntry &entry : shortcutEntries(window))
-        if (const QVariant chosen = settings.value(keyOf(entry.name)); chosen.isValid())
+        if (const QVariant chosen = settings.value(settingsKey(entry.name)); chosen.isValid())
             entry.action->setShortcut(QKeySequence(chosen.toString(), QKeySequence::PortableText));
 }
 
 void setShortcut(const ShortcutEntry &entry, const QKeySequence &key) {
     entry.action->setShortcut(key);
     if (key == entry.defaultKey)
-        QSettings().remove(keyOf(entry.name));
+        QSettings().remove(settingsKey(entry.name));
     else
-        QSettings().setValue(keyOf(entry.name), key.toString(QKeySequence::PortableText));
+        QSettings().setValue(settingsKey(entry.name), key.toString(QKeySequence::PortableText));
 }
 
 } // namespace pellucid::ui

@@ -11,19 +11,19 @@ class QWidget;
 
 namespace pellucid::ui {
 
-/// A command of a window that can have a key.
+/// An action of a window that can have a key.
 struct ShortcutEntry {
     QAction *action = nullptr;
-    QString name; ///< what it is kept under
-    QString text; ///< with its menu, as it is read there
+    QString name; ///< the settings key
+    QString text; ///< the text shown to the user, with its menu
     QKeySequence defaultKey;
 };
 
-/// Every named command of a window's menus, in their order.
+/// Every named action of a window's menus, in menu order.
 std::vector<ShortcutEntry> shortcutEntries(const QWidget &window);
-/// Gives the commands of a window the keys that the user has chosen.
+/// Applies the user's keys to the actions of a window.
 void applyShortcuts(const QWidget &window);
-/// Keeps a key for a command; its usual one is what is kept under no name.
+/// Sets and stores the key of an action. The default key is not stored.
 void setShortcut(const ShortcutEntry &entry, const QKeySequence &key);
 
 } // namespace pellucid::ui

@@ -17,7 +17,7 @@ QStringList searchWords(const QString &search) {
     return folded(search).split(' ', Qt::SkipEmptyParts);
 }
 
-bool holdsWords(const QString &text, const QString &search) {
+bool containsWords(const QString &text, const QString &search) {
     const QString in = folded(text);
     const QStringList words = searchWords(search);
     return std::all_of(words.begin(), words.end(),

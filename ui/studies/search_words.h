@@ -6,11 +6,11 @@
 
 namespace pellucid::ui {
 
-/// A text without case, accents and the two widths of East Asian letters.
+/// A text with differences of case, accents and East Asian width removed.
 QString folded(const QString &text);
 /// The words of a search, folded.
 QStringList searchWords(const QString &search);
-/// Whether a text holds every word of a search.
-bool holdsWords(const QString &text, const QString &search);
+/// Whether a text contains every word of a search.
+bool containsWords(const QString &text, const QString &search);
 
 } // namespace pellucid::ui

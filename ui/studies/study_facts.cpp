@@ -23,8 +23,8 @@ QString text(const std::string &utf8) {
     return QString::fromStdString(utf8);
 }
 
-// What tells stacks of a series apart that are no phases of each other: other directions, spaces or
-// kinds of values. The scan puts it last in the label.
+// The part of a label that distinguishes stacks that are not phases of each other: they differ in
+// direction, space or kind of values. The scan puts it last.
 std::optional<task::Reason> stackOf(const std::vector<task::Reason> &label) {
     constexpr std::array stacks{because::axial.id,    because::axialNumber.id,
                                 because::coronal.id,  because::coronalNumber.id,
@@ -42,7 +42,8 @@ bool StudyFacts::hasPatient() const {
 }
 
 QString VolumeFacts::key() const {
-    // The same in every language, and as earlier programs had it: files are named by it.
+    // Files are named after this key: it must not depend on the language or change between
+    // versions.
     return seriesUid + "\n" + text(dicom::labelText(label)) + "\n" +
            QString("%1 %2 %3 %4 %5 %6")
                .arg(size.i)
@@ -96,20 +97,20 @@ VolumeFacts volumeFacts(const dicom::Selection &s) {
 QString patientText(const StudyFacts &study) {
     if (study.patientId == "phantoms")
         return StudyFactsTexts::tr("Phantoms");
-    if (study.patientId == "files") // of which nobody says whose they are
+    if (study.patientId == "files") // these contain no patient data
         return StudyFactsTexts::tr("Files");
     const QString name = QString(study.patientName).replace('^', ' ').simplified();
     if (!name.isEmpty())
         return name;
-    return study.patientId.isEmpty() ? StudyFactsTexts::tr("Without name") : study.patientId;
+    return study.patientId.isEmpty() ? StudyFactsTexts::tr("Unnamed") : study.patientId;
 }
 
 QString studyText(const StudyFacts &study) {
     if (study.patientId == "files")
         return StudyFactsTexts::tr("Volume files");
-    const QString said =
+    const QString result =
         (dateText(study.date) + " " + study.modalities + " " + study.description).simplified();
-    return said.isEmpty() ? StudyFactsTexts::tr("Study") : said;
+    return result.isEmpty() ? StudyFactsTexts::tr("Study") : result;
 }
 
 bool arePhases(const VolumeFacts &a, const VolumeFacts &b) {
@@ -120,25 +121,25 @@ bool arePhases(const VolumeFacts &a, const VolumeFacts &b) {
 }
 
 QString seriesText(const VolumeFacts &volume) {
-    QString said = QString("%1 %2")
-                       .arg(volume.seriesNumber)
-                       .arg(volume.description.isEmpty() ? volume.modality : volume.description);
+    QString result = QString("%1 %2")
+                         .arg(volume.seriesNumber)
+                         .arg(volume.description.isEmpty() ? volume.modality : volume.description);
     if (volume.phases > 1)
-        said += ", " + StudyFactsTexts::tr("%n phases", "", volume.phases);
+        result += ", " + StudyFactsTexts::tr("%n phases", "", volume.phases);
     else if (!volume.label.empty())
-        said += ", " + translated(volume.label);
-    return said;
+        result += ", " + translated(volume.label);
+    return result;
 }
 
 QString sizeText(const VolumeFacts &v) {
-    QString said = QString::fromUtf8("%1 × %2 × %3").arg(v.size.i).arg(v.size.j).arg(v.size.k);
+    QString result = QString::fromUtf8("%1 × %2 × %3").arg(v.size.i).arg(v.size.j).arg(v.size.k);
     if (v.spacingMm.x > 0.0)
-        said += QString::fromUtf8("\n%1 × %2")
-                    .arg(v.spacingMm.x, 0, 'f', 2)
-                    .arg(v.spacingMm.y, 0, 'f', 2);
+        result += QString::fromUtf8("\n%1 × %2")
+                      .arg(v.spacingMm.x, 0, 'f', 2)
+                      .arg(v.spacingMm.y, 0, 'f', 2);
     if (v.spacingMm.z > 0.0)
-        said += QString::fromUtf8(" × %1").arg(v.spacingMm.z, 0, 'f', 2);
-    return v.spacingMm.x > 0.0 ? said + " mm" : said;
+        result += QString::fromUtf8(" × %1").arg(v.spacingMm.z, 0, 'f', 2);
+    return v.spacingMm.x > 0.0 ? result + " mm" : result;
 }
 
 QStringList warningTexts(const VolumeFacts &volume) {

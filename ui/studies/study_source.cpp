@@ -21,11 +21,11 @@ struct StudySourceTexts {
     Q_DECLARE_TR_FUNCTIONS(StudySourceTexts)
 };
 
-// A phantom's thumbnail is cut out of a small one.
+// A phantom's thumbnail is made from a small version of it.
 constexpr volume::GridSize thumbnailPhantom{96, 96, 96};
 
-// The volume that a library means. Files that are gone change its size; its label stays.
-const dicom::VolumeEntry &meant(const dicom::Catalogue &catalogue, const VolumeFacts &volume) {
+// Finds a volume of the library in a new scan. Missing files change its size, but not its label.
+const dicom::VolumeEntry &findVolume(const dicom::Catalogue &catalogue, const VolumeFacts &volume) {
     const auto all = dicom::selections(catalogue);
     std::vector<const dicom::VolumeEntry *> alike;
     for (const dicom::Selection &s : all) {
@@ -44,23 +44,24 @@ dicom::LoadedVolume loadFromLibrary(const VolumeFacts &volume,
                                     const std::vector<dicom::InstanceFile> &files,
                                     const task::Progress &progress,
                                     const dicom::LoadObserver &observer) {
-    std::vector<fs::path> there;
+    std::vector<fs::path> existing;
     std::vector<dicom::Skipped> skipped;
     for (const dicom::InstanceFile &file : files) {
         std::error_code ignored;
         if (fs::is_regular_file(file.path, ignored))
-            there.push_back(file.path);
+            existing.push_back(file.path);
         else
             skipped.push_back({file.path, because::isGone});
     }
-    if (there.empty())
+    if (existing.empty())
         throw task::Error(task::ErrorCode::unusable, because::seriesIsGone,
                           skipped.empty() ? fs::path() : skipped.front().path.parent_path());
+    // The files are in the library already: do not refuse huge ones.
     const dicom::Catalogue catalogue =
-        dicom::scan(there, progress.part(0.0, 0.2), {.includesHuge = true}); // it is kept
+        dicom::scan(existing, progress.part(0.0, 0.2), {.includesHuge = true});
     skipped.insert(skipped.end(), catalogue.skipped.begin(), catalogue.skipped.end());
     dicom::LoadedVolume loaded =
-        dicom::loadVolume(meant(catalogue, volume), progress.part(0.2, 1.0), observer);
+        dicom::loadVolume(findVolume(catalogue, volume), progress.part(0.2, 1.0), observer);
     loaded.skipped.insert(loaded.skipped.begin(), skipped.begin(), skipped.end());
     return loaded;
 }
@@ -92,7 +93,7 @@ std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogu
         source.lasting.removeDuplicates();
         source.volume.file =
             QString::fromStdString(catalogue->named(s.volume->volumeFile).string());
-        // The catalogue is kept alive by whoever may load from it.
+        // Each function that may load from the catalogue keeps it alive.
         source.load = [catalogue, entry = s.volume](const task::Progress &progress,
                                                     const dicom::LoadObserver &observer) {
             try {
@@ -140,7 +141,7 @@ StudySource phantomSource(const QString &name) {
     StudySource source;
     source.phantom = name;
     source.study.patientId = "phantoms";
-    source.study.patientName = "Phantoms"; // said in the user's language by patientText
+    source.study.patientName = "Phantoms"; // patientText() translates it
     source.study.description = StudySourceTexts::tr("Made by Pellucid");
     source.volume.seriesUid = name;
     source.volume.seriesNumber = name == "head" ? 1 : 2;

@@ -13,38 +13,37 @@
 
 namespace pellucid::ui {
 
-/// Something that can be shown: a volume of a study with the way to load it. A value.
+/// A volume that can be shown: its facts and how to load it. A value.
 struct StudySource {
     StudyFacts study;
     VolumeFacts volume;
-    /// Of its series; a phantom has a name instead.
+    /// The files of its series; a phantom has a name instead.
     QStringList files;
     QString phantom;
-    /// Where they are when the program has ended, too: of an archive, the archive.
+    /// The paths that still exist after the program ends: for files in an archive, the archive.
     QStringList lasting;
     /// Thread-safe; see dicom::loadVolume.
     std::function<dicom::LoadedVolume(const task::Progress &, const dicom::LoadObserver &)> load;
-    /// Thread-safe; for volumes whose facts have none.
+    /// Thread-safe; for volumes whose facts have no thumbnail.
     std::function<QImage()> makeThumbnail;
-    /// The user has closed it: not listed any more.
+    /// The user has closed it, so it is no longer listed.
     bool isClosed = false;
 
-    /// The file, or the folder of its files, that is named where something about it is said; a
-    /// phantom has none.
+    /// The file or folder that messages about it name; empty for a phantom.
     QString place() const;
-    /// What tells it from every other.
+    /// Distinguishes it from every other source.
     QString key() const { return study.key() + "\n" + volume.key(); }
-    /// The same without names in it, for files.
+    /// A hash of the key that reveals no names, for file names.
     QString digest() const;
 };
 
 /// One source per volume of a catalogue.
 std::vector<StudySource> sourcesFrom(const std::shared_ptr<const dicom::Catalogue> &catalogue);
 
-/// The index of the source that a user most likely wants: the volume with most voxels.
+/// The index of the source to open first: the volume with the most voxels.
 std::size_t defaultSource(const dicom::Catalogue &catalogue);
 
-/// A volume of the library, by the files of its series: they are looked at again when it is loaded.
+/// A volume of the library, given by the files of its series. Loading scans them again.
 StudySource librarySource(const StudyFacts &study, const VolumeFacts &volume,
                           const std::vector<dicom::InstanceFile> &files);
 

@@ -12,8 +12,8 @@ namespace pellucid::ui {
 
 namespace {
 
-// A NRRD file has no middle slice that could be read alone.
-constexpr std::size_t mostVoxelsRead = std::size_t(64) << 20;
+// The middle slice of a volume file cannot be read separately.
+constexpr std::size_t maxVoxelsRead = std::size_t(64) << 20;
 
 } // namespace
 
@@ -28,7 +28,7 @@ QImage makeThumbnail(const volume::Volume &volume) {
         for (int y = 0; y < rows; ++y)
             for (int x = 0; x < columns; ++x, ++in) {
                 const double share = std::clamp((double(*in) - low) / window.width, 0.0, 1.0);
-                // What is not a number is as dark as what is outside.
+                // NaN is as dark as the outside of the volume.
                 const int grey = std::isnan(share) ? 0 : int(std::lround(255.0 * share));
                 picture.scanLine(y)[x] = uchar(volume.notes().darkIsHigh ? 255 - grey : grey);
             }
@@ -43,8 +43,8 @@ QImage makeThumbnail(const volume::Volume &volume) {
 QImage makeThumbnail(const dicom::VolumeEntry &entry) {
     try {
         if (!entry.volumeFile.empty())
-            return entry.voxels() > mostVoxelsRead ? QImage()
-                                                   : makeThumbnail(dicom::loadVolume(entry).volume);
+            return entry.voxels() > maxVoxelsRead ? QImage()
+                                                  : makeThumbnail(dicom::loadVolume(entry).volume);
         const volume::Lattice &lattice = entry.geometry.lattice;
         dicom::VolumeEntry one = entry;
         one.frames = {entry.frames.at(entry.frames.size() / 2)};
@@ -54,7 +54,7 @@ QImage makeThumbnail(const dicom::VolumeEntry &entry) {
                         {}};
         return makeThumbnail(dicom::loadVolume(one).volume);
     } catch (const task::Error &) {
-        return {}; // whoever opens it is told why
+        return {}; // opening it reports the reason
     }
 }
 

@@ -7,11 +7,11 @@
 
 namespace pellucid::ui {
 
-/// Pixels of a thumbnail's longer side: 48 on a screen of twice the density.
+/// The longer side of a thumbnail in pixels: 48 logical pixels on a high-density screen.
 inline constexpr int thumbnailPixels = 96;
 
-/// The middle slice as its file shows it, round where the patient is round. Null where nothing can
-/// be decoded or where decoding would take the whole of a large file. Thread-safe.
+/// The middle slice with the file's window and square pixels. Null if it cannot be decoded, or if
+/// that would require decoding all of a large file. Thread-safe.
 QImage makeThumbnail(const dicom::VolumeEntry &entry);
 /// The middle slice of a volume.
 QImage makeThumbnail(const volume::Volume &volume);

@@ -19,7 +19,7 @@ std::vector<WindowPreset> windowPresets(const volume::Volume &volume);
 /// The 0.5 to 99.5 % quantiles.
 volume::ValueWindow automaticWindow(const volume::Volume &volume);
 
-/// What a volume is first shown with: the file's first window, else a standard or the automatic
+/// The window that a volume opens with: the file's first, otherwise a standard or the automatic
 /// one.
 volume::ValueWindow initialWindow(const volume::Volume &volume);
 

@@ -12,11 +12,11 @@ QDockWidget *makeDock(const QString &title, const char *name, QWidget *panel, QW
     auto *dock = new QDockWidget(title);
     dock->setObjectName(name);
     dock->setWidget(panel);
-    // A click on the heading folds the panel.
+    // A click on the heading collapses or expands the panel.
     auto *heading = new QToolButton;
     heading->setObjectName(QString(name) + "Heading");
     heading->setText(title);
-    heading->setToolTip(QCoreApplication::translate("Dock", "Fold or unfold"));
+    heading->setToolTip(QCoreApplication::translate("Dock", "Collapse or expand"));
     heading->setProperty("role", "heading");
     QObject::connect(heading, &QToolButton::clicked, panel,
                      [panel] { panel->setVisible(!panel->isVisible()); });

@@ -7,7 +7,7 @@ class QWidget;
 
 namespace pellucid::ui {
 
-/// A dock whose heading folds its panel at a click. *Shape*: `corner`: what stands beside the
+/// A dock whose heading collapses its panel when clicked. *Shape*: `corner`: a widget beside the
 /// heading; may be null.
 QDockWidget *makeDock(const QString &title, const char *name, QWidget *panel, QWidget *corner);
 

@@ -13,7 +13,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// Drawn for the size that is asked for, not scaled from another.
+// Rendered at the requested size, never scaled from a different one.
 class ThemedIcon : public QIconEngine {
 public:
     ThemedIcon(QByteArray drawing, const Theme &theme)
@@ -51,7 +51,7 @@ QIcon themedIcon(const QString &name, const Theme &theme) {
     return QIcon(new ThemedIcon(file.readAll(), theme));
 }
 
-void giveIcons(QObject &window, const Theme &theme) {
+void setActionIcons(QObject &window, const Theme &theme) {
     const struct {
         const char *action, *icon;
     } icons[] = {{"openFilesAction", "open"},
@@ -80,7 +80,7 @@ void giveIcons(QObject &window, const Theme &theme) {
     for (const auto &[action, icon] : icons) {
         QAction *const found = window.findChild<QAction *>(action);
         found->setIcon(themedIcon(icon, theme));
-        // Menus stay words; the same drawings beside them would be noise.
+        // Menus show text only; icons beside it would add nothing.
         found->setIconVisibleInMenu(false);
     }
 }

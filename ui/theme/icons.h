@@ -7,11 +7,11 @@
 
 namespace pellucid::ui {
 
-/// An icon of resources/icons in the colours of a theme: text where it rests, accent where it is
-/// switched on, muted where it cannot be used. Sharp at any density.
+/// An icon from resources/icons in a theme's colors: text by default, accent when checked, muted
+/// when disabled. Sharp at any pixel density.
 QIcon themedIcon(const QString &name, const Theme &theme);
 
-/// The commands of a window get theirs, on its tool bar alone.
-void giveIcons(QObject &window, const Theme &theme);
+/// Sets the icons of a window's actions, which only the tool bar shows.
+void setActionIcons(QObject &window, const Theme &theme);
 
 } // namespace pellucid::ui

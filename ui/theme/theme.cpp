@@ -12,7 +12,7 @@
 
 #include "core/task/error.h"
 
-// Resources of a static library are registered by hand; the macro wants the global namespace.
+// A static library must register its resources explicitly; the macro needs the global namespace.
 static void registerResources() {
     Q_INIT_RESOURCE(resources);
 }
@@ -67,7 +67,7 @@ void Theme::apply(QApplication &application) const {
     application.setPalette(palette);
     QFont font = application.font();
     font.setPointSizeF(9.0);
-    // Else Chinese is drawn with whatever comes first, in Japanese forms and too bold.
+    // Without these, the fallback font may draw Chinese with Japanese glyphs, and too bold.
     QStringList families = font.families();
     for (const char *family : {"Noto Sans CJK TC", "Microsoft JhengHei", "PingFang TC"})
         if (!families.contains(family))
@@ -79,7 +79,7 @@ void Theme::apply(QApplication &application) const {
     static const QRegularExpression role("@([a-z]+)");
     for (auto match = role.match(sheet); match.hasMatch();
          match = role.match(sheet, match.capturedStart())) {
-        // The comment that explains the notation names no role.
+        // The comment that explains the notation contains no role.
         const auto it = m_colors.find(match.captured(1));
         const QString value = it == m_colors.end() ? match.captured(1) : it->name();
         sheet.replace(match.capturedStart(), match.capturedLength(), value);

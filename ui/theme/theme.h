@@ -24,7 +24,7 @@ private:
     QHash<QString, QColor> m_colors;
 };
 
-/// Black behind every medical picture, whatever the theme.
+/// The background of every medical picture is black in both themes.
 inline constexpr QRgb pictureBackground = qRgb(0, 0, 0);
 
 } // namespace pellucid::ui

@@ -5,9 +5,8 @@
 
 namespace pellucid::ui {
 
-/// Keeps the wheel from changing the boxes and sliders of a panel while the panel scrolls under the
-/// pointer: they follow the wheel once they have the keyboard's focus, which the wheel does not
-/// give. To be installed on the application.
+/// Prevents the wheel from changing boxes and sliders while it scrolls their panel: they respond
+/// only with keyboard focus, which the wheel does not give. Install it on the application.
 class WheelGuard : public QObject {
     Q_OBJECT
 public:

@@ -11,8 +11,8 @@ namespace pellucid::ui {
 class MprView;
 class ProjectionView;
 
-/// Plays a pane: the slices of a plane one after the other and from the start again, or the
-/// projection around the patient's long axis. The pane is the one that has the keyboard.
+/// Plays the focused pane: loops through the slices of a plane, or turns the projection around the
+/// patient's long axis.
 class Cine : public QObject {
     Q_OBJECT
 public:

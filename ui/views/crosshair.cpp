@@ -17,7 +17,7 @@ namespace {
 
 constexpr double handleShare = 0.36, handlePixels = 8.0;
 
-// Lines along the pixels are sharp in the middle of one.
+// Horizontal and vertical lines are sharp at pixel centers.
 QPointF sharp(const QPointF &at) {
     return {std::floor(at.x()) + 0.5, std::floor(at.y()) + 0.5};
 }
@@ -44,7 +44,7 @@ CrosshairLines::CrosshairLines(const PaneMapping &mapping, volume::PatientPoint 
     for (const mpr::Orientation other : mpr::allOrientations) {
         if (other == pane)
             continue;
-        // Along the other plane as well as along this one.
+        // The direction that lies in both planes.
         const glm::dvec3 along = glm::cross(axes.of(other).toViewer(), own.toViewer());
         m_lines[n++] = {other, {glm::dot(along, own.right), -glm::dot(along, own.up)}};
     }

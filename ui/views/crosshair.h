@@ -12,17 +12,17 @@ class QPainter;
 
 namespace pellucid::ui {
 
-/// Where the two other planes cut a pane, as lines through the crosshair.
+/// The intersections of a pane with the two other planes, as lines through the crosshair.
 class CrosshairLines {
 public:
     CrosshairLines(const PaneMapping &mapping, volume::PatientPoint crosshair,
                    const mpr::PlaneAxes &axes, mpr::Orientation pane);
 
-    /// `withHandles`: the lines can be taken by their ends and turned.
+    /// `withHandles`: draws handles, by which the lines can be turned.
     void paint(QPainter &painter, const QSize &size, bool withHandles) const;
-    /// Whether a line can be taken there, to be turned.
+    /// Whether a handle is at this position.
     bool isHandleAt(const QPointF &position, const QSize &size) const;
-    /// The angle of a place about the crosshair, counterclockwise. *Units*: rad.
+    /// The angle of a position about the crosshair, counterclockwise. *Units*: rad.
     double angleAt(const QPointF &position) const;
 
 private:

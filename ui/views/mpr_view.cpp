@@ -45,15 +45,15 @@ MprView::MprView(Document &document, mpr::Orientation orientation, QWidget *pare
     });
     connect(&document, &Document::volumeChanged, this, [this] {
         const auto &volume = m_document.volume();
-        const bool isSamePlace = volume && m_lattice == volume->lattice();
-        // The rest of a volume that arrives leaves what the hand is doing alone.
-        if (!isSamePlace || !m_wasPreview)
+        const bool isSameLattice = volume && m_lattice == volume->lattice();
+        // A volume that replaces its own preview does not interrupt a drag.
+        if (!isSameLattice || !m_wasPreview)
             m_tools.cancel();
         m_wasPreview = m_document.isPreview();
         m_cutMs = 0.0;
         if (volume) {
             m_lattice = volume->lattice();
-            if (!isSamePlace) // another phase is looked at alike
+            if (!isSameLattice) // a different phase keeps the view
                 resetView();
         }
         refresh();
@@ -77,7 +77,7 @@ void MprView::setTool(Tool tool) {
     update();
 }
 
-// Images without positions have one way to be seen.
+// Images without positions are shown in the axial pane only.
 bool MprView::showsVolume() const {
     return m_document.volume() &&
            (m_document.volume()->notes().placed || m_orientation == mpr::Orientation::axial);
@@ -100,8 +100,8 @@ mpr::Plane MprView::plane() const {
     if (!m_document.volume())
         return plane;
     const volume::Lattice &lattice = m_document.volume()->lattice();
-    // Fits the box around the lattice, as the pane sees it before it is turned: turning is not to
-    // change the size of things.
+    // Fits the lattice's bounding box for the standard orientation, so that turning a plane does
+    // not change the scale.
     const mpr::Axes upright = mpr::standardAxes(m_orientation);
     double halfWidth = 0.0, halfHeight = 0.0;
     for (int d = 0; d < 3; ++d) {
@@ -117,7 +117,7 @@ mpr::Plane MprView::plane() const {
     return plane;
 }
 
-// What lies in the slab, or nearer to this slice than to the next.
+// Half the slab, or half the distance to the next slice.
 double MprView::reachMm() const {
     return std::max(0.5 * m_document.cut().options.slab.thicknessMm, 0.5 * scrollRange().stepMm);
 }
@@ -165,7 +165,7 @@ void MprView::paintEvent(QPaintEvent *) {
     } else if (m_document.volume()) {
         painter.setPen(colors.muted);
         painter.drawText(rect().adjusted(12, 12, -12, -12), Qt::AlignCenter | Qt::TextWordWrap,
-                         tr("Images only: no volume to cut"));
+                         tr("Images only: not a volume"));
     } else {
         paintPlaneTexts(painter, rect(), mapping(), m_document, m_orientation, Names::shown);
     }
@@ -238,7 +238,7 @@ void MprView::mouseReleaseEvent(QMouseEvent *event) {
 }
 
 void MprView::mouseDoubleClickEvent(QMouseEvent *event) {
-    // The third point of an angle may come fast.
+    // A fast click for an angle's third point may arrive as a double-click.
     if (event->button() == Qt::LeftButton && !m_tools.isMeasuring())
         emit maximizeRequested(this);
     else

@@ -17,8 +17,8 @@ namespace pellucid::ui {
 
 class Document;
 
-/// One of the three planes of the open volume: scroll, window, pan, zoom, crosshair and its
-/// turning, measurements, letters, scale.
+/// A pane with one of the three planes of the open volume: scrolling, window, pan, zoom, crosshair,
+/// turning, measurements, orientation letters, scale bar.
 class MprView : public QWidget, private ToolPane {
     Q_OBJECT
 public:
@@ -35,12 +35,13 @@ public:
     /// Whether the last slice is shown.
     bool isAtEnd() const;
     void resetView();
-    /// Makes what is shown, of as many pixels for one of the pane's, a side; on any thread.
+    /// Returns a function that makes the current slice with `scale` times the pane's pixels on each
+    /// side; it may run on any thread.
     std::function<QImage()> pictureMaker(int scale) const;
-    /// What stands over it where it is exported. *Units*: logical pixels.
+    /// Paints the annotations of an exported slice. *Units*: logical pixels.
     void paintOver(QPainter &painter, Names names) const;
 
-    /// What of the plane the pane shows.
+    /// The part of the plane that the pane shows.
     struct View {
         double zoom = 1.0; ///< 1: the volume fits
         glm::dvec2 panMm{0.0};
@@ -84,12 +85,12 @@ private:
     const mpr::Orientation m_orientation;
     PlaneTools m_tools;
     View m_view;
-    /// Of the last volume, which may have been a part of one.
+    /// Of the last volume, which may have been a preview.
     volume::Lattice m_lattice;
     bool m_wasPreview = false;
     QImage m_image;
     bool m_imageValid = false;
-    /// Cuts slower than the hand are made of half the pixels while it moves.
+    /// If a slice takes too long, it is drawn at half resolution during interaction.
     double m_cutMs = 0.0;
     QElapsedTimer m_sinceCut;
     QTimer m_rest;

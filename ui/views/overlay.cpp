@@ -27,7 +27,7 @@ struct OverlayTexts {
 
 QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::size_t most) {
     if (names == Names::hidden && !notes.warnings.empty())
-        return {OverlayTexts::tr("Warnings are left out")};
+        return {OverlayTexts::tr("Warnings omitted")};
     QStringList lines;
     for (std::size_t n = 0; n < std::min(most, notes.warnings.size()); ++n)
         lines << translated(notes.warnings[n]);
@@ -134,7 +134,7 @@ void drawOrientationCube(QPainter &painter, QPointF center, double radius, const
         const QPolygonF outline{
             project(face.normal + face.a + face.b), project(face.normal - face.a + face.b),
             project(face.normal - face.a - face.b), project(face.normal + face.a - face.b)};
-        // Faces that look at the viewer are lighter.
+        // Faces that face the viewer are lighter.
         const QColor base = colors.raised;
         painter.setBrush(base.lighter(int(100 + 90 * facing)));
         painter.setPen(QPen(colors.muted, 1.0));

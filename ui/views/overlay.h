@@ -15,7 +15,7 @@ class QPainter;
 
 namespace pellucid::ui {
 
-/// Colors of what is drawn over pictures; the same in both themes: they follow the picture.
+/// Colors of overlays; they depend on the picture, not on the theme.
 struct OverlayColors {
     QColor plane, letters, text, muted, raised, accent, warning, curve;
 };
@@ -26,28 +26,29 @@ OverlayColors overlayColors(const QString &planeRole);
 /// The light theme's, for pictures that are shown as film, dark on light.
 OverlayColors filmColors(const QString &planeRole);
 
-/// Whether texts may name somebody: files and looks carry names that people gave them.
+/// Whether texts may contain names: file names and names of looks can identify a patient.
 enum class Names { shown, hidden };
 
-/// The first warnings of a volume, one for each line: hidden names leave that there are some.
+/// The first `most` warnings of a volume, one per line. With hidden names, only a note that there
+/// are warnings.
 QStringList warningLines(const volume::VolumeNotes &notes, Names names, std::size_t most);
 
-/// Letters at the middle of the four sides for an image with these axes (LPS).
+/// Draws the orientation letters at the middle of each side, for an image with these axes (LPS).
 void drawOrientationLetters(QPainter &painter, const QRect &area, const glm::dvec3 &right,
                             const glm::dvec3 &up, const OverlayColors &colors);
 
-/// Where the upper and the lower of them stand, for what must not run through them.
+/// The area of the upper and lower letters, which other drawing must not cross.
 QRegion upperAndLowerLetters(const QRect &area);
 
-/// A bar of a round length, its left end at the given corner. *Units*: logical pixels per mm.
+/// Draws a bar of a round length with its left end at `bottomLeft`. *Units*: logical pixels per mm.
 void drawScaleBar(QPainter &painter, QPoint bottomLeft, double pixelsPerMm, int longestPixels,
                   const OverlayColors &colors);
 
-/// A cube with the patient's letters as the viewer sees it; `axes` are [U V W].
+/// Draws a cube with the patient's letters as the viewer sees it; `axes` are [U V W].
 void drawOrientationCube(QPainter &painter, QPointF center, double radius, const glm::dmat3 &axes,
                          const OverlayColors &colors);
 
-/// Text with a dark outline, legible on any picture.
+/// Draws text with an outline, legible on any picture.
 void drawText(QPainter &painter, const QRect &area, int flags, const QString &text,
               const QColor &color);
 

@@ -26,21 +26,21 @@ QString slabText(const mpr::Slab &slab) {
     const QString mode = slab.mode == mpr::SlabMode::mean      ? PlaneTextsTexts::tr("mean")
                          : slab.mode == mpr::SlabMode::maximum ? PlaneTextsTexts::tr("MIP")
                                                                : PlaneTextsTexts::tr("MinIP");
-    return PlaneTextsTexts::tr("%1 of %2 mm").arg(mode).arg(slab.thicknessMm);
+    return PlaneTextsTexts::tr("%1, %2 mm").arg(mode).arg(slab.thicknessMm);
 }
 
-// "S 142.5": the side that the coordinate points to, and its size.
+// "S 142.5": the patient's direction of the coordinate, and its absolute value.
 QString coordinateText(const glm::dvec3 &axis, double mm) {
     const std::string side = scene::patientLetters(mm < 0.0 ? -axis : axis);
     return QString("%1 %2").arg(QString::fromStdString(side)).arg(std::abs(mm), 0, 'f', 1);
 }
 
-// Draws the edges of gaps that were filled, in planes across them. True where this plane lies in
+// In planes across filled gaps, draws the edges of the gaps. Returns whether this plane lies within
 // one.
-bool isInFilled(QPainter &painter, const QRect &area, const PaneMapping &mapping,
-                const volume::Volume &volume, volume::PatientPoint at, const QColor &color) {
+bool paintGapEdges(QPainter &painter, const QRect &area, const PaneMapping &mapping,
+                   const volume::Volume &volume, volume::PatientPoint at, const QColor &color) {
     const volume::Lattice &lattice = volume.lattice();
-    // The slice number is an affine function of the place on the pane.
+    // The slice number is an affine function of the position on the pane.
     const auto sliceAt = [&](const QPointF &position) {
         return lattice.voxel(mapping.patientAt(position)).v.z;
     };
@@ -49,7 +49,7 @@ bool isInFilled(QPainter &painter, const QRect &area, const PaneMapping &mapping
     const QPointF slope(sliceAt(middle + QPointF(1.0, 0.0)) - here,
                         sliceAt(middle + QPointF(0.0, 1.0)) - here);
     const double square = QPointF::dotProduct(slope, slope);
-    constexpr double noSlope = 1e-6; // slices a pixel
+    constexpr double noSlope = 1e-6; // slices per pixel
     const double slice = lattice.voxel(at).v.z;
     bool isInside = false;
     painter.save();
@@ -128,14 +128,14 @@ void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &ma
                   .arg(1 + int(std::lround(
                                document.volume()->lattice().voxel(document.crosshair()).v.z)));
     drawText(painter, inner, Qt::AlignRight | Qt::AlignTop, position, colors.text);
-    int lines = 1; // at the top right
+    int lines = 1; // used at the top right
     if (cut.options.slab.thicknessMm > 0.0)
         drawText(painter, inner.adjusted(0, line * lines++, 0, 0), Qt::AlignRight | Qt::AlignTop,
                  slabText(cut.options.slab), colors.text);
-    if (isInFilled(painter, area, mapping, *document.volume(), document.crosshair(),
-                   colors.warning)) {
-        // Beside the letter in the middle.
-        const QString whole = PlaneTextsTexts::tr("interpolated: no image was taken here");
+    if (paintGapEdges(painter, area, mapping, *document.volume(), document.crosshair(),
+                      colors.warning)) {
+        // The text must not reach the letter in the middle.
+        const QString whole = PlaneTextsTexts::tr("interpolated: no image acquired here");
         const bool fits = painter.fontMetrics().horizontalAdvance(whole) < inner.width() / 2 - line;
         drawText(painter, inner.adjusted(0, line * lines, 0, 0), Qt::AlignRight | Qt::AlignTop,
                  fits ? whole : PlaneTextsTexts::tr("interpolated"), colors.warning);

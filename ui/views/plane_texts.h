@@ -17,11 +17,11 @@ class Document;
 /// The name of a plane, in the user's language.
 QString planeTitle(mpr::Orientation orientation);
 
-/// Place and value, as the status bar shows them; empty outside the volume.
+/// Position and value for the status bar; empty outside the volume.
 QString valueText(const volume::Volume &volume, volume::PatientPoint at,
                   mpr::Interpolation interpolation);
 
-/// What stands over a plane: name, position, slab, the patient's letters, scale and warnings.
+/// Paints the texts over a plane: name, position, slab, orientation letters, scale and warnings.
 void paintPlaneTexts(QPainter &painter, const QRect &area, const PaneMapping &mapping,
                      const Document &document, mpr::Orientation orientation, Names names);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Before Qt, which makes a macro of a name that oneTBB uses.
+// Before Qt, which defines a macro with a name that oneTBB uses.
 #include <tbb/parallel_for.h>
 
 #include "ui/views/slice_picture.h"

@@ -10,7 +10,7 @@
 
 namespace pellucid::ui {
 
-/// Values through a window as grey, with as much of a class's color as they belong to it. Outside
+/// Shows values through a window as grey, tinted with a class's color by their membership. Outside
 /// the volume is black, inverted or not.
 QImage slicePicture(const mpr::SliceImage &slice, const volume::ValueWindow &window,
                     bool darkIsHigh, const std::optional<classify::TissueClass> &tint);

@@ -16,14 +16,14 @@ bool Application::notify(QObject *receiver, QEvent *event) {
     try {
         return QApplication::notify(receiver, event);
     } catch (const task::Cancelled &) {
-        // Nobody waits for it any more.
+        // Nothing waits for the result.
     } catch (...) {
         const Failure failure = currentFailure();
         const bool isKnown = failure.what == m_lastFailure && m_sinceFailure.isValid() &&
                              m_sinceFailure.elapsed() < silenceMs;
         m_lastFailure = failure.what;
         m_sinceFailure.start();
-        if (!isKnown) // later: here the event that failed is still being handled
+        if (!isKnown) // queued: the failed event is still being handled
             QMetaObject::invokeMethod(
                 this, [this, failure] { emit failed(failure.what, failure.path); },
                 Qt::QueuedConnection);

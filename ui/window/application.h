@@ -10,8 +10,8 @@
 
 namespace pellucid::ui {
 
-/// What the user interface's thread lets fall is caught between two events and said: the program
-/// goes on. Qt itself would end.
+/// Catches exceptions that event handlers throw and reports them, so that the program continues. Qt
+/// itself would terminate it.
 class Application : public QApplication {
     Q_OBJECT
 public:
@@ -22,7 +22,7 @@ signals:
     void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
-    /// What fails at every repaint is not said each time.
+    /// Prevents repeated reports of an error that recurs at every repaint.
     std::optional<task::Reason> m_lastFailure;
     QElapsedTimer m_sinceFailure;
 };

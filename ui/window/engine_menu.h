@@ -7,7 +7,7 @@ namespace pellucid::ui {
 
 class GraphicsCard;
 
-/// The choice of what makes the projections.
+/// Adds the choice of the projection engine.
 void addEngineMenu(QMenu &menu, GraphicsCard &card);
 
 } // namespace pellucid::ui

@@ -48,7 +48,7 @@ FileMenu::FileMenu(QMenu &menu, QWidget &window, Workbench &bench, const Panes &
     menu.addSeparator();
     add(menu, tr("P&references..."), "preferencesAction", QKeySequence("Ctrl+,"),
         [this] { emit preferencesRequested(); });
-    add(menu, tr("For&get recent studies"), "forgetRecentAction", {},
+    add(menu, tr("Clear recent st&udies"), "forgetRecentAction", {},
         [this] { emit recentForgotten(); });
     add(menu, tr("&Quit"), "quitAction", QKeySequence::Quit, [this] { emit quitRequested(); });
 }
@@ -78,24 +78,24 @@ void FileMenu::importPaths(const QStringList &paths) {
     dialog->open();
 }
 
-void FileMenu::sayWritten(const QString &path) {
-    emit said(tr("Written: %1").arg(QFileInfo(path).fileName()));
+void FileMenu::reportSaved(const QString &path) {
+    emit messageShown(tr("Saved: %1").arg(QFileInfo(path).fileName()));
 }
 
 void FileMenu::savePicture() {
     attempt([&] {
         const QImage picture = m_panes.projection->picture();
         if (picture.isNull()) {
-            emit said(tr("There is no projection to save yet"));
+            emit messageShown(tr("There is no projection to save yet"));
             return;
         }
-        const QString path = askWhereToWrite(&m_window, tr("Save picture"), "projection.png",
-                                             tr("PNG image (*.png)"));
+        const QString path = askForSavePath(&m_window, tr("Save picture"), "projection.png",
+                                            tr("PNG image (*.png)"));
         if (path.isEmpty())
             return;
         m_bench.study.document.requireOther({path.toStdString()});
         writePictureFile(path, picture);
-        sayWritten(path);
+        reportSaved(path);
     });
 }
 
@@ -105,9 +105,9 @@ void FileMenu::exportPicture() {
         shown->activateWindow();
         return;
     }
-    // Beside the window, which goes on: it may be turned to what is to be written.
+    // Not modal: the user may still adjust the view for the export.
     auto *dialog = new ExportDialog(m_bench.study.document, m_panes, m_bench.exports, &m_window);
-    connect(dialog, &ExportDialog::written, this, &FileMenu::sayWritten);
+    connect(dialog, &ExportDialog::written, this, &FileMenu::reportSaved);
     connect(dialog, &ExportDialog::captured, this,
             [this](const std::shared_ptr<const dicom::Catalogue> &capture) {
                 m_bench.study.document.addSources(sourcesFrom(capture));
@@ -117,33 +117,33 @@ void FileMenu::exportPicture() {
 
 void FileMenu::exportMeasurements() {
     if (m_bench.study.document.measured().empty()) {
-        emit said(tr("There are no measurements to export yet"));
+        emit messageShown(tr("There are no measurements to export yet"));
         return;
     }
-    const QString path = askWhereToWrite(&m_window, tr("Export measurements"), "measurements.csv",
-                                         tr("Table (*.csv)"));
+    const QString path = askForSavePath(&m_window, tr("Export measurements"), "measurements.csv",
+                                        tr("Table (*.csv)"));
     if (path.isEmpty())
         return;
     attempt([&] {
         m_bench.study.document.requireOther({path.toStdString()});
         m_bench.measurements.exportTable(path);
-        sayWritten(path);
+        reportSaved(path);
     });
 }
 
 void FileMenu::saveScene() {
     if (!m_panes.projection->showsWhatIsAskedFor()) {
-        emit said(tr("There is no projection of this scene yet"));
+        emit messageShown(tr("There is no projection of this scene yet"));
         return;
     }
     const QString path =
-        askWhereToWrite(&m_window, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
+        askForSavePath(&m_window, tr("Save scene"), "scene.json", tr("Scene (*.json)"));
     if (path.isEmpty())
         return;
     attempt([&] {
         m_bench.study.document.requireOther({path.toStdString()});
         writeSceneFile(path, m_panes.projection->sceneOfPicture());
-        sayWritten(path);
+        reportSaved(path);
     });
 }
 
@@ -153,7 +153,7 @@ void FileMenu::openScene() {
         return;
     attempt([&] {
         scene::Scene scene = readSceneFile(path);
-        scene.plannedFor = {}; // the window plans for the volume, whatever a file says
+        scene.plannedFor = {}; // the window always plans for the whole volume
         editScene(m_bench.study.document, tr("Open scene"), noDrag,
                   [&](scene::Scene &shown) { shown = scene; });
         m_panes.projection->adoptCamera(scene.camera);

@@ -16,7 +16,7 @@ namespace pellucid::ui {
 
 struct Workbench;
 
-/// The menu of what comes in and goes out: studies, scenes, pictures, measurements.
+/// The File menu: opens and saves studies, scenes, pictures and measurements.
 class FileMenu : public QObject {
     Q_OBJECT
 public:
@@ -24,7 +24,7 @@ public:
 
     void chooseFiles();
     void chooseFolder();
-    /// Asks how, and for what is to be imported if there are no paths.
+    /// Asks how to import and, if there are no paths, what.
     void importPaths(const QStringList &paths);
     void exportMeasurements();
 
@@ -34,16 +34,16 @@ signals:
     void recentForgotten();
     void preferencesRequested();
     void quitRequested();
-    void said(const QString &text);
+    void messageShown(const QString &text);
     void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
     void savePicture();
-    void sayWritten(const QString &path);
+    void reportSaved(const QString &path);
     void exportPicture();
     void saveScene();
     void openScene();
-    /// Runs it and reports what it throws.
+    /// Runs `what` and reports a task::Error that it throws.
     void attempt(const std::function<void()> &what);
 
     QWidget &m_window;

@@ -27,7 +27,7 @@ struct HelpMenuTexts {
     Q_DECLARE_TR_FUNCTIONS(HelpMenuTexts)
 };
 
-// The manual in the language of the program, as far as there is one.
+// The manual in the program's language, or in English.
 QUrl manual() {
     const QString translated = QCoreApplication::translate("HelpMenuTexts", "manual.html",
                                                            "file name of the translated manual");
@@ -37,11 +37,11 @@ QUrl manual() {
 }
 
 void showManual() {
-    // Beside the window, not over it: people read and try.
+    // Not modal: people read and try.
     auto *browser = new QTextBrowser;
     browser->setObjectName("manual");
     browser->setAttribute(Qt::WA_DeleteOnClose);
-    browser->setAttribute(Qt::WA_QuitOnClose, false); // the program ends with its window
+    browser->setAttribute(Qt::WA_QuitOnClose, false); // closing the main window ends the program
     browser->setWindowTitle(HelpMenuTexts::tr("Pellucid manual"));
     browser->setSource(manual());
     browser->resize(760, 800);
@@ -55,7 +55,7 @@ QWidget *libraryTable() {
     table->setObjectName("aboutLibraries");
     table->setAccessibleName(HelpMenuTexts::tr("Libraries"));
     table->setHeaderLabels(
-        {HelpMenuTexts::tr("Library"), HelpMenuTexts::tr("Version"), HelpMenuTexts::tr("Licence")});
+        {HelpMenuTexts::tr("Library"), HelpMenuTexts::tr("Version"), HelpMenuTexts::tr("License")});
     table->setRootIsDecorated(false);
     for (const ThirdParty &library : thirdParties)
         new QTreeWidgetItem(table, {library.name,
@@ -68,7 +68,7 @@ QWidget *libraryTable() {
 QWidget *licence() {
     auto *text = new QPlainTextEdit;
     text->setReadOnly(true);
-    text->setAccessibleName(HelpMenuTexts::tr("Licence"));
+    text->setAccessibleName(HelpMenuTexts::tr("License"));
     QFile file(":/pellucid/LICENSE");
     if (file.open(QIODevice::ReadOnly))
         text->setPlainText(QString::fromUtf8(file.readAll()));
@@ -93,7 +93,7 @@ void showAbout(QWidget &window) {
     terms->setWordWrap(true);
     auto *tabs = new QTabWidget;
     tabs->addTab(libraryTable(), HelpMenuTexts::tr("Libraries"));
-    tabs->addTab(licence(), HelpMenuTexts::tr("Licence"));
+    tabs->addTab(licence(), HelpMenuTexts::tr("License"));
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
     auto *layout = new QVBoxLayout(dialog);

@@ -6,7 +6,7 @@ class QWidget;
 
 namespace pellucid::ui {
 
-/// The manual, the keys, and what the program is made of.
+/// Adds the manual and the About dialog.
 void addHelpMenu(QMenu &menu, QWidget &window);
 
 } // namespace pellucid::ui

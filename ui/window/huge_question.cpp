@@ -24,7 +24,7 @@ void askForHuge(QWidget *window, const std::vector<dicom::Skipped> &huge,
                             translated(huge.front().reason));
     if (huge.size() > 1)
         what += " " + HugeQuestionTexts::tr("So are %n others.", "", int(huge.size()) - 1);
-    what += "\n\n" + HugeQuestionTexts::tr("Opening may take all memory and a long time.");
+    what += "\n\n" + HugeQuestionTexts::tr("Opening may use all memory and take a long time.");
     auto *const question =
         new QMessageBox(QMessageBox::NoIcon, HugeQuestionTexts::tr("Unusually large"), what,
                         QMessageBox::Cancel, window);

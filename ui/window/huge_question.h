@@ -10,8 +10,8 @@ class QWidget;
 
 namespace pellucid::ui {
 
-/// Asks, without blocking, whether images that are unusually large are to be opened all the same.
-/// *Shape*: `huge` has at least one. Calls `open` if they are.
+/// Asks, without blocking, whether to open unusually large images, and calls `open` if the user
+/// agrees. *Shape*: `huge` is not empty.
 void askForHuge(QWidget *window, const std::vector<dicom::Skipped> &huge,
                 const std::function<void()> &open);
 

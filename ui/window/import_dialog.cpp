@@ -16,24 +16,24 @@ namespace pellucid::ui {
 namespace {
 
 constexpr const char *copyKey = "library/copy";
-constexpr int mostListed = 6;
+constexpr int maxListedPaths = 6;
 
 } // namespace
 
 ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
-    : QDialog(parent), m_said(new QLabel),
-      m_refer(new QRadioButton(tr("&Refer to the files where they are"))),
+    : QDialog(parent), m_pathsLabel(new QLabel),
+      m_refer(new QRadioButton(tr("&Reference the files in place"))),
       m_copy(new QRadioButton(tr("&Copy the files into the library"))) {
     setObjectName("importDialog");
     setWindowTitle(tr("Import into the library"));
     setAttribute(Qt::WA_DeleteOnClose);
-    m_said->setObjectName("importPaths");
-    m_said->setWordWrap(true);
-    m_said->setMinimumWidth(420);
+    m_pathsLabel->setObjectName("importPaths");
+    m_pathsLabel->setWordWrap(true);
+    m_pathsLabel->setMinimumWidth(420);
     m_refer->setObjectName("referButton");
-    m_refer->setToolTip(tr("Takes no room; the files must stay there"));
+    m_refer->setToolTip(tr("Takes no space; the files must stay where they are"));
     m_copy->setObjectName("copyButton");
-    m_copy->setToolTip(tr("For discs and drives that go away; archives are always copied"));
+    m_copy->setToolTip(tr("For discs and removable drives; archives are always copied"));
     const bool copies = QSettings().value(copyKey, false).toBool();
     m_copy->setChecked(copies);
     m_refer->setChecked(!copies);
@@ -59,7 +59,7 @@ ImportDialog::ImportDialog(const QStringList &paths, QWidget *parent)
     connect(buttons, &QDialogButtonBox::rejected, this, &ImportDialog::reject);
     auto *layout = new QVBoxLayout(this);
     layout->setSpacing(10);
-    layout->addWidget(m_said);
+    layout->addWidget(m_pathsLabel);
     layout->addLayout(choose);
     layout->addWidget(m_refer);
     layout->addWidget(m_copy);
@@ -72,16 +72,16 @@ void ImportDialog::add(const QStringList &paths) {
     m_paths.removeDuplicates();
     m_import->setEnabled(!m_paths.isEmpty());
     if (m_paths.isEmpty()) {
-        m_said->setText(tr("Choose files, folders, a DICOMDIR or ZIP archives. Folders are looked "
-                           "at all the way down."));
+        m_pathsLabel->setText(tr("Choose files, folders, a DICOMDIR or ZIP archives. Folders are "
+                                 "searched recursively."));
         return;
     }
     QStringList shown;
-    for (const QString &path : m_paths.mid(0, mostListed))
+    for (const QString &path : m_paths.mid(0, maxListedPaths))
         shown << QDir::toNativeSeparators(path);
-    if (m_paths.size() > mostListed)
-        shown << tr("and %n more", "", int(m_paths.size()) - mostListed);
-    m_said->setText(shown.join("\n"));
+    if (m_paths.size() > maxListedPaths)
+        shown << tr("and %n more", "", int(m_paths.size()) - maxListedPaths);
+    m_pathsLabel->setText(shown.join("\n"));
 }
 
 void ImportDialog::accept() {

@@ -12,7 +12,7 @@ class QRadioButton;
 
 namespace pellucid::ui {
 
-/// What goes into the library, and whether as a reference or as a copy; the choice is remembered.
+/// Selects what to import, and whether by reference or by copy; remembers that choice.
 class ImportDialog : public QDialog {
     Q_OBJECT
 public:
@@ -26,7 +26,7 @@ private:
     void accept() override;
 
     QStringList m_paths;
-    QLabel *m_said;
+    QLabel *m_pathsLabel;
     QRadioButton *m_refer, *m_copy;
     QPushButton *m_import;
 };

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int panelWidth = 300;
 
-// A panel that scrolls where the window is low: 720 pixels hold all docks.
+// Lets a panel scroll, so that all docks fit in a height of 720 pixels.
 QWidget *scrolling(QWidget *panel) {
     auto *area = new QScrollArea;
     area->setObjectName(panel->objectName() + "Area");
@@ -40,7 +40,7 @@ LookDocks::LookDocks(QMainWindow &window, Document &document, LookPreparer &prep
     : QObject(&window), m_previewer(document), m_presets(new PresetsPanel(document)),
       m_classes(new ClassesPanel(document)), m_function(new TransferFunctionPanel(document, theme)),
       m_shading(new ShadingPanel(document, theme)), m_quality(new QualityPanel(document)) {
-    // The order and the heights of the design: the stack fits 900 pixels.
+    // At these heights, the docks fit in 900 pixels.
     dock(window, tr("PRESETS"), "presetsDock", m_presets, m_presets->corner(), 155);
     dock(window, tr("CLASSES"), "classesDock", m_classes, m_classes->corner(), 165);
     dock(window, tr("TRANSFER FUNCTION"), "transferFunctionDock", m_function, m_function->corner(),

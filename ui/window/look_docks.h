@@ -20,8 +20,8 @@ class QualityPanel;
 class ShadingPanel;
 class TransferFunctionPanel;
 
-/// The docks at the right of the window, which say what is shown and how: presets, classes,
-/// transfer function, shading, quality. Connects them with what they act on.
+/// The docks on the right of the window: presets, classes, transfer function, shading, quality.
+/// Connects them with the objects that they control.
 class LookDocks : public QObject {
     Q_OBJECT
 public:
@@ -31,11 +31,11 @@ public:
     const std::vector<QDockWidget *> &docks() const { return m_docks; }
     PresetsPanel &presets() { return *m_presets; }
     ShadingPanel &shading() { return *m_shading; }
-    /// Shows a panel whose dock may be closed or folded.
+    /// Shows a panel whose dock may be closed or collapsed.
     void unfold(QWidget &panel);
 
 private:
-    /// `corner`: what stands beside the heading; may be null.
+    /// `corner`: a widget beside the heading; may be null.
     void dock(QMainWindow &window, const QString &title, const char *name, QWidget *panel,
               QWidget *corner, int height);
 

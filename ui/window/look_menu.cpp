@@ -34,14 +34,14 @@ LookMenu::LookMenu(QMenu &menu, Document &document, LookDocks &docks, Projection
                   [](scene::Scene &scene) { scene.tone.inverted = !scene.tone.inverted; });
     });
     m_film->setCheckable(true);
-    add(menu, tr("&Automatic tone"), "automaticToneAction", {}, [this, &projection] {
-        editScene(m_document, tr("Automatic tone"), noDrag, [](scene::Scene &scene) {
+    add(menu, tr("&Automatic brightness"), "automaticToneAction", {}, [this, &projection] {
+        editScene(m_document, tr("Automatic brightness"), noDrag, [](scene::Scene &scene) {
             scene.tone.low.reset();
             scene.tone.high.reset();
         });
         projection.retakeTone();
     });
-    m_windowMenu = menu.addMenu(tr("&Window of the planes"));
+    m_windowMenu = menu.addMenu(tr("&Window presets"));
     m_windowMenu->setObjectName("windowMenu");
     connect(&m_document, &Document::sceneChanged, this, &LookMenu::showScene);
     connect(&m_document, &Document::volumeChanged, this, &LookMenu::showScene);
@@ -65,14 +65,14 @@ void LookMenu::addShading(QMenu &menu, LookDocks &docks) {
         });
     QAction *none = add(menu, tr("Reset s&hading"), "resetShadingAction", QKeySequence("Shift+L"),
                         [&shading] { shading.reset(); });
-    m_ofShading = {m_cue, light, none};
+    m_shadingActions = {m_cue, light, none};
 }
 
 void LookMenu::addReconstructions(QMenu &menu) {
-    QMenu *between = menu.addMenu(tr("&Reconstruction"));
+    QMenu *submenu = menu.addMenu(tr("&Reconstruction"));
     using scene::Reconstruction;
     const auto addOne = [&](const QString &text, const char *name, Reconstruction which) {
-        QAction *action = add(*between, text, name, {}, [this, which] {
+        QAction *action = add(*submenu, text, name, {}, [this, which] {
             editScene(m_document, tr("Reconstruction"), noDrag,
                       [&](scene::Scene &scene) { scene.image.reconstruction = which; });
         });
@@ -92,7 +92,7 @@ void LookMenu::showScene() {
         action->setChecked(action->data().toInt() == int(scene.image.reconstruction));
     m_film->setChecked(scene.tone.inverted);
     m_cue->setChecked(scene.shading.cue.isActive());
-    for (QAction *action : m_ofShading)
+    for (QAction *action : m_shadingActions)
         action->setEnabled(m_document.volume().has_value());
 }
 

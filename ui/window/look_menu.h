@@ -17,13 +17,13 @@ class Document;
 class LookDocks;
 class ProjectionView;
 
-/// The menu of what is shown and how: the same as the docks at the right do, and the tone.
+/// The Look menu: actions of the docks on the right, and the brightness of the projection.
 class LookMenu : public QObject {
     Q_OBJECT
 public:
     LookMenu(QMenu &menu, Document &document, LookDocks &docks, ProjectionView &projection);
 
-    /// Where the windows of the planes are listed.
+    /// The submenu of window presets.
     QMenu &windowMenu() { return *m_windowMenu; }
 
 private:
@@ -36,7 +36,7 @@ private:
     Document &m_document;
     QActionGroup *m_reconstructions;
     QAction *m_film, *m_cue;
-    QList<QAction *> m_ofShading;
+    QList<QAction *> m_shadingActions;
     QMenu *m_windowMenu;
 };
 

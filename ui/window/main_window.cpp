@@ -72,7 +72,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     m_pair->setTool(m_tools->tool());
     connect(m_tools, &ToolsMenu::toolChosen, m_pair, &StudyPair::setTool);
     createHelpMenu();
-    giveIcons(*this, m_theme);
+    setActionIcons(*this, m_theme);
     makeToolBar(*this, m_bench.study.document, m_theme, m_preferences.toolBar,
                 {*m_tools, m_view->layouts(), lookMenu->windowMenu()});
     createStatusBar();
@@ -179,7 +179,7 @@ void MainWindow::createFileMenu() {
     connect(m_file, &FileMenu::failed, this, &MainWindow::report);
     if (const auto *const application = qobject_cast<Application *>(qApp))
         connect(application, &Application::failed, this, &MainWindow::report);
-    connect(m_file, &FileMenu::said, this,
+    connect(m_file, &FileMenu::messageShown, this,
             [this](const QString &text) { statusBar()->showMessage(text, 4000); });
     connect(m_file, &FileMenu::quitRequested, this, &QWidget::close);
     connect(m_file, &FileMenu::recentForgotten, m_reopening, &Reopening::forgetAll);

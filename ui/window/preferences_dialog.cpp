@@ -78,37 +78,37 @@ void PreferencesDialog::setPlace(const Place &place) {
 QWidget *PreferencesDialog::makeGeneral() {
     const Preferences now = Preferences::load();
     m_language = box("languageBox",
-                     {{tr("As the system"), ""},
+                     {{tr("System default"), ""},
                       {"English", "en"},
                       {QString::fromUtf8("繁體中文"), "zh_TW"}}, // each in its own language
                      now.language);
     m_theme = box("themeBox", {{tr("Dark"), "dark"}, {tr("Light"), "light"}}, now.theme);
     m_toolBar = box("toolBarBox",
                     {{tr("Icons"), int(ToolBarStyle::icons)},
-                     {tr("Words"), int(ToolBarStyle::words)},
-                     {tr("Icons and words"), int(ToolBarStyle::both)}},
+                     {tr("Text"), int(ToolBarStyle::words)},
+                     {tr("Icons and text"), int(ToolBarStyle::both)}},
                     int(now.toolBar));
     m_remembers =
-        check("remembersBox", tr("Remember studies that were opened"),
-              tr("Their paths, and what was open last, on this computer"), now.remembersStudies);
-    m_resumes = check("resumesBox", tr("Begin with what was open last"),
-                      tr("Otherwise the first page offers it"), now.resumesAtStart);
+        check("remembersBox", tr("Remember opened studies"),
+              tr("Stores their paths and the last session on this computer"), now.remembersStudies);
+    m_resumes = check("resumesBox", tr("Reopen the last study at startup"),
+                      tr("Otherwise, the start page offers it"), now.resumesAtStart);
     m_resumes->setEnabled(now.remembersStudies);
     m_title =
-        check("patientTitleBox", tr("Patients' names in the window title and among recent studies"),
-              tr("Titles are seen in task bars and by other programs. Otherwise paths that name "
-                 "a patient are not remembered either"),
+        check("patientTitleBox", tr("Show patient names in the window title and recent studies"),
+              tr("Window titles are visible in task bars and to other programs. If this is off, "
+                 "paths that name a patient are not remembered either"),
               now.showsPatient);
     auto *page = new QWidget;
     auto *form = new QFormLayout(page);
     form->setVerticalSpacing(10);
     form->addRow(tr("Language"), m_language);
-    form->addRow(tr("Colours"), m_theme);
+    form->addRow(tr("Theme"), m_theme);
     form->addRow(tr("Tool bar"), m_toolBar);
     form->addRow(m_remembers);
     form->addRow(m_resumes);
     form->addRow(m_title);
-    // The window is made anew for a language; the dialog is gone then.
+    // Queued: a change of language rebuilds the window and deletes this dialog.
     for (QComboBox *choice : {m_language, m_theme, m_toolBar})
         connect(choice, &QComboBox::activated, this, &PreferencesDialog::change,
                 Qt::QueuedConnection);
@@ -146,7 +146,7 @@ QWidget *PreferencesDialog::makeShortcuts() {
     m_commands->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
     m_key = new QKeySequenceEdit;
     m_key->setObjectName("shortcutEdit");
-    m_key->setAccessibleName(tr("Key of the chosen command"));
+    m_key->setAccessibleName(tr("Key of the selected command"));
     auto *restore = new QPushButton(tr("Default"));
     restore->setObjectName("defaultKeyButton");
     auto *none = new QPushButton(tr("No key"));
@@ -170,16 +170,16 @@ QWidget *PreferencesDialog::makeShortcuts() {
     layout->addWidget(m_conflict);
     connect(m_filter, &QLineEdit::textChanged, this, &PreferencesDialog::showShortcuts);
     connect(m_commands, &QTreeWidget::currentItemChanged, this, &PreferencesDialog::showChosenKey);
-    connect(m_key, &QKeySequenceEdit::editingFinished, this, &PreferencesDialog::giveKey);
+    connect(m_key, &QKeySequenceEdit::editingFinished, this, &PreferencesDialog::assignKey);
     connect(restore, &QPushButton::clicked, this, [this] {
         if (chosen() < 0)
             return;
         m_key->setKeySequence(m_entries[std::size_t(chosen())].defaultKey);
-        giveKey();
+        assignKey();
     });
     connect(none, &QPushButton::clicked, this, [this] {
         m_key->clear();
-        giveKey();
+        assignKey();
     });
     connect(all, &QPushButton::clicked, this, [this] {
         for (const ShortcutEntry &entry : m_entries)
@@ -197,7 +197,7 @@ void PreferencesDialog::showShortcuts() {
     for (std::size_t n = 0; n < m_entries.size(); ++n) {
         const ShortcutEntry &entry = m_entries[n];
         const QString key = entry.action->shortcut().toString(QKeySequence::NativeText);
-        if (!holdsWords(entry.text + "\n" + key, m_filter->text()))
+        if (!containsWords(entry.text + "\n" + key, m_filter->text()))
             continue;
         auto *item = new QTreeWidgetItem(m_commands, {entry.text, key});
         item->setData(0, Qt::UserRole, int(n));
@@ -222,25 +222,25 @@ void PreferencesDialog::showChosenKey() {
         m_key->setKeySequence(m_entries[std::size_t(chosen())].action->shortcut());
 }
 
-void PreferencesDialog::giveKey() {
+void PreferencesDialog::assignKey() {
     if (chosen() < 0)
         return;
     const ShortcutEntry &entry = m_entries[std::size_t(chosen())];
     const QKeySequence key = m_key->keySequence();
     m_conflict->clear();
-    // Panes have these whatever a command is given.
+    // The panes always use these keys.
     for (const char *const fixed : {"Q", "R", "Up", "Down", "Left", "Right", "Home", "End", "Esc"})
         if (key == QKeySequence(fixed)) {
-            m_conflict->setText(tr("%1 belongs to the panes: choose another key")
+            m_conflict->setText(tr("%1 is reserved for the panes; choose a different key")
                                     .arg(key.toString(QKeySequence::NativeText)));
             showChosenKey();
             return;
         }
-    // A key runs one command: it is taken from the one that had it.
+    // A key runs only one action: take it from the action that has it.
     for (const ShortcutEntry &other : m_entries)
         if (!key.isEmpty() && other.action != entry.action && other.action->shortcut() == key) {
             setShortcut(other, {});
-            m_conflict->setText(tr("%1 was the key of \"%2\", which has none now")
+            m_conflict->setText(tr("%1 was taken from \"%2\", which now has no key")
                                     .arg(key.toString(QKeySequence::NativeText), other.text));
         }
     setShortcut(entry, key);

@@ -16,13 +16,13 @@ class QTreeWidget;
 
 namespace pellucid::ui {
 
-/// The preferences and the keys of all commands. What is changed is kept and holds at once.
+/// The preferences and the keys of all actions. Changes are saved and take effect at once.
 class PreferencesDialog : public QDialog {
     Q_OBJECT
 public:
     explicit PreferencesDialog(QWidget *window);
 
-    /// Where it stands and what is looked at in it, for one that takes its place.
+    /// The position and state of the dialog, for the dialog that replaces it.
     struct Place {
         QByteArray geometry;
         int tab = 0;
@@ -40,7 +40,7 @@ private:
     void change();
     void showShortcuts();
     void showChosenKey();
-    void giveKey();
+    void assignKey();
     int chosen() const;
 
     std::vector<ShortcutEntry> m_entries;

@@ -15,7 +15,7 @@ namespace pellucid::ui {
 
 namespace {
 
-// Who types wants letters and digits.
+// Text fields need letters and digits.
 bool takesText(const QWidget *widget) {
     return qobject_cast<const QLineEdit *>(widget) != nullptr ||
            qobject_cast<const QAbstractSpinBox *>(widget) != nullptr ||
@@ -45,7 +45,7 @@ bool ProjectionKeys::eventFilter(QObject *watched, QEvent *event) {
             emit comparisonRequested(type == QEvent::KeyPress);
         return type != QEvent::ShortcutOverride;
     }
-    // Arrows have the keypad's mark on some systems, and belong to the planes.
+    // Some systems mark arrow keys as keypad keys; these belong to the planes.
     const bool isView = (key->modifiers() & Qt::KeypadModifier) != 0 &&
                         (key->key() < Qt::Key_Left || key->key() > Qt::Key_Down);
     if (!isView)
@@ -54,7 +54,7 @@ bool ProjectionKeys::eventFilter(QObject *watched, QEvent *event) {
         event->accept();
         return true;
     }
-    m_isForwarding = true; // what it leaves comes by here again
+    m_isForwarding = true; // events that it ignores return to this filter
     QCoreApplication::sendEvent(&m_projection, event);
     m_isForwarding = false;
     return true;

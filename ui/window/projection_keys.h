@@ -9,8 +9,8 @@ namespace pellucid::ui {
 
 class ProjectionView;
 
-/// Keys of the projection wherever in the window the keyboard is: lists would search for a held
-/// letter, and the digits of the keypad would be those of the windows. Who types keeps the keys.
+/// Makes the projection's keys work with any focus in the window: otherwise, a list would search
+/// for a held letter, and keypad digits would select window presets. Text fields keep their keys.
 class ProjectionKeys : public QObject {
     Q_OBJECT
 public:
@@ -18,7 +18,7 @@ public:
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 signals:
-    /// Q is held, or let go.
+    /// Q is pressed or released.
     void comparisonRequested(bool isComparing);
 
 private:

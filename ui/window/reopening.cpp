@@ -31,7 +31,7 @@ void Reopening::openFromLibrary(const StudyFacts &study, const VolumeFacts &volu
     std::erase_if(series, [&](const VolumeFacts &v) {
         return v.seriesUid != volume.seriesUid || v.file != volume.file;
     });
-    // The list that gave them is made anew by the opening.
+    // Opening rebuilds the list that `study` and `volume` refer to.
     const QString entry = recentEntry(study);
     m_bench.study.opener.openFromLibrary(StudyFacts(study), series, volume.key(),
                                          m_bench.library.files(study, volume));
@@ -52,14 +52,14 @@ void Reopening::forgetAll() {
 void Reopening::rememberPaths(QStringList paths) {
     erase_if(paths, [&](const QString &path) {
         const bool isKept = mayBeKept(path, m_bench.study.document);
-        if (!isKept) // from when it was allowed
+        if (!isKept) // remembered when this was allowed
             forgetRecentPath(path);
         return !isKept;
     });
     remember(paths);
 }
 
-// Of a study the volume with most samples, as of a folder.
+// Opens the volume with the most samples, as for a folder.
 void Reopening::openRecent(const QString &entry) {
     const auto study = recentStudy(entry, m_bench.library);
     if (!study) {

@@ -11,8 +11,8 @@ namespace pellucid::ui {
 
 class StartPage;
 
-/// What was open before and can be opened again: the start page offers it, and what the user opens
-/// is remembered there, as far as the preferences let it.
+/// Remembers what the user opens, as far as the preferences allow, and lets the start page reopen
+/// it.
 class Reopening : public QObject {
     Q_OBJECT
 public:
@@ -20,9 +20,9 @@ public:
               QObject *parent = nullptr);
 
     void setPreferences(const Preferences &preferences);
-    /// A study of the library is remembered by its number there.
+    /// Opens a study of the library and remembers it by its number there.
     void openFromLibrary(const StudyFacts &study, const VolumeFacts &volume);
-    /// What was open when the program ended.
+    /// Reopens the last session.
     void resume();
     void forgetAll();
 

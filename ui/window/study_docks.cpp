@@ -31,9 +31,9 @@ StudyDocks::StudyDocks(QMainWindow &window, Workbench &bench, const Theme &theme
 QDockWidget *StudyDocks::addHistory(QMainWindow &window, Workbench &bench) {
     auto *history = new QUndoView(bench.study.document.undoStack());
     history->setObjectName("historyView");
-    history->setAccessibleName(tr("History of edits"));
-    history->setToolTip(tr("A click goes back to how it was after that edit"));
-    history->setEmptyLabel(tr("As it was opened"));
+    history->setAccessibleName(tr("Edit history"));
+    history->setToolTip(tr("Click an edit to return to the state after it"));
+    history->setEmptyLabel(tr("As opened"));
     QDockWidget *dock = makeDock(tr("HISTORY"), "historyDock", history, nullptr);
     window.addDockWidget(Qt::LeftDockWidgetArea, dock);
     dock->hide();

@@ -16,8 +16,8 @@ class MeasurementsPanel;
 class StudyPanel;
 struct Workbench;
 
-/// The docks at the left of the window, which say what is open and what was done with it: studies,
-/// measurements, history of edits, spectrum. The last two start hidden.
+/// The docks on the left of the window: studies, measurements, edit history and spectrum. The last
+/// two are hidden at first.
 class StudyDocks : public QObject {
     Q_OBJECT
 public:
@@ -25,7 +25,7 @@ public:
 
     StudyPanel &studies() { return *m_studies; }
     MeasurementsPanel &measurements() { return *m_measurements; }
-    /// The docks that the menu Window lists.
+    /// The docks in the Window menu.
     std::vector<QDockWidget *> listed() const { return {m_study, m_measured, m_history}; }
     QDockWidget &study() { return *m_study; }
     QDockWidget &spectrum() { return *m_spectrum; }

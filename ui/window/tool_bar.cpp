@@ -35,9 +35,9 @@ Qt::ToolButtonStyle buttonStyle(ToolBarStyle style) {
 QComboBox *makeWindowBox() {
     auto *box = new QComboBox;
     box->setObjectName("windowBox");
-    box->setAccessibleName(ToolBarTexts::tr("Window of the planes"));
-    box->setToolTip(ToolBarTexts::tr("Window of the planes: width / center (keys 0 to 5)"));
-    box->setMinimumWidth(64); // on a screen of 960 points, too
+    box->setAccessibleName(ToolBarTexts::tr("Window presets of the planes"));
+    box->setToolTip(ToolBarTexts::tr("Window width / center of the planes (keys 0 to 5)"));
+    box->setMinimumWidth(64); // fits a screen 960 logical pixels wide
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(22);
     box->setMaximumWidth(260);
@@ -68,7 +68,7 @@ void makeToolBar(QMainWindow &window, Document &document, const Theme &theme, To
     QComboBox *windowBox = makeWindowBox();
     bar->addWidget(windowBox);
     new WindowChooser(document, sources.windowMenu, *windowBox);
-    // What does not fit is behind an arrow, which Qt draws in the colours of its own style.
+    // Qt draws the overflow arrow in the colors of its own style.
     if (auto *more = bar->findChild<QToolButton *>("qt_toolbar_ext_button")) {
         more->setIcon(themedIcon("down", theme));
         more->setToolTip(ToolBarTexts::tr("More"));

@@ -15,14 +15,15 @@ class Document;
 class Theme;
 class ToolsMenu;
 
-/// What the tool bar takes from the menus, which are there before it.
+/// What the tool bar takes from the menus, which must exist before it.
 struct ToolBarSources {
     ToolsMenu &tools;
     QList<QAction *> layouts;
-    QMenu &windowMenu; ///< gets the windows that the bar's box offers
+    QMenu &windowMenu; ///< filled with the entries of the tool bar's window box
 };
 
-/// Adds the tool bar to a window: opening, tools, layouts, exporting, and the window of the planes.
+/// Adds the tool bar to a window: opening, tools, layouts, export, and the window box of the
+/// planes.
 void makeToolBar(QMainWindow &window, Document &document, const Theme &theme, ToolBarStyle style,
                  const ToolBarSources &sources);
 

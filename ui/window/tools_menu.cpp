@@ -22,9 +22,9 @@ namespace pellucid::ui {
 
 namespace {
 
-// Off, and what is read of chests, vessels and joints.
+// Off, and the usual thicknesses for chest, vessels and joints.
 constexpr double thicknessesMm[] = {0.0, 2.0, 3.0, 5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 100.0};
-constexpr double mostMm = 500.0;
+constexpr double maxThicknessMm = 500.0;
 
 } // namespace
 
@@ -50,7 +50,7 @@ ToolsMenu::ToolsMenu(QMenu &menu, Document &document, const std::array<MprView *
                                   cut.axes = {};
                                   m_document.setCut(cut);
                               });
-    m_alongScan = addCommand(menu, tr("Planes a&long the scan"), "alongScanAction",
+    m_alongScan = addCommand(menu, tr("A&lign the planes with the scan"), "alongScanAction",
                              QKeySequence("Shift+P"), this, [this] {
                                  Cut cut = m_document.cut();
                                  cut.axes = mpr::PlaneAxes::along(m_document.volume()->lattice());
@@ -79,11 +79,11 @@ void ToolsMenu::addTools(QMenu &menu) {
         {tr("Zoom"), tr("drag up and down"), "zoomToolAction", Tool::zoom, "Z"},
         {tr("Crosshair"), tr("drag the crosshair; its dots turn the planes"), "crosshairToolAction",
          Tool::crosshair, "C"},
-        {tr("Distance"), tr("drag a line; in the projection too"), "distanceToolAction",
+        {tr("Distance"), tr("drag a line, also in the projection"), "distanceToolAction",
          Tool::distance, "M"},
         {tr("Angle"), tr("drag one leg, click the end of the other"), "angleToolAction",
          Tool::angle, "A"},
-        {tr("Ellipse"), tr("drag the box around it"), "ellipseToolAction", Tool::ellipse, "E"},
+        {tr("Ellipse"), tr("drag its bounding box"), "ellipseToolAction", Tool::ellipse, "E"},
         {tr("Rectangle"), tr("drag from corner to corner"), "rectangleToolAction", Tool::rectangle,
          "B"},
         {tr("Crop"), tr("drag the sides of the box in the planes"), "cropToolAction", Tool::crop,
@@ -111,7 +111,7 @@ void ToolsMenu::addSlab(QMenu &menu) {
     m_slab = addCommand(*m_slabMenu, tr("&Slab"), "slabAction", QKeySequence("S"), this,
                         [this] { toggleSlab(); });
     m_slab->setCheckable(true);
-    m_slab->setToolTip(tr("Slab: planes with a thickness (S; [ and ] change it)"));
+    m_slab->setToolTip(tr("Slab: give the planes a thickness (S; [ and ] change it)"));
     m_slabMenu->addSeparator();
     const struct {
         QString text;
@@ -156,7 +156,7 @@ void ToolsMenu::setSlab(const mpr::Slab &slab) {
     Cut cut = m_document.cut();
     cut.options.slab = slab;
     m_document.setCut(cut);
-    showCut(); // a click on what is checked unchecks it
+    showCut(); // a click on a checked entry would uncheck it
 }
 
 void ToolsMenu::toggleSlab() {
@@ -179,14 +179,14 @@ void ToolsMenu::changeThickness(int steps) {
 void ToolsMenu::askForThickness() {
     bool isGiven = false;
     const double mm = QInputDialog::getDouble(
-        m_planes.front()->window(), tr("Slab"), tr("Thickness of the slab, mm"),
-        m_document.cut().options.slab.thicknessMm, 0.0, mostMm, 1, &isGiven);
+        m_planes.front()->window(), tr("Slab"), tr("Slab thickness, mm"),
+        m_document.cut().options.slab.thicknessMm, 0.0, maxThicknessMm, 1, &isGiven);
     if (isGiven)
         setSlab({mm, m_document.cut().options.slab.mode});
 }
 
 void ToolsMenu::addInterpolation(QMenu &menu) {
-    QMenu *between = menu.addMenu(tr("&Between samples"));
+    QMenu *submenu = menu.addMenu(tr("&Interpolation"));
     const struct {
         QString text;
         const char *name;
@@ -194,7 +194,7 @@ void ToolsMenu::addInterpolation(QMenu &menu) {
     } ways[] = {{tr("&Linear"), "linearPlanesAction", mpr::Interpolation::linear},
                 {tr("&Nearest sample"), "nearestPlanesAction", mpr::Interpolation::nearest}};
     for (const auto &w : ways) {
-        QAction *action = addCommand(*between, w.text, w.name, {}, this, [this, which = w.which] {
+        QAction *action = addCommand(*submenu, w.text, w.name, {}, this, [this, which = w.which] {
             Cut cut = m_document.cut();
             cut.options.interpolation = which;
             m_document.setCut(cut);
@@ -209,16 +209,16 @@ void ToolsMenu::addCine(QMenu &menu) {
     QAction *play = addCommand(menu, tr("Pla&y"), "playAction", QKeySequence(Qt::Key_Space), this,
                                [this] { m_cine->toggle(); });
     play->setCheckable(true);
-    play->setToolTip(tr("Play: the slices of the plane, or the projection around the patient "
-                        "(Space)"));
-    // Elsewhere Space presses what has the keyboard.
+    play->setToolTip(
+        tr("Play the slices of the plane, or turn the projection around the patient (Space)"));
+    // Elsewhere, Space activates the focused control.
     play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     m_projection.parentWidget()->addAction(play);
     connect(m_cine, &Cine::playingChanged, play, &QAction::setChecked);
     QMenu *rates = menu.addMenu(tr("S&peed"));
     auto *group = new QActionGroup(this);
     for (const int rate : {5, 10, 15, 25, 40}) {
-        QAction *action = addCommand(*rates, tr("%1 pictures per second").arg(rate),
+        QAction *action = addCommand(*rates, tr("%1 frames per second").arg(rate),
                                      qPrintable(QString("rate%1Action").arg(rate)), {}, this,
                                      [this, rate] { m_cine->setFramesPerSecond(rate); });
         action->setCheckable(true);

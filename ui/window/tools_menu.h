@@ -21,8 +21,8 @@ class MprView;
 class Phases;
 class ProjectionView;
 
-/// The menu of what the mouse does and how the planes cut: tools, slab, what is between samples,
-/// turned planes, cine. The tools and the slab stand in the tool bar too.
+/// The Tools menu: mouse tools, slab, interpolation, turned planes, cine. The tool bar also has the
+/// tools and the slab.
 class ToolsMenu : public QObject {
     Q_OBJECT
 public:
@@ -44,7 +44,7 @@ private:
     void chooseTool(Tool tool);
     void setSlab(const mpr::Slab &slab);
     void toggleSlab();
-    /// To the next thickness of the menu, or the one before.
+    /// Steps through the thicknesses of the menu; negative: thinner.
     void changeThickness(int steps);
     void askForThickness();
     void showCut();

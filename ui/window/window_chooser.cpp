@@ -46,7 +46,7 @@ void WindowChooser::add(const volume::ValueWindow &window, const QKeySequence &k
     m_box.addItem(windowLabel(window));
 }
 
-// What it is takes a look at all values, when it is wanted.
+// The automatic window depends on all values: compute it only when chosen.
 void WindowChooser::addAutomatic() {
     const QAction *const action = m_menu.addAction(translatedName("Auto"));
     connect(action, &QAction::triggered, this, [this] {
@@ -81,7 +81,7 @@ void WindowChooser::showCurrent() {
     if (!m_document.volume())
         return;
     const QSignalBlocker quiet(m_box);
-    // The presets come first; a window that is none of them has the last row.
+    // A window that is not in the menu has an extra row at the end.
     while (m_box.count() > m_menu.actions().size())
         m_box.removeItem(m_box.count() - 1);
     const QString text = windowLabel(m_document.displayWindow());

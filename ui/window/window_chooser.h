@@ -13,12 +13,12 @@ namespace pellucid::ui {
 
 class Document;
 
-/// The windows that the planes can be shown with, as a menu with its keys and as a box that shows
-/// the current one: the volume's first, the presets, the file's others.
+/// The display windows of the planes, as a menu with keys and as a box that shows the current one:
+/// the initial window, the presets, and the file's other windows.
 class WindowChooser : public QObject {
     Q_OBJECT
 public:
-    /// Fills a menu and a box that others own.
+    /// Fills a menu and a box, which it does not own.
     WindowChooser(Document &document, QMenu &menu, QComboBox &box);
 
 private:

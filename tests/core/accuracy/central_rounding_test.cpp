@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"sineCue", cued(shading::CueKind::sine)},
                     Case{"curve", cued(shading::CueKind::curve)},
                     Case{"lit", lit({}, {1.0, 1.0, 1.0})},
-                    Case{"litInColour", lit({}, {1.0, 0.6, 0.2})},
+                    Case{"litInColor", lit({}, {1.0, 0.6, 0.2})},
                     Case{"cuedAndLit", lit(cued(shading::CueKind::linear), {1.0, 1.0, 1.0})}),
     [](const auto &tested) { return std::string(tested.param.name); });
 

@@ -242,10 +242,10 @@ TEST_F(VolumeFormats, UnsupportedFilesAreRefusedWithTheReason) {
     const std::string nifti = NiftiBytes(false).file();
     EXPECT_EQ(reason("short.nii", nifti.substr(0, nifti.size() - 30)), "is truncated");
     EXPECT_EQ(reason("header.nii", nifti.substr(0, 200)), "is truncated");
-    NiftiBytes colours(false);
-    colours.number<std::int16_t, std::int16_t>(70, 12, 128);
-    EXPECT_EQ(reason("colours.nii", colours.file()),
-              "contains colours; only one value per voxel is supported");
+    NiftiBytes colors(false);
+    colors.number<std::int16_t, std::int16_t>(70, 12, 128);
+    EXPECT_EQ(reason("colors.nii", colors.file()),
+              "contains colors; only one value per voxel is supported");
     NiftiBytes tensors(false);
     tensors.number<std::int16_t, std::int64_t>(40, 16, 5);
     tensors.number<std::int16_t, std::int64_t>(50, 56, 6);

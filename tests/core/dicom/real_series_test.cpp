@@ -192,14 +192,14 @@ TEST(Nasty, RepeatedPositionsAreTwoVolumes) {
     }
 }
 
-TEST(Nasty, MixedSeriesKeepsItsSurveysApartAndListsItsColourPages) {
+TEST(Nasty, MixedSeriesKeepsItsSurveysApartAndListsItsColorPages) {
     PELLUCID_NEEDS_TEST_DATA();
     const auto catalogue = dicom::scan({test::testData() / "nasty_ct_mixed_series_philips"});
     EXPECT_EQ(dicom::selections(catalogue).size(), 2U);
-    int colour = 0;
+    int color = 0;
     for (const auto &s : catalogue.skipped)
-        colour += s.reason.english().find("colour") != std::string::npos ? 1 : 0;
-    EXPECT_EQ(colour, 3);
+        color += s.reason.english().find("color") != std::string::npos ? 1 : 0;
+    EXPECT_EQ(color, 3);
 }
 
 TEST(Nasty, EnhancedMrIsFourTimePointsOfSixSlices) {
@@ -297,9 +297,9 @@ TEST(Nasty, UnusableFilesAreRefusedWithAReason) {
         {"liver_1frame.dcm", "segmentation"},
         {"rtdose.dcm", "32 bits"},
         {"badVR.dcm", "32 bits"},
-        {"SC_rgb_small_odd.dcm", "colour"},
-        {"no-pixel-spacing.dcm", "colour"},
-        {"TestPattern_Palette_16.dcm", "colour"},
+        {"SC_rgb_small_odd.dcm", "color"},
+        {"no-pixel-spacing.dcm", "color"},
+        {"TestPattern_Palette_16.dcm", "color"},
         {"rtplan_truncated.dcm", "damaged"}};
     for (const auto &[name, reason] : expected) {
         const auto it = std::find_if(catalogue.skipped.begin(), catalogue.skipped.end(),

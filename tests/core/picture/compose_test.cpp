@@ -31,7 +31,7 @@ TEST(Compose, TheAutomaticRangeIgnoresTheBackground) {
     EXPECT_EQ(picture::toneRange({2, 1, 1.0, {0.0F, 0.0F}}, {}).high, 1.0);
 }
 
-// Bright colours stay what they are: the channels keep their ratio up to and beyond the range.
+// Bright colors stay what they are: the channels keep their ratio up to and beyond the range.
 TEST(Compose, ColorsKeepTheirHue) {
     const picture::ProjectionImage image{
         4,
@@ -44,14 +44,14 @@ TEST(Compose, ColorsKeepTheirHue) {
     EXPECT_NEAR(bright[1], 127.5, 0.5);
     EXPECT_EQ(bright[2], 0);
     for (int c = 0; c < 4; ++c)
-        EXPECT_EQ(bright[4 + c], bright[c]); // four times as bright: the same colour
+        EXPECT_EQ(bright[4 + c], bright[c]); // four times as bright: the same color
     EXPECT_EQ(bright[8], bright[10]);        // grey stays grey, on the curve of grey images
     EXPECT_EQ(bright[8], std::lround(255 * std::pow(0.2, picture::toneExponent)));
     EXPECT_EQ(bright[12] + bright[13] + bright[14], 0);
     const auto film = picture::compose(image, {0.0, 10.0, true});
     for (int n = 0; n < 16; ++n)
         EXPECT_NEAR(int(bright[n]) + film[n], n % 4 == 3 ? 510 : 255, 1);
-    // A range that begins below zero lifts the noise of what is empty, but to no colour.
+    // A range that begins below zero lifts the noise of what is empty, but to no color.
     const auto lifted = picture::compose({1, 1, 1.0, {0.1F, 0.0F, -0.1F}, 3}, {-60.0, 10.0, false});
     EXPECT_GT(lifted[0], 200);
     EXPECT_LE(lifted[0] - lifted[2], 1);

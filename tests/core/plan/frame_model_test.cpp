@@ -67,7 +67,7 @@ TEST_F(FrameModel, LightTakesASpectrumOfTheGradientAndASineCueTwoMoreSlices) {
     EXPECT_FALSE(isLeftOut(cued, plan::LeftOut::depthCue));
 }
 
-TEST_F(FrameModel, ColoursTakeThreeImagesAndATintTakesNone) {
+TEST_F(FrameModel, ColorsTakeThreeImagesAndATintTakesNone) {
     const auto tinted = model({1, SpectrumOf::look, true});
     EXPECT_EQ(tinted.combination, plan::Combination::tinted);
     EXPECT_EQ(tinted.images, 1);
@@ -79,7 +79,7 @@ TEST_F(FrameModel, ColoursTakeThreeImagesAndATintTakesNone) {
     EXPECT_DOUBLE_EQ(colored.transformOperations, 3.0 * model().transformOperations);
 }
 
-// Slices of layers add up before the transform: two or five grey ones make one image, and coloured
+// Slices of layers add up before the transform: two or five grey ones make one image, and colored
 // ones three.
 TEST_F(FrameModel, LayersTakeASliceEachAndNoImage) {
     for (const int count : {2, 5}) {
@@ -92,7 +92,7 @@ TEST_F(FrameModel, LayersTakeASliceEachAndNoImage) {
     }
 }
 
-TEST_F(FrameModel, ColouredLightMakesThreeImagesOfAGreyField) {
+TEST_F(FrameModel, ColoredLightMakesThreeImagesOfAGreyField) {
     m_scene.shading.lights.emplace_back();
     EXPECT_EQ(model().images, 1);
     m_scene.shading.lights.front().color = {1.0, 0.6, 0.2};

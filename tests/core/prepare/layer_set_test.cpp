@@ -138,7 +138,7 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
         ASSERT_EQ(image.channels, expected.channels);
         EXPECT_LE(test::relativeL2(image.samples, expected.samples), allowed) << weight;
     }
-    // With a single colour, the picture is a grey picture times that colour.
+    // With a single color, the picture is a grey picture times that color.
     look.classes.resize(1);
     const auto single = layersOf(scene, look);
     const auto colored =

@@ -34,7 +34,7 @@ TEST(StepCache, ComputesByContentOnce) {
         bone({{StepKind::gaussian, {{"sigma_mm", 2.0}}}, {StepKind::largestComponent, {}}});
     const auto first = cache.run(head(), smooth, {});
     EXPECT_EQ(cache.computedCount(), 2U);
-    // The series is loaded again; the class differs in weight and colour only.
+    // The series is loaded again; the class differs in weight and color only.
     TissueClass again = smooth;
     again.weight = 0.3;
     again.color = {1.0, 0.0, 0.0};

@@ -101,7 +101,7 @@ TEST(Preset, RefusesWithLineAndReason) {
     EXPECT_EQ(reasonOf(with("[-900, 2000]", "3")), "line 5: /window: must be two numbers");
     EXPECT_EQ(reasonOf(with("\"#fff0d0\"", "7")), "line 13: /classes/0/color: must be text");
     EXPECT_EQ(reasonOf(with("\"#fff0d0\"", "\"red\"")),
-              "line 13: /classes/0/color: 'red' is not a colour of the form #rrggbb");
+              "line 13: /classes/0/color: 'red' is not a color of the form #rrggbb");
     EXPECT_EQ(reasonOf(with("\"Test\"", "\"   \"")).rfind("line 3: /name: ", 0), 0U);
     EXPECT_EQ(reasonOf("[]"), "line 1: must be an object");
     EXPECT_EQ(reasonOf("").rfind("line 1: ", 0), 0U);

@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Kernels, EveryWidth,
                                           testing::Values(fourier::Storage::binary16,
                                                           fourier::Storage::float32)));
 
-// Every path of the vector code: one spectrum, moments, several slices, light of three colours. The
+// Every path of the vector code: one spectrum, moments, several slices, light of three colors. The
 // spectrum also serves as the spectrum of its gradient.
 const std::vector<shading::Shading> shadings{
     {},

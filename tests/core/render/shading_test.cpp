@@ -264,7 +264,7 @@ TEST(Shading, LightsFollowTheViewerOrThePatient) {
     }
 }
 
-// Colour: of light on a grey field, of light on one colour, of light on a look of three channels.
+// Color: of light on a grey field, of light on one color, of light on a look of three channels.
 TEST(Shading, ColoredLightsShineOnColoredTissue) {
     const Shading colored{
         .cue = linear,
@@ -292,7 +292,7 @@ TEST(Shading, ColoredLightsShineOnColoredTissue) {
             EXPECT_LE(test::relativeL2(channelOf(image, channel), truth), 1.1e-3);
         }
     }
-    // Colours that add up to white are colours still: the picture's shape does not hang on chance.
+    // Colors that add up to white are colors still: the picture's shape does not hang on chance.
     Subject white(headField(),
                   {.lights = {{{1, 0, 0}, {1.0, 0.0, 0.0}}, {{1, 0, 0}, {0.0, 1.0, 1.0}}}});
     const auto whiteImage = white.image(someViews().front());

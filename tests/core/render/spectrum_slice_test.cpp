@@ -168,7 +168,7 @@ TEST(SpectrumSlice, InterpolatesWithTheKernelOfThePlan) {
     }
 }
 
-// Classes in colour count by their mean share of red, green and blue.
+// Classes in color count by their mean share of red, green and blue.
 TEST(SpectrumSlice, OfSeveralFieldsIsThatOfTheirWeightedSum) {
     const auto lattice = test::tiltedLattice({12, 14, 10}, {1.0, 1.0, 2.0}, 0.0);
     const auto layout = exactLayout(lattice);

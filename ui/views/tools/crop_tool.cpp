@@ -15,7 +15,7 @@ namespace pellucid::ui {
 
 namespace {
 
-constexpr double reach = 7.0; // of the hand, logical pixels
+constexpr double grabPixels = 7.0; // logical pixels
 constexpr int outsideAlpha = 130;
 
 QPointF position(const PaneMapping &mapping, const glm::dvec2 &pixel) {
@@ -23,7 +23,7 @@ QPointF position(const PaneMapping &mapping, const glm::dvec2 &pixel) {
 }
 
 QPointF inside(const QRect &area, const QPointF &p) {
-    const QRectF seen = QRectF(area).adjusted(1.5, 4.5, -1.5, -1.5); // below the pane's bar
+    const QRectF seen = QRectF(area).adjusted(1.5, 4.5, -1.5, -1.5); // below the color bar
     return {std::clamp(p.x(), seen.left(), seen.right()),
             std::clamp(p.y(), seen.top(), seen.bottom())};
 }
@@ -37,7 +37,7 @@ double distance(const QPointF &p, const QPointF &a, const QPointF &b) {
     return std::hypot(off.x(), off.y());
 }
 
-// Shares of the axes reach from face to face of the outer samples.
+// Fractions 0 and 1 are the outer faces of the first and last samples.
 mpr::LatticeBox latticeBox(const classify::CropBox &box, const volume::GridSize &size) {
     const glm::dvec3 n(size.i, size.j, size.k);
     return {box.low * n - 0.5, box.high * n - 0.5};
@@ -57,11 +57,11 @@ std::vector<mpr::BoxEdge> CropTool::outline(const PaneMapping &mapping) const {
 std::optional<mpr::BoxEdge> CropTool::edgeAt(const QPointF &at) const {
     const PaneMapping mapping = m_pane.mapping();
     std::optional<mpr::BoxEdge> nearest;
-    double least = reach;
+    double nearestDistance = grabPixels;
     for (const mpr::BoxEdge &edge : outline(mapping)) {
         const double d = distance(at, position(mapping, edge.from), position(mapping, edge.to));
-        if (edge.axis >= 0 && d < least) {
-            least = d;
+        if (edge.axis >= 0 && d < nearestDistance) {
+            nearestDistance = d;
             nearest = edge;
         }
     }
@@ -85,13 +85,13 @@ bool CropTool::press(const QPointF &at) {
     return true;
 }
 
-bool CropTool::move(const HandMove &hand) {
+bool CropTool::move(const MouseMove &mouse) {
     if (!m_dragged)
         return false;
     const volume::Lattice &lattice = m_document.volume()->lattice();
     const int axis = m_dragged->axis, count = lattice.size()[axis];
-    // Faces lie between samples.
-    const double voxel = lattice.voxel(m_pane.mapping().patientAt(hand.at)).v[axis];
+    // Faces are between samples.
+    const double voxel = lattice.voxel(m_pane.mapping().patientAt(mouse.at)).v[axis];
     const double share = std::clamp(std::round(voxel + 0.5), 0.0, double(count)) / count;
     const double one = 1.0 / count;
     if (m_dragged->isHigh)
@@ -136,18 +136,18 @@ void CropTool::paint(QPainter &painter, const ToolSurface &surface, Marks marks)
 
 void CropTool::paintSides(QPainter &painter, const ToolSurface &surface,
                           const std::vector<mpr::BoxEdge> &edges, Marks marks) const {
-    const bool canBeTaken = marks == Marks::chosen;
+    const bool isDraggable = marks == Marks::chosen;
     for (const mpr::BoxEdge &edge : edges) {
         if (edge.axis < 0)
             continue;
-        const bool isTaken =
+        const bool isDragged =
             m_dragged && m_dragged->axis == edge.axis && m_dragged->isHigh == edge.isHigh;
-        painter.setPen(QPen(surface.colors.accent, isTaken ? 2.5 : canBeTaken ? 1.5 : 1.0));
-        // Of a volume that fills the pane the sides lie on its border.
+        painter.setPen(QPen(surface.colors.accent, isDragged ? 2.5 : isDraggable ? 1.5 : 1.0));
+        // If the volume fills the pane, the sides are drawn at its border.
         const QPointF from = inside(surface.area, position(surface.mapping, edge.from)),
                       to = inside(surface.area, position(surface.mapping, edge.to));
         painter.drawLine(from, to);
-        if (canBeTaken) {
+        if (isDraggable) {
             painter.setBrush(surface.colors.accent);
             painter.drawEllipse(0.5 * (from + to), 3.5, 3.5);
         }

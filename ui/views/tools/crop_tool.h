@@ -13,9 +13,8 @@ namespace pellucid::ui {
 
 class Document;
 
-/// The crop box in a plane: its faces are lines that can be dragged; what is outside is dimmed,
-/// whichever tool is chosen. The scene changes when the hand lets go, because everything is
-/// prepared again then.
+/// Shows the crop box in a plane and lets its faces be dragged. The outside is dimmed with any
+/// tool. The scene changes only on release, because each change requires a new preparation.
 class CropTool : public PaneTool {
 public:
     CropTool(Document &document, const ToolPane &pane) : m_document(document), m_pane(pane) {}
@@ -23,10 +22,10 @@ public:
     Qt::CursorShape cursor() const override { return Qt::ArrowCursor; }
     std::optional<Qt::CursorShape> gripCursor(const QPointF &at) const override;
     bool press(const QPointF &at) override;
-    bool move(const HandMove &hand) override;
+    bool move(const MouseMove &mouse) override;
     void release(const QPointF &at) override;
     bool isBusy() const override { return m_dragged.has_value(); }
-    /// The box goes back to where it was.
+    /// Restores the box.
     void cancel() override { m_dragged.reset(); }
     void paint(QPainter &painter, const ToolSurface &surface, Marks marks) const override;
 
@@ -44,7 +43,7 @@ private:
     Document &m_document;
     const ToolPane &m_pane;
     std::optional<Face> m_dragged;
-    classify::CropBox m_moved; ///< while a face is dragged
+    classify::CropBox m_moved; ///< the box while a face is dragged
 };
 
 } // namespace pellucid::ui

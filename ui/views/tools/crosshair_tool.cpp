@@ -31,17 +31,17 @@ bool CrosshairTool::press(const QPointF &at) {
     return true;
 }
 
-bool CrosshairTool::move(const HandMove &hand) {
+bool CrosshairTool::move(const MouseMove &mouse) {
     if (m_isTurning)
-        turnTo(hand.at.toPoint());
+        turnTo(mouse.at.toPoint());
     else
-        moveTo(hand.at.toPoint());
+        moveTo(mouse.at.toPoint());
     return true;
 }
 
 void CrosshairTool::moveTo(const QPoint &to) {
     const volume::Lattice &lattice = m_document.volume()->lattice();
-    // Stays within the volume, where every pane has something to show.
+    // Keep the crosshair within the volume, so that every pane shows a slice.
     glm::dvec3 v = lattice.voxel(m_pane.mapping().patientAt(to)).v;
     v = glm::clamp(v, glm::dvec3(0.0),
                    glm::dvec3(lattice.size().i - 1, lattice.size().j - 1, lattice.size().k - 1));

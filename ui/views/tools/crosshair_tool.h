@@ -10,19 +10,19 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Moves the crosshair in a plane, and turns the two other planes by the ends of their lines.
+/// Moves the crosshair in a plane, and turns the two other planes by the handles of their lines.
 class CrosshairTool : public PaneTool {
 public:
     CrosshairTool(Document &document, const ToolPane &pane, mpr::Orientation orientation)
         : m_document(document), m_pane(pane), m_orientation(orientation) {}
 
-    /// Moves the crosshair there. *Units*: logical pixels of the pane.
+    /// Moves the crosshair to a position. *Units*: logical pixels of the pane.
     void moveTo(const QPoint &to);
 
     Qt::CursorShape cursor() const override { return Qt::CrossCursor; }
     std::optional<Qt::CursorShape> gripCursor(const QPointF &at) const override;
     bool press(const QPointF &at) override;
-    bool move(const HandMove &hand) override;
+    bool move(const MouseMove &mouse) override;
     void paint(QPainter &painter, const ToolSurface &surface, Marks marks) const override;
 
 private:

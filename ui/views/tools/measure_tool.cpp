@@ -22,7 +22,7 @@ namespace {
 using measure::Kind;
 using measure::Measurement;
 
-constexpr double gripPixels = 6.0, leastDragPixels = 4.0;
+constexpr double gripPixels = 6.0, minDragPixels = 4.0;
 
 struct MeasureToolTexts {
     Q_DECLARE_TR_FUNCTIONS(MeasureToolTexts)
@@ -37,7 +37,8 @@ bool MeasureTool::isShown(const Measurement &m, const mpr::Plane &plane) const {
     const double along = std::abs(glm::dot(m.axes.toViewer(), plane.axes.toViewer()));
     if ((m.kind == Kind::projectedDistance) != (m_figures == Figures::inPicture))
         return false;
-    if (m_figures == Figures::inPicture) // a tenth of a degree away it has another length
+    // The length depends on the view, which must match to a tenth of a degree.
+    if (m_figures == Figures::inPicture)
         return along > 0.999999;
     if (measure::isRegion(m.kind) && along < 0.999)
         return false;
@@ -51,7 +52,7 @@ std::optional<MeasureTool::Hit> MeasureTool::hitAt(const QPointF &at) const {
     const std::vector<Measured> &all = m_document.measured();
     const PaneMapping mapping = m_pane.mapping();
     std::optional<Hit> whole;
-    // What was drawn last lies on top.
+    // The last measurement is on top.
     for (int n = int(all.size()) - 1; n >= 0; --n) {
         const Measurement &m = all[std::size_t(n)].measurement;
         if (!isShown(m, mapping.plane))
@@ -89,7 +90,7 @@ bool MeasureTool::press(const QPointF &at) {
         m_grip = hit->point < 0 ? Grip::whole : Grip::point;
         m_index = hit->index;
         m_point = hit->point;
-        m_current = m_written = m_document.measured()[std::size_t(hit->index)].measurement;
+        m_current = m_stored = m_document.measured()[std::size_t(hit->index)].measurement;
         m_document.selectMeasurement(hit->index);
         return true;
     }
@@ -101,10 +102,10 @@ bool MeasureTool::press(const QPointF &at) {
     return true;
 }
 
-bool MeasureTool::move(const HandMove &hand) {
+bool MeasureTool::move(const MouseMove &mouse) {
     if (m_grip == Grip::none)
         return false;
-    moveTo(hand.at);
+    moveTo(mouse.at);
     return true;
 }
 
@@ -124,7 +125,7 @@ void MeasureTool::moveTo(const QPointF &at) {
     case Grip::point:
         moveGrip(m_current, m_point, mm);
         if (measure::isRegion(m_current.kind))
-            m_point = 2; // the corner that was taken is the second point now
+            m_point = 2; // the dragged corner is now the second point
         edit(MeasureToolTexts::tr("Change %1").arg(QString::fromStdString(m_current.name)));
         break;
     case Grip::whole:
@@ -138,8 +139,8 @@ void MeasureTool::moveTo(const QPointF &at) {
 
 void MeasureTool::release(const QPointF &at) {
     if (m_grip == Grip::making) {
-        if (QLineF(at, m_pressed).length() < leastDragPixels)
-            m_grip = Grip::none; // a click is no measurement
+        if (QLineF(at, m_pressed).length() < minDragPixels)
+            m_grip = Grip::none; // a click creates nothing
         else if (m_current.kind == Kind::angle)
             m_grip = Grip::thirdPoint;
         else {
@@ -154,7 +155,7 @@ void MeasureTool::release(const QPointF &at) {
 void MeasureTool::finish() {
     m_grip = Grip::none;
     auto all = m_document.measurements();
-    // Numbered on from the last of its kind that has a number.
+    // Continue the numbering of this kind.
     const QString kind = kindText(m_current.kind);
     int number = 0;
     for (const Measurement &m : all)
@@ -168,12 +169,12 @@ void MeasureTool::finish() {
 
 void MeasureTool::edit(const QString &text) {
     auto all = m_document.measurements();
-    // Undone or deleted under the hand: what has its place now is another one.
-    if (m_index >= int(all.size()) || all[std::size_t(m_index)] != m_written) {
+    // It was undone or deleted during the drag: the index now belongs to a different measurement.
+    if (m_index >= int(all.size()) || all[std::size_t(m_index)] != m_stored) {
         m_grip = Grip::none;
         return;
     }
-    all[std::size_t(m_index)] = m_written = m_current;
+    all[std::size_t(m_index)] = m_stored = m_current;
     m_document.undoStack()->push(new EditMeasurements(m_document, all, text, m_drag));
 }
 

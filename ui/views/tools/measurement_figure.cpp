@@ -24,7 +24,7 @@ std::vector<glm::dvec3> gripsOf(const Measurement &m) {
 
 void moveGrip(Measurement &m, int grip, const glm::dvec3 &to) {
     if (measure::isRegion(m.kind)) {
-        // A region stays in its plane, though the slice beside it may be the one that is shown.
+        // A region stays in its plane, even if the pane shows the slice beside it.
         const glm::dvec3 opposite = gripsOf(m)[std::size_t((grip + 2) % 4)],
                          normal = m.axes.toViewer();
         m.pointsMm = {opposite, to - glm::dot(to - opposite, normal) * normal};

@@ -10,17 +10,17 @@
 
 namespace pellucid::ui {
 
-/// The places a hand can take a measurement by: its points, of a region the four corners of its
-/// box. *Units*: mm, LPS.
+/// The grips of a measurement: its points or, for a region, the four corners of its box. *Units*:
+/// mm, LPS.
 std::vector<glm::dvec3> gripsOf(const measure::Measurement &measurement);
 
-/// Moves one of them; of a region the corner becomes the second point and stays in its plane.
+/// Moves a grip. For a region, the corner becomes the second point and stays in the region's plane.
 void moveGrip(measure::Measurement &measurement, int grip, const glm::dvec3 &toMm);
 
 /// The outline on a pane, closed for regions. *Units*: logical pixels.
 QPolygonF outlineOf(const measure::Measurement &measurement, const PaneMapping &mapping);
 
-/// From a point to the nearest one between two others. *Units*: those of the points.
+/// The distance from a point to a line segment. *Units*: those of the points.
 double distanceToSegment(const QPointF &point, const QPointF &from, const QPointF &to);
 
 } // namespace pellucid::ui

@@ -15,8 +15,8 @@ namespace pellucid::ui {
 
 namespace {
 
-// A place for a figure's text near one of its points that covers no other text and, if there is
-// one, no line. *Units*: logical pixels.
+// Finds a position for a text near one of its figure's points, where it covers no other text and,
+// if possible, no line. *Units*: logical pixels.
 QRect placeOf(const QSize &text, const std::vector<QPointF> &points, const QRect &viewport,
               const std::vector<QRect> &taken, const QRegion &lines) {
     const int w = text.width(), h = text.height();
@@ -44,7 +44,7 @@ QRect placeOf(const QSize &text, const std::vector<QPointF> &points, const QRect
     }
     if (found)
         return *found;
-    // In a pane that is full: in its corner, whatever is there.
+    // If the pane is full, overlap is unavoidable.
     QRect area(points.front().toPoint(), text);
     area.translate(std::min(0, viewport.right() - area.right()),
                    std::min(0, viewport.bottom() - area.bottom()));
@@ -54,7 +54,7 @@ QRect placeOf(const QSize &text, const std::vector<QPointF> &points, const QRect
 QRegion regionAround(const QPolygonF &outline) {
     QRegion region;
     for (qsizetype n = 1; n < outline.size(); ++n) {
-        // Short pieces: the box of a long oblique line is mostly empty.
+        // Use short pieces: the bounding box of a long oblique line is mostly empty.
         const QLineF line(outline[n - 1], outline[n]);
         const int pieces = std::clamp(int(line.length() / 12.0), 1, 200);
         for (int k = 0; k < pieces; ++k)
@@ -66,7 +66,7 @@ QRegion regionAround(const QPolygonF &outline) {
     return region;
 }
 
-// What no text may cover: the patient's letters at the four sides.
+// The areas of the orientation letters, which no text may cover.
 std::vector<QRect> lettersOf(const QRect &viewport) {
     const QRegion upperAndLower = upperAndLowerLetters(viewport);
     std::vector<QRect> letters(upperAndLower.begin(), upperAndLower.end());
@@ -80,14 +80,14 @@ std::vector<QPointF> gripsOn(const PaneMapping &mapping, const measure::Measurem
     std::vector<QPointF> points;
     for (const glm::dvec3 &p : gripsOf(measurement))
         if (const QPointF at = mapping.positionOf({p});
-            std::abs(at.x()) < 1e6 && std::abs(at.y()) < 1e6) // far outside of the pane
+            std::abs(at.x()) < 1e6 && std::abs(at.y()) < 1e6) // not far outside the pane
             points.push_back(at);
     std::sort(points.begin(), points.end(),
               [](const QPointF &a, const QPointF &b) { return a.x() > b.x(); });
     return points;
 }
 
-// A line to a text that is far from its figure.
+// Draws a line from a figure to its text if the text is far away.
 void paintLeader(QPainter &painter, const std::vector<QPointF> &points, const QRect &area,
                  const QColor &color) {
     const QPointF nearest =
@@ -110,7 +110,7 @@ void paintMeasurements(QPainter &painter, const ToolSurface &surface,
     const auto colorOf = [&](const DrawnMeasurement &d) {
         return d.isSelected ? surface.colors.accent : surface.colors.curve;
     };
-    // All lines first: a text stands on none, and beside the texts before it.
+    // Draw all lines first: each text avoids all lines and the texts before it.
     QRegion lines;
     for (const DrawnMeasurement &d : drawn) {
         paintMeasurement(painter, mapping, d.measured.measurement, colorOf(d), d.isSelected);
@@ -138,7 +138,7 @@ void paintMeasurements(QPainter &painter, const ToolSurface &surface,
 void paintMeasurement(QPainter &painter, const PaneMapping &mapping, const measure::Measurement &m,
                       const QColor &color, bool isSelected) {
     const QPolygonF outline = outlineOf(m, mapping);
-    // A dark line below keeps it legible on bone.
+    // A dark line underneath keeps it legible on bone.
     painter.setPen(QPen(QColor(0, 0, 0, 150), 3.0));
     painter.drawPolyline(outline);
     painter.setPen(QPen(color, 1.4));

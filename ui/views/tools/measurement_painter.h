@@ -8,18 +8,18 @@
 
 namespace pellucid::ui {
 
-/// A measurement with its result, and whether it is drawn as the selected one.
+/// A measurement with its result, and whether it is selected.
 struct DrawnMeasurement {
     const Measured &measured;
     bool isSelected;
 };
 
-/// Draws measurements and their results: no text covers another one or, where there is room, a
-/// figure.
+/// Draws measurements and their results. Texts do not overlap each other and, if there is room, do
+/// not cover figures.
 void paintMeasurements(QPainter &painter, const ToolSurface &surface,
                        const std::vector<DrawnMeasurement> &drawn, const volume::Volume &volume);
 
-/// Draws one without its result.
+/// Draws a measurement without its result.
 void paintMeasurement(QPainter &painter, const PaneMapping &mapping,
                       const measure::Measurement &measurement, const QColor &color,
                       bool isSelected);

@@ -3,8 +3,8 @@
 
 namespace pellucid::ui {
 
-bool OrbitTool::move(const HandMove &hand) {
-    m_pane.orbitBy(hand.delta);
+bool OrbitTool::move(const MouseMove &mouse) {
+    m_pane.orbitBy(mouse.delta);
     return true;
 }
 

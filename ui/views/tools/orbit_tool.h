@@ -13,7 +13,7 @@ public:
 
     Qt::CursorShape cursor() const override { return Qt::ClosedHandCursor; }
     bool press(const QPointF & /*at*/) override { return true; }
-    bool move(const HandMove &hand) override;
+    bool move(const MouseMove &mouse) override;
 
 private:
     ProjectionPane &m_pane;

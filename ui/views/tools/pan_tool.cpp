@@ -3,8 +3,8 @@
 
 namespace pellucid::ui {
 
-bool PanTool::move(const HandMove &hand) {
-    m_pane.panBy(hand.delta);
+bool PanTool::move(const MouseMove &mouse) {
+    m_pane.panBy(mouse.delta);
     return true;
 }
 

@@ -6,14 +6,14 @@
 
 namespace pellucid::ui {
 
-/// Drags the picture over the pane.
+/// Pans the picture.
 class PanTool : public PaneTool {
 public:
     PanTool(ToolPane &pane, Qt::CursorShape cursor) : m_pane(pane), m_cursor(cursor) {}
 
     Qt::CursorShape cursor() const override { return m_cursor; }
     bool press(const QPointF & /*at*/) override { return true; }
-    bool move(const HandMove &hand) override;
+    bool move(const MouseMove &mouse) override;
 
 private:
     ToolPane &m_pane;

@@ -22,7 +22,7 @@ PlaneTools::PlaneTools(Document &document, mpr::Orientation orientation, ToolPan
     add(Tool::window, std::make_unique<WindowTool>(document));
     add(Tool::pan, std::make_unique<PanTool>(pane, Qt::OpenHandCursor));
     add(Tool::zoom, std::make_unique<ZoomTool>(pane));
-    add(Tool::distance, std::move(measure)); // and whatever else is measured
+    add(Tool::distance, std::move(measure)); // and all other kinds of measurements
     m_chosen = find(Tool::window);
 }
 
@@ -41,12 +41,12 @@ PaneTool *PlaneTools::find(Tool tool) const {
 }
 
 void PlaneTools::choose(Tool tool) {
-    dropHalfDone();
+    dropUnfinished();
     m_chosen = find(tool);
     m_measure->setKind(measuredBy(tool));
 }
 
-// What the chosen tool can drag comes first, then what is measured.
+// The selected tool has priority over measurements.
 PaneTool &PlaneTools::toolAt(const QPointF &at) const {
     return !m_chosen->gripCursor(at) && m_measure->gripCursor(at) ? *m_measure : *m_chosen;
 }
@@ -62,26 +62,26 @@ void PlaneTools::press(Qt::MouseButton button, const QPointF &at) {
     m_button = button;
     m_last = at.toPoint();
     PaneTool &tool = button == Qt::MiddleButton ? *find(Tool::pan) : toolAt(at);
-    m_held = tool.press(at) ? &tool : nullptr;
+    m_activeTool = tool.press(at) ? &tool : nullptr;
 }
 
 bool PlaneTools::move(const QPointF &at) {
-    const HandMove hand{at, at.toPoint() - m_last};
+    const MouseMove mouse{at, at.toPoint() - m_last};
     m_last = at.toPoint();
-    // An angle that lacks its third point has all moves, with any button and without.
+    // An unfinished angle gets all moves, with or without a button.
     if (m_measure->isBusy())
-        return m_measure->move(hand);
+        return m_measure->move(mouse);
     if (m_button == Qt::NoButton)
         return false;
-    return m_held == nullptr || m_held->move(hand);
+    return m_activeTool == nullptr || m_activeTool->move(mouse);
 }
 
 void PlaneTools::release(Qt::MouseButton button, const QPointF &at) {
     if (button != m_button)
         return;
-    if (m_held != nullptr)
-        m_held->release(at);
-    m_held = nullptr;
+    if (m_activeTool != nullptr)
+        m_activeTool->release(at);
+    m_activeTool = nullptr;
     m_button = Qt::NoButton;
 }
 
@@ -94,14 +94,14 @@ bool PlaneTools::isMeasuring() const {
     return m_measure->isBusy();
 }
 
-void PlaneTools::dropHalfDone() {
-    for (const auto &[tool, does] : m_tools)
-        does->cancel();
+void PlaneTools::dropUnfinished() {
+    for (const auto &[tool, paneTool] : m_tools)
+        paneTool->cancel();
 }
 
 void PlaneTools::cancel() {
-    dropHalfDone();
-    m_held = nullptr;
+    dropUnfinished();
+    m_activeTool = nullptr;
     m_button = Qt::NoButton;
 }
 
@@ -110,13 +110,14 @@ void PlaneTools::moveCrosshair(const QPointF &at) {
 }
 
 void PlaneTools::paint(QPainter &painter, const ToolSurface &surface) const {
-    for (const auto &[tool, does] : m_tools)
-        does->paint(painter, surface, does.get() == m_chosen ? Marks::chosen : Marks::shown);
+    for (const auto &[tool, paneTool] : m_tools)
+        paneTool->paint(painter, surface,
+                        paneTool.get() == m_chosen ? Marks::chosen : Marks::shown);
 }
 
 void PlaneTools::paintPlain(QPainter &painter, const ToolSurface &surface) const {
-    for (const auto &[tool, does] : m_tools)
-        does->paint(painter, surface, Marks::plain);
+    for (const auto &[tool, paneTool] : m_tools)
+        paneTool->paint(painter, surface, Marks::plain);
 }
 
 } // namespace pellucid::ui

@@ -16,52 +16,52 @@ class CrosshairTool;
 class Document;
 class MeasureTool;
 
-/// The tools of a plane and the drag that is underway. The left button works with the chosen tool,
-/// the middle one pans, and what is measured can be dragged whichever tool is chosen.
+/// The tools of a plane and the current drag. The left button uses the selected tool, the middle
+/// one pans. Measurements can be dragged with any tool.
 class PlaneTools {
 public:
     PlaneTools(Document &document, mpr::Orientation orientation, ToolPane &pane);
     ~PlaneTools();
 
-    /// Drops what is half done; a drag that has begun keeps its tool.
+    /// Selects a tool and drops unfinished figures. A drag that has begun keeps its tool.
     void choose(Tool tool);
-    /// That of the chosen tool.
+    /// The cursor of the selected tool.
     Qt::CursorShape cursor() const { return m_chosen->cursor(); }
-    /// That of the tool which the left button would use there.
+    /// The cursor of the tool that the left button would use at this position.
     Qt::CursorShape cursorAt(const QPointF &at) const;
 
-    /// A second button does not disturb what the first one drags.
+    /// A second button does not disturb the drag of the first.
     void press(Qt::MouseButton button, const QPointF &at);
-    /// False: no tool wants the move.
+    /// Returns false if no tool uses the move.
     bool move(const QPointF &at);
     void release(Qt::MouseButton button, const QPointF &at);
 
-    /// Something is half done that `cancel` ends.
+    /// Whether something is unfinished that `cancel` would drop.
     bool isBusy() const;
     bool isMeasuring() const;
-    /// Drops what is half done and ends the drag.
+    /// Drops unfinished figures and ends the drag.
     void cancel();
 
     void moveCrosshair(const QPointF &at);
 
-    /// Draws what the tools show on the pane.
+    /// Draws the tools' marks on the pane.
     void paint(QPainter &painter, const ToolSurface &surface) const;
-    /// Draws what of it belongs to an exported picture.
+    /// Draws the marks for an exported picture.
     void paintPlain(QPainter &painter, const ToolSurface &surface) const;
 
 private:
     void add(Tool tool, std::unique_ptr<PaneTool> made);
     PaneTool *find(Tool tool) const;
     PaneTool &toolAt(const QPointF &at) const;
-    void dropHalfDone();
+    void dropUnfinished();
 
-    /// In the order in which they are painted.
+    /// In painting order.
     std::vector<std::pair<Tool, std::unique_ptr<PaneTool>>> m_tools;
-    MeasureTool *m_measure; ///< whatever is measured
+    MeasureTool *m_measure; ///< for every kind of measurement
     CrosshairTool *m_crosshair;
     PaneTool *m_chosen;
-    PaneTool *m_held = nullptr; ///< gets the moves of the drag; none: it found nothing to drag
-    Qt::MouseButton m_button = Qt::NoButton; ///< of the drag
+    PaneTool *m_activeTool = nullptr;        ///< gets the moves of the drag; null: nothing to drag
+    Qt::MouseButton m_button = Qt::NoButton; ///< the button of the drag
     QPoint m_last;
 };
 

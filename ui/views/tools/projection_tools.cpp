@@ -18,7 +18,7 @@ std::optional<Qt::CursorShape> ProjectionTools::cursor() const {
 }
 
 Qt::CursorShape ProjectionTools::heldCursor() const {
-    return m_held != nullptr ? m_held->cursor() : Qt::ArrowCursor;
+    return m_activeTool != nullptr ? m_activeTool->cursor() : Qt::ArrowCursor;
 }
 
 PaneTool *ProjectionTools::toolOf(Qt::MouseButton button) {
@@ -37,28 +37,28 @@ PaneTool *ProjectionTools::toolOf(Qt::MouseButton button) {
 void ProjectionTools::press(Qt::MouseButton button, const QPointF &at) {
     if (m_measure.isBusy())
         return;
-    m_held = nullptr;
+    m_activeTool = nullptr;
     m_last = at.toPoint();
     if (button == Qt::LeftButton && m_pane.showsPicture() && m_measure.press(at))
         return;
-    m_held = toolOf(button);
-    if (m_held != nullptr)
-        m_held->press(at);
+    m_activeTool = toolOf(button);
+    if (m_activeTool != nullptr)
+        m_activeTool->press(at);
 }
 
 void ProjectionTools::move(const QPointF &at) {
-    const HandMove hand{at, at.toPoint() - m_last};
+    const MouseMove mouse{at, at.toPoint() - m_last};
     m_last = at.toPoint();
     if (m_measure.isBusy())
-        m_measure.move(hand);
-    else if (m_held != nullptr && m_pane.canMove() && !hand.delta.isNull())
-        m_held->move(hand);
+        m_measure.move(mouse);
+    else if (m_activeTool != nullptr && m_pane.canMove() && !mouse.delta.isNull())
+        m_activeTool->move(mouse);
 }
 
 void ProjectionTools::release(Qt::MouseButton button, const QPointF &at) {
     if (m_measure.isBusy() && button == Qt::LeftButton)
         m_measure.release(at);
-    m_held = nullptr;
+    m_activeTool = nullptr;
 }
 
 } // namespace pellucid::ui

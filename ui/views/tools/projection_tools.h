@@ -9,31 +9,31 @@
 
 namespace pellucid::ui {
 
-/// The tools of the projection and the drag that is underway. The left button orbits, the middle
-/// one pans, the right one sets the brightness; of the tools that are chosen only that of distances
-/// matters. What is measured can be dragged whichever is chosen.
+/// The tools of the projection and the current drag. The left button orbits, the middle one pans,
+/// the right one sets the brightness. Of the selectable tools, only the distance tool has an effect
+/// here. Measurements can be dragged with any tool.
 class ProjectionTools {
 public:
     ProjectionTools(Document &document, ProjectionPane &pane);
 
-    /// Drops what is half measured.
+    /// Selects a tool and drops an unfinished measurement.
     void choose(Tool tool);
-    /// That of the chosen tool; none: the pane's own.
+    /// The cursor of the selected tool; none: the pane's own.
     std::optional<Qt::CursorShape> cursor() const;
-    /// That of the drag.
+    /// The cursor of the current drag.
     Qt::CursorShape heldCursor() const;
 
-    /// A second button takes the drag over, unless something is being measured.
+    /// A second button takes over the drag, unless a measurement is unfinished.
     void press(Qt::MouseButton button, const QPointF &at);
     void move(const QPointF &at);
-    /// Any button ends the drag; only the left one what is being measured.
+    /// Any button ends the drag; only the left one ends a measurement.
     void release(Qt::MouseButton button, const QPointF &at);
 
     bool isMeasuring() const { return m_measure.isBusy(); }
-    /// Drops what is half measured.
+    /// Drops an unfinished measurement.
     void cancel() { m_measure.cancel(); }
 
-    /// What draws the measurements.
+    /// The tool that draws the measurements.
     const PaneTool &measure() const { return m_measure; }
 
 private:
@@ -45,7 +45,7 @@ private:
     PanTool m_pan;
     ToneTool m_tone;
     bool m_measures = false;
-    PaneTool *m_held = nullptr; ///< gets the moves of the drag
+    PaneTool *m_activeTool = nullptr; ///< gets the moves of the drag
     QPoint m_last;
 };
 

@@ -12,13 +12,13 @@ bool ToneTool::press(const QPointF & /*at*/) {
     return true;
 }
 
-bool ToneTool::move(const HandMove &hand) {
+bool ToneTool::move(const MouseMove &mouse) {
     const picture::ToneRange &automatic = m_pane.automaticTone();
     const scene::Tone shown = m_pane.shownTone();
     const double low = *shown.low, high = *shown.high;
     const double perPixel = (automatic.high - automatic.low) / 300.0;
-    const double center = 0.5 * (low + high) - hand.delta.y() * perPixel;
-    const double width = std::max(high - low + hand.delta.x() * perPixel, 2.0 * perPixel);
+    const double center = 0.5 * (low + high) - mouse.delta.y() * perPixel;
+    const double width = std::max(high - low + mouse.delta.x() * perPixel, 2.0 * perPixel);
     editScene(m_document, QCoreApplication::translate("ToneTool", "Projection window"), m_drag,
               [&](scene::Scene &scene) {
                   scene.tone.low = center - 0.5 * width;

@@ -9,14 +9,15 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Sets the brightness of the projection: to the side its range, up and down the middle of that.
+/// Sets the window of the projection: drag left and right for its width, up and down for its
+/// center.
 class ToneTool : public PaneTool {
 public:
     ToneTool(Document &document, const ProjectionPane &pane) : m_document(document), m_pane(pane) {}
 
     Qt::CursorShape cursor() const override { return Qt::ArrowCursor; }
     bool press(const QPointF &at) override;
-    bool move(const HandMove &hand) override;
+    bool move(const MouseMove &mouse) override;
 
 private:
     Document &m_document;

@@ -7,11 +7,11 @@
 
 namespace pellucid::ui {
 
-/// What the left mouse button does in the panes. In the projection it orbits unless it measures a
-/// distance.
+/// The tool of the left mouse button in the panes. In the projection, the button orbits unless the
+/// tool is `distance`.
 enum class Tool { window, pan, zoom, crosshair, distance, angle, ellipse, rectangle, crop };
 
-/// What a tool draws, if it measures.
+/// The kind of measurement that a tool draws, if any.
 inline std::optional<measure::Kind> measuredBy(Tool tool) {
     switch (tool) {
     case Tool::distance:

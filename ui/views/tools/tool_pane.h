@@ -10,36 +10,36 @@
 
 namespace pellucid::ui {
 
-/// A pane as its tools know it.
+/// The interface of a pane to its tools.
 class ToolPane {
 public:
-    /// Between places on the pane, as it is now, and in the patient.
+    /// The current mapping between positions on the pane and in the patient.
     virtual PaneMapping mapping() const = 0;
     /// *Units*: logical pixels.
     virtual QSize paneSize() const = 0;
-    /// How far from the plane, on either side, a point counts as in it.
+    /// The distance on either side within which a point counts as in the plane.
     virtual double reachMm() const = 0;
-    /// The picture follows the hand. *Units*: logical pixels.
+    /// Moves the picture. *Units*: logical pixels.
     virtual void panBy(const QPoint &delta) = 0;
-    /// Above 1: the picture becomes larger about the middle of the pane.
+    /// Scales the picture about the center of the pane; above 1 enlarges it.
     virtual void zoomBy(double factor) = 0;
 
 protected:
     ~ToolPane() = default;
 };
 
-/// The projection as its tools know it.
+/// The interface of the projection to its tools.
 class ProjectionPane : public ToolPane {
 public:
-    /// A picture is shown.
+    /// Whether a picture is shown.
     virtual bool showsPicture() const = 0;
-    /// An engine is there, so that the view can be moved.
+    /// Whether there is an engine, so that the view can be moved.
     virtual bool canMove() const = 0;
-    /// The side that faces the viewer follows the hand. *Units*: logical pixels.
+    /// Rotates the view so that the near side follows the mouse. *Units*: logical pixels.
     virtual void orbitBy(const QPoint &delta) = 0;
-    /// The brightness that was taken from the picture.
+    /// The tone range computed from the picture.
     virtual const picture::ToneRange &automaticTone() const = 0;
-    /// The brightness that is shown, with both ends.
+    /// The current tone, with both ends set.
     virtual scene::Tone shownTone() const = 0;
 
 protected:

@@ -13,14 +13,14 @@ bool WindowTool::press(const QPointF & /*at*/) {
     return true;
 }
 
-bool WindowTool::move(const HandMove &hand) {
-    // A pane's width of dragging covers the window itself once over, so that narrow and wide
-    // windows are equally easy to set.
+bool WindowTool::move(const MouseMove &mouse) {
+    // A drag across a typical pane changes the window by about its own width, so that narrow and
+    // wide windows are equally easy to set.
     volume::ValueWindow window = m_document.displayWindow();
     const double perPixel = std::max(window.width, 1e-6) / 250.0;
-    window.width = std::max(window.width + hand.delta.x() * perPixel,
+    window.width = std::max(window.width + mouse.delta.x() * perPixel,
                             1e-3 * std::max(1.0, std::abs(window.width)));
-    window.center -= hand.delta.y() * perPixel;
+    window.center -= mouse.delta.y() * perPixel;
     window.name.clear();
     m_document.undoStack()->push(new EditDisplayWindow(m_document, window, m_drag));
     return true;

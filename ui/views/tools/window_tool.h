@@ -8,14 +8,15 @@ namespace pellucid::ui {
 
 class Document;
 
-/// Sets the display window of the planes: to the side its width, up and down its center.
+/// Sets the display window of the planes: drag left and right for its width, up and down for its
+/// center.
 class WindowTool : public PaneTool {
 public:
     explicit WindowTool(Document &document) : m_document(document) {}
 
     Qt::CursorShape cursor() const override { return Qt::ArrowCursor; }
     bool press(const QPointF &at) override;
-    bool move(const HandMove &hand) override;
+    bool move(const MouseMove &mouse) override;
 
 private:
     Document &m_document;

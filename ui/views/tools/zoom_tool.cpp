@@ -5,8 +5,8 @@
 
 namespace pellucid::ui {
 
-bool ZoomTool::move(const HandMove &hand) {
-    m_pane.zoomBy(std::exp(-0.008 * hand.delta.y()));
+bool ZoomTool::move(const MouseMove &mouse) {
+    m_pane.zoomBy(std::exp(-0.008 * mouse.delta.y()));
     return true;
 }
 

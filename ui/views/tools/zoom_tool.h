@@ -6,14 +6,14 @@
 
 namespace pellucid::ui {
 
-/// Enlarges the picture while the hand moves up.
+/// Zooms: dragging up enlarges the picture.
 class ZoomTool : public PaneTool {
 public:
     explicit ZoomTool(ToolPane &pane) : m_pane(pane) {}
 
     Qt::CursorShape cursor() const override { return Qt::SizeVerCursor; }
     bool press(const QPointF & /*at*/) override { return true; }
-    bool move(const HandMove &hand) override;
+    bool move(const MouseMove &mouse) override;
 
 private:
     ToolPane &m_pane;
