@@ -16,61 +16,69 @@
 
 namespace pellucid::ui {
 
-/// What was open, so that it can be taken up again: where it comes from and how it was looked at.
-/// Names of patients are not kept, paths are.
+/// The open study, so that it can be reopened: where it comes from and how it was displayed. A
+/// session holds paths, but no names of patients.
 struct Session {
-    QStringList files; ///< of the series, or the archives that they are in
-    /// What else of the same folders could not be used: it is said again, and not looked at again.
+    QStringList files; ///< files of the series, or the archives that contain them
+    /// Other files of the same folders that could not be used. Reopening reports them without
+    /// reading them again.
     std::vector<dicom::Skipped> leftOut;
-    QString phantom; ///< or its name
-    QString key;     ///< a digest of the source's
+    QString phantom; ///< name of the phantom, if the study is one
+    QString key;     ///< digest of the source
     Continuity shown;
-    /// The program that kept it has ended as programs should.
+    /// The program that wrote the session ended normally.
     bool hasEnded = false;
 };
 
-/// As it is kept. Reading *throws* Error{unusable} if the text is no session.
+/// The text of a session file. Reading *throws* Error{unusable} if the text is no session.
 std::string toJson(const Session &session);
 Session sessionFromJson(const std::string &text);
 
-/// The session as it is; none while nothing is open.
+/// The session of the open study; none if no study is open.
 std::optional<Session> currentSession(const Document &document);
 
-/// The user's file of it, written a moment after each change and when the program ends: one that is
-/// killed loses a second or two. What cannot be written or read is as if there were none: nobody is
-/// kept from ending or beginning. Programs that run at the same time have files of their own; one
-/// that begins goes on with the one that was killed last, else with the one that ended last.
+/// The user's session file. The program writes it a moment after each change and when it ends: a
+/// program that is killed loses a second or two. A file that cannot be written or read counts as
+/// missing, so that it keeps no program from starting or ending. Each running program has its own
+/// file. A program that starts takes the file of the program that was killed last, otherwise of the
+/// one that ended last.
 class SessionFile {
 public:
+    /// *Throws* std::system_error if no thread is available.
     SessionFile();
-    /// Waits until what was given last is written.
+    /// Waits until the last session is written.
     ~SessionFile();
 
-    /// Written aside, because it waits for the disk.
+    /// Writes a session on a thread of its own, because the disk may be slow.
     void keep(const Session &session);
+    /// Deletes the file of this program, and drops a session that has not been written yet.
     void forget();
-    /// Those of programs that have ended, too.
+    /// Also deletes the files of programs that have ended.
     void forgetAll();
+    /// The session that was kept last, by this program or by the one whose file it took; none if
+    /// there is none or it cannot be read.
     std::optional<Session> kept() const;
-    /// Why what was kept cannot be taken up, where something was.
+    /// Why the session cannot be read; none if it can, or if there is none.
     std::optional<task::Error> fault() const;
 
 private:
-    void choose();
+    void chooseFile();
     void write(const std::stop_token &stop);
-    /// A moment when nothing is being written; what was not begun may be dropped then.
-    std::unique_lock<std::mutex> rest() const;
+    /// Waits for the write that is under way. No other begins while the lock is held.
+    std::unique_lock<std::mutex> lockWhileIdle() const;
 
-    std::optional<std::filesystem::path> m_path; ///< none: there is no place for it
+    std::optional<std::filesystem::path> m_path; ///< none: the user has no data folder
     std::optional<files::FileLock> m_lock;
     mutable std::mutex m_mutex;
     mutable std::condition_variable_any m_changed;
     std::optional<Session> m_next;
     bool m_isWriting = false;
-    std::jthread m_thread; ///< last: it uses the others
+    // Not a QThreadPool: if the system has no thread left, it drops the session without an error
+    // and its destructor waits forever.
+    std::jthread m_thread; ///< last: it uses the other members
 };
 
-/// Opens it, as it was looked at. Files that are gone are among the problems.
+/// Reopens a session as it was displayed. Files that no longer exist are listed as problems.
 void resume(const Session &session, StudyOpener &opener);
 
 } // namespace pellucid::ui

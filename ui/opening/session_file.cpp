@@ -26,9 +26,9 @@ namespace pellucid::ui {
 namespace {
 
 constexpr const char *schema = "pellucid-session/1";
-constexpr std::size_t mostOfSession = 64 << 20; // it may name each file of a study
+constexpr std::size_t maxSessionBytes = 64 << 20; // it may name each file of a study
 
-constexpr int mostPrograms = 100;
+constexpr int maxPrograms = 100;
 
 std::filesystem::path fileOf(const std::filesystem::path &folder, int program,
                              const char *extension) {
@@ -36,23 +36,23 @@ std::filesystem::path fileOf(const std::filesystem::path &folder, int program,
            ("session" + (program == 0 ? "" : "-" + std::to_string(program + 1)) + extension);
 }
 
-// Of the programs that have, or had, a file.
-int places(const std::filesystem::path &folder) {
+// How many programs have, or had, a file.
+int countPrograms(const std::filesystem::path &folder) {
     std::error_code unknown;
     int n = 0;
-    while (n < mostPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
-                                std::filesystem::exists(fileOf(folder, n, ".lock"), unknown)))
+    while (n < maxPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
+                               std::filesystem::exists(fileOf(folder, n, ".lock"), unknown)))
         ++n;
     return n;
 }
 
-// None where nothing was kept.
+// None if there is no file.
 std::optional<Session> readSession(const std::filesystem::path &path) {
     std::error_code unknown;
     if (!std::filesystem::exists(path, unknown))
         return std::nullopt;
     try {
-        return sessionFromJson(files::readText(path, mostOfSession));
+        return sessionFromJson(files::readText(path, maxSessionBytes));
     } catch (const task::Error &error) {
         throw task::Error(error.code(), error.reason(), path);
     }
@@ -75,7 +75,7 @@ QJsonArray toJson(const mpr::PlaneAxes &axes) {
 }
 
 mpr::PlaneAxes planesFrom(const QJsonArray &in) {
-    if (in.size() != 3) // an earlier program kept none
+    if (in.size() != 3) // versions before planes were saved
         return {};
     std::array<mpr::Axes, 3> axes;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -88,7 +88,7 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
 std::optional<picture::ToneRange> brightnessFrom(const QJsonValue &value) {
     const QJsonArray in = value.toArray();
     const picture::ToneRange range{in[0].toDouble(), in[1].toDouble()};
-    return range.low < range.high ? std::optional(range) : std::nullopt; // none, of old programs
+    return range.low < range.high ? std::optional(range) : std::nullopt; // older versions: none
 }
 
 QJsonObject objectOf(const Session &s) {
@@ -130,8 +130,8 @@ Session fromJson(const QJsonObject &in) {
                              reasonFromLine(skipped["reason"].toString())});
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
-    s.hasEnded = in["ended"].toBool(true); // an earlier program wrote at its end only
-    if (!s.phantom.isEmpty())              // of a newer program it may be unknown
+    s.hasEnded = in["ended"].toBool(true); // older versions wrote at the end only
+    if (!s.phantom.isEmpty())              // throws for a phantom of a newer version
         phantom::kindFromName(s.phantom.toStdString());
     s.shown.scene = scene::sceneFromJson(
         QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());
@@ -161,16 +161,16 @@ Session sessionFromJson(const std::string &text) {
 }
 
 SessionFile::SessionFile() {
-    choose();
+    chooseFile();
     m_thread = std::jthread([this](const std::stop_token &stop) { write(stop); });
 }
 
-void SessionFile::choose() {
+void SessionFile::chooseFile() {
     const auto folder = files::userDataFolder();
     if (!folder)
         return;
-    const int all = places(*folder);
-    // What was killed is more urgent than what ended, and what is there at all than a free place.
+    const int all = countPrograms(*folder);
+    // A killed program's session goes before one that ended, and that before an unused file name.
     std::tuple<int, std::filesystem::file_time_type> best;
     std::vector<std::filesystem::path> ended;
     for (int n = 0; n <= all; ++n) {
@@ -188,7 +188,7 @@ void SessionFile::choose() {
                     ended.push_back(path);
             }
         } catch (const task::Error &) {
-            urgency = 1; // it is to be said that it cannot be read
+            urgency = 1; // fault() reports that it cannot be read
         }
         std::error_code none;
         const std::tuple rank{urgency, std::filesystem::last_write_time(path, none)};
@@ -198,7 +198,7 @@ void SessionFile::choose() {
             m_lock = std::move(lock);
         }
     }
-    // Of those that ended, only the last is of use.
+    // Only the last session that ended is of use.
     for (const auto &path : ended)
         if (std::error_code ignored; path != m_path)
             std::filesystem::remove(path, ignored);
@@ -222,9 +222,9 @@ void SessionFile::write(const std::stop_token &stop) {
                 file.commit();
             }
         } catch (const std::exception &error) {
-            // Without the path: it may be the patient's.
+            // Without the path, which may name the patient.
             const auto *const known = dynamic_cast<const task::Error *>(&error);
-            system::log("the session is not kept: " +
+            system::log("the session is not saved: " +
                         (known ? known->reason().english() : error.what()));
         }
         lock.lock();
@@ -233,7 +233,7 @@ void SessionFile::write(const std::stop_token &stop) {
     }
 }
 
-std::unique_lock<std::mutex> SessionFile::rest() const {
+std::unique_lock<std::mutex> SessionFile::lockWhileIdle() const {
     std::unique_lock lock(m_mutex);
     m_changed.wait(lock, [this] { return !m_isWriting; });
     return lock;
@@ -241,12 +241,12 @@ std::unique_lock<std::mutex> SessionFile::rest() const {
 
 void SessionFile::keep(const Session &session) {
     const std::lock_guard lock(m_mutex);
-    m_next = session; // what was not begun is old
+    m_next = session; // replaces one that has not been written yet
     m_changed.notify_all();
 }
 
 void SessionFile::forget() {
-    const auto lock = rest();
+    const auto lock = lockWhileIdle();
     m_next.reset();
     std::error_code ignored;
     if (m_path)
@@ -256,7 +256,7 @@ void SessionFile::forget() {
 void SessionFile::forgetAll() {
     forget();
     const auto folder = files::userDataFolder();
-    for (int n = 0, all = folder ? places(*folder) : 0; n < all; ++n) {
+    for (int n = 0, all = folder ? countPrograms(*folder) : 0; n < all; ++n) {
         const files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Mode::tryLock);
         std::error_code ignored;
         if (lock.isHeld())
@@ -265,7 +265,7 @@ void SessionFile::forgetAll() {
 }
 
 std::optional<Session> SessionFile::kept() const {
-    const auto lock = rest();
+    const auto lock = lockWhileIdle();
     if (m_next)
         return m_next;
     if (!m_path)
@@ -278,7 +278,7 @@ std::optional<Session> SessionFile::kept() const {
 }
 
 std::optional<task::Error> SessionFile::fault() const {
-    const auto lock = rest();
+    const auto lock = lockWhileIdle();
     try {
         if (m_path)
             readSession(*m_path);

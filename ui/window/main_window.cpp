@@ -73,7 +73,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     m_pair->setTool(m_tools->tool());
     connect(m_tools, &ToolsMenu::toolChosen, m_pair, &StudyPair::setTool);
     createHelpMenu();
-    giveIcons(*this, m_theme);
+    setActionIcons(*this, m_theme);
     makeToolBar(*this, m_bench.document, m_theme, m_preferences.toolBar,
                 {*m_tools, m_view->layouts(), lookMenu->windowMenu()});
     createStatusBar();
@@ -82,6 +82,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
+    m_panes->restoreSizes(settings);
     connect(new ProjectionKeys(*this, *m_projection), &ProjectionKeys::comparisonRequested, this,
             &MainWindow::compareLooks);
     showVolumeState();
@@ -149,7 +150,7 @@ void MainWindow::connectBench() {
     connect(&m_bench.opener, &StudyOpener::hugeFound, this,
             [this](const QStringList &paths, const std::vector<dicom::Skipped> &huge) {
                 askForHuge(this, huge, [this, paths] {
-                    m_bench.opener.openPaths(paths, {}, {.takesHuge = true});
+                    m_bench.opener.openPaths(paths, {}, {.includesHuge = true});
                 });
             });
     connect(&m_bench.opener, &StudyOpener::phaseLeft, m_projection, &ProjectionView::holdTone);
@@ -365,6 +366,7 @@ void MainWindow::keepLayout() {
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("windowState", saveState());
+    m_panes->saveSizes(settings);
 }
 
 void MainWindow::closeEvent(QCloseEvent *event) {

@@ -211,9 +211,11 @@ void ToolsMenu::addCine(QMenu &menu) {
     play->setCheckable(true);
     play->setToolTip(tr("Play: the slices of the plane, or the projection around the patient "
                         "(Space)"));
-    // Elsewhere Space presses what has the keyboard.
+    // Only in the panes: elsewhere Space presses the control that has the keyboard focus.
     play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    m_projection.parentWidget()->addAction(play);
+    m_projection.addAction(play);
+    for (MprView *plane : m_planes)
+        plane->addAction(play);
     connect(m_cine, &Cine::playingChanged, play, &QAction::setChecked);
     QMenu *rates = menu.addMenu(tr("S&peed"));
     auto *group = new QActionGroup(this);

@@ -21,8 +21,8 @@ class MprView;
 class Phases;
 class ProjectionView;
 
-/// The menu of what the mouse does and how the planes cut: tools, slab, what is between samples,
-/// turned planes, cine. The tools and the slab stand in the tool bar too.
+/// The Tools menu: tools of the mouse, slab, interpolation between samples, turned planes, cine,
+/// phases. The tools and the slab are in the tool bar, too.
 class ToolsMenu : public QObject {
     Q_OBJECT
 public:
@@ -44,7 +44,7 @@ private:
     void chooseTool(Tool tool);
     void setSlab(const mpr::Slab &slab);
     void toggleSlab();
-    /// To the next thickness of the menu, or the one before.
+    /// Moves through the thicknesses of the menu: 1 for the next, -1 for the previous one.
     void changeThickness(int steps);
     void askForThickness();
     void showCut();
