@@ -2985,7 +2985,7 @@
         <translation>取消</translation>
     </message>
     <message>
-        <source>Stop what runs (Esc)</source>
+        <source>Stop the running job (Esc)</source>
         <translation>停止進行中的工作 (Esc)</translation>
     </message>
 </context>
@@ -3200,6 +3200,13 @@
     <message>
         <source>Not for diagnostic use</source>
         <translation>不得用於診斷</translation>
+    </message>
+</context>
+<context>
+    <name>pellucid::ui::PaneArea</name>
+    <message>
+        <source>Drag to resize the panes; double-click to restore the default sizes</source>
+        <translation>拖曳以調整窗格大小；按兩下還原預設大小</translation>
     </message>
 </context>
 <context>

@@ -24,7 +24,7 @@ Outcome outcomeOf(const std::exception_ptr &failure, const QString &about) {
         try {
             const Failure known = currentFailure();
             return {Outcome::Kind::failed, known.what, known.path.isEmpty() ? about : known.path};
-        } catch (const std::exception &) { // there is no memory for the words
+        } catch (const std::exception &) { // no memory for the text of the failure
             return {Outcome::Kind::failed, task::because::notEnoughMemory, about};
         }
     }
@@ -46,13 +46,13 @@ JobRunner::~JobRunner() {
     blockSignals(true); // observers may be half destroyed
     try {
         join();
-    } catch (...) { // whoever learns of the end may find no memory
+    } catch (...) { // `onEnd` may run out of memory
         m_threads.clear();
     }
 }
 
 void JobRunner::post(quint64 generation, std::function<void()> onUiThread) {
-    // Queued to this object: if it is gone before, so is the call.
+    // Queued to this object: the call is dropped if the object is destroyed first.
     QMetaObject::invokeMethod(
         this,
         [this, generation, run = std::move(onUiThread)] {
@@ -63,7 +63,7 @@ void JobRunner::post(quint64 generation, std::function<void()> onUiThread) {
 }
 
 void JobRunner::joinFinished() {
-    std::erase_if(m_threads, [](const Thread &t) { return t.over->load(); });
+    std::erase_if(m_threads, [](const Thread &t) { return t.hasFinished->load(); });
 }
 
 void JobRunner::start(const QString &title, Work work, OnEnd onEnd, const QString &about) {
@@ -74,7 +74,7 @@ void JobRunner::start(const QString &title, Work work, OnEnd onEnd, const QStrin
     }
     try {
         makeWay();
-    } catch (...) { // the end of the former job could not be dealt with
+    } catch (...) { // a slot or the former job's `onEnd` threw
         if (onEnd)
             onEnd({Outcome::Kind::failed, task::because::notEnoughMemory, about});
         throw;
@@ -88,7 +88,7 @@ void JobRunner::start(const QString &title, Work work, OnEnd onEnd, const QStrin
         emit started(title);
         if (generation == m_generation) // no slot cancelled it
             launch(generation, std::move(work), about);
-    } catch (const std::exception &) { // no thread can be had
+    } catch (const std::exception &) { // no thread is available
         if (generation == m_generation)
             end({Outcome::Kind::failed, task::because::notEnoughMemory, about});
     }
@@ -96,16 +96,16 @@ void JobRunner::start(const QString &title, Work work, OnEnd onEnd, const QStrin
 
 void JobRunner::launch(quint64 generation, Work work, const QString &about) {
     m_threads.reserve(m_threads.size() + 1); // before the thread runs: this may throw
-    auto over = std::make_shared<std::atomic<bool>>(false);
+    auto hasFinished = std::make_shared<std::atomic<bool>>(false);
     m_threads.push_back(
-        {over, std::jthread([this, generation, over, about,
-                             work = std::move(work)](const std::stop_token &stop) {
+        {hasFinished, std::jthread([this, generation, hasFinished, about,
+                                    work = std::move(work)](const std::stop_token &stop) {
              std::exception_ptr failure;
              try {
                  Job job;
                  job.m_runner = this;
                  job.m_generation = generation;
-                 // A report per file would flood the queue; thirty a second look smooth.
+                 // A report for each file would flood the queue; thirty a second look smooth.
                  auto last = std::make_shared<std::atomic<std::chrono::steady_clock::rep>>(0);
                  job.m_progress = task::Progress(stop, [this, generation, last](double fraction) {
                      const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -121,12 +121,11 @@ void JobRunner::launch(quint64 generation, Work work, const QString &about) {
                  failure = std::current_exception();
              }
              postEnd(generation, failure, about, stop);
-             over->store(true);
+             hasFinished->store(true);
          })});
 }
 
-// The last word of the thread that worked. Work that failed for want of memory may have left none
-// for it; others give some back.
+// Runs last on the job's thread. If memory is exhausted, it retries until other threads free some.
 void JobRunner::postEnd(quint64 generation, const std::exception_ptr &failure, const QString &about,
                         const std::stop_token &stop) noexcept {
     while (!stop.stop_requested()) {
@@ -139,27 +138,27 @@ void JobRunner::postEnd(quint64 generation, const std::exception_ptr &failure, c
     }
 }
 
-// A slot that throws does not keep the starter from learning of the end.
+// Calls `onEnd` even if a slot throws.
 void JobRunner::end(const Outcome &outcome) {
-    ++m_generation; // what it still delivers is dropped
+    ++m_generation; // drops what the job still delivers
     m_isRunning = false;
     const OnEnd onEnd = std::exchange(m_onEnd, nullptr);
-    const auto tellStarter = [&] {
+    const auto notifyStarter = [&] {
         if (onEnd)
             onEnd(outcome);
     };
     try {
         if (outcome.kind == Outcome::Kind::failed)
             emit failed(*outcome.reason, outcome.path);
-    } catch (const std::exception &) { // there is no memory for the words either
+    } catch (const std::exception &) { // no memory to show the failure either
     }
     try {
         emit finished();
     } catch (...) {
-        tellStarter();
+        notifyStarter();
         throw;
     }
-    tellStarter();
+    notifyStarter();
 }
 
 void JobRunner::makeWay() {

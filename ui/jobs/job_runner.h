@@ -17,13 +17,13 @@
 
 namespace pellucid::ui {
 
-/// What a job's work sees: its progress, and the way to hand results to the user interface.
+/// Passed to the work of a job: reports progress and delivers results to the user interface.
 class Job {
 public:
     const task::Progress &progress() const { return m_progress; }
-    /// Runs a function on the user interface's thread, unless the job is no longer the current one.
+    /// Runs a function on the user interface's thread, unless the job has ended by then.
     void deliver(std::function<void()> onUiThread) const;
-    /// Names the stage that the status bar shows.
+    /// Sets the title that the status bar shows from now on.
     void stage(const QString &title) const;
 
 private:
@@ -33,22 +33,22 @@ private:
     task::Progress m_progress;
 };
 
-/// How a job ended. A cancelled job may have delivered all its results before.
+/// How a job ended. A cancelled job may have delivered all its results already.
 struct Outcome {
     enum class Kind { done, failed, cancelled };
     Kind kind = Kind::done;
-    /// Why a job failed, and the file or folder concerned, if any.
+    /// Why the job failed, and the file or folder concerned, if any.
     std::optional<task::Reason> reason{};
     QString path{};
 };
 
-/// Runs one long piece of work at a time on a thread of its own. Starting another, or cancelling,
-/// gives the program back at once: the old work is asked to stop, and whatever it still delivers is
-/// dropped, because its generation is over.
+/// Runs one long piece of work at a time on a thread of its own. Cancelling, or starting another
+/// job, returns at once: the old work is asked to stop, and whatever it still delivers is dropped,
+/// because its generation is over.
 ///
-/// The starter of a job learns its end by `onEnd`. Signals are for observers that show what the
-/// runner does or wait until it is idle. At the end of a job come `failed`, `finished` and `onEnd`,
-/// in this order; `started` of a job that replaces it comes after them.
+/// `onEnd` reports the end of a job to the code that started it. The signals are for observers that
+/// show what the runner does or wait until it is idle. A job that ends emits `failed` if it failed,
+/// then `finished`, then calls `onEnd`; a job that replaces it emits `started` after that.
 class JobRunner : public QObject {
     Q_OBJECT
 public:
@@ -56,36 +56,39 @@ public:
     using OnEnd = std::function<void(const Outcome &)>;
 
     explicit JobRunner(QObject *parent = nullptr);
-    /// Ends the job as cancelled, without signals, and waits for its thread.
+    /// Ends the job as cancelled, without signals, and waits for all threads.
     ~JobRunner() override;
 
-    /// Starts work, in place of the running job if there is one. `onEnd` is called exactly once, on
-    /// the user interface's thread: when the work is done or has failed; as cancelled, if cancel(),
-    /// join(), another start() or the runner's destructor comes first; before start() returns, if
-    /// no thread can be had. It may start the next job. While a job gives way to another start() or
-    /// to join(), isRunning() is true and a third job is cancelled at once. `about`: the path of
-    /// failures that name none. *Requires*: whatever `work` and `onEnd` refer to outlives the job.
+    /// Starts work and replaces the running job, if there is one. `onEnd` is called exactly once,
+    /// on the user interface's thread: when the work is done or has failed; as cancelled, if
+    /// cancel(), join(), another start() or the runner's destructor comes first; before start()
+    /// returns, if no thread is available. It may start the next job. While a job gives way to
+    /// another start() or to join(), isRunning() is true and a third job is cancelled at once.
+    /// `about`: the path to report with a failure that names none. *Requires*: everything that
+    /// `work` and `onEnd` refer to outlives the job.
     void start(const QString &title, Work work, OnEnd onEnd = {}, const QString &about = {});
     void cancel();
-    /// Cancels and waits until no work runs any more.
+    /// Cancels the job and waits until no work runs.
     void join();
-    /// True also while a job gives way to the next.
+    /// Also true while a job gives way to the next.
     bool isRunning() const { return m_isRunning || m_isMakingWay; }
-    /// Of the current job, or of the last one.
+    /// The title of the current job, or of the last one.
     const QString &title() const { return m_title; }
 
 signals:
     void started(const QString &title);
     void progressed(double fraction);
-    /// The current job is over: done, failed or cancelled.
+    /// The current job ended: done, failed or cancelled.
     void finished();
     /// The current job failed; `finished` follows.
     void failed(const pellucid::task::Reason &what, const QString &path);
 
 private:
     friend class Job;
+    // Not a QThreadPool, which QtConcurrent uses too: if the system has no thread left, the pool
+    // drops the work without an error, and its destructor waits forever. std::jthread throws.
     struct Thread {
-        std::shared_ptr<std::atomic<bool>> over;
+        std::shared_ptr<std::atomic<bool>> hasFinished;
         std::jthread thread;
     };
     void post(quint64 generation, std::function<void()> onUiThread);
@@ -98,7 +101,7 @@ private:
 
     quint64 m_generation = 0;
     bool m_isRunning = false;
-    bool m_isMakingWay = false; ///< the former job ends; no third job may take its place
+    bool m_isMakingWay = false; ///< the former job is ending; no third job may take its place
     QString m_title;
     OnEnd m_onEnd;
     std::vector<Thread> m_threads;

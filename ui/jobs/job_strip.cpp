@@ -22,14 +22,14 @@ JobStrip::JobStrip(JobRunner &jobs, const QString &name, QWidget *parent)
     m_title->setObjectName(name + "Title");
     m_cancel->setObjectName(name + "Cancel");
     m_cancel->setProperty("role", "link");
-    m_cancel->setToolTip(tr("Stop what runs (Esc)"));
+    m_cancel->setToolTip(tr("Stop the running job (Esc)"));
     auto *row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     for (QWidget *widget : {static_cast<QWidget *>(m_progress), static_cast<QWidget *>(m_title),
                             static_cast<QWidget *>(m_cancel)})
         row->addWidget(widget);
     hide();
-    if (jobs.isRunning()) // of a window before this one
+    if (jobs.isRunning()) // a previous window started it
         showStarted(jobs.title());
     connect(m_cancel, &QPushButton::clicked, &jobs, &JobRunner::cancel);
     connect(&jobs, &JobRunner::started, this, &JobStrip::showStarted);
@@ -42,7 +42,7 @@ JobStrip::JobStrip(JobRunner &jobs, const QString &name, QWidget *parent)
 }
 
 void JobStrip::showStarted(const QString &title) {
-    if (!isVisible()) // another stage of the same job goes on
+    if (!isVisible()) // a further stage of the same job keeps its progress
         m_progress->setValue(0);
     m_title->setText(title);
     show();

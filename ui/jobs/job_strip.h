@@ -11,7 +11,8 @@ namespace pellucid::ui {
 
 class JobRunner;
 
-/// What runs, how far it is, and the way to stop it; empty when nothing runs.
+/// Shows the title and the progress of the running job, and a button that cancels it. Hidden while
+/// no job runs.
 class JobStrip : public QWidget {
     Q_OBJECT
 public:

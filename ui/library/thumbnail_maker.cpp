@@ -33,7 +33,7 @@ void ThumbnailMaker::work(const std::stop_token &stop) {
         try {
             thumbnail = request.make();
         } catch (...) {
-            // No picture, then; opening it will say why.
+            // The thumbnail stays null. Opening the study reports the reason.
         }
         // Queued: the object lives on the user interface's thread.
         emit made(request.key, thumbnail);

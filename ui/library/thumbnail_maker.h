@@ -12,18 +12,20 @@
 
 namespace pellucid::ui {
 
-/// Makes thumbnails one after the other on a thread of its own, what was asked for last first: that
-/// is what is looked at.
+/// Makes thumbnails one after the other on a thread of its own. The latest request comes first: its
+/// row is most likely the visible one.
 class ThumbnailMaker : public QObject {
     Q_OBJECT
 public:
+    /// *Throws* std::system_error if no thread is available.
     explicit ThumbnailMaker(QObject *parent = nullptr);
+    /// Drops the requests that have not begun and waits for the one that has.
     ~ThumbnailMaker() override;
 
+    /// `make` runs on the maker's thread. A thumbnail that cannot be made is null.
     void ask(const QString &key, std::function<QImage()> make);
 
 signals:
-    /// Null where there is none.
     void made(const QString &key, const QImage &thumbnail);
 
 private:
@@ -36,7 +38,9 @@ private:
     std::mutex m_guard;
     std::condition_variable_any m_asked;
     std::deque<Request> m_requests;
-    std::jthread m_thread; ///< last: it uses the others
+    // Not a QThreadPool: if the system has no thread left, it drops the request without an error
+    // and its destructor waits forever.
+    std::jthread m_thread; ///< last: it uses the other members
 };
 
 } // namespace pellucid::ui

@@ -10,11 +10,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The files that could not be used, of the folders that the session's files are in. Files that the
-// session opens are read again. Texts and programs are often beside images and are no loss.
+// The problems in the folders of a session's files. Without the files themselves, which are read
+// again, and without texts and programs, which are common beside images.
 std::vector<dicom::Skipped> leftOutOf(const StudySource &source,
                                       const std::vector<dicom::Skipped> &problems) {
-    constexpr std::size_t most = 1000;
+    constexpr std::size_t maxCount = 1000;
     std::set<fs::path> folders, opened;
     for (const QString &file : source.lasting) {
         opened.insert(file.toStdString());
@@ -23,7 +23,7 @@ std::vector<dicom::Skipped> leftOutOf(const StudySource &source,
     std::vector<dicom::Skipped> left;
     for (const dicom::Skipped &problem : problems)
         if (folders.contains(problem.path.parent_path()) && !opened.contains(problem.path) &&
-            !problem.reason.is(task::because::isNotDicom) && left.size() < most)
+            !problem.reason.is(task::because::isNotDicom) && left.size() < maxCount)
             left.push_back(problem);
     return left;
 }

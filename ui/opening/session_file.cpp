@@ -36,8 +36,8 @@ std::filesystem::path fileOf(const std::filesystem::path &folder, int program,
            ("session" + (program == 0 ? "" : "-" + std::to_string(program + 1)) + extension);
 }
 
-// The number of programs that have, or had, a file.
-int places(const std::filesystem::path &folder) {
+// How many programs have, or had, a file.
+int countPrograms(const std::filesystem::path &folder) {
     std::error_code unknown;
     int n = 0;
     while (n < maxPrograms && (std::filesystem::exists(fileOf(folder, n, ".json"), unknown) ||
@@ -75,7 +75,7 @@ QJsonArray toJson(const mpr::PlaneAxes &axes) {
 }
 
 mpr::PlaneAxes planesFrom(const QJsonArray &in) {
-    if (in.size() != 3) // a file of an earlier version
+    if (in.size() != 3) // versions before planes were saved
         return {};
     std::array<mpr::Axes, 3> axes;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -88,8 +88,7 @@ mpr::PlaneAxes planesFrom(const QJsonArray &in) {
 std::optional<picture::ToneRange> brightnessFrom(const QJsonValue &value) {
     const QJsonArray in = value.toArray();
     const picture::ToneRange range{in[0].toDouble(), in[1].toDouble()};
-    return range.low < range.high ? std::optional(range)
-                                  : std::nullopt; // none: a file of an earlier version
+    return range.low < range.high ? std::optional(range) : std::nullopt; // older versions: none
 }
 
 QJsonObject objectOf(const Session &s) {
@@ -131,8 +130,8 @@ Session fromJson(const QJsonObject &in) {
                              reasonFromLine(skipped["reason"].toString())});
     s.phantom = in["phantom"].toString();
     s.key = in["key"].toString();
-    s.hasEnded = in["ended"].toBool(true); // earlier versions wrote only at the end
-    if (!s.phantom.isEmpty())              // a newer version may know other kinds
+    s.hasEnded = in["ended"].toBool(true); // older versions wrote at the end only
+    if (!s.phantom.isEmpty())              // throws for a phantom of a newer version
         phantom::kindFromName(s.phantom.toStdString());
     s.shown.scene = scene::sceneFromJson(
         QJsonDocument(in["scene"].toObject()).toJson(QJsonDocument::Compact).toStdString());
@@ -162,16 +161,16 @@ Session sessionFromJson(const std::string &text) {
 }
 
 SessionFile::SessionFile() {
-    choose();
+    chooseFile();
     m_thread = std::jthread([this](const std::stop_token &stop) { write(stop); });
 }
 
-void SessionFile::choose() {
+void SessionFile::chooseFile() {
     const auto folder = files::userDataFolder();
     if (!folder)
         return;
-    const int all = places(*folder);
-    // A killed program is more urgent than one that ended, and any session than a free place.
+    const int all = countPrograms(*folder);
+    // A killed program's session goes before one that ended, and that before an unused file name.
     std::tuple<int, std::filesystem::file_time_type> best;
     std::vector<std::filesystem::path> ended;
     for (int n = 0; n <= all; ++n) {
@@ -189,7 +188,7 @@ void SessionFile::choose() {
                     ended.push_back(path);
             }
         } catch (const task::Error &) {
-            urgency = 1; // its fault has to be reported
+            urgency = 1; // fault() reports that it cannot be read
         }
         std::error_code none;
         const std::tuple rank{urgency, std::filesystem::last_write_time(path, none)};
@@ -199,7 +198,7 @@ void SessionFile::choose() {
             m_lock = std::move(lock);
         }
     }
-    // Only the last session that ended is useful.
+    // Only the last session that ended is of use.
     for (const auto &path : ended)
         if (std::error_code ignored; path != m_path)
             std::filesystem::remove(path, ignored);
@@ -223,9 +222,9 @@ void SessionFile::write(const std::stop_token &stop) {
                 file.commit();
             }
         } catch (const std::exception &error) {
-            // The path may name the patient: it is not logged.
+            // Without the path, which may name the patient.
             const auto *const known = dynamic_cast<const task::Error *>(&error);
-            system::log("the session is not kept: " +
+            system::log("the session is not saved: " +
                         (known ? known->reason().english() : error.what()));
         }
         lock.lock();
@@ -234,7 +233,7 @@ void SessionFile::write(const std::stop_token &stop) {
     }
 }
 
-std::unique_lock<std::mutex> SessionFile::rest() const {
+std::unique_lock<std::mutex> SessionFile::lockWhileIdle() const {
     std::unique_lock lock(m_mutex);
     m_changed.wait(lock, [this] { return !m_isWriting; });
     return lock;
@@ -242,12 +241,12 @@ std::unique_lock<std::mutex> SessionFile::rest() const {
 
 void SessionFile::keep(const Session &session) {
     const std::lock_guard lock(m_mutex);
-    m_next = session; // what was not begun is old
+    m_next = session; // replaces one that has not been written yet
     m_changed.notify_all();
 }
 
 void SessionFile::forget() {
-    const auto lock = rest();
+    const auto lock = lockWhileIdle();
     m_next.reset();
     std::error_code ignored;
     if (m_path)
@@ -257,7 +256,7 @@ void SessionFile::forget() {
 void SessionFile::forgetAll() {
     forget();
     const auto folder = files::userDataFolder();
-    for (int n = 0, all = folder ? places(*folder) : 0; n < all; ++n) {
+    for (int n = 0, all = folder ? countPrograms(*folder) : 0; n < all; ++n) {
         const files::FileLock lock(fileOf(*folder, n, ".lock"), files::FileLock::Mode::tryLock);
         std::error_code ignored;
         if (lock.isHeld())
@@ -266,7 +265,7 @@ void SessionFile::forgetAll() {
 }
 
 std::optional<Session> SessionFile::kept() const {
-    const auto lock = rest();
+    const auto lock = lockWhileIdle();
     if (m_next)
         return m_next;
     if (!m_path)
@@ -279,7 +278,7 @@ std::optional<Session> SessionFile::kept() const {
 }
 
 std::optional<task::Error> SessionFile::fault() const {
-    const auto lock = rest();
+    const auto lock = lockWhileIdle();
     try {
         if (m_path)
             readSession(*m_path);

@@ -7,8 +7,8 @@
 
 namespace pellucid::ui {
 
-/// Between places on a widget and in the patient. The plane is in device pixels, the widget in
-/// logical ones.
+/// Maps positions on a widget to points in the patient, and back. *Units*: the plane is in device
+/// pixels, positions are in logical pixels.
 struct PaneMapping {
     mpr::Plane plane;
     double pixelRatio = 1.0;

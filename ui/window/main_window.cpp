@@ -81,6 +81,7 @@ MainWindow::MainWindow(Workbench &bench, const Theme &theme, const Preferences &
     const QSettings settings;
     restoreGeometry(settings.value("geometry").toByteArray());
     restoreState(settings.value("windowState").toByteArray());
+    m_panes->restoreSizes(settings);
     connect(new ProjectionKeys(*this, *m_projection), &ProjectionKeys::comparisonRequested, this,
             &MainWindow::compareLooks);
     showVolumeState();
@@ -352,6 +353,7 @@ void MainWindow::keepLayout() {
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("windowState", saveState());
+    m_panes->saveSizes(settings);
 }
 
 void MainWindow::closeEvent(QCloseEvent *event) {

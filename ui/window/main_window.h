@@ -43,7 +43,7 @@ public:
     /// Applies the preferences that need no new window.
     void setPreferences(const Preferences &preferences);
     PreferencesDialog &openPreferences();
-    /// Stores sizes and places of window and docks in the settings.
+    /// Saves the sizes and places of window, docks and panes in the settings.
     void keepLayout();
 
     Document &document() { return m_bench.study.document; }

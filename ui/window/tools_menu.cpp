@@ -213,7 +213,9 @@ void ToolsMenu::addCine(QMenu &menu) {
         tr("Play the slices of the plane, or turn the projection around the patient (Space)"));
     // Elsewhere, Space activates the focused control.
     play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    m_projection.parentWidget()->addAction(play);
+    m_projection.addAction(play);
+    for (MprView *plane : m_planes)
+        plane->addAction(play);
     connect(m_cine, &Cine::playingChanged, play, &QAction::setChecked);
     QMenu *rates = menu.addMenu(tr("S&peed"));
     auto *group = new QActionGroup(this);

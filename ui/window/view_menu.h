@@ -18,17 +18,16 @@ namespace pellucid::ui {
 
 class GraphicsCard;
 
-/// The View menu: standard views, looks and studies to compare, the layout of the panes, the
-/// engine.
+/// The View menu: standard views, the study beside, layouts of the panes, engine.
 class ViewMenu : public QObject {
     Q_OBJECT
 public:
     ViewMenu(QMenu &menu, QMainWindow &window, const Viewer &viewer, GraphicsCard &card);
 
     QList<QAction *> layouts() const;
-    /// Adds the action that shows and hides a pane, below the layouts.
+    /// Adds an entry below the layouts that shows and hides a pane.
     void addPane(QAction &toggle, const QString &text, const char *name, const QKeySequence &key);
-    /// Whether there is a study beside. It is linked at first.
+    /// Enables the entries for a study beside, which is linked at first.
     void setBeside(bool isThere);
     void setLinked(bool isLinked);
 

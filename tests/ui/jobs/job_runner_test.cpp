@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The starter of a job learns its end exactly once, however it ends.
+// `onEnd` reports the end of a job exactly once, however the job ends.
 #include <atomic>
 #include <memory>
 #include <vector>
@@ -37,22 +37,22 @@ class JobRunnerTest : public QObject {
 private slots:
     void init() {
         m_runner = std::make_unique<JobRunner>();
-        m_heard.clear();
+        m_events.clear();
     }
     void cleanup() { m_runner.reset(); }
 
-    void aJobIsDoneAfterItsLastDelivery() {
+    void aJobIsDoneAfterAllItsDeliveries() {
         m_runner->start(
             "job",
-            [this](const Job &job) { job.deliver([this] { m_heard.emplace_back("delivered"); }); },
-            listener("job"));
+            [this](const Job &job) { job.deliver([this] { m_events.emplace_back("delivered"); }); },
+            recorder("job"));
         QVERIFY(m_runner->isRunning());
         QTRY_VERIFY(!m_runner->isRunning());
-        QCOMPARE(m_heard, QStringList({"delivered", "job done"}));
-        staysSo();
+        QCOMPARE(m_events, QStringList({"delivered", "job done"}));
+        expectNoMore();
     }
 
-    void aFailureHasAReasonAndAPath() {
+    void aFailureReportsReasonAndPath() {
         const QSignalSpy failed(m_runner.get(), &JobRunner::failed);
         std::vector<Outcome> outcomes;
         const auto listen = [&](const Outcome &outcome) { outcomes.push_back(outcome); };
@@ -78,46 +78,47 @@ private slots:
         m_runner->start(
             "job",
             [this](const Job &job) {
-                job.deliver([this] { m_heard.emplace_back("delivered"); });
+                job.deliver([this] { m_events.emplace_back("delivered"); });
                 endless(job);
             },
-            listener("job"));
-        QTRY_COMPARE(m_heard, QStringList({"delivered"}));
+            recorder("job"));
+        QTRY_COMPARE(m_events, QStringList({"delivered"}));
         m_runner->cancel();
         QVERIFY(!m_runner->isRunning());
-        QCOMPARE(m_heard, QStringList({"delivered", "job cancelled"}));
+        QCOMPARE(m_events, QStringList({"delivered", "job cancelled"}));
         m_runner->cancel();
-        staysSo();
+        expectNoMore();
     }
 
-    void aJobThatStopsItselfCountsAsCancelled() {
+    void workThatThrowsCancelledIsCancelled() {
         m_runner->start(
-            "job", [](const Job &) { throw task::Cancelled(); }, listener("job"));
-        QTRY_COMPARE(m_heard, QStringList({"job cancelled"}));
+            "job", [](const Job &) { throw task::Cancelled(); }, recorder("job"));
+        QTRY_COMPARE(m_events, QStringList({"job cancelled"}));
     }
 
     void aReplacedJobIsCancelledBeforeTheNextStarts() {
         connect(m_runner.get(), &JobRunner::started, this,
-                [this](const QString &title) { m_heard << title + " started"; });
-        m_runner->start("one", endless, listener("one"));
+                [this](const QString &title) { m_events << title + " started"; });
+        m_runner->start("one", endless, recorder("one"));
         m_runner->start(
-            "two", [](const Job &) {}, listener("two"));
+            "two", [](const Job &) {}, recorder("two"));
         QTRY_VERIFY(!m_runner->isRunning());
-        QCOMPARE(m_heard, QStringList({"one started", "one cancelled", "two started", "two done"}));
-        staysSo();
+        QCOMPARE(m_events,
+                 QStringList({"one started", "one cancelled", "two started", "two done"}));
+        expectNoMore();
     }
 
-    // No job can run between the one that ends and the one that replaces it.
-    void aJobStartedDuringAReplacementIsCancelled() {
+    // A job cannot slip in between the one that ends and the one that replaces it.
+    void aJobThatStartsInBetweenIsCancelled() {
         m_runner->start("one", endless, [this](const Outcome &) {
-            m_heard << (m_runner->isRunning() ? "running" : "idle");
-            m_runner->start("between", endless, listener("between"));
+            m_events << (m_runner->isRunning() ? "running" : "idle");
+            m_runner->start("between", endless, recorder("between"));
         });
         m_runner->start(
-            "two", [](const Job &) {}, listener("two"));
-        QCOMPARE(m_heard, QStringList({"running", "between cancelled"}));
+            "two", [](const Job &) {}, recorder("two"));
+        QCOMPARE(m_events, QStringList({"running", "between cancelled"}));
         QCOMPARE(m_runner->title(), QString("two"));
-        QTRY_COMPARE(m_heard, QStringList({"running", "between cancelled", "two done"}));
+        QTRY_COMPARE(m_events, QStringList({"running", "between cancelled", "two done"}));
     }
 
     void onEndMayStartTheNextJob() {
@@ -125,37 +126,37 @@ private slots:
         m_runner->start(
             "one", [](const Job &) {},
             [&](const Outcome &) {
-                m_heard << (m_runner->isRunning() ? "running" : "idle");
-                QCOMPARE(finished.size(), 1); // observers learned of the end before
+                m_events << (m_runner->isRunning() ? "running" : "idle");
+                QCOMPARE(finished.size(), 1); // observers are notified first
                 m_runner->start(
-                    "two", [](const Job &) {}, listener("two"));
+                    "two", [](const Job &) {}, recorder("two"));
             });
-        QTRY_COMPARE(m_heard, QStringList({"idle", "two done"}));
+        QTRY_COMPARE(m_events, QStringList({"idle", "two done"}));
         QCOMPARE(finished.size(), 2);
     }
 
-    void aJobCancelledAtItsStartNeverRuns() {
+    void aJobThatIsCancelledAsItStartsDoesNotRun() {
         connect(m_runner.get(), &JobRunner::started, m_runner.get(), &JobRunner::cancel);
         std::atomic<bool> hasBegun = false;
         m_runner->start(
-            "job", [&](const Job &) { hasBegun = true; }, listener("job"));
-        QCOMPARE(m_heard, QStringList({"job cancelled"}));
+            "job", [&](const Job &) { hasBegun = true; }, recorder("job"));
+        QCOMPARE(m_events, QStringList({"job cancelled"}));
         m_runner->join();
         QVERIFY(!hasBegun);
-        staysSo();
+        expectNoMore();
     }
 
-    void joinCancelsTheJobAndStartsNone() {
+    void joiningEndsTheJobAndStartsNoOther() {
         m_runner->start("job", endless, [this](const Outcome &) {
-            m_heard << "ended";
-            m_runner->start("next", endless, listener("next"));
+            m_events << "ended";
+            m_runner->start("next", endless, recorder("next"));
         });
         m_runner->join();
-        QCOMPARE(m_heard, QStringList({"ended", "next cancelled"}));
+        QCOMPARE(m_events, QStringList({"ended", "next cancelled"}));
         QVERIFY(!m_runner->isRunning());
     }
 
-    void theDestructorOfTheRunnerEndsItsJob() {
+    void destroyingTheRunnerEndsItsJob() {
         std::atomic<int> threads = 0;
         m_runner->start(
             "job",
@@ -168,43 +169,43 @@ private slots:
                     throw;
                 }
             },
-            listener("job"));
+            recorder("job"));
         QTRY_COMPARE(threads.load(), 1);
         bool isShown = false;
         connect(m_runner.get(), &JobRunner::finished, this, [&] { isShown = true; });
         m_runner.reset();
-        QCOMPARE(m_heard, QStringList({"job cancelled"}));
-        QCOMPARE(threads.load(), 0); // the runner waited for it
+        QCOMPARE(m_events, QStringList({"job cancelled"}));
+        QCOMPARE(threads.load(), 0); // it was waited for
         QVERIFY(!isShown);
-        staysSo();
+        expectNoMore();
     }
 
-    void theStarterLearnsOfTheEndEvenIfSlotsThrow() {
+    void onEndIsCalledEvenIfASlotThrows() {
         connect(m_runner.get(), &JobRunner::finished, this, [] { throw std::bad_alloc(); });
-        m_runner->start("job", endless, listener("job"));
+        m_runner->start("job", endless, recorder("job"));
         QVERIFY_EXCEPTION_THROWN(m_runner->cancel(), std::bad_alloc);
-        QCOMPARE(m_heard, QStringList({"job cancelled"}));
+        QCOMPARE(m_events, QStringList({"job cancelled"}));
         QVERIFY(!m_runner->isRunning());
     }
 
 private:
-    JobRunner::OnEnd listener(const QString &name) {
+    JobRunner::OnEnd recorder(const QString &name) {
         return [this, name](const Outcome &outcome) {
             QVERIFY(QThread::currentThread() == thread());
-            m_heard << name + (outcome.kind == Kind::done        ? " done"
-                               : outcome.kind == Kind::cancelled ? " cancelled"
-                                                                 : " failed");
+            m_events << name + (outcome.kind == Kind::done        ? " done"
+                                : outcome.kind == Kind::cancelled ? " cancelled"
+                                                                  : " failed");
         };
     }
-    // Nothing more is queued.
-    void staysSo() {
-        const QStringList heard = m_heard;
+    // No event is queued.
+    void expectNoMore() {
+        const QStringList heard = m_events;
         QCoreApplication::processEvents();
-        QCOMPARE(m_heard, heard);
+        QCOMPARE(m_events, heard);
     }
 
     std::unique_ptr<JobRunner> m_runner;
-    QStringList m_heard;
+    QStringList m_events;
 };
 
 } // namespace pellucid
