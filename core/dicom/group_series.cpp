@@ -279,7 +279,7 @@ void addVolumes(const Frames &frames, const task::Progress &progress, Stacks &st
             const std::vector<Part> parts = hasRepeatedPositions(block)
                                                 ? splitRepeats(block, progress)
                                                 : std::vector<Part>{{{}, block}};
-            // Phases share their stacks, each run of slices is one.
+            // The phases of a run of slices share one stack.
             std::map<std::pair<std::size_t, bool>, std::size_t> runs;
             for (const Part &part : parts) {
                 progress.check();
