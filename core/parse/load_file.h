@@ -39,7 +39,7 @@ bool isJpeg2000(const std::string &syntaxUid); ///< or High-Throughput JPEG 2000
 bool isJpegXl(const std::string &syntaxUid);
 /// Whether pixels are plain samples, deflated or not; unknown syntaxes count as compressed.
 bool isNative(const std::string &syntaxUid);
-/// Whether this program can decode the pixels of a syntax.
+/// Whether this program can decode the pixels of a syntax. `decodeImage` decodes them.
 bool isDecodable(const std::string &syntaxUid);
 /// A readable name, or the UID if there is none.
 std::string syntaxName(const std::string &syntaxUid);

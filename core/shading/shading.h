@@ -11,6 +11,8 @@
 
 namespace pellucid::shading {
 
+/// The shape of a depth cue. For a new kind, the compiler names the switches that lack it. Its word
+/// is in `cueFromText` and in shading_json_nlohmann.cpp, its choice in ui/panels/shading_panel.cpp.
 enum class CueKind {
     none,
     linear, ///< d = 1 + S t

@@ -32,7 +32,7 @@ struct Panes {
 /// `png`: as on the screen; `png16`: 16-bit grey, linear from the lower to the upper end of the
 /// window; `npy`, `nrrd`: the values of the projection, single precision; `capture`: as on the
 /// screen, a DICOM image of the open study; `frames`, `video`: as on the screen, one turn around
-/// the patient.
+/// the patient. ExportDialog lists the formats in the same order.
 enum class PictureFormat { png, png16, npy, nrrd, capture, frames, video };
 
 struct PictureExport {

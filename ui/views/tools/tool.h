@@ -8,7 +8,7 @@
 namespace pellucid::ui {
 
 /// The tool of the left mouse button in the panes. In the projection, the button orbits unless the
-/// tool is `distance`.
+/// tool is `distance`. ToolsMenu::addTools lists the tools in the same order.
 enum class Tool { window, pan, zoom, crosshair, distance, angle, ellipse, rectangle, crop };
 
 /// The kind of measurement that a tool draws, if any.
