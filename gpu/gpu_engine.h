@@ -31,11 +31,11 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
                                       const task::Progress &progress = {});
 
 /// `CpuEngine` on the card: the same plan, the same cells, and the same picture within 2e-5
-/// (relative L2, exact fetches), which stays on the card. Engines that differ in channel weights
-/// only share spectra and tables and are cheap to create; only one of them may render at a time.
+/// (relative L2, exact fetches), which stays on the card. Engines that differ only in channel
+/// weights share spectra and tables and are cheap to create; only one of them may render at a time.
 class GpuEngine final : public render::ProjectionEngine {
 public:
-    /// *Shape*: shares as for CpuEngine::setChannelWeights.
+    /// *Shape*: `channelWeights` as for CpuEngine::setChannelWeights.
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
               std::vector<render::ChannelWeights> channelWeights,
               const plan::FieldOfView &fieldOfView, Fetch fetch = Fetch::exact);
@@ -62,7 +62,7 @@ private:
     std::shared_ptr<const SpectrumTextures> m_textures;
     std::vector<render::ChannelWeights> m_channelWeights;
     Fetch m_fetch;
-    std::shared_ptr<render::FrameSetup> m_setup; ///< for these spectra with any shares
+    std::shared_ptr<render::FrameSetup> m_setup; ///< for these spectra with any channel weights
 };
 
 } // namespace pellucid::gpu

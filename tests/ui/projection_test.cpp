@@ -138,7 +138,7 @@ private slots:
         const QImage half = projection()->picture();
         const int w = half.width(), h = half.height();
         // Nothing is left at the left of the picture, and the right is as it was, but for the
-        // brightness that is taken anew.
+        // brightness, which is measured again.
         QVERIFY(meanGrey(half, QRect(0, h / 4, w / 2 - 12, h / 2)) < 2.0);
         QVERIFY(meanGrey(half, QRect(w / 2, h / 4, w / 4, h / 2)) > 20.0);
         save("crop");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A program that is killed, or told to end, loses nothing but the last moment.
+// A program that is killed or terminated loses only the last moment.
 #include "tests/ui/workstation.h"
 
 #include <csignal>
@@ -53,7 +53,7 @@ private slots:
         QCOMPARE(document().volume()->lattice().size().k, 80);
     }
 
-    // Neither takes the other's place, and what still runs is nothing to recover.
+    // Each has its own session file, and a running program is not recovered.
     void concurrentProgramsAreRecoveredSeparately() {
         QProcess first;
         startWorkstation(first, m_folder, {headPath()});
@@ -78,7 +78,7 @@ private slots:
         QVERIFY(!fs::exists(m_sessionFile) && !fs::exists(second));
     }
 
-    // Other files lie there by now.
+    // The files at the path belong to a different study.
     void aDifferentStudyAtTheSamePathIsReported() {
         const fs::path place = m_folder / "place";
         fs::copy(headPath().toStdString(), place);
@@ -96,7 +96,7 @@ private slots:
         }));
     }
 
-    // A look that nobody has saved.
+    // A look that is not saved as a preset.
     void anUnsavedLookIsRecovered() {
         restart();
         mainWindow().openPaths({headPath()});
@@ -107,7 +107,7 @@ private slots:
         const classify::Look edited = document().scene().look;
         QTRY_VERIFY_WITH_TIMEOUT(hasSession() && kept().shown.scene.look == edited, patienceMs);
         QVERIFY(!kept().hasEnded);
-        // As it would be found after a kill now.
+        // The session as a kill would leave it now.
         fs::copy_file(m_sessionFile, m_folder / "killed.json");
         endProgram();
         QVERIFY(kept().hasEnded);
@@ -117,7 +117,7 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT(document().scene().look == edited, patienceMs);
     }
 
-    // Slices that could not be used are named again when the rest is taken up.
+    // Slices that could not be used are reported again when the rest is resumed.
     void refusedFilesAreReportedAgain() {
         const fs::path series = m_folder / "refused";
         fs::copy(headPath().toStdString(), series);
@@ -140,7 +140,7 @@ private slots:
         QVERIFY(isNamed());
     }
 
-    // A slice that was missing and is there again is no problem any more.
+    // A missing slice that has reappeared is no longer a problem.
     void restoredFilesAreNotReportedAgain() {
         const fs::path series = m_folder / "away";
         fs::copy(headPath().toStdString(), series);
@@ -152,7 +152,7 @@ private slots:
         QCOMPARE(kept().leftOut[0].path, series / "IM0099.dcm");
     }
 
-    // Picture, letters, cube and scale are those of before.
+    // Picture, letters, cube and scale are the same as before.
     void aResumedStudyLooksAsBefore() {
         const auto turned = [this] {
             ui::Pose pose = document().pose();
@@ -185,7 +185,7 @@ private slots:
         QVERIFY(changed(overlay->grab().toImage(), shown) == 0.0);
     }
 
-    // What archives were unpacked to is gone; they are opened again, all that a series is of.
+    // The unpacked files are deleted: all archives of the series are opened again.
     void studiesFromArchivesAreResumed() {
         QStringList halves;
         for (const char *const half : {"IM000", "IM00[1-8]"}) {
@@ -226,7 +226,7 @@ private slots:
         QVERIFY(problems[0].reason.is(task::because::isNoSession));
     }
 
-    // A home on a share that is gone, or of a guest.
+    // A home on a disconnected network share, or that of a guest account.
     void aReadOnlyHomeIsReported() {
         fs::create_directory(m_folder / "locked");
         const ReadOnlyFolder locked(m_folder / "locked");
@@ -255,7 +255,7 @@ private slots:
         QVERIFY(kept().hasEnded);
     }
 
-    // What an archive was unpacked to is the patient's.
+    // Files from an archive contain patient data.
     void theNextProgramRemovesWhatAKilledOneUnpacked() {
         const QString zip = QString::fromStdString((m_folder / "study.zip").string());
         QProcess packer;
@@ -273,7 +273,7 @@ private slots:
             return count;
         };
         QTRY_VERIFY_WITH_TIMEOUT(unpacked() == 1, patienceMs);
-        // Not of one that runs.
+        // Those of a running program stay.
         files::removeAbandonedSessionFolders();
         QCOMPARE(unpacked(), 1);
         program.kill();
@@ -283,19 +283,19 @@ private slots:
     }
 
 private:
-    // Starts the program and opens files; it has kept them then.
+    // Starts the program, opens files and waits until the session is kept.
     void keepSessionOf(const QStringList &paths) {
         restart();
         mainWindow().openPaths(paths);
         QTRY_VERIFY_WITH_TIMEOUT(hasSession(), patienceMs);
     }
-    // Starts the program and goes on with what was open.
+    // Starts the program and resumes the last session.
     void resume() {
         restart();
         mainWindow().reopening().resume();
     }
 
-    // Of the first program: a second one has a file of its own.
+    // The session file of the first program; a second one has its own.
     bool hasSession() const { return fs::exists(m_sessionFile); }
     ui::Session kept() const { return ui::sessionFromJson(readText(m_sessionFile)); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files that cannot be used, faults, too little memory: the program says so and goes on.
+// Unusable files, faults, too little memory: the program reports them and continues.
 #include "tests/ui/workstation.h"
 
 #include <filesystem>
@@ -49,7 +49,7 @@ private slots:
         QTRY_VERIFY_WITH_TIMEOUT(
             list->count() == 2 && list->item(1)->text().contains("does not exist"), patienceMs);
         QVERIFY(find<QWidget>("startPage")->isVisible());
-        // What was there is still there, once; until it has been read.
+        // The former problems are still listed, once, until the user clears the list.
         drop(mainWindow(), {QUrl::fromLocalFile("/no/such/place")});
         QTRY_VERIFY(!jobs().isRunning());
         QCOMPARE(list->count(), 2);
@@ -76,7 +76,7 @@ private slots:
         QVERIFY(changed(before, projection()->picture()) < 0.001);
     }
 
-    // Whatever is thrown, on whatever thread: it is said, and the next thing works.
+    // Any exception on any thread is reported, and the program still works.
     void exceptionsAreReportedAndTheProgramGoesOn() {
         ui::Workstation program;
         QSignalSpy said(static_cast<ui::Application *>(qApp), &ui::Application::failed);
@@ -122,7 +122,7 @@ private slots:
         QCOMPARE(projection()->planState(), ui::PlanState::holds);
     }
 
-    // A limit that is too low to start is said, before libraries that need more crash.
+    // A limit too low to start with is reported before libraries that need more crash.
     void aLowMemoryLimitIsReportedInOneLine() {
         for (const char *kilobytes : {"300000", "400000", "600000", "1000000"}) {
             QProcess program;

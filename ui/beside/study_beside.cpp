@@ -3,7 +3,6 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QScopedValueRollback>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -38,8 +37,14 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
                 emit failed(what, path);
             });
     connect(&document(), &Document::volumeChanged, this, [this] {
-        if (!m_isOpening)
+        if (jobs().isRunning()) { // the volume was loaded
             beginLink();
+            return;
+        }
+        // A kept study restores its view after its volume: linked earlier, it would move the
+        // leader.
+        m_link->hold();
+        QMetaObject::invokeMethod(this, &StudyBeside::beginLink, Qt::QueuedConnection);
     });
 }
 
@@ -111,13 +116,8 @@ void StudyBeside::open(const StudySource &source) {
     m_name->setText(headingText(source));
     m_name->setToolTip(headingText(source));
     m_link->hold();
-    {
-        // A kept study restores its view after its volume: linked earlier, it would move the
-        // leader.
-        const QScopedValueRollback opening(m_isOpening, true);
-        m_study.opener.openSource(document().addSources({source}).front());
-    }
-    beginLink();
+    m_study.opener.openSource(document().addSources({source}).front());
+    beginLink(); // if it is open already
 }
 
 void StudyBeside::setTool(Tool tool) {

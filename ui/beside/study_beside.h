@@ -45,7 +45,6 @@ private:
     StudyLink *m_link;
     QLabel *m_name;
     QToolButton *m_linked;
-    bool m_isOpening = false;
 };
 
 /// The height of the heading above a study; both are equally high. *Units*: logical pixels.

@@ -73,6 +73,9 @@ void ProjectionView::wheelEvent(QWheelEvent *event) {
 }
 
 bool ProjectionView::event(QEvent *event) {
+    // The new screen may have another pixel ratio, which does not resize the pane.
+    if (event->type() == QEvent::ScreenChangeInternal)
+        m_document.setProjectionSize(sizeInPixels());
     // Here the digits of the keypad choose standard views, not window presets.
     if (event->type() == QEvent::ShortcutOverride &&
         (static_cast<QKeyEvent *>(event)->modifiers() & Qt::KeypadModifier) != 0) {
