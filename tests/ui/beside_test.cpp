@@ -27,7 +27,7 @@ private slots:
              {&BesideTest::openAPrior, &BesideTest::turnTheProjections, &BesideTest::resizeThePanes,
               &BesideTest::turnAboutTheCrosshairs, &BesideTest::movePlanesAndWindows,
               &BesideTest::chooseALookAndALayout, &BesideTest::matchByHand,
-              &BesideTest::closeThePrior}) {
+              &BesideTest::cancelAnotherStudy, &BesideTest::closeThePrior}) {
             (this->*step)();
             if (QTest::currentTestFailed())
                 return;
@@ -143,6 +143,24 @@ private:
         find<QAction>("linkStudiesAction")->trigger();
         turnWheel(find<QWidget>("axialView"), 1);
         QVERIFY(glm::distance(apart(), matched) < 1e-6);
+    }
+
+    // The former study comes back as the leader is looked at now, and leaves the leader alone.
+    void cancelAnotherStudy() {
+        QTRY_VERIFY(!beside()->jobs().isRunning());
+        choose(volumeRow("Miller Ann"), "openBesideAction");
+        QVERIFY(beside()->jobs().isRunning());
+        ui::Pose pose = now().pose();
+        pose.orientation = scene::viewOrientation(scene::StandardView::left);
+        pose.panMm = {7.0, -3.0};
+        now().setPose(pose);
+        const glm::dvec3 crosshair = now().crosshair().mm;
+        beside()->jobs().cancel();
+        settleBeside();
+        QTRY_COMPARE(prior().pose().orientation, pose.orientation);
+        QVERIFY(find<QLabel>("besideName")->text().contains("Zhang Wei"));
+        QVERIFY(now().pose() == pose);
+        QVERIFY(now().crosshair().mm == crosshair);
     }
 
     void closeThePrior() {

@@ -36,6 +36,15 @@ StudyBeside::StudyBeside(const Viewer &leader, GraphicsCard &card, QWidget *pare
                 m_viewer.projection->setMessage(translated(what));
                 emit failed(what, path);
             });
+    // Also if a load is cancelled and the former study comes back. A failed load keeps its name.
+    connect(&document(), &Document::currentSourceChanged, this, [this] {
+        const int current = document().currentSource();
+        if (current < 0)
+            return;
+        const QString text = headingText(document().sources()[std::size_t(current)]);
+        m_name->setText(text);
+        m_name->setToolTip(text);
+    });
     connect(&document(), &Document::volumeChanged, this, [this] {
         if (jobs().isRunning()) { // the volume was loaded
             beginLink();
@@ -113,8 +122,6 @@ QWidget *StudyBeside::makeHeading() {
 }
 
 void StudyBeside::open(const StudySource &source) {
-    m_name->setText(headingText(source));
-    m_name->setToolTip(headingText(source));
     m_link->hold();
     m_study.opener.openSource(document().addSources({source}).front());
     beginLink(); // if it is open already
