@@ -2333,6 +2333,10 @@
         <source>must be true or false</source>
         <translation>必須是 true 或 false</translation>
     </message>
+    <message>
+        <source>gives a &apos;binarise&apos; step in values of another volume: save this preset again</source>
+        <translation>其「binarise」步驟以另一體積的數值表示：請重新儲存此預設集</translation>
+    </message>
 </context>
 <context>
     <name>StudyDetailsTexts</name>

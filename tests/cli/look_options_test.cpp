@@ -96,7 +96,7 @@ TEST_F(Cli, PresetsAreListedShownCheckedAndMoved) {
     const fs::path file = folder / "bone.json";
     ASSERT_EQ(cli("preset export Bone -o " + quoted(file)).exitCode, 0);
     EXPECT_EQ(cli("preset validate " + quoted(file)).exitCode, 0);
-    EXPECT_NE(cli("preset show bone").out.find("pellucid-preset/1"), std::string::npos);
+    EXPECT_NE(cli("preset show bone").out.find("pellucid-preset/2"), std::string::npos);
     // What is built in stays; under another name it is kept, once.
     EXPECT_EQ(cli("preset import " + quoted(file)).exitCode, 2);
     EXPECT_EQ(cli("preset import " + quoted(file) + " --name Mine").exitCode, 0);
