@@ -10,7 +10,7 @@ class Validator;
 
 namespace pellucid::cli {
 
-/// What every command receives.
+/// The arguments of every command.
 struct Context {
     std::stop_token stop;
 };

@@ -85,7 +85,7 @@ private:
         double aliases = 0.0;                      ///< in the picture
         double inverse = 0.0;                      ///< of blocks without the cue, divided by h^2
         double tailsAcross = 0.0, tailsDown = 0.0; ///< of their tails in the picture
-        // Of their projections.
+        // Energies of their joint projection.
         double projection = 0.0, projectionInPicture = 0.0;
         double aliasesInPicture = 0.0;
     };

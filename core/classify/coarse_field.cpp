@@ -11,7 +11,7 @@ namespace pellucid::classify {
 
 namespace {
 
-// What to assume beyond the last sample of an outer block: zero, as in a field; or the mean of the
+// The assumption beyond the last sample of an outer block: zero, as in a field; or the mean of the
 // samples within it.
 enum class Beyond { zero, mean };
 

@@ -11,8 +11,8 @@ namespace pellucid::classify {
 /// More cannot be distinguished, and each may need a spectrum.
 inline constexpr std::size_t maxClasses = 64;
 
-/// What a volume shows: its density through a transfer function, or, if there are classes, the sum
-/// of weight times class in the colors of the classes.
+/// How a volume is shown: its density through a transfer function, or, if there are classes, the
+/// sum of weight times class in the colors of the classes.
 struct Look {
     TransferFunction transferFunction;
     std::vector<TissueClass> classes;

@@ -279,8 +279,8 @@ Child::Answer Child::take(const Message &message) {
 }
 
 void Child::failByExitStatus() {
-    // The process may end a moment after its socket; one that still runs has sent an invalid
-    // message.
+    // The process may need a moment to end after its socket closed. If it still runs then, it has
+    // sent an invalid message.
     int status = 0;
     const auto end = Clock::now() + endPatience;
     for (pid_t ended = 0; ended != m_pid;) {

@@ -41,7 +41,7 @@ private:
     ToneRange m_range;
     bool m_isWanted = true, m_isHeld = false;
     std::optional<ToneSubject> m_adoptedFor;
-    /// Of the last frame.
+    /// That of the last frame.
     std::size_t m_lights = 0;
     shading::CueKind m_cue = shading::CueKind::none;
 };

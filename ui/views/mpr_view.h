@@ -85,7 +85,7 @@ private:
     const mpr::Orientation m_orientation;
     PlaneTools m_tools;
     View m_view;
-    /// Of the last volume, which may have been a preview.
+    /// The lattice of the last volume, which may have been a preview.
     volume::Lattice m_lattice;
     bool m_wasPreview = false;
     QImage m_image;
