@@ -224,14 +224,14 @@ private slots:
         const int byDefault = width();
         dragHandle(columns(), {100, 0});
         QCOMPARE(width(), byDefault + 100);
-        QVERIFY(m_window->close());
+        QVERIFY(mainWindow().close());
         restart();
         open(headPath());
         // The docks beside the panes may round their own sizes by a pixel.
         QVERIFY2(std::abs(width() - byDefault - 100) <= 2, qPrintable(QString::number(width())));
         QTest::mouseDClick(columns(), Qt::LeftButton);
         QVERIFY(std::abs(width() - byDefault) <= 2);
-        QVERIFY(m_window->close());
+        QVERIFY(mainWindow().close());
         restart();
         open(headPath());
         QVERIFY(std::abs(width() - byDefault) <= 2);
