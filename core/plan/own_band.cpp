@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -142,12 +143,16 @@ SpectrumEnergies::SpectrumEnergies(const fourier::Spectrum &spectrum,
 std::vector<double> SpectrumEnergies::rings(const glm::dmat3 &axes, double limitPerMm) const {
     const Blocks &all = *m_blocks;
     const glm::dvec3 perU = all.cellsPer(axes[0]), perV = all.cellsPer(axes[1]);
-    const auto most = [](const glm::dvec3 &v) {
-        const glm::dvec3 a = glm::abs(v);
-        return std::max({a.x, a.y, a.z});
+    // No step is longer than a block, nor than a sixteenth of a short axis.
+    const auto stepOf = [&](const glm::dvec3 &perMm) {
+        double step = std::numeric_limits<double>::infinity();
+        for (int d = 0; d < 3; ++d)
+            step = std::min(step, std::min(cellsPerPoint, all.padded[d] / 16.0) /
+                                      std::max(1e-12, std::abs(perMm[d])));
+        return step;
     };
     const double limit = std::min(limitPerMm, farthest * all.nyquistPerMm);
-    const double stepU = cellsPerPoint / most(perU), stepV = cellsPerPoint / most(perV);
+    const double stepU = stepOf(perU), stepV = stepOf(perV);
     PlaneWalk walk;
     walk.blocks = &all.blocks;
     for (int d = 0; d < 3; ++d) {

@@ -75,6 +75,8 @@ std::string toJson(const Scene &scene) {
         out["padding"] = *fixed.padding;
     if (fixed.storage)
         out["storage"] = fourier::storageName(*fixed.storage);
+    if (fixed.isUniform)
+        out["uniform"] = true;
     return out.dump(2);
 }
 
@@ -128,6 +130,7 @@ Scene sceneFromJson(const std::string &text) {
             scene.interpolation.padding = in.at("padding").get<double>();
         if (in.contains("storage"))
             scene.interpolation.storage = fourier::storageFromName(in.at("storage"));
+        scene.interpolation.isUniform = in.value("uniform", false);
         if (in.contains("tone")) {
             const json &tone = in.at("tone");
             scene.tone.inverted = tone.value("inverted", false);
