@@ -101,7 +101,7 @@ rm -r "$home/.local"
 # One at a time, and a folder as it was typed.
 install --prefix "refused/./here" || fail "$(cat "$work/said")"
 [[ -x $home/here/bin/pellucid ]] || fail "not where it was asked for"
-refuses "is installed in $home/here"
+refuses "already installed in $home/here"
 # An upgrade that fails leaves what was there.
 unpacked second
 touch "$work/unpacked/share/icons/hicolor/scalable/apps/new.svg"

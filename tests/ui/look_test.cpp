@@ -57,7 +57,7 @@ private slots:
         settle();
         QVERIFY(find<QLabel>("planLabel")->text().startsWith("trilinear"));
         QVERIFY(predicted() > 1.0);
-        QVERIFY(find<QLabel>("planReasonLabel")->text().startsWith("More error than allowed"));
+        QVERIFY(find<QLabel>("planReasonLabel")->text().startsWith("The error exceeds the tolerance"));
         save("quality_trilinear");
 
         auto *tolerance = find<QLineEdit>("toleranceEdit");

@@ -227,7 +227,10 @@ void PaneArea::takeDraggedSizes(const QSplitter &dragged) {
     const QSplitter &rows = &dragged == m_right ? *m_right : *m_left;
     Arrangement next = m_arrangement;
     next.sizes[std::size_t(next.layout)] = m_columns->sizes() + rows.sizes();
-    setArrangement(next);
+    if (next == m_arrangement) // the other column may not follow any further
+        applySizes();
+    else
+        setArrangement(next);
 }
 
 } // namespace pellucid::ui
