@@ -57,7 +57,9 @@ void naming(const std::filesystem::path &path, const std::function<void()> &work
 /// "LO,HI". *Throws* Error{usage}.
 classify::FieldWindow parseWindow(const std::string &text);
 
-/// Numbers separated by a character, exactly `count`. *Throws* Error{usage} naming the option.
+/// Exactly `count` finite decimal numbers, separated by a character. Not CLI11's `delimiter` and
+/// `expected`, which accept `nan`, hexadecimal numbers and empty parts. *Throws* Error{usage}
+/// naming the option.
 std::vector<double> parseNumbers(const std::string &option, const std::string &text, char separator,
                                  std::size_t count);
 

@@ -15,23 +15,23 @@ namespace pellucid::cli {
 
 struct SceneOptions;
 
-/// NAME of the standard classes. *Throws* Error{usage} with the names there are.
+/// The standard class of a name. *Throws* Error{usage} with the known names.
 const classify::TissueClass &classNamed(const std::string &name);
 
-/// The preset that --preset names, a file's or one of the library, which is read for it: a command
-/// asks once. *Throws* Error{usage}, Error{unusable}.
+/// The preset that --preset names: a file, or a preset of the library. It reads the file or the
+/// library each time. *Throws* Error{usage}, Error{unusable}.
 std::optional<presets::Preset> presetFor(const SceneOptions &options);
 
-/// Changes a look by --bezier, a curve that shows the whole volume, and --class, which show
-/// themselves alone. *Throws* Error{usage}.
+/// Applies --bezier, a curve for the whole volume, or --class, which show only these classes, to a
+/// look. *Throws* Error{usage}.
 void changeLook(classify::Look &look, const SceneOptions &options);
 
-/// The look that the preset, --bezier and --class ask for, in the preset's own units; what is not
-/// given is plain. *Throws* Error{usage}.
+/// The look of the preset, or else the default look, changed by --bezier and --class; in the
+/// preset's own units. *Throws* Error{usage}.
 classify::Look lookFor(const SceneOptions &options, const std::optional<presets::Preset> &preset);
 
-/// The cue and lights that the preset, --depth-cue, --light and --ambient ask for, over `former`
-/// where they are not given. *Throws* Error{usage}.
+/// The cue and lights of the preset, or else of `former`, changed by --depth-cue, --light and
+/// --ambient. *Throws* Error{usage}.
 shading::Shading shadingFor(const SceneOptions &options, const CLI::App &command,
                             const std::optional<presets::Preset> &preset,
                             const shading::Shading &former = {});

@@ -40,12 +40,13 @@ scene::Scene readScene(const fs::path &path) {
     const std::string text = files::readText(path, files::maxPresetBytes);
     try {
         return scene::sceneFromJson(text);
-    } catch (const Error &error) { // of the file, not of the command line
+    } catch (const Error &error) { // a fault of the file, not of the command line
         throw Error(ErrorCode::unusable, error.reason(), path);
     }
 }
 
-// Positive and finite.
+// Not CLI::PositiveNumber, which accepts NaN and whose message has the 309 digits of the largest
+// double.
 CLI::Validator positive() {
     return {[](std::string &text) {
                 const auto value = system::typedNumberFrom(text);
@@ -55,23 +56,40 @@ CLI::Validator positive() {
             "", "positive"};
 }
 
-template <class Map> std::vector<std::string> namesOf(const Map &map) {
+// CLI11 reads "nan", "inf" and numbers that overflow.
+CLI::Validator finite() {
+    return {[](std::string &text) {
+                double value = 0.0;
+                const bool isNumber = CLI::detail::lexical_cast(text, value);
+                return isNumber && !std::isfinite(value) ? "the number must be finite"
+                                                         : std::string();
+            },
+            ""};
+}
+
+std::vector<std::string> toleranceNames() {
     std::vector<std::string> names;
-    for (const auto &[name, value] : map)
-        names.push_back(name);
+    for (const auto &[name, tolerance] : scene::namedTolerances)
+        names.emplace_back(name);
     return names;
 }
 
 void addCameraOptions(CLI::App &command, SceneOptions &options) {
     CLI::Option *view = command.add_option("--view", options.view, "Standard view, default front")
-                            ->check(CLI::IsMember(namesOf(views)));
+                            ->check(CLI::IsMember(views));
     CLI::Option *azimuth =
-        command.add_option("--azimuth", options.azimuthDeg,
-                           "Degrees about the patient's long axis, added to the view");
-    CLI::Option *elevation = command.add_option("--elevation", options.elevationDeg,
-                                                "Degrees up from the horizon, added to the view");
-    CLI::Option *roll = command.add_option("--roll", options.rollDeg,
-                                           "Degrees about the line of sight, added to the view");
+        command
+            .add_option("--azimuth", options.azimuthDeg,
+                        "Degrees about the patient's long axis, added to the view")
+            ->check(finite());
+    CLI::Option *elevation = command
+                                 .add_option("--elevation", options.elevationDeg,
+                                             "Degrees up from the horizon, added to the view")
+                                 ->check(finite());
+    CLI::Option *roll = command
+                            .add_option("--roll", options.rollDeg,
+                                        "Degrees about the line of sight, added to the view")
+                            ->check(finite());
     command
         .add_option("--orientation", options.orientation,
                     "Rotation [U V W] as a quaternion w,x,y,z")
@@ -107,30 +125,33 @@ void addShadingOptions(CLI::App &command, SceneOptions &options) {
                     "none, linear:S, sine:S (S 0 to 1), or curve:c0,c1,.. from far to near, "
                     "2 to 8 of 0 to 2")
         ->check(notEmpty());
-    command
-        .add_option("--light", options.lights,
-                    "u,v,w[:#rrggbb[:S]]: a light of strength S, 0 to 1, from that direction "
-                    "(right, up, toward the "
-                    "viewer); repeat it")
-        ->allow_extra_args(false);
+    CLI::Option *light =
+        command
+            .add_option("--light", options.lights,
+                        "u,v,w[:#rrggbb[:S]]: a light of strength S, 0 to 1, from that direction "
+                        "(right, up, toward the "
+                        "viewer); repeat it")
+            ->allow_extra_args(false);
     command
         .add_option("--light-frame", options.lightFrame,
                     "What the lights follow when the view turns, default viewer")
-        ->check(CLI::IsMember({"viewer", "patient"}));
+        ->check(CLI::IsMember({"viewer", "patient"}))
+        ->needs(light);
     command.add_option("--ambient", options.ambient, "The ambient light, 0 to 2, default 1")
         ->check(CLI::Range(0.0, shading::largestAmbient));
 }
 
 void addQualityOptions(CLI::App &command, SceneOptions &options) {
     command.add_option("--reconstruction", options.reconstruction, "What lies between the samples")
-        ->check(CLI::IsMember(namesOf(reconstructions)));
+        ->check(CLI::IsMember(reconstructions));
     command
         .add_option("--roll-off", options.rollOff,
                     "Share of the band that is rolled off, default 0.05")
-        ->check(CLI::Range(0.0, 1.0));
+        ->check(CLI::Range(0.0, 1.0))
+        ->check(finite());
     CLI::Option *quality =
         command.add_option("--quality", options.quality, "Named tolerance, default standard")
-            ->check(CLI::IsMember(namesOf(scene::namedTolerances)));
+            ->check(CLI::IsMember(toleranceNames()));
     command.add_option("--tolerance", options.tolerance, "Largest relative L2 error")
         ->check(positive())
         ->excludes(quality);
@@ -149,7 +170,7 @@ bool isGiven(const CLI::App &command, const char *option) {
     return command.count(option) > 0;
 }
 
-// The scene file's, or the default one.
+// The scene of the file, or else the default one.
 scene::Scene startingScene(const SceneOptions &o, const CLI::App &command,
                            const volume::Lattice &lattice) {
     if (isGiven(command, "--scene"))
@@ -161,16 +182,6 @@ scene::Scene startingScene(const SceneOptions &o, const CLI::App &command,
     scene.camera.orientation = scene::viewOrientation(scene::StandardView::front);
     scene.camera.pixelMm = lattice.shortestStepMm();
     return scene;
-}
-
-void requireFinite(const SceneOptions &o) {
-    for (const auto &[name, value] : {std::pair{"--azimuth", o.azimuthDeg},
-                                      {"--elevation", o.elevationDeg},
-                                      {"--roll", o.rollDeg},
-                                      {"--roll-off", std::max(o.rollOff, 0.0)}})
-        if (!std::isfinite(value))
-            throw Error(ErrorCode::usage,
-                        because::inWords(std::string(name) + ": the number must be finite"));
 }
 
 void setOrientation(scene::Camera &camera, const SceneOptions &o, const CLI::App &command) {
@@ -199,7 +210,7 @@ void setPixel(scene::Camera &camera, const SceneOptions &o, const CLI::App &comm
     camera.pixelMm = o.pixelMm;
     if (!o.scene.empty() || isGiven(command, "--size"))
         return;
-    // The whole volume at that pixel.
+    // The image contains the whole volume.
     const double side = 2.0 * lattice.radiusMm() / o.pixelMm;
     if (!(o.pixelMm > 0.0) || side > scene::largestImageSize)
         throw Error(
@@ -244,10 +255,7 @@ void setShading(scene::Scene &scene, const SceneOptions &o, const CLI::App &comm
     scene.shading = shadingFor(o, command, preset, scene.shading);
     if (!isGiven(command, "--light-frame"))
         return;
-    if (o.lights.empty())
-        throw Error(ErrorCode::usage,
-                    because::inWords("--light-frame says how a --light is meant"));
-    // Directions are given as seen in the scene's view.
+    // Directions are given in the scene's view.
     const glm::dmat3 axes = scene.camera.axes();
     for (shading::Light &light : scene.shading.lights)
         if (o.lightFrame == "patient") {
@@ -295,7 +303,6 @@ scene::Scene sceneFor(const SceneOptions &o, const CLI::App &command,
                       const std::optional<presets::Preset> &preset, const volume::Volume &volume) {
     const volume::Lattice &lattice = volume.lattice();
     scene::Scene scene = startingScene(o, command, lattice);
-    requireFinite(o);
     setOrientation(scene.camera, o, command);
     setPixel(scene.camera, o, command, lattice);
     setSize(scene.camera, o, command);

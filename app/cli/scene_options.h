@@ -14,7 +14,7 @@ class App;
 
 namespace pellucid::cli {
 
-/// The options that say what a projection shows, as typed.
+/// The options for what a projection shows, as typed.
 struct SceneOptions {
     std::string scene, preset, view, orientation, size, window, bezier, reconstruction, quality,
         kernel, storage, depthCue, lightFrame, crop;
@@ -24,11 +24,12 @@ struct SceneOptions {
            tolerance = 0.0, padding = 0.0, ambient = 1.0;
 };
 
-/// Adds them to a command; `options` must outlive it.
+/// Adds these options to a command. *Requires*: `options` outlives it.
 void addSceneOptions(CLI::App &command, SceneOptions &options);
 
-/// The scene they make of a volume: the scene file's, or the default one, changed by the preset and
-/// then by the options that were given. *Throws* Error{usage}, Error{unusable} for a file.
+/// The scene that the options ask for: the scene file's, or else the default one, changed by the
+/// preset and then by the options that are given. *Throws* Error{usage}; Error{unusable} for a
+/// file.
 scene::Scene sceneFor(const SceneOptions &options, const CLI::App &command,
                       const std::optional<presets::Preset> &preset, const volume::Volume &volume);
 

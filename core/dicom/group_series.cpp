@@ -20,7 +20,7 @@ namespace {
 
 namespace because = task::because;
 using Frames = std::vector<PlacedFrame>;
-// The volumes of each stack.
+// The volumes of each stack of slices.
 using Stacks = std::vector<std::vector<VolumeEntry>>;
 
 bool sameAxis(const glm::dvec3 &a, const glm::dvec3 &b) {
@@ -49,9 +49,9 @@ std::size_t digestOf(const PlacedFrame &frame) {
                            frame.header);
 }
 
-// One instance twice, as when a CD is copied into a folder that has it already. Some tools write
-// one UID into every image of a series, or into an Enhanced file and the slices taken out of it:
-// those are other images, and stay.
+// Drops second copies of an instance, as when a CD is copied into a folder that contains it
+// already. Some tools write one UID into all images of a series, or into an Enhanced file and the
+// slices extracted from it: those are different images, and are kept.
 void dropCopies(Frames &frames, std::vector<Skipped> &skipped) {
     using Instance = std::pair<std::string, int>;
     using Image = std::tuple<int, int, int, int, std::size_t>;
@@ -90,7 +90,7 @@ VolumeEntry entryFrom(const Part &part) {
     return entry;
 }
 
-// Images without a common geometry: a pile one sample thick each, shown one by one.
+// Makes an entry of images without a common geometry: slices 1 mm apart, shown one by one.
 void makeImages(VolumeEntry &entry, const Frames &frames, const task::Reason &reason) {
     entry.placed = false;
     entry.notPlacedReason = reason;
@@ -102,13 +102,14 @@ void makeImages(VolumeEntry &entry, const Frames &frames, const task::Reason &re
         {}};
 }
 
-// Frames that belong together; where many do not, each is compared with those of about its own
-// row axis only.
+// Groups frames that belong together. Each frame is compared only with blocks of about the same row
+// axis, because a series may consist of many blocks.
 std::vector<Frames>
 blocksOf(const Frames &frames,
          const std::function<bool(const PlacedFrame &, const PlacedFrame &)> &same,
          const task::Progress &progress) {
-    constexpr double cellsPerUnit = 1.0 / (1.25 * largestJitter); // wider than `sameAxis` forgives
+    constexpr double cellsPerUnit =
+        1.0 / (1.25 * largestJitter); // cells wider than the tolerance of `sameAxis`
     std::vector<Frames> blocks;
     std::map<std::tuple<int, int, long>, std::vector<std::size_t>> known;
     for (const PlacedFrame &frame : frames) {
@@ -130,10 +131,10 @@ blocksOf(const Frames &frames,
     return blocks;
 }
 
-// Blocks of one space each. Anonymisers that replace UIDs one by one give each image a space of its
-// own: where hardly any repeats, they carry no information.
+// Splits a block by frame of reference. Some anonymisers give each image a different UID: if hardly
+// any repeats, the UIDs carry no information.
 std::vector<Frames> spacesOf(Frames block, std::vector<task::Reason> &warnings) {
-    constexpr std::size_t fewestSpaces = 3;
+    constexpr std::size_t minSpaces = 3;
     std::map<std::string, std::size_t> known;
     std::vector<Frames> spaces;
     for (PlacedFrame &frame : block) {
@@ -144,7 +145,7 @@ std::vector<Frames> spacesOf(Frames block, std::vector<task::Reason> &warnings) 
     }
     const auto alone = std::size_t(std::count_if(
         spaces.begin(), spaces.end(), [](const Frames &space) { return space.size() == 1; }));
-    if (spaces.size() < fewestSpaces || 10 * alone < 9 * block.size())
+    if (spaces.size() < minSpaces || 10 * alone < 9 * block.size())
         return spaces;
     warnings.emplace_back(because::framesOfReferenceDiffer);
     return {std::move(block)};
@@ -163,7 +164,7 @@ VolumeEntry volumeOf(const Part &part) {
     return entry;
 }
 
-// The frames [first, end) of a part, between two holes.
+// The volume of the frames [first, end) of a part, a run between two holes.
 VolumeEntry runOf(const Part &part, std::size_t first, std::size_t end) {
     const bool isOne = end - first == 1;
     Part run{
@@ -183,8 +184,8 @@ VolumeEntry runOf(const Part &part, std::size_t first, std::size_t end) {
     return entry;
 }
 
-// The stack of a part, or, where slices are missing in it, the runs between the holes and the whole
-// with its holes filled.
+// The volumes of a part: its stack; or, if slices are missing, the runs between the holes, and the
+// whole stack with its holes filled.
 std::vector<VolumeEntry> volumesOf(const Part &part) {
     const auto runs = runsOf(part.frames);
     if (runs.size() == 1)
@@ -192,7 +193,7 @@ std::vector<VolumeEntry> volumesOf(const Part &part) {
     std::vector<VolumeEntry> volumes;
     for (const auto &[first, end] : runs)
         volumes.push_back(runOf(part, first, end));
-    // More that is made up than was scanned helps nobody.
+    // Not if more slices would be interpolated than were scanned.
     VolumeEntry whole = volumeOf(part);
     if (!whole.placed || whole.geometry.lattice.size().k > 2 * int(part.frames.size()))
         return volumes;
@@ -202,13 +203,13 @@ std::vector<VolumeEntry> volumesOf(const Part &part) {
     return volumes;
 }
 
-// How stacks are named, and those of which there are several.
+// The name of a stack, and the name of one of several of that direction.
 struct Direction {
     task::Because<0> name;
     task::Because<1> numbered;
 };
 
-// The side of the body that a stack's slices are seen from: the nearest.
+// The anatomical plane that is closest to a stack's slices.
 Direction directionOf(const VolumeEntry &entry) {
     if (!entry.placed)
         return {because::images, because::imagesNumber};
@@ -220,8 +221,8 @@ Direction directionOf(const VolumeEntry &entry) {
                                 : Direction{because::sagittal, because::sagittalNumber};
 }
 
-// Stacks of several directions, spaces or kinds of values, as the three of a localizer, say which
-// they are; phases of one stack say the same.
+// If there are several stacks, such as the three of a localizer, labels each with its direction.
+// Phases of one stack have the same label.
 void nameStacks(Stacks &stacks) {
     if (stacks.size() < 2)
         return;
@@ -252,8 +253,8 @@ Frames framesOf(const std::vector<SeriesFile> &files) {
     Frames frames;
     for (const SeriesFile &file : files)
         for (int n = 0; n < int(file.header.frames.size()); ++n) {
-            // Not as one aggregate: where a copy finds no memory, GCC 12 destroys the members of
-            // an inner one twice.
+            // Not one aggregate: if a copy fails for lack of memory, GCC 12 destroys the members of
+            // an inner aggregate twice.
             PlacedFrame frame;
             frame.reference = {file.path, n};
             frame.header = file.header.frames[std::size_t(n)];
@@ -269,7 +270,7 @@ Frames framesOf(const std::vector<SeriesFile> &files) {
     return frames;
 }
 
-// Adds the stacks of frames whose place is known.
+// Adds the stacks of frames whose geometry is known.
 void addVolumes(const Frames &frames, const task::Progress &progress, Stacks &stacks) {
     for (const Frames &images : blocksOf(frames, sameBlock, progress)) {
         std::vector<task::Reason> warnings;
@@ -278,7 +279,7 @@ void addVolumes(const Frames &frames, const task::Progress &progress, Stacks &st
             const std::vector<Part> parts = hasRepeatedPositions(block)
                                                 ? splitRepeats(block, progress)
                                                 : std::vector<Part>{{{}, block}};
-            // Phases share their stacks, each run of slices is one.
+            // The phases of a run of slices share one stack.
             std::map<std::pair<std::size_t, bool>, std::size_t> runs;
             for (const Part &part : parts) {
                 progress.check();
@@ -298,7 +299,7 @@ void addVolumes(const Frames &frames, const task::Progress &progress, Stacks &st
     }
 }
 
-// Adds the other frames as sets of images.
+// Adds the frames without geometry as sets of images.
 void addImages(const Frames &frames, const task::Progress &progress, Stacks &stacks) {
     const auto sameSize = [](const PlacedFrame &a, const PlacedFrame &b) {
         return a.rows == b.rows && a.columns == b.columns &&

@@ -15,18 +15,19 @@ struct SeriesFile {
     InstanceHeader header;
 };
 
-/// Splits one series into volumes: by size, orientation, pixel spacing, localizer, frame of
-/// reference and modality first; where
-/// positions then still repeat, by the first attribute that tells them apart (temporal position,
-/// acquisition, echo, b-value, ...), at last by the order of the files. Copies of the same instance
-/// are dropped and listed. Frames without position or orientation become sets of images with the
-/// reason. *Throws* Cancelled.
+/// Splits a series into volumes: first by size, orientation, pixel spacing, localizer, frame of
+/// reference and modality. If positions still repeat, it splits by the first attribute that
+/// distinguishes them (temporal position, acquisition, echo, b-value, ...), or else by the order of
+/// the files. Copies of an instance are dropped and added to `skipped`. Frames without position or
+/// orientation become sets of images that contain the reason. *Throws* Cancelled.
 std::vector<VolumeEntry> groupSeries(const std::vector<SeriesFile> &files,
                                      std::vector<Skipped> &skipped,
                                      const task::Progress &progress = {});
 
-/// What identifies a frame's image, its place and its kind of values: frames of other digests are
-/// other images, whatever their file is named. A hash against mix-ups: who forges can forge it.
+/// A digest of the frame's instance, place and modality, kept in memory only: frames with different
+/// digests are different images, whatever the names of their files. It prevents mix-ups, not
+/// forgery. The standard library's hash is sufficient: it reads some 200 bytes, where the scan has
+/// just read and parsed a file.
 std::size_t digestOf(const std::string &sopInstanceUid, const std::string &frameOfReferenceUid,
                      const std::string &modality, const FrameHeader &frame);
 

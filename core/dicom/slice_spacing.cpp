@@ -11,9 +11,13 @@ namespace pellucid::dicom {
 
 namespace {
 
-// Resampling may not multiply the slices by more than this: such gaps are strays, not a spacing.
-constexpr double mostSlicesPerFrame = 4.0;
+// Resampling may not multiply the slices by more than this: a spacing that small comes from stray
+// frames.
+constexpr double maxSlicesPerFrame = 4.0;
 
+// A line has a closed form of ten lines. Eigen's QR of the same system changes the last bits of the
+// step in 19 of 20 series, by 1e-14 mm, and the lattice of the volume with them; the file would
+// take 7 s to compile instead of 0.7 s.
 SliceLine lineThrough(std::span<const double> depths, std::span<const long> indices) {
     const double count = double(depths.size());
     double meanDepth = 0.0, meanIndex = 0.0, product = 0.0, square = 0.0;
@@ -34,7 +38,7 @@ SliceLine lineThrough(std::span<const double> depths, std::span<const long> indi
     return line;
 }
 
-// Neighbouring frames that are evenly spaced.
+// Consecutive frames that are evenly spaced.
 struct Run {
     std::size_t first = 0, gaps = 0;
     SliceLine line;
@@ -49,14 +53,14 @@ std::vector<Run> evenRuns(const std::vector<double> &depths) {
             return lineThrough(std::span(depths).subspan(first, gaps + 1),
                                std::span(indices).first(gaps + 1));
         };
-        // As long as it is even: doubled until it is not, then halved down to the end.
-        const std::size_t most = depths.size() - 1 - first;
+        // The number of gaps is doubled while the run is even; bisection then finds its end.
+        const std::size_t longest = depths.size() - 1 - first;
         std::size_t even = 1, uneven = 2;
-        while (uneven <= most && line(uneven).isEven()) {
+        while (uneven <= longest && line(uneven).isEven()) {
             even = uneven;
             uneven *= 2;
         }
-        uneven = std::min(uneven, most + 1);
+        uneven = std::min(uneven, longest + 1);
         while (uneven - even > 1) {
             const std::size_t middle = (even + uneven) / 2;
             (line(middle).isEven() ? even : uneven) = middle;
@@ -69,7 +73,7 @@ std::vector<Run> evenRuns(const std::vector<double> &depths) {
 
 } // namespace
 
-// 0.05 mm is what a position with one decimal is off, on each of the axes that it is composed of.
+// A position with one decimal is off by up to 0.05 mm on each of its axes.
 double evennessToleranceMm(double spacingMm) {
     return std::min(std::max(0.09, 0.02 * std::abs(spacingMm)), 0.15 * std::abs(spacingMm));
 }
@@ -95,7 +99,7 @@ std::optional<EvenGrid> evenGrid(const std::vector<double> &depths,
     grid.line = lineThrough(depths, grid.indices);
     if (grid.line.isEven())
         return grid;
-    // Rounding to whole steps is refined by the line that it leads to.
+    // Depths are rounded to whole steps of a line, and the line is refitted, in turns.
     const double typical = median(gaps);
     double sum = 0.0;
     int count = 0;
@@ -109,12 +113,12 @@ std::optional<EvenGrid> evenGrid(const std::vector<double> &depths,
     for (int round = 0; round < rounds; ++round) {
         long last = -1;
         for (std::size_t n = 0; n < depths.size(); ++n) {
-            // From frame to frame at first: a step that is a little wrong adds up.
+            // From frame to frame at first, because the error of a rough step accumulates.
             const double steps =
                 round == 0 ? (n == 0 ? 0.0 : double(last) + gaps[n - 1] / grid.line.stepMm)
                            : (depths[n] - grid.line.startMm) / grid.line.stepMm;
-            // Beyond that it is no grid of slices that are missing.
-            if (!(steps < mostSlicesPerFrame * double(depths.size()) + 1.0))
+            // So many missing slices are not plausible.
+            if (!(steps < maxSlicesPerFrame * double(depths.size()) + 1.0))
                 return std::nullopt;
             const long index = std::lround(steps);
             if (index <= last)
@@ -123,24 +127,23 @@ std::optional<EvenGrid> evenGrid(const std::vector<double> &depths,
         }
         grid.line = lineThrough(depths, grid.indices);
     }
-    // The first frame is a slice of its own, too.
+    // The first frame must be the first slice.
     return grid.line.isEven() && grid.indices.front() == 0 ? std::optional(grid) : std::nullopt;
 }
 
 std::optional<SliceLine> anchoredLine(const std::vector<double> &depths) {
     constexpr double muchFiner = 0.75;
-    constexpr std::size_t noAccident = 3;
+    constexpr std::size_t minGaps = 3; // fewer equal gaps may be a coincidence
     const std::vector<Run> runs = evenRuns(depths);
     const auto fits = [&](const Run &run) {
-        return depths.back() / run.line.stepMm + 1.0 <= mostSlicesPerFrame * double(depths.size());
+        return depths.back() / run.line.stepMm + 1.0 <= maxSlicesPerFrame * double(depths.size());
     };
     const Run *chosen = &*std::max_element(
         runs.begin(), runs.end(), [](const Run &a, const Run &b) { return a.gaps < b.gaps; });
     if (!fits(*chosen))
         return std::nullopt;
     for (const Run &run : runs)
-        if (fits(run) && run.gaps >= noAccident &&
-            run.line.stepMm < muchFiner * chosen->line.stepMm)
+        if (fits(run) && run.gaps >= minGaps && run.line.stepMm < muchFiner * chosen->line.stepMm)
             chosen = &run;
     SliceLine line = chosen->line;
     line.startMm = std::abs(line.worstMm) < exactMm ? depths[chosen->first] : line.startMm;

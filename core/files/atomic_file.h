@@ -16,7 +16,8 @@ std::filesystem::path targetOf(const std::filesystem::path &path);
 
 /// A file that appears under its name only when it is complete. Until `commit` has flushed them to
 /// the disk, its bytes are in a nameless file, which disappears if the program is killed; on file
-/// systems without such files, in a hidden file in the same folder.
+/// systems without such files, in a hidden file in the same folder. Not QSaveFile: core does not
+/// use Qt, and a killed program leaves QSaveFile's unfinished file behind.
 class AtomicFile {
 public:
     /// *Throws* Error{output} if the folder cannot be written.

@@ -91,6 +91,16 @@ std::array<double, 3> JsonValue::threeNumbers(double largest) const {
     return numbersOf<3>(largest, because::mustBeThreeNumbers);
 }
 
+std::array<double, 4> JsonValue::fourNumbers() const {
+    return numbersOf<4>(largestNumber, because::mustBeFourNumbers);
+}
+
+bool JsonValue::boolean() const {
+    if (m_json == nullptr || !m_json->is_boolean())
+        refuse(because::mustBeTrueOrFalse);
+    return m_json->get<bool>();
+}
+
 std::string JsonValue::text() const {
     if (m_json == nullptr || !m_json->is_string())
         refuse(because::mustBeAText);

@@ -14,46 +14,48 @@
 
 namespace pellucid::files {
 
-/// The words of a file and what they mean.
+/// The words that a file may contain, and their meanings.
 template <class T, std::size_t N> using JsonWords = std::array<std::pair<const char *, T>, N>;
 
-/// A value of JSON that somebody may have written by hand, with its JSON pointer.
-/// *Throws*, every function that reads: Error{usage} whose reason is `because::at` with the pointer
-/// and what is wrong; for the whole text, which has none, what is wrong alone.
+/// A JSON value, perhaps written by hand, with its JSON pointer.
+/// *Throws*: every function that reads throws Error{usage}. The reason is `because::at` with the
+/// pointer and the fault; for the whole text, which has no pointer, the fault alone.
 ///
-/// For the *_nlohmann.cpp of other rooms; the only header that names the library, so that the
-/// reader is not written twice.
+/// Only *_nlohmann.cpp may include this header, the only one that names the library: so there is
+/// one reader for all rooms.
 class JsonValue {
 public:
-    /// The whole text. *Requires*: it outlives all values of it.
+    /// The whole text. *Requires*: `whole` outlives all values read from it.
     explicit JsonValue(const nlohmann::json &whole) : m_json(&whole) {}
     explicit JsonValue(nlohmann::json &&) = delete;
 
-    /// A member of an object. There may be none of that name, or no object: what is then given
-    /// knows its pointer, but is not there.
+    /// A member of an object. If there is no such member, or no object, the result is absent, but
+    /// has its pointer.
     JsonValue operator[](const std::string &name) const;
-    /// A member that an object must have, and an element that a list must have.
+    /// A required member of an object, and a required element of a list.
     JsonValue at(const std::string &name) const;
     JsonValue at(std::size_t index) const;
-    /// Whether it is there.
+    /// Whether it is present.
     explicit operator bool() const { return m_json != nullptr; }
     bool isObject() const;
 
-    /// Of a list.
+    /// For lists only.
     std::size_t size() const;
     std::vector<JsonValue> elements() const;
-    /// Of an object, by name.
+    /// For objects only. *Shape*: sorted by name.
     std::vector<std::pair<std::string, JsonValue>> members() const;
 
-    /// Differences of two are finite in single precision.
+    /// The difference of two such numbers is finite in single precision.
     static constexpr double largestNumber = 1e30;
-    /// *Shape*: no farther from 0 than `largest`.
+    /// A number whose magnitude is at most `largest`.
     double number(double largest = largestNumber) const;
     std::vector<double> numbers() const;
     std::array<double, 2> twoNumbers() const;
     std::array<double, 3> threeNumbers(double largest = largestNumber) const;
+    std::array<double, 4> fourNumbers() const;
+    bool boolean() const;
     std::string text() const;
-    /// What its word means.
+    /// The meaning of a word.
     template <class T, std::size_t N> T meaning(const JsonWords<T, N> &words) const {
         const std::string given = text();
         std::string known;
@@ -66,7 +68,8 @@ public:
     }
 
     [[noreturn]] void refuse(const task::Reason &what) const;
-    /// What a check of the value gives; an error of it is refused at this pointer.
+    /// The result of a check of the value; if the check throws an Error, its reason is refused at
+    /// this pointer.
     template <class F> decltype(auto) checked(F &&check) const {
         try {
             return std::forward<F>(check)();
@@ -81,11 +84,11 @@ private:
     template <std::size_t N>
     std::array<double, N> numbersOf(double largest, const task::Reason &expected) const;
 
-    const nlohmann::json *m_json; ///< none: it is not there
+    const nlohmann::json *m_json; ///< null if it is absent
     std::string m_pointer;
 };
 
-/// The word that means a value.
+/// The word with a given meaning.
 template <class T, std::size_t N> const char *wordFor(T value, const JsonWords<T, N> &words) {
     for (const auto &[word, meaning] : words)
         if (meaning == value)
@@ -93,11 +96,11 @@ template <class T, std::size_t N> const char *wordFor(T value, const JsonWords<T
     return "";
 }
 
-/// The pointer that a JsonValue was refused with; empty for any other reason, as for the whole
-/// text.
+/// The pointer in the reason for which a JsonValue was refused; empty for any other reason, as for
+/// the whole text.
 std::string jsonPointer(const task::Reason &reason);
 
-/// What the library reports, without the name that it gives the exception.
+/// The message of an exception of the library, without the library's tag.
 std::string jsonFault(const std::exception &error);
 
 } // namespace pellucid::files

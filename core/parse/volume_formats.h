@@ -15,8 +15,9 @@ namespace pellucid::parse {
 using decoder::StoredScalar;
 using decoder::VolumeLayout;
 
-// The formats among which `parseVolumeLayout` chooses by the first bytes of a file. All *throw*
-// Error{unusable} naming the damaged or unsupported part.
+// Not the readers of teem or ITK: only headers are parsed here, in the confined process, which
+// opens no further file. The formats among which `parseVolumeLayout` chooses by the first bytes of
+// a file. All *throw* Error{unusable} naming the damaged or unsupported part.
 VolumeLayout parseNrrd(std::span<const std::byte> file);
 /// `isDeflated`: `header` was inflated from the file.
 VolumeLayout parseNifti(std::span<const std::byte> header, bool isDeflated);

@@ -15,8 +15,8 @@ namespace pellucid::preprocess {
 
 namespace {
 
-// Samples with derivatives in the lattice's metric. The unit of length is the shortest step: on an
-// isotropic lattice derivatives are differences, as other implementations have them.
+// Samples with derivatives in the lattice's metric. The unit of length is the shortest step, so
+// that derivatives on an isotropic lattice are differences, as in other implementations.
 class Derivatives {
 public:
     Derivatives(const volume::Lattice &lattice, const float *samples)
@@ -37,7 +37,7 @@ public:
     }
 
     float at(int i, int j, int k) const { return m_samples[m_size.offsetOf(i, j, k)]; }
-    // Neighbours of a sample; the outermost goes on beyond the border.
+    // Neighbours of a sample; beyond the border the outermost sample is repeated.
     struct Around {
         int im, i, ip, jm, j, jp, km, k, kp;
     };
@@ -51,7 +51,7 @@ public:
                 0.5F * (at(n.i, n.jp, n.k) - at(n.i, n.jm, n.k)),
                 0.5F * (at(n.i, n.j, n.kp) - at(n.i, n.j, n.km))};
     }
-    // The gradient by the lattice's axes: its components along the steps.
+    // The gradient's contravariant components, along the steps of the lattice.
     std::array<float, 3> raised(const std::array<float, 3> &d) const {
         std::array<float, 3> g{};
         for (int a = 0; a < 3; ++a)
@@ -61,8 +61,8 @@ public:
     static float product(const std::array<float, 3> &a, const std::array<float, 3> &b) {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     }
-    // The second derivative along the gradient, of which a slope below `flat` counts little: where
-    // there is hardly a gradient its direction says nothing.
+    // The second derivative along the gradient. It is reduced where the gradient is below `flat`,
+    // because the direction of a tiny gradient is arbitrary.
     float alongGradient(int i, int j, int k, float flat) const {
         const Around n = around(i, j, k);
         const auto d = differences(n);
@@ -89,8 +89,8 @@ private:
     std::array<std::array<float, 3>, 3> m_metric{};
 };
 
-// Whether the sign changes between a sample and a neighbour, and the sample is the nearer one to
-// the change: of two alike the one that comes later.
+// Whether the sign changes between a sample and a neighbour, and the sample is nearer to the
+// change; if both are equally near, the later one counts.
 bool crosses(float here, float there, bool thereIsLater) {
     const bool changes = (here < 0.0F && there > 0.0F) || (here > 0.0F && there < 0.0F) ||
                          ((here == 0.0F) != (there == 0.0F));
@@ -115,7 +115,7 @@ void forPlanes(const volume::GridSize &size, const task::Progress &progress, con
     });
 }
 
-// All samples above `low` that samples above `high` reach.
+// All samples above `low` that are connected to a sample above `high`.
 Mask linked(const volume::GridSize &size, const std::vector<float> &strength, float low,
             float high) {
     Mask edges(strength.size(), 0);
@@ -174,7 +174,7 @@ Mask cannyEdges(const volume::Volume &volume, const CannyOptions &options,
         const Derivatives ofValues(lattice, smooth.data());
         std::vector<float> second(smooth.size()), strength(smooth.size());
         const double unit = lattice.shortestStepMm();
-        // Far below what makes an edge, whatever the scale of the values.
+        // Far below the gradient of an edge at any scale of the values.
         const auto flat = float(2.5e-4 * unit * options.high);
         forPlanes(size, progress, [&](int i, int j, int k, std::size_t n) {
             second[n] = ofValues.alongGradient(i, j, k, flat);
@@ -194,7 +194,7 @@ Mask cannyEdges(const volume::Volume &volume, const CannyOptions &options,
                 return;
             const auto d = ofValues.differences(around);
             const auto g = ofValues.raised(d);
-            // The second derivative falls along the gradient: a maximum of its magnitude.
+            // If the second derivative falls along the gradient, the magnitude has a maximum.
             if (Derivatives::product(ofSecond.differences(around), g) <= 0.0F)
                 strength[n] = std::sqrt(std::max(0.0F, Derivatives::product(d, g)));
         });

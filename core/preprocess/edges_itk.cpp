@@ -35,7 +35,7 @@ Mask cannyEdgesByItk(const volume::Volume &volume, const CannyOptions &options,
     runFilter(*hessian, "edges", progress.part(0.3, 0.8));
     const auto *const gradients = gradient->GetOutput()->GetBufferPointer();
     const auto *const hessians = hessian->GetOutput()->GetBufferPointer();
-    // The second derivative along the gradient, times the squared gradient: only its sign counts.
+    // The second derivative along the gradient times the squared gradient; only its sign matters.
     std::vector<float> along(input.size()), magnitude(input.size());
     tbb::parallel_for(std::size_t(0), input.size(), [&](std::size_t n) {
         double second = 0.0, square = 0.0;
@@ -54,7 +54,7 @@ Mask cannyEdgesByItk(const volume::Volume &volume, const CannyOptions &options,
     zeros->SetInput(imageOver<FloatImage>(lattice, along.data()));
     runFilter(*zeros, "edges", progress.part(0.8, 0.9));
     const std::uint8_t *const crosses = zeros->GetOutput()->GetBufferPointer();
-    // Keep maxima only: there the second derivative falls along the gradient.
+    // Keep maxima only, where the second derivative falls along the gradient.
     std::vector<float> strength(input.size());
     tbb::parallel_for(0, size.k, [&](int k) {
         for (int j = 0; j < size.j; ++j)

@@ -26,10 +26,11 @@ namespace pellucid::preprocess {
 
 namespace {
 
-// Thinner than the arms of children, thicker than the shells of couches.
+// Thinner than a child's arm, thicker than the shell of a couch.
 constexpr double couchRadiusMm = 4.0;
-// Of what is thinner than that an ear is 80 mm long, a couch or a head rest far more. Skin is rough
-// within the second: roughness hangs together all around.
+// Among thinner parts, an ear is 80 mm long, while a couch or a head rest is much longer. The
+// roughness of skin is connected all around the patient: parts within `roughnessMm` of the core
+// belong to it.
 constexpr double longestThinPartMm = 130.0, roughnessMm = 2.0;
 constexpr double airBelowHu = -400.0;
 
@@ -47,14 +48,13 @@ bool isUniform(const Mask &mask) {
     return std::all_of(mask.begin(), mask.end(), [&](std::uint8_t m) { return m == mask.front(); });
 }
 
-// Which samples lie within a distance of those that have a value in the mask: the square of the
-// distance axis by axis, each sample looking no farther than the distance. ITK's distance map,
-// which has no end, takes ten times as long for the radii of anatomy. *Shape*: the mask holds both
-// values.
+// The samples within a distance of those that have a value in the mask. Squared distances are
+// accumulated axis by axis, no farther than the distance. ITK's distance map has no such limit and
+// takes ten times as long for anatomical radii. *Requires*: the mask contains both values.
 Mask within(const volume::Lattice &lattice, const Mask &mask, std::uint8_t value, double radiusMm,
             const task::Progress &progress) {
     const volume::GridSize size = lattice.size();
-    // A distance that equals the radius counts, whatever its rounding.
+    // A distance equal to the radius counts in spite of rounding.
     const auto limit = float(radiusMm * radiusMm * (1.0 + 1e-5));
     constexpr float far = 1e30F;
     const auto row = [&](int j, int k) { return size.offsetOf(0, j, k); };
@@ -177,7 +177,7 @@ Parts partsOf(const volume::Lattice &lattice, const Mask &mask, const char *step
     return {{labels, labels + mask.size()}, std::size_t(filter->GetObjectCount())};
 }
 
-// What of the tissue is thin, short and at the core, with the core: an ear, not a couch.
+// The core with thin, short parts of the tissue that touch it: an ear, but not a couch.
 Mask withShortParts(const volume::Lattice &lattice, Mask core, const Mask &tissue,
                     const task::Progress &progress) {
     const volume::GridSize size = lattice.size();
@@ -219,7 +219,7 @@ Mask withShortParts(const volume::Lattice &lattice, Mask core, const Mask &tissu
     return core;
 }
 
-// Everything that each slice encloses.
+// The mask with the holes of each slice filled.
 Mask filledSlices(const volume::Lattice &lattice, const Mask &mask,
                   const task::Progress &progress) {
     using SliceFilter = itk::SliceBySliceImageFilter<MaskImage, MaskImage>;
@@ -284,19 +284,19 @@ Mask dilated(const volume::Lattice &lattice, const Mask &mask, double radiusMm,
     return radiusMm > 0.0 ? grown(lattice, mask, radiusMm, progress) : mask;
 }
 
-Mask largestPart(const volume::Lattice &lattice, const Mask &mask, double leastShare,
+Mask largestPart(const volume::Lattice &lattice, const Mask &mask, double minShare,
                  const task::Progress &progress) {
     const Parts parts = partsOf(lattice, mask, "largest", progress);
     std::vector<std::size_t> counts(parts.count + 1, 0);
     for (const std::uint32_t label : parts.labels)
         ++counts[label];
     if (parts.count == 0)
-        return mask; // nothing
-    const auto most = std::max_element(counts.begin() + 1, counts.end());
+        return mask; // it is empty
+    const auto largest = std::max_element(counts.begin() + 1, counts.end());
     std::vector<std::uint8_t> isKept(counts.size());
     for (std::size_t label = 1; label < counts.size(); ++label)
-        isKept[label] = leastShare < 1.0 ? double(counts[label]) >= leastShare * double(*most)
-                                         : counts.begin() + std::ptrdiff_t(label) == most;
+        isKept[label] = minShare < 1.0 ? double(counts[label]) >= minShare * double(*largest)
+                                       : counts.begin() + std::ptrdiff_t(label) == largest;
     Mask part(mask.size());
     for (std::size_t n = 0; n < mask.size(); ++n)
         part[n] = isKept[parts.labels[n]];
@@ -311,7 +311,7 @@ Mask body(const volume::Volume &volume, double marginMm, const task::Progress &p
         for (std::size_t n = 0; n < tissue.size(); ++n)
             tissue[n] = double(samples[n]) > threshold;
     });
-    // Lungs would be opened into the air around: what slices enclose belongs to the patient.
+    // Slices are filled first, because an opening would connect the lungs to the surrounding air.
     const Mask opened = opening(lattice, filledSlices(lattice, tissue, progress.part(0.0, 0.2)),
                                 couchRadiusMm, progress.part(0.2, 0.6));
     const Mask core = largestPart(lattice, opened, 1.0, progress.part(0.6, 0.7));
@@ -326,7 +326,7 @@ Mask body(const volume::Volume &volume, double marginMm, const task::Progress &p
 Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
           const task::Progress &progress) {
     const Mask patient = body(volume, 0.0, progress.part(0.0, 0.7));
-    // At least a sample deep, or coarse volumes would have none.
+    // At least one sample deep, because coarse volumes would otherwise have no skin.
     const double depth = std::max(depthMm, 1.01 * volume.lattice().shortestStepMm());
     const Mask deep = eroded(volume.lattice(), patient, depth, progress.part(0.7, 0.85));
     Mask shell = dilated(volume.lattice(), patient, marginMm, progress.part(0.85, 1.0));
@@ -337,7 +337,7 @@ Mask skin(const volume::Volume &volume, double depthMm, double marginMm,
 
 namespace {
 
-// A ball of a radius in mm, as samples of the lattice whose middles it reaches.
+// A ball of a radius in mm: the samples of the lattice whose centres are inside.
 itk::FlatStructuringElement<3> ballOf(const volume::Lattice &lattice, double radiusMm) {
     using Element = itk::FlatStructuringElement<3>;
     Element::RadiusType radius;

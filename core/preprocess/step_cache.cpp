@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <list>
 #include <mutex>
@@ -15,8 +14,8 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
+#include "core/preprocess/content_digest.h"
 #include "core/preprocess/edges.h"
 #include "core/preprocess/filters.h"
 #include "core/task/error.h"
@@ -32,48 +31,21 @@ using classify::Step;
 using classify::StepKind;
 using classify::TissueClass;
 using Regions = std::shared_ptr<const std::vector<Region>>;
-// What a step gives, by its effect.
+// The result of a step: values or regions, by its effect.
 using Outcome = std::variant<volume::Volume, Regions>;
-
-// A 64-bit digest of the samples, whatever the number of threads: blocks are mixed with where they
-// stand, and added.
-std::uint64_t digest(const std::byte *bytes, std::size_t count) {
-    constexpr std::size_t block = 1 << 16;
-    constexpr std::uint64_t factor = 0x9e3779b97f4a7c15U;
-    const std::size_t blocks = (count + block - 1) / block;
-    return count + tbb::parallel_reduce(
-                       tbb::blocked_range<std::size_t>(0, blocks), std::uint64_t(0),
-                       [&](const tbb::blocked_range<std::size_t> &range, std::uint64_t sum) {
-                           for (std::size_t b = range.begin(); b != range.end(); ++b) {
-                               std::uint64_t hash = (b + 1) * factor;
-                               const std::size_t end = std::min(count, (b + 1) * block);
-                               for (std::size_t n = b * block; n < end; n += 8) {
-                                   std::uint64_t word = 0;
-                                   std::memcpy(&word, bytes + n, std::min<std::size_t>(8, end - n));
-                                   hash = (hash ^ word) * factor;
-                                   hash ^= hash >> 29;
-                               }
-                               sum += hash;
-                           }
-                           return sum;
-                       },
-                       std::plus<>());
-}
 
 std::string identity(const volume::Volume &volume) {
     const volume::Lattice &l = volume.lattice();
-    const std::uint64_t samples = volume.visit([](auto s) {
-        const auto bytes = std::as_bytes(s);
-        return digest(bytes.data(), bytes.size());
-    });
-    std::string text = fmt::format("{:016x} {}x{}x{} {}", samples, l.size().i, l.size().j,
-                                   l.size().k, int(volume.unit()));
+    const std::string samples =
+        volume.visit([](auto s) { return contentDigest(std::as_bytes(s)); });
+    std::string text = fmt::format("{} {}x{}x{} {}", samples, l.size().i, l.size().j, l.size().k,
+                                   int(volume.unit()));
     for (int d = 0; d < 3; ++d)
         text += fmt::format(" {},{},{}", l.step(d).x, l.step(d).y, l.step(d).z);
     return text;
 }
 
-// The samples that belong to a class so far, by more than half.
+// The samples whose membership of a class is at least a half after the steps so far.
 Mask belonging(const volume::Volume &values, const TissueClass &tissue, const Regions &regions) {
     Mask mask(values.lattice().size().count());
     values.visit([&](auto samples) {
@@ -90,8 +62,8 @@ Mask belonging(const volume::Volume &values, const TissueClass &tissue, const Re
     return mask;
 }
 
-// A part of what belonged to the class, with the rim in which its membership fades. What was
-// outside before stays outside, and gaps that were filled stay filled.
+// The regions after a step has kept a part of the class: the part, and the rim around it in which
+// membership fades. Samples that were outside stay outside, and filled gaps stay filled.
 std::vector<Region> partOf(const volume::Lattice &lattice, const Mask &before, const Mask &kept,
                            const Regions &former) {
     const volume::GridSize size = lattice.size();
@@ -125,7 +97,7 @@ Regions insideOf(const Mask &mask) {
     return shared(std::move(regions));
 }
 
-// Where the values are of a kind, whatever the class.
+// The regions whose values fulfil a condition that does not depend on the class.
 template <class F> Regions insideWhere(const volume::Volume &values, const F &holds) {
     Mask mask(values.lattice().size().count());
     values.visit([&](auto samples) {
@@ -142,7 +114,7 @@ volume::Volume smoothGradient(const volume::Volume &values, double sigmaMm,
                              progress.part(0.8, 1.0));
 }
 
-// The regions so far, with the gaps that the mask closed.
+// The regions before a closing, with the gaps that it filled.
 Regions withFilled(const Regions &before, const Mask &now, const Mask &closed) {
     std::vector<Region> regions =
         before ? *before : std::vector<Region>(closed.size(), Region::inside);
@@ -152,7 +124,7 @@ Regions withFilled(const Regions &before, const Mask &now, const Mask &closed) {
     return shared(std::move(regions));
 }
 
-// What a step does to what the steps before it left of a class.
+// The result of a step on a class after the steps before it.
 Outcome outcomeOf(const Step &step, const TissueClass &tissue, const ClassSamples &before,
                   const task::Progress &progress) {
     const volume::Volume &values = before.values;
@@ -201,11 +173,11 @@ Outcome outcomeOf(const Step &step, const TissueClass &tissue, const ClassSample
     case StepKind::skin:
         return insideOf(skin(values, given("depth_mm"), given("margin_mm"), progress));
     }
-    std::abort(); // every kind is above
+    std::abort(); // the switch handles every kind
 }
 
-// Whether what a step finds depends on the class, not on the values alone.
-bool looksAtClass(StepKind kind) {
+// Whether the result of a step depends on the class, not only on the values.
+bool dependsOnClass(StepKind kind) {
     switch (kind) {
     case StepKind::opening:
     case StepKind::closing:
@@ -225,7 +197,7 @@ bool looksAtClass(StepKind kind) {
     return false;
 }
 
-// What a class is shown with after a step, if the step changes that.
+// How a class is shown after a step, if the step changes that.
 std::optional<DensityKind> densityAfter(StepKind kind) {
     switch (kind) {
     case StepKind::gradient:
@@ -247,8 +219,8 @@ std::optional<DensityKind> densityAfter(StepKind kind) {
     return std::nullopt;
 }
 
-// What both leave.
-Regions both(const Regions &a, const Regions &b) {
+// The intersection; a gap that either has filled is filled.
+Regions intersection(const Regions &a, const Regions &b) {
     if (!a)
         return b;
     std::vector<Region> joined(a->size());
@@ -291,8 +263,8 @@ struct StepCache::Store {
         drop(budget);
         return made;
     }
-    void drop(std::size_t most) {
-        while (bytes > most && !entries.empty()) {
+    void drop(std::size_t maxBytes) {
+        while (bytes > maxBytes && !entries.empty()) {
             bytes -= entries.back().bytes;
             entries.pop_back();
         }
@@ -300,7 +272,7 @@ struct StepCache::Store {
 
     mutable std::mutex mutex;
     std::size_t budget = 0, bytes = 0, computed = 0;
-    std::list<Entry> entries; ///< used last first
+    std::list<Entry> entries; ///< the most recently used first
 };
 
 StepCache::StepCache(std::size_t budgetBytes) : m_store(std::make_unique<Store>()) {
@@ -341,12 +313,13 @@ ClassSamples StepCache::run(const volume::Volume &volume, const TissueClass &tis
                 continue;
             }
             std::string key = valuesKey + text;
-            if (looksAtClass(step.kind))
+            if (dependsOnClass(step.kind))
                 key += fmt::format(" of {} {} {} {}", tissue.low, tissue.high, tissue.softness,
                                    regionsKey);
             const auto found = m_store->find<Regions>(key, make);
-            // What looks at the class has seen the regions before it.
-            result.regions = looksAtClass(step.kind) ? found : both(result.regions, found);
+            // The result of a step that depends on the class contains the earlier regions already.
+            result.regions =
+                dependsOnClass(step.kind) ? found : intersection(result.regions, found);
             regionsKey += text;
         }
     });

@@ -8,9 +8,9 @@
 
 namespace pellucid::preprocess {
 
-/// Runs the steps of classes and keeps what they gave, by content: the same values on the same
-/// lattice with the same steps are not computed twice, whichever class or reloaded series asks.
-/// What was used longest ago goes first when the budget is full. Safe to call from several threads.
+/// Runs the steps of classes and keeps their results by content: the same steps on the same values
+/// and lattice are computed once, even for a different class or a reloaded series. When the budget
+/// is full, the least recently used results are dropped. Safe to call from several threads.
 class StepCache final : public classify::StepRunner {
 public:
     explicit StepCache(std::size_t budgetBytes);
@@ -20,9 +20,9 @@ public:
                                const task::Progress &progress) override;
 
     std::size_t bytes() const;
-    /// How often something was computed, not found.
+    /// How many results were computed, not found.
     std::size_t computedCount() const;
-    /// Keeps no more than this.
+    /// Drops the least recently used results until the others fit.
     void trim(std::size_t budgetBytes);
 
 private:

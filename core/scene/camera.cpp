@@ -50,7 +50,7 @@ std::string patientLetters(const glm::dvec3 &direction) {
     std::stable_sort(sides.begin(), sides.end(),
                      [](const Side &a, const Side &b) { return a.strength > b.strength; });
     std::string letters(1, sides[0].letter);
-    // A second letter from 15 degrees on, as scanners print it.
+    // Scanners print a second letter from 15 degrees on.
     if (sides[1].strength > 0.26)
         letters += sides[1].letter;
     return letters;
@@ -71,7 +71,7 @@ Camera defaultCamera(const volume::Lattice &lattice) {
     if (pixels > largestImageSize)
         throw task::Error(task::ErrorCode::usage,
                           task::because::volumeNeedsALargerImage(largestImageSize));
-    // The slack keeps an exact whole number from being pushed to the next even size by rounding.
+    // Without this margin, rounding could push an exact integer to the next even size.
     const int size = int(std::ceil(pixels - 1e-6));
     camera.width = camera.height = std::max(2, size + size % 2);
     return camera;

@@ -11,16 +11,16 @@
 
 namespace pellucid::scene {
 
-/// The six standard views; front: the viewer stands before the patient, patient right at image
-/// left, superior up.
+/// The six standard views. In `front` the viewer faces the patient: the patient's right is at the
+/// left of the image, superior is up.
 enum class StandardView { front, back, left, right, top, bottom };
 
-/// Angles added to a standard view, degrees.
+/// Angles that are added to those of a standard view. *Units*: degrees.
 struct ViewAngles {
     double azimuthDeg = 0.0, elevationDeg = 0.0, rollDeg = 0.0;
 };
 
-/// A parallel view of the patient. Pixel (row r, column c) is centred at
+/// A parallel projection of the patient. Pixel (row r, column c) is centred at
 /// u = pan.x + (c - (width-1)/2) pixel, v = pan.y + ((height-1)/2 - r) pixel about the centre of
 /// rotation, which is the centre of the lattice.
 struct Camera {
@@ -34,23 +34,24 @@ struct Camera {
     bool operator==(const Camera &) const = default;
 };
 
-/// [U V W] = Rz(azimuth) Rx(90) Rx(-elevation) Rz(roll), the angles of the standard view plus
-/// these.
+/// [U V W] = Rz(azimuth) Rx(90) Rx(-elevation) Rz(roll), where each angle is that of the standard
+/// view plus that of `angles`.
 glm::dquat viewOrientation(StandardView view, const ViewAngles &angles = {});
 
-/// The side of the patient that a unit direction (LPS) points to: up to two letters of R L A P S I,
-/// the strongest component first.
+/// The side of the patient that a unit direction (LPS) points to: one or two of the letters R L A P
+/// S I, the strongest component first.
 std::string patientLetters(const glm::dvec3 &direction);
 
-/// Where rows and columns of a picture lead, as DICOM says it (PS3.3 C.7.6.1.1.1): "L\F", with H
-/// and F for superior and inferior.
+/// DICOM's Patient Orientation of a picture (PS3.3 C.7.6.1.1.1), the directions of its rows and
+/// columns: "L\F", with H and F for superior and inferior.
 std::string dicomOrientation(const glm::dvec3 &right, const glm::dvec3 &up);
 
-/// Pixel = shortest step; the smallest even square size that holds every view of the lattice.
-/// *Throws* Error{usage} if that is more than `largestImageSize`.
+/// The front view with pixels of the lattice's shortest step and the smallest even square size that
+/// contains every view of the lattice. *Throws* Error{usage} if that is more than
+/// `largestImageSize`.
 Camera defaultCamera(const volume::Lattice &lattice);
 
-/// Images larger than this on a side are refused.
+/// The largest width and height of an image.
 inline constexpr int largestImageSize = 16384;
 
 } // namespace pellucid::scene

@@ -5,17 +5,17 @@ namespace pellucid::scene {
 
 /// The interpolation between samples. `cubic` is Keys' cubic convolution with a = -1/2 (Catmull-Rom
 /// along each axis of the lattice); beyond a cut face it has a single negative lobe, one sample
-/// wide. `linear` is the limit of a trilinear ray caster with ever finer steps. `bandLimited` is
-/// the sinc. `spline` is the interpolating cubic B-spline; it rings on both sides of a cut face,
-/// with +2.7 % two samples away. *Source*: Keys 1981.
+/// wide. `linear` is the limit of a trilinear ray caster as its steps become finer. `bandLimited`
+/// is the sinc. `spline` is the interpolating cubic B-spline; it rings on both sides of a cut face,
+/// by +2.7 % two samples away. *Source*: Keys 1981.
 enum class Reconstruction { cubic, linear, bandLimited, spline };
 
-/// The definition of an image, independent of the method that computes it: the image is the
-/// integral of P(s) = D(s) prod_d K(a_d.s) t(2 pixel |s|). Engines and the exact reference share
+/// The definition of an image, independent of the method that computes it: the projection's
+/// spectrum is P(s) = D(s) prod_d K(a_d.s) t(2 pixel |s|). Engines and the exact reference share
 /// this definition and nothing else.
 struct ImageDefinition {
     Reconstruction reconstruction = Reconstruction::cubic;
-    /// F, the share of the band that the roll-off takes, 0..1.
+    /// F, the share of the band in which the roll-off falls, 0..1.
     double rollOff = 0.05;
 
     bool operator==(const ImageDefinition &) const = default;
@@ -28,9 +28,9 @@ double rollOffFactor(double rollOff, double q);
 /// (3 sinc^2 q - 2 sinc 2q); spline: 3 sinc^4 q/(2 + cos 2 pi q); bandLimited: t(2|q|).
 double reconstructionFactor(const ImageDefinition &definition, double q);
 
-/// The radius of a sample's footprint, in samples: two for `cubic` and one for `linear`, where the
-/// footprint ends, six for `spline`, where it has fallen to 4e-4, and 2/F, at most 128, for
-/// `bandLimited`, whose tapered sinc rings farther.
+/// The radius of a sample's footprint: two for `cubic` and one for `linear`, where the footprint
+/// ends; six for `spline`, where it has fallen to 4e-4; 2/F, at most 128, for `bandLimited`, whose
+/// tapered sinc rings farther. *Units*: samples.
 double reconstructionReach(const ImageDefinition &definition);
 
 } // namespace pellucid::scene

@@ -6,7 +6,7 @@
 
 namespace pellucid::scene {
 
-// Strength and values rounded to halves, away from what changes nothing.
+// Strength and values are rounded to halves, away from the value without effect.
 shading::DepthCue plannedCue(const shading::DepthCue &cue) {
     if (!cue.isActive())
         return {};

@@ -5,13 +5,13 @@
 
 namespace pellucid::scene {
 
-/// What an engine is planned for where the scene says for the whole volume: all of it in a picture
-/// of its own, whatever the camera, with the cue of `plannedCue` and, under light, any lights. So
-/// an engine serves every view, and two programs that are given one scene make the same picture.
-/// A scene that is planned for its picture comes back as it is.
+/// The scene that an engine is planned for. If the scene is planned for the volume, this is a
+/// picture of the whole volume for any camera, with the cue of `plannedCue` and, if there are
+/// lights, with light: one engine then serves every view, and two programs make the same picture of
+/// one scene. A scene that is planned for its picture is returned unchanged.
 Scene planningScene(const Scene &scene, const volume::Lattice &lattice);
 
-/// A cue as strong, or a little stronger, so that not every touch asks for a new plan.
+/// A cue at least as strong as `cue`, in coarse steps, so that small changes need no new plan.
 shading::DepthCue plannedCue(const shading::DepthCue &cue);
 
 } // namespace pellucid::scene

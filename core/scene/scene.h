@@ -24,7 +24,8 @@ struct Tone {
     bool operator==(const Tone &) const = default;
 };
 
-/// What the user fixes of how the spectrum is kept and read; what is absent the planner chooses.
+/// The choices of the user about storage and interpolation of the spectrum. The planner makes those
+/// that are absent.
 struct Interpolation {
     std::optional<fourier::KernelChoice> kernel;
     /// Padded size over field size, 1 to 4, the same on every axis.
@@ -35,11 +36,12 @@ struct Interpolation {
     bool operator==(const Interpolation &) const = default;
 };
 
-/// What an engine is planned for: the picture alone, or the volume from anywhere, as the
-/// workstation does, which turns it.
+/// What an engine is planned for: a single picture, or the whole volume from any direction, as in
+/// the workstation, where the user turns it.
 enum class PlannedFor { picture, volume };
 
-/// What the user asked to see. A plain value: the window, the command line and the tests share it.
+/// The user's request: what to show, and how. A plain value that the window, the command line and
+/// the tests share.
 struct Scene {
     Camera camera;
     /// The field's window; the volume's default if absent.
@@ -57,7 +59,7 @@ struct Scene {
     bool operator==(const Scene &) const = default;
 };
 
-/// The tolerances that have a name; `reference` is as exact as double precision allows.
+/// The named tolerances; `reference` is as exact as double precision allows.
 struct NamedTolerance {
     const char *name;
     double tolerance;
@@ -69,12 +71,13 @@ inline constexpr std::array<NamedTolerance, 5> namedTolerances{{{"draft", 3e-2},
                                                                 {"fine", 1e-4},
                                                                 {"reference", referenceTolerance}}};
 
-/// Throws Error{usage} if a value of the scene is out of its range; the message names it.
+/// *Throws* Error{usage} if a value of the scene is out of range; the reason names the value.
 void validate(const Scene &scene);
 
-/// The scene as JSON, `"schema": "pellucid-scene/2"`; version 1 is read, too.
+/// The scene as JSON, `"schema": "pellucid-scene/2"`.
 std::string toJson(const Scene &scene);
-/// *Throws* Error{usage} with the key and the reason.
+/// Reads versions 1 and 2. *Throws* Error{usage}; the reason contains the JSON pointer of the
+/// value.
 Scene sceneFromJson(const std::string &text);
 
 } // namespace pellucid::scene

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <array>
 #include <cmath>
-#include <map>
 
 #include <nlohmann/json.hpp>
 
 #include "core/classify/look_json.h"
+#include "core/files/json_value_nlohmann.h"
 #include "core/scene/scene.h"
 #include "core/task/error.h"
 
@@ -14,31 +13,114 @@ namespace pellucid::scene {
 namespace {
 
 namespace because = task::because;
+using files::JsonValue;
+using files::JsonWords;
+using files::wordFor;
 using nlohmann::json;
 
-// In version 1 "cubic", the default, was what is "spline" now: such scenes keep their pictures.
+// In version 1, "cubic" was the name of "spline", and the default: such scenes keep their pictures.
 constexpr const char *schema = "pellucid-scene/2", *firstSchema = "pellucid-scene/1";
 
-const std::map<std::string, Reconstruction> &reconstructionNames() {
-    static const std::map<std::string, Reconstruction> names = {
-        {"cubic", Reconstruction::cubic},
-        {"linear", Reconstruction::linear},
-        {"band-limited", Reconstruction::bandLimited},
-        {"spline", Reconstruction::spline}};
-    return names;
+constexpr JsonWords<Reconstruction, 4> reconstructions{
+    {{"cubic", Reconstruction::cubic},
+     {"linear", Reconstruction::linear},
+     {"band-limited", Reconstruction::bandLimited},
+     {"spline", Reconstruction::spline}}};
+constexpr JsonWords<PlannedFor, 2> plannedFors{
+    {{"picture", PlannedFor::picture}, {"volume", PlannedFor::volume}}};
+
+Camera cameraFrom(const JsonValue &in) {
+    Camera camera;
+    const auto [w, x, y, z] = in.at("orientation").fourNumbers();
+    camera.orientation = glm::dquat(w, x, y, z);
+    camera.pixelMm = in.at("pixel_mm").number();
+    // `validate` refuses 0.
+    const auto pixels = [](double n) {
+        return n >= 1.0 && n <= largestImageSize && n == std::floor(n) ? int(n) : 0;
+    };
+    const auto [width, height] = in.at("size").twoNumbers();
+    camera.width = pixels(width);
+    camera.height = pixels(height);
+    if (const JsonValue pan = in["pan_mm"]) {
+        const auto [right, up] = pan.twoNumbers();
+        camera.panMm = {right, up};
+    }
+    return camera;
 }
 
-// The library's messages start with a tag of its own in brackets.
-std::string withoutTag(const std::string &text) {
-    const auto end = text.find("] ");
-    return end == std::string::npos ? text : text.substr(end + 2);
+classify::CropBox cropFrom(const JsonValue &in) {
+    const auto corner = [&](const char *name) {
+        const auto [x, y, z] = in.at(name).threeNumbers();
+        return glm::dvec3(x, y, z);
+    };
+    return {corner("low"), corner("high")};
 }
 
-std::string nameOf(Reconstruction value) {
-    for (const auto &[name, candidate] : reconstructionNames())
-        if (candidate == value)
-            return name;
-    return {};
+ImageDefinition imageFrom(const JsonValue &in, bool isFirstVersion) {
+    ImageDefinition image;
+    if (const JsonValue reconstruction = in["reconstruction"])
+        image.reconstruction = reconstruction.meaning(reconstructions);
+    if (isFirstVersion && image.reconstruction == Reconstruction::cubic)
+        image.reconstruction = Reconstruction::spline;
+    if (const JsonValue rollOff = in["roll_off"])
+        image.rollOff = rollOff.number();
+    return image;
+}
+
+Interpolation interpolationFrom(const JsonValue &in) {
+    Interpolation fixed;
+    if (const JsonValue kernel = in["kernel"]) {
+        const std::string name = kernel.text();
+        fixed.kernel = kernel.checked([&] { return fourier::kernelFromName(name); });
+    }
+    if (const JsonValue padding = in["padding"])
+        fixed.padding = padding.number();
+    if (const JsonValue storage = in["storage"]) {
+        const std::string name = storage.text();
+        fixed.storage = storage.checked([&] { return fourier::storageFromName(name); });
+    }
+    if (const JsonValue uniform = in["uniform"])
+        fixed.isUniform = uniform.boolean();
+    return fixed;
+}
+
+Tone toneFrom(const JsonValue &in) {
+    if (!in.isObject())
+        in.refuse(because::mustBeAnObject);
+    Tone tone;
+    if (const JsonValue inverted = in["inverted"])
+        tone.inverted = inverted.boolean();
+    if (const JsonValue low = in["low"])
+        tone.low = low.number();
+    if (const JsonValue high = in["high"])
+        tone.high = high.number();
+    return tone;
+}
+
+Scene parsed(const JsonValue &in, const std::string &text) {
+    const JsonValue version = in.at("schema");
+    const bool isFirstVersion = version.text() == firstSchema;
+    if (!isFirstVersion && version.text() != schema)
+        version.refuse(because::isNot(schema));
+    Scene scene;
+    scene.camera = cameraFrom(in.at("camera"));
+    if (const JsonValue window = in["window"]) {
+        const auto [low, high] = window.twoNumbers();
+        scene.fieldWindow = classify::FieldWindow{low, high};
+    }
+    scene.look = classify::lookFromJson(text);
+    scene.shading = shading::shadingFromJson(text);
+    if (const JsonValue crop = in["crop"])
+        scene.crop = cropFrom(crop);
+    scene.image = imageFrom(in, isFirstVersion);
+    if (const JsonValue tolerance = in["tolerance"])
+        scene.tolerance = tolerance.number();
+    if (const JsonValue plannedFor = in["planned_for"])
+        scene.plannedFor = plannedFor.meaning(plannedFors);
+    scene.interpolation = interpolationFrom(in);
+    if (const JsonValue tone = in["tone"])
+        scene.tone = toneFrom(tone);
+    return scene;
 }
 
 } // namespace
@@ -51,12 +133,12 @@ std::string toJson(const Scene &scene) {
                   {"pixel_mm", scene.camera.pixelMm},
                   {"size", {scene.camera.width, scene.camera.height}},
                   {"pan_mm", {scene.camera.panMm.x, scene.camera.panMm.y}}}},
-                {"reconstruction", nameOf(scene.image.reconstruction)},
+                {"reconstruction", wordFor(scene.image.reconstruction, reconstructions)},
                 {"roll_off", scene.image.rollOff},
                 {"tolerance", scene.tolerance},
                 {"tone", {{"inverted", scene.tone.inverted}}}};
     if (scene.plannedFor == PlannedFor::volume)
-        out["planned_for"] = "volume";
+        out["planned_for"] = wordFor(scene.plannedFor, plannedFors);
     if (scene.fieldWindow)
         out["window"] = {scene.fieldWindow->low, scene.fieldWindow->high};
     out.update(json::parse(classify::toJson(scene.look)));
@@ -81,70 +163,16 @@ std::string toJson(const Scene &scene) {
 }
 
 Scene sceneFromJson(const std::string &text) {
-    Scene scene;
+    json in;
     try {
-        const json in = json::parse(text);
-        const bool isFirst = in.at("schema") == firstSchema;
-        if (in.at("schema") != schema && !isFirst)
-            throw task::Error(task::ErrorCode::usage, because::sceneHasOtherSchema(schema));
-        const json &camera = in.at("camera");
-        const auto q = camera.at("orientation").get<std::array<double, 4>>();
-        scene.camera.orientation = glm::dquat(q[0], q[1], q[2], q[3]);
-        scene.camera.pixelMm = camera.at("pixel_mm");
-        // As numbers first: one that is no integer has no meaning as one; 0 is refused below.
-        const auto size = camera.at("size").get<std::array<double, 2>>();
-        const auto pixels = [](double n) {
-            return n >= 1.0 && n <= largestImageSize && n == std::floor(n) ? int(n) : 0;
-        };
-        scene.camera.width = pixels(size[0]);
-        scene.camera.height = pixels(size[1]);
-        const auto pan = camera.value("pan_mm", std::array<double, 2>{0.0, 0.0});
-        scene.camera.panMm = {pan[0], pan[1]};
-        if (in.contains("window")) {
-            const auto window = in.at("window").get<std::array<double, 2>>();
-            scene.fieldWindow = classify::FieldWindow{window[0], window[1]};
-        }
-        scene.look = classify::lookFromJson(text);
-        scene.shading = shading::shadingFromJson(text);
-        if (in.contains("crop")) {
-            const auto low = in.at("crop").at("low").get<std::array<double, 3>>();
-            const auto high = in.at("crop").at("high").get<std::array<double, 3>>();
-            scene.crop = {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-        }
-        const std::string reconstruction = in.value("reconstruction", "cubic");
-        const auto it = reconstructionNames().find(reconstruction);
-        if (it == reconstructionNames().end())
-            throw task::Error(task::ErrorCode::usage,
-                              because::unknownReconstruction(reconstruction));
-        scene.image.reconstruction =
-            isFirst && it->second == Reconstruction::cubic ? Reconstruction::spline : it->second;
-        scene.image.rollOff = in.value("roll_off", scene.image.rollOff);
-        scene.tolerance = in.value("tolerance", scene.tolerance);
-        const std::string plannedFor = in.value("planned_for", "picture");
-        if (plannedFor != "picture" && plannedFor != "volume")
-            throw task::Error(task::ErrorCode::usage, because::plannedForOther);
-        scene.plannedFor = plannedFor == "volume" ? PlannedFor::volume : PlannedFor::picture;
-        if (in.contains("kernel"))
-            scene.interpolation.kernel = fourier::kernelFromName(in.at("kernel"));
-        if (in.contains("padding"))
-            scene.interpolation.padding = in.at("padding").get<double>();
-        if (in.contains("storage"))
-            scene.interpolation.storage = fourier::storageFromName(in.at("storage"));
-        scene.interpolation.isUniform = in.value("uniform", false);
-        if (in.contains("tone")) {
-            const json &tone = in.at("tone");
-            scene.tone.inverted = tone.value("inverted", false);
-            if (tone.contains("low"))
-                scene.tone.low = tone.at("low").get<double>();
-            if (tone.contains("high"))
-                scene.tone.high = tone.at("high").get<double>();
-        }
+        in = json::parse(text);
     } catch (const json::exception &error) {
         throw task::Error(task::ErrorCode::usage,
-                          because::sceneIsNotValid(withoutTag(error.what())));
+                          because::sceneIsNotValid(files::jsonFault(error)));
     }
+    Scene scene = parsed(JsonValue(in), text);
     validate(scene);
-    // One that is of length 1 stays bit for bit: a kept scene gives the same picture.
+    // An orientation of length 1 is not changed: a saved scene gives the same picture to the bit.
     constexpr double rounding = 1e-12;
     if (glm::dquat &q = scene.camera.orientation; std::abs(glm::dot(q, q) - 1.0) > rounding)
         q = glm::normalize(q);

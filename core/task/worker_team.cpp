@@ -31,7 +31,7 @@ void pause() {
 }
 
 // How long a worker looks for more work before it sleeps: longer than the gap between the phases of
-// a frame, and short enough to cost nothing between frames.
+// a frame, but negligible between frames.
 constexpr auto patience = std::chrono::microseconds(60);
 
 std::vector<int> allowedProcessors() {
@@ -72,10 +72,10 @@ WorkerTeam::WorkerTeam(int threads) : m_threads(threads) {
     m_threads = std::clamp(m_threads, 1, 256);
     if (m_threads == 1)
         return;
-    // One worker more than can work at once: which of them stays asleep depends on where the
-    // caller runs.
+    // One more worker than can work at once: the one that stays asleep depends on the processor
+    // that the caller runs on.
     const std::vector<int> processors = allowedProcessors();
-    m_workers.reserve(std::size_t(m_threads)); // nothing throws between a thread and its place
+    m_workers.reserve(std::size_t(m_threads)); // push_back must not throw: the thread runs already
     for (int n = 0; n < m_threads; ++n) {
         auto worker = std::make_unique<Worker>();
         worker->slot = n + 1;
@@ -84,7 +84,7 @@ WorkerTeam::WorkerTeam(int threads) : m_threads(threads) {
         try {
             worker->thread = std::thread([this, w = worker.get()] { work(*w); });
         } catch (const std::system_error &) {
-            break; // those that there are do the work
+            break; // the team works with those that have started
         }
         m_workers.push_back(std::move(worker));
     }
@@ -113,7 +113,7 @@ bool WorkerTeam::takePart(int slot) {
         if (m_claim.compare_exchange_weak(claim, claim + 1, std::memory_order_acq_rel))
             break;
     }
-    // The phase cannot end, nor m_phase change, before this part is counted as done.
+    // The phase cannot end, and m_phase cannot change, before this part is counted as done.
     m_phase.work(m_phase.context, int(claim & partMask), slot);
     m_done.fetch_add(1, std::memory_order_release);
     return true;
@@ -161,7 +161,7 @@ void WorkerTeam::run(std::span<const Phase> phases) {
         if (!woken && phase.parts > 1) {
             woken = true;
             const int here = currentProcessor();
-            // The one that shares the caller's processor stays asleep, or, if none does, the last.
+            // The worker on the caller's processor stays asleep; if there is none, the last one.
             int skip = int(m_workers.size()) - 1;
             for (int n = 0; n < int(m_workers.size()); ++n)
                 if (m_workers[n]->processor == here)

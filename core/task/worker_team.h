@@ -9,34 +9,37 @@
 
 namespace pellucid::task {
 
-/// Threads for work that lasts less than a wake-up: the parts of one frame.
+/// Threads for work that takes less time than waking a thread of oneTBB: the parts of one frame.
+/// Three phases of 0.1 ms each, after a pause of 8 ms as between frames, take 0.19 ms with a team
+/// of two, 0.32 ms with oneTBB, and 0.31 ms on one thread.
 ///
-/// The caller works itself and waits only for parts that another thread has begun, so a worker
-/// that wakes late costs nothing. Workers are pinned, one to a processor, because the scheduler
-/// takes milliseconds to pull two threads off the same one; the worker of the processor that the
-/// caller runs on is left asleep.
+/// The caller works, too, and waits only for parts that another thread has begun: a worker that
+/// wakes late costs nothing. Workers are pinned, one to a processor, because the scheduler takes
+/// milliseconds to separate two threads on the same one. The worker on the caller's processor is
+/// not woken.
 class WorkerTeam {
 public:
-    /// `threads`: how many may work at once, the caller included; 0: as many as oneTBB may use.
-    /// Fewer where the system has no more threads to give.
+    /// `threads` is the number that may work at once, including the caller; 0: as many as oneTBB
+    /// may use. The team is smaller if the system cannot start that many.
     explicit WorkerTeam(int threads = 0);
     ~WorkerTeam();
     WorkerTeam(const WorkerTeam &) = delete;
     WorkerTeam &operator=(const WorkerTeam &) = delete;
 
     int threads() const { return m_threads; }
-    /// Numbers that `run` gives its work are below this.
+    /// The slots that `run` passes are below this.
     int slots() const;
 
     /// A number of parts that may run in any order and on any thread.
     struct Phase {
         int parts = 0;
-        /// *Shape*: part in 0..parts-1; slot: a number no other running part has, for scratch.
+        /// *Shape*: part: 0..parts-1; slot: different for all parts that run at the same time, to
+        /// choose scratch memory by.
         void (*work)(void *context, int part, int slot) = nullptr;
         void *context = nullptr;
     };
-    /// Runs the phases one after the other; a phase begins when the one before has ended. Not safe
-    /// to call from two threads at once. The work must not throw.
+    /// Runs the phases one after the other; each begins when the previous one has ended.
+    /// *Requires*: one call at a time; the work does not throw.
     void run(std::span<const Phase> phases);
 
 private:
@@ -46,8 +49,8 @@ private:
 
     int m_threads;
     std::vector<std::unique_ptr<Worker>> m_workers;
-    // Phase number, parts and the next part in one word: a thread that comes late cannot take a
-    // part of a phase that is over.
+    // Phase number, number of parts and next part in one word, so that a late thread cannot take a
+    // part of a phase that has ended.
     alignas(64) std::atomic<std::uint64_t> m_claim{0};
     alignas(64) std::atomic<int> m_done{0};
     Phase m_phase;

@@ -858,10 +858,6 @@
         <translation>失去顯示卡</translation>
     </message>
     <message>
-        <source>the scene&apos;s schema is not %1</source>
-        <translation>場景的格式不是 %1</translation>
-    </message>
-    <message>
         <source>the NRRD header has no end</source>
         <translation>NRRD 檔頭沒有結尾</translation>
     </message>
@@ -2194,14 +2190,6 @@
         <translation>窗的下限必須低於上限</translation>
     </message>
     <message>
-        <source>unknown reconstruction &apos;%1&apos; in the scene</source>
-        <translation>場景中有未知的重建「%1」</translation>
-    </message>
-    <message>
-        <source>planned_for in the scene must be picture or volume</source>
-        <translation>場景中的 planned_for 既非 picture 也非 volume</translation>
-    </message>
-    <message>
         <source>the whole volume at its finest step needs an image of more than %1 pixels a side; choose a size or a larger pixel</source>
         <translation>以最細步距顯示整個體積時，影像每邊超過 %1 像素；請指定大小或較大的像素</translation>
     </message>
@@ -2336,6 +2324,14 @@
     <message>
         <source>%1, %2</source>
         <translation>%1、%2</translation>
+    </message>
+    <message>
+        <source>must be four numbers</source>
+        <translation>必須是四個數字</translation>
+    </message>
+    <message>
+        <source>must be true or false</source>
+        <translation>必須是 true 或 false</translation>
     </message>
 </context>
 <context>

@@ -33,6 +33,7 @@ THIRD_PARTY = [
     (r"spdlog/", r"spdlog::spdlog", "spdlog"),
     (r"epoxy/", r"PkgConfig::EPOXY", "epoxy"),
     (r"seccomp", r"PkgConfig::SECCOMP", "seccomp"),
+    (r"xxhash", r"PkgConfig::XXHASH", "xxhash"),
 ]
 # Only these may stand in a header: GLM everywhere, and Qt in the rooms of the window.
 IN_HEADERS = {r"glm/": "", r"Q[A-Z]": "ui/"}

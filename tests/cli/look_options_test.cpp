@@ -265,7 +265,7 @@ TEST_F(Cli, BadCuesAndLightsAreOneLine) {
     refuse("--light 1,0,0:#ff0000:7", 2, "between 0 and 1");
     refuse("--light nan,0,0", 2, "is not a number");
     refuse("--ambient 3", 2, "--ambient");
-    refuse("--light-frame patient", 2, "--light-frame says how a --light is meant");
+    refuse("--light-frame patient", 2, "--light-frame requires --light");
     std::ofstream(folder / "p.json") << "{\"schema\": \"pellucid-preset/1\", \"name\": \"p\",\n"
                                         "\"lights\": [{\"direction\": [1, 0, 0]},\n"
                                         "{\"direction\": [0, 0, 0]}]}";

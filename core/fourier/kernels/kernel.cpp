@@ -12,8 +12,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Monomial coefficients of the polynomial through the Chebyshev nodes of [-1/2, 1/2]: within a
-// small factor of the best uniform fit, and stable at the degrees used here.
+// The monomial coefficients of the polynomial through the Chebyshev nodes of [-1/2, 1/2]: within a
+// small factor of the best uniform fit, and numerically stable at the degrees used here.
 std::vector<double> fitPolynomial(int degree, const std::function<double(double)> &function) {
     const int count = degree + 1;
     std::vector<double> nodes(count), table(count);
@@ -88,7 +88,7 @@ Kernel Kernel::hammingSinc() {
 
 Kernel Kernel::exponentialSemicircle(int width, double padding) {
     const double b = 0.976 * pi * width * (1.0 - 1.0 / (2.0 * padding));
-    // Degree width + 3 keeps the jump between neighbouring pieces below the aliases of the kernel.
+    // Degree width + 3 keeps the jump between adjacent pieces below the aliases of the kernel.
     return fitted("ES" + std::to_string(width), width, width + 3, [&](double t) {
         const double x = 2.0 * t / width;
         return std::exp(b * (std::sqrt(std::max(0.0, 1.0 - x * x)) - 1.0));
@@ -97,7 +97,7 @@ Kernel Kernel::exponentialSemicircle(int width, double padding) {
 
 Kernel Kernel::kaiserBessel(int width, double padding) {
     const double a = width / padding * (padding - 0.5);
-    // Below padding 1.2 or so the formula asks for no curvature at all.
+    // For width 2 the radicand is negative below a padding of 0.91.
     const double b = pi * std::sqrt(std::max(0.0, a * a - 0.8));
     const double peak = std::cyl_bessel_i(0.0, b);
     return fitted("KB" + std::to_string(width), width, width + 3, [&](double t) {

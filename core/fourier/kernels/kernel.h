@@ -10,17 +10,17 @@
 
 namespace pellucid::fourier {
 
-/// An interpolation kernel on the frequency grid: even, of a whole width, a polynomial on every
-/// unit interval. The polynomials are the kernel: the de-apodisation is computed from them, so a
-/// fit costs no accuracy.
+/// An interpolation kernel on the frequency grid: even, of integer width, a polynomial on every
+/// unit interval. The polynomials define the kernel, and the de-apodisation is computed from them:
+/// fitting a formula by polynomials costs no accuracy.
 ///
-/// Taps: for a coordinate g, tap k = 0..width-1 lies at grid index first(g) + k,
-/// first(g) = ceil(g - width/2), at the distance t_k = c + k - (width-1)/2 from g with
+/// Taps: for a coordinate g, tap k = 0..width-1 is at grid index first(g) + k,
+/// first(g) = ceil(g - width/2). Its distance from g is t_k = c + k - (width-1)/2 with
 /// c = first(g) - g + width/2 - 1/2 in [-1/2, 1/2).
 class Kernel {
 public:
     static constexpr int largestWidth = 7;
-    /// Coefficients of the even and of the odd part of a tap, at most: degree 11.
+    /// The most coefficients that the even or the odd part of a tap can have: degree 11.
     static constexpr int largestTerms = 6;
 
     /// The value at the nearest grid point. *Source*: Cheng 2007, 4.1.
@@ -29,7 +29,7 @@ public:
     static Kernel trilinear();
     /// Cubic convolution with slope -1/2. *Source*: Cheng 2007, eq. 21.
     static Kernel catmullRom();
-    /// The cubic B-spline: smooth, not interpolating; the de-apodisation undoes its blur.
+    /// The cubic B-spline. It does not interpolate; the de-apodisation undoes its blur.
     static Kernel cubicBSpline();
     /// The sinc under a Hamming window of width 5, constants 25/46 and 21/46.
     /// *Source*: Cheng 2007, eq. 16-20, corrected.
@@ -41,24 +41,24 @@ public:
     /// w = 2..7. *Source*: Beatty, Nishimura, Pauly 2005.
     static Kernel kaiserBessel(int width, double padding);
     /// LS: the piecewise polynomial of degree max(3, w) with the least energy in the aliases of a
-    /// field, one by one and in phase (REFERENCES.md), w = 2..7: from width 3 on about half the
-    /// error of ES or KB at the same taps, and fewer multiplications. `energy` says how f^2 is
-    /// spread from the middle of the axis (first) to its ends (last), at 1/(2 padding) of the
-    /// period; half of the weight is spread evenly, so that what is faint near the ends is kept
-    /// too. Empty: all of it evenly.
+    /// field, one by one and in phase (REFERENCES.md); w = 2..7. From width 3 on it has about half
+    /// the error of ES or KB with the same taps, and needs fewer multiplications. `energy` is the
+    /// distribution of f^2 from the middle of the axis (first) to its ends (last), which are at
+    /// 1/(2 padding) of the period. Half of the weight is distributed evenly, so that faint parts
+    /// near the ends are preserved, too; all of it, if `energy` is empty.
     static Kernel leastAliasing(int width, double padding, std::span<const double> energy = {});
 
     const std::string &name() const { return m_name; }
     int width() const { return m_shape.width(); }
     /// H(t); zero for |t| > width/2. *Units*: t in grid cells.
     double value(double t) const { return m_shape.value(t); }
-    /// h(x) = integral of H(t) cos(2 pi t x) dt: how the kernel darkens the volume at a distance of
-    /// x from the wrap voxel. *Units*: x in padded periods.
+    /// h(x) = integral of H(t) cos(2 pi t x) dt: the factor by which the kernel darkens the volume
+    /// at the distance x from the wrap voxel. *Units*: x in padded periods.
     double apodisation(double x) const { return m_shape.transform(x); }
     /// The integral of H^2.
     double energy() const { return m_shape.energy(); }
 
-    /// The weights of all taps by symmetry, see PiecewiseKernel::pairs.
+    /// The weights of all taps, split by symmetry; see PiecewiseKernel::pairs.
     int terms() const { return m_shape.terms(); }
     const std::vector<float> &pairs() const { return m_shape.pairs(); }
 
@@ -71,7 +71,7 @@ private:
     PiecewiseKernel m_shape;
 };
 
-/// A kernel as the user names it, independent of the padding it will be tuned for.
+/// A kernel as the user names it, before it is tuned for a padding.
 enum class KernelFamily {
     nearest,
     trilinear,
@@ -89,10 +89,10 @@ struct KernelChoice {
     bool operator==(const KernelChoice &) const = default;
 };
 
-/// The kernel of a choice for a padding (and, for `leastAliasing`, an energy).
+/// The kernel that is chosen, tuned for a padding; `leastAliasing` for an energy, too.
 Kernel makeKernel(const KernelChoice &choice, double padding, std::span<const double> energy = {});
 /// "nearest", "trilinear", "catmull-rom", "b-spline", "hamming-sinc", "ES2".."ES7", "KB2".."KB7",
-/// "LS2".."LS7"; case does not matter. *Throws* Error{usage}.
+/// "LS2".."LS7", in any case. *Throws* Error{usage}.
 KernelChoice kernelFromName(const std::string &name);
 std::string kernelName(const KernelChoice &choice);
 

@@ -14,7 +14,7 @@ namespace {
 struct Named {
     const char *name;
     KernelFamily family;
-    int width; ///< 0: the name is followed by the width, 2 to 7
+    int width; ///< 0: the width, 2 to 7, follows the name
 };
 
 constexpr std::array<Named, 8> names{{{"nearest", KernelFamily::nearest, 1},

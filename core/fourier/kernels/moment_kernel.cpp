@@ -12,10 +12,10 @@ namespace {
 using Real = PiecewiseBasis::Real;
 using Vector = PiecewiseBasis::Vector;
 
-// What is minimised, linear in the coefficients, is
-//   sum_x 1/h(x)^2 [(k(x) - x h(x))^2 + sum_m k(x + m)^2 + |S(x) - i x h(x)|^2],
-// m the aliases and S what the taps of a frequency on the grid give, where the aliases are in
-// phase.
+// Minimises, by linear least squares,
+//   sum_x 1/h(x)^2 [(k(x) - x h(x))^2 + sum_m k(x + m)^2 + |S(x) - i x h(x)|^2].
+// m are the aliases; S is the sum over the taps of a frequency on the grid, where the aliases are
+// in phase.
 Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, double padding) {
     constexpr int positions = 24, farthest = 4;
     const std::size_t count = basis.count();
@@ -49,7 +49,7 @@ Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, double
 
 PiecewiseKernel momentKernel(const Kernel &kernel, double padding) {
     const PiecewiseBasis basis(kernel.width(), std::max(3, kernel.width()), Parity::odd);
-    // Short axes are padded to more than they need.
+    // Short axes are padded more than necessary.
     const Vector best = coefficientsFor(basis, kernel, std::clamp(padding, 1.0, 2.5));
     return {basis.pieces(best), Parity::odd};
 }

@@ -15,7 +15,8 @@ using Real = PiecewiseBasis::Real;
 using Vector = PiecewiseBasis::Vector;
 constexpr Real pi = std::numbers::pi_v<Real>;
 
-// cos(2 pi turns); beyond an eighth of a turn the library's own reduction takes most of the time.
+// cos(2 pi turns). Beyond an eighth of a turn, argument reduction in the standard library would
+// take most of the time.
 Real cosOfTurns(Real turns) {
     turns = std::abs(turns - std::round(turns));
     const bool negative = turns > 0.25L;
@@ -29,7 +30,9 @@ Real sinOfTurns(Real turns) {
     return cosOfTurns(turns - 0.25L);
 }
 
-// Legendre polynomials on [-1/2, 1/2] keep the system well conditioned.
+// Legendre polynomials on [-1/2, 1/2] keep the system well conditioned. Boost.Math's
+// `legendre_next` gives the same bits, but it replaces only the line in the loop, and this file
+// would take 1.6 s to compile instead of 0.8 s.
 Vector legendre(int degree, Real c) {
     Vector p(std::size_t(degree) + 1, 1);
     if (degree > 0)
@@ -39,7 +42,7 @@ Vector legendre(int degree, Real c) {
     return p;
 }
 
-// Monomials in c of a Legendre series on [-1/2, 1/2].
+// The monomial coefficients in c of a Legendre series on [-1/2, 1/2].
 std::vector<double> monomials(const Vector &series) {
     const int count = int(series.size());
     std::vector<Vector> p(count, Vector(count, 0));
@@ -59,7 +62,7 @@ std::vector<double> monomials(const Vector &series) {
     return result;
 }
 
-// A kernel's values at a tap's mirror image, over its own.
+// A kernel's value at the mirror image of a tap, divided by its value at the tap.
 Real mirrorSign(Parity parity) {
     return parity == Parity::even ? 1 : -1;
 }
@@ -124,7 +127,7 @@ std::vector<std::vector<double>> PiecewiseBasis::pieces(const Vector &coefficien
     for (int k = 0; k < (m_width + 1) / 2; ++k) {
         result[k] = monomials(series[k]);
         if (2 * k == m_width - 1)
-            continue; // of the parity already
+            continue; // it has the parity already
         result[m_width - 1 - k] = result[k];
         for (int n = m_parity == Parity::even ? 1 : 0; n <= m_degree; n += 2)
             result[m_width - 1 - k][n] = -result[k][n];
@@ -132,8 +135,7 @@ std::vector<std::vector<double>> PiecewiseBasis::pieces(const Vector &coefficien
     return result;
 }
 
-// Gaussian elimination of a symmetric positive matrix, of which the upper half is given: it needs
-// no pivoting and stays symmetric.
+// Gaussian elimination: a symmetric positive definite matrix needs no pivoting and stays symmetric.
 Vector solveSymmetric(std::vector<Vector> a, Vector right) {
     const std::size_t n = right.size();
     for (std::size_t p = 0; p < n; ++p)

@@ -33,12 +33,12 @@ PiecewiseKernel::PiecewiseKernel(std::vector<std::vector<double>> pieces, Parity
                 const std::size_t power = 2 * std::size_t(n) + odd;
                 m_pairs.push_back(power < m_pieces[k].size() ? float(m_pieces[k][power]) : 0.0F);
             }
-    // Sixteen points a cell follow the cosine of an alias five periods away to rounding.
+    // Sixteen points per cell integrate the cosine of an alias five periods away to rounding.
     static const GaussLegendre<double> quadrature(16);
     for (int k = width / 2; k < width; ++k)
         for (std::size_t n = 0; n < quadrature.at.size(); ++n) {
             const double t = k - 0.5 * (width - 1) + quadrature.at[n];
-            const bool middle = 2 * k == width - 1; // its negative half stands for itself
+            const bool middle = 2 * k == width - 1; // its negative half is integrated, too
             m_nodes.push_back(2.0 * std::numbers::pi * t);
             const double value = horner(m_pieces[k], quadrature.at[n]);
             const double weight = (middle ? 1.0 : 2.0) * quadrature.weight[n];

@@ -8,6 +8,11 @@
 namespace pellucid::fourier {
 
 /// Gauss-Legendre on [-1/2, 1/2]: exact for polynomials of degree 2 n - 1.
+///
+/// Not Boost.Math's `gauss`: its nodes differ from these in the last bit, and the least squares of
+/// kernels of widths 6 and 7 amplify that bit. Of 9,408 float coefficients over every kernel at
+/// eight paddings, 229 change, by up to 2e-6, and pictures with them; a file that includes it takes
+/// 1.8 s to compile instead of 0.4 s.
 template <class Real> struct GaussLegendre {
     std::vector<Real> at, weight;
     explicit GaussLegendre(int n) : at(n), weight(n) {

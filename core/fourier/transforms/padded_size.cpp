@@ -8,7 +8,7 @@ namespace pellucid::fourier {
 
 namespace {
 
-// Twice the halo of a spectrum, so that copies around the period never overlap.
+// Twice the halo of a spectrum, so that periodic copies do not overlap.
 constexpr int smallestPaddedSize = 16;
 
 bool smooth(int n) {
@@ -28,7 +28,7 @@ int smoothEvenSize(int atLeast) {
 }
 
 int paddedSize(int samples, double padding) {
-    // The small slack keeps 1.5 * 256 at 384 when the product rounds up.
+    // Without this margin a product such as 1.5 * 256 could be rounded up to the next size.
     return smoothEvenSize(std::max(smallestPaddedSize, int(std::ceil(padding * samples - 1e-9))));
 }
 

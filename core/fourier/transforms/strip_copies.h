@@ -7,20 +7,20 @@
 
 namespace pellucid::fourier {
 
-/// Sixteen complex numbers into a strip with real and imaginary parts exchanged, for a forward
-/// transform.
+/// Copies sixteen complex numbers into a strip and exchanges real and imaginary parts, for a
+/// forward transform.
 void loadExchanged(const std::complex<float> *from, float *strip);
-/// The first `count` strips, each `stripGap` floats apart from the next, exchanged back, times
-/// `scale`, as rows of complex numbers `rowGap` apart.
+/// Copies the first `count` of adjacent strips into rows of complex numbers that are `rowGap`
+/// apart, exchanges the parts back, and multiplies by `scale`.
 void storeExchanged(const float *strips, int count, float scale, std::complex<float> *rows,
                     std::size_t rowGap);
-/// The same as pairs of binary16 numbers: real part in the low half.
+/// The same into pairs of binary16 numbers, the real part in the low half.
 void storeExchanged(const float *strips, int count, float scale, std::uint32_t *rows,
                     std::size_t rowGap);
-/// Copies lines of `bytes` (a multiple of 64) past the cache: they are not read again soon.
-/// *Shape*: to: 64-byte aligned.
+/// Copies a line of `bytes` (a multiple of 64) past the cache, because it is not read again soon.
+/// *Shape*: `to` is 64-byte aligned.
 void streamLine(const void *from, void *to, std::size_t bytes);
-/// Must follow the last streamLine of a thread before others read the lines.
+/// Each thread calls it after its last `streamLine`, before others read the lines.
 void finishStreaming();
 
 } // namespace pellucid::fourier

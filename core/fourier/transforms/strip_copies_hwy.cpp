@@ -38,8 +38,8 @@ void storeSingles(const float *strips, int count, float scale, std::complex<floa
                                   reinterpret_cast<float *>(rows) + 2 * lane);
 }
 
-// toBinary16 for vectors. Highway's own conversion truncates and wraps where the processor has no
-// instruction for it, so it is not used.
+// toBinary16 for vectors. Highway's own conversion truncates and wraps on processors without an
+// instruction for it.
 HWY_INLINE hn::Vec<BitsTag> halves(hn::Vec<Tag> value) {
     const Tag d;
     const BitsTag du;

@@ -9,8 +9,8 @@ namespace pellucid::fourier {
 
 namespace {
 
-// Large radices first: fewer passes over the data. A remaining factor of two goes with an eight as
-// two fours, which have no multiplications inside.
+// Large radices make fewer passes over the data. 16 becomes 4 x 4 instead of 8 x 2, because a radix
+// of 4 needs no multiplications inside.
 std::vector<int> radices(int length) {
     std::vector<int> result;
     for (const int odd : {7, 5, 3})

@@ -10,12 +10,12 @@ namespace pellucid::fourier {
 
 /// Real-to-complex 3D transform in place, exp(-i 2 pi ...), unnormalised.
 /// *Shape*: `data` points at sample (0,0,0) of a row-major array whose rows hold `rowStride`
-/// complex numbers and whose planes hold `planeRows` rows; the real samples of a row lie in its
-/// first size.i reals, the result in its first size.i/2 + 1 complex numbers.
+/// complex numbers and whose planes hold `planeRows` rows. The samples of a row are its first
+/// size.i reals; its result is its first size.i/2 + 1 complex numbers.
 void forwardTransform3d(std::complex<double> *data, volume::GridSize size, int rowStride,
                         int planeRows);
 
-/// The same in float, planned once, for one array: run it often.
+/// The same in float for one array: planned once, run often.
 class ForwardTransform3d {
 public:
     ForwardTransform3d(std::complex<float> *data, volume::GridSize size, int rowStride,
@@ -38,7 +38,7 @@ public:
     ~ForwardTransform1d();
     ForwardTransform1d(const ForwardTransform1d &) = delete;
     ForwardTransform1d &operator=(const ForwardTransform1d &) = delete;
-    /// *Shape*: in: length, kept; out: length/2 + 1; both 64-byte aligned.
+    /// *Shape*: in: length, not changed; out: length/2 + 1; both 64-byte aligned.
     void run(const float *in, std::complex<float> *out) const;
 
 private:
@@ -46,15 +46,15 @@ private:
     std::unique_ptr<Plan> m_plan;
 };
 
-/// How a plan is chosen: by rule, or by trying, which takes longer and runs faster.
+/// How FFTW chooses a plan: by rule, or by timing several, which takes longer but runs faster.
 enum class Planning { estimate, measure };
 
-/// Complex-to-real inverse 2D transform, exp(+i 2 pi ...), unnormalised, of one size: planned once,
+/// Complex-to-real inverse 2D transform of one size, exp(+i 2 pi ...), unnormalised: planned once,
 /// run often, from any thread. The input is overwritten.
 /// *Shape*: in: rows x (columns/2 + 1), out: rows x columns, contiguous, aligned as by `new`.
 template <class Real> class InverseTransform2d { // float or double
 public:
-    /// A plan that measures is for one thread.
+    /// A plan that is measured uses one thread.
     InverseTransform2d(int rows, int columns, Planning planning = Planning::estimate);
     ~InverseTransform2d();
     InverseTransform2d(const InverseTransform2d &) = delete;

@@ -21,14 +21,14 @@ namespace pellucid::fourier {
 
 namespace {
 
-// FFTW's planner is the one part of it that is not safe to call from two threads.
+// The planner is the only part of FFTW that is not safe to call from two threads.
 std::mutex &plannerMutex() {
     static std::mutex mutex;
     return mutex;
 }
 
-// Plans are cut into this many parts whatever the machine, and oneTBB runs the parts on the threads
-// that there are: the same bits for any number of threads, and one limit for all of them.
+// Plans have this many parts on any machine, and oneTBB runs the parts on the threads that it has:
+// the bits do not depend on the number of threads, and oneTBB's limit on threads holds here, too.
 constexpr int parts = 8;
 
 void runParts(void *(*work)(char *), char *jobs, std::size_t size, int count, void *) {
@@ -130,18 +130,18 @@ std::string wisdom() {
     return result;
 }
 
-// Takes in what a file knows. What cannot be read, a folder for instance, or is not understood is
+// Imports the wisdom of a file; one that cannot be read, such as a folder, or is not understood, is
 // ignored. Call with the planner locked.
 void readWisdom(const std::filesystem::path &path) {
-    constexpr std::size_t mostOfWisdom = 16 << 20;
+    constexpr std::size_t maxWisdomBytes = 16 << 20;
     try {
-        fftwf_import_wisdom_from_string(files::readText(path, mostOfWisdom).c_str());
-    } catch (const task::Error &) { // none yet, or somebody's
+        fftwf_import_wisdom_from_string(files::readText(path, maxWisdomBytes).c_str());
+    } catch (const task::Error &) { // not there yet, or not readable
     }
 }
 
 bool saveWisdom() {
-    // Another process may have learnt something meanwhile.
+    // Another process may have added plans meanwhile.
     readWisdom(wisdomFile());
     const std::string text = wisdom();
     try {
@@ -159,7 +159,8 @@ bool saveWisdom() {
 void keepWisdomIn(const std::filesystem::path &file) {
     const std::lock_guard lock(plannerMutex());
     wisdomFile() = file;
-    Fftw<float>::useThreads(1); // wisdom is of an FFTW that knows the same solvers
+    // Threads add solvers, and wisdom is only valid for the same solvers.
+    Fftw<float>::useThreads(1);
     readWisdom(file);
 }
 
@@ -178,8 +179,8 @@ ForwardTransform1d::ForwardTransform1d(int length) : m_plan(new Plan{}) {
                                      reinterpret_cast<fftwf_complex *>(out.get()),
                                      how | FFTW_PRESERVE_INPUT);
     };
-    // MEASURE tries what is fastest, a few milliseconds, and may find something else the next time:
-    // only what is kept is used, so that two runs give the same bits.
+    // MEASURE times plans for a few milliseconds, and may choose a different plan the next time.
+    // Only a plan that was saved is used, so that two runs give the same bits.
     if (!wisdomFile().empty()) {
         m_plan->plan = plan(FFTW_WISDOM_ONLY | FFTW_MEASURE);
         if (m_plan->plan != nullptr)
@@ -187,7 +188,7 @@ ForwardTransform1d::ForwardTransform1d(int length) : m_plan(new Plan{}) {
         const fftwf_plan measured = plan(FFTW_MEASURE);
         const bool saved = saveWisdom();
         fftwf_destroy_plan(measured);
-        // Another process's plan for this length may have come in.
+        // Another process may have saved a plan for this length.
         if (saved)
             m_plan->plan = plan(FFTW_WISDOM_ONLY | FFTW_MEASURE);
         if (m_plan->plan != nullptr)
@@ -215,9 +216,9 @@ InverseTransform2d<Real>::InverseTransform2d(int rows, int columns, Planning pla
     : m_plan(new Plan{}) {
     using F = Fftw<Real>;
     const bool isMeasured = planning == Planning::measure;
-    // Below 512^2 handing out parts costs more than it saves.
+    // Below 512^2 parallel parts cost more than they save.
     const int threads = !isMeasured && std::size_t(rows) * columns >= 512 * 512 ? parts : 1;
-    // Only measuring reads and writes the arrays; an estimate needs their addresses to differ.
+    // Only measuring reads and writes the arrays; an estimate only needs two different addresses.
     const std::size_t samples = isMeasured ? std::size_t(rows) * columns : 2,
                       cells = isMeasured ? std::size_t(rows) * (std::size_t(columns) / 2 + 1) : 2;
     std::vector<Real> out(samples);

@@ -5,9 +5,9 @@
 
 namespace pellucid::fourier {
 
-/// Where FFTW's measured plans are kept from run to run. Reads the file at once; one that is
-/// missing, broken or of another FFTW is ignored and replaced by the next plan that is measured. If
-/// it cannot be written, and until this is called, plans are estimated.
+/// Sets the file that keeps FFTW's measured plans from run to run, and reads it. A file that is
+/// missing, broken or written by a different FFTW is ignored, and replaced when the next plan is
+/// measured. Before this call, and if the file cannot be written, plans are estimated.
 void keepWisdomIn(const std::filesystem::path &file);
 
 } // namespace pellucid::fourier

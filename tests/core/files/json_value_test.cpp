@@ -21,7 +21,7 @@ class JsonValueTest : public testing::Test {
 protected:
     const nlohmann::json parsed = nlohmann::json::parse(R"({
         "number": 2.5, "large": 1e300, "text": "pear", "nothing": null,
-        "list": [1, -2, 3], "mixed": [1, "x"], "object": {"b": [{"c": 4}], "a": 5}})");
+        "list": [1, -2, 3], "four": [4, 3, 2, 1], "flag": true, "mixed": [1, "x"], "object": {"b": [{"c": 4}], "a": 5}})");
     const JsonValue in{parsed};
 
     static task::Reason reasonOf(const std::function<void()> &read) {
@@ -44,6 +44,8 @@ TEST_F(JsonValueTest, ReadsWhatIsThere) {
     EXPECT_STREQ(files::wordFor(Fruit::pear, fruits), "pear");
     EXPECT_EQ(in["list"].numbers(), (std::vector<double>{1, -2, 3}));
     EXPECT_EQ(in["list"].threeNumbers(3.0), (std::array<double, 3>{1, -2, 3}));
+    EXPECT_EQ(in["four"].fourNumbers(), (std::array<double, 4>{4, 3, 2, 1}));
+    EXPECT_TRUE(in["flag"].boolean());
     EXPECT_EQ(in.at("object").at("b").at(0).at("c").number(), 4.0);
     EXPECT_EQ(in["list"].size(), 3U);
     EXPECT_EQ(in["list"].elements()[2].number(), 3.0);
@@ -83,6 +85,10 @@ TEST_F(JsonValueTest, RefusesWithPointerAndReason) {
               because::at("/text", because::mustBeThreeNumbers));
     EXPECT_EQ(reasonOf([&] { in["list"].threeNumbers(2.0); }),
               because::at("/list/2", because::isOutOfRange));
+    EXPECT_EQ(reasonOf([&] { in["list"].fourNumbers(); }),
+              because::at("/list", because::mustBeFourNumbers));
+    EXPECT_EQ(reasonOf([&] { in["number"].boolean(); }),
+              because::at("/number", because::mustBeTrueOrFalse));
     EXPECT_EQ(reasonOf([&] { in["object"].elements(); }),
               because::at("/object", because::mustBeAList));
     EXPECT_EQ(reasonOf([&] { in["list"].members(); }),

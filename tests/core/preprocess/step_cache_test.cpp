@@ -2,11 +2,16 @@
 #include "core/preprocess/step_cache.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/classify/shown_fields.h"
 #include "core/phantom/phantom.h"
+#include "core/preprocess/content_digest.h"
 #include "core/task/error.h"
 
 namespace pellucid {
@@ -26,6 +31,16 @@ TissueClass bone(std::vector<classify::Step> steps) {
     TissueClass tissue{"bone", 250, 2500, 150};
     tissue.steps = std::move(steps);
     return tissue;
+}
+
+TEST(ContentDigest, IsXxh3With128Bits) {
+    // The published test value for no bytes.
+    EXPECT_EQ(preprocess::contentDigest({}), "99aa06d3014798d86001c324468d497f");
+    std::vector<std::byte> bytes(1000);
+    const std::string zeros = preprocess::contentDigest(bytes);
+    bytes[999] = std::byte{1};
+    EXPECT_NE(preprocess::contentDigest(bytes), zeros);
+    EXPECT_NE(preprocess::contentDigest(std::span(bytes).first(999)), zeros);
 }
 
 TEST(StepCache, ComputesByContentOnce) {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/scene/planning_scene.h"
@@ -38,8 +41,8 @@ TEST(Scene, JsonKeepsEverything) {
     EXPECT_EQ(same, scene);
 }
 
-// The scene planned for the whole volume does not depend on the view, nor on settings that cost
-// nothing.
+// A scene that is planned for the whole volume depends neither on the view nor on settings that
+// cost nothing.
 TEST(Scene, PlanningForTheVolumeForgetsTheView) {
     const auto lattice = volume::Lattice::centred({40, 30, 20}, {1, 1, 2});
     scene::Scene scene;
@@ -57,12 +60,12 @@ TEST(Scene, PlanningForTheVolumeForgetsTheView) {
     EXPECT_EQ(scene::planningScene(other, lattice), scene::planningScene(scene, lattice));
     EXPECT_EQ(scene::planningScene(scene, lattice).tolerance, 1e-4);
     EXPECT_EQ(scene::planningScene(scene, lattice).shading.cue.strength, 1.0);
-    // The picture holds the whole volume.
+    // The picture contains the whole volume.
     const scene::Camera camera = scene::planningScene(scene, lattice).camera;
     EXPECT_GE(camera.width * camera.pixelMm, 2.0 * lattice.radiusMm() - camera.pixelMm);
 }
 
-// "cubic" meant the spline in the first version of the format, where it was also the default.
+// In the first version of the format, "cubic" was the name of the spline, and the default.
 TEST(Scene, ScenesOfTheFirstVersionKeepTheirReconstruction) {
     const auto first = [](const std::string &reconstruction) {
         std::string text = scene::toJson({});
@@ -101,6 +104,46 @@ TEST(Scene, RefusesBadJsonWithTheReason) {
                  task::Error);
     EXPECT_THROW(scene::sceneFromJson(replaced("\"pixel_mm\": 1.0", "\"pixel_mm\": \"x\"")),
                  task::Error);
+}
+
+TEST(Scene, RefusalsNameThePlaceAndTheFault) {
+    namespace because = task::because;
+    const auto at = [](const char *pointer, const task::Reason &fault) {
+        return because::at(pointer, fault);
+    };
+    struct Case {
+        const char *from, *to;
+        task::Reason reason;
+    };
+    const std::string good = scene::toJson({});
+    for (const Case &c : std::vector<Case>{
+             {"pellucid-scene/2", "other", at("/schema", because::isNot("pellucid-scene/2"))},
+             {"\"camera\"", "\"camera_\"", because::hasNo("camera")},
+             {"\"pixel_mm\": 1.0", "\"pixel_mm\": \"x\"",
+              at("/camera/pixel_mm", because::mustBeANumber)},
+             {"\"orientation\": [", "\"orientation\": [0.5,",
+              at("/camera/orientation", because::mustBeFourNumbers)},
+             {"\"cubic\"", "\"quintic\"",
+              at("/reconstruction",
+                 because::isNoneOf("quintic", "cubic, linear, band-limited, spline"))},
+             {"\"roll_off\":", "\"planned_for\": \"me\", \"roll_off\":",
+              at("/planned_for", because::isNoneOf("me", "picture, volume"))},
+             {"\"roll_off\":", "\"kernel\": \"ES9\", \"roll_off\":",
+              at("/kernel", because::isNoKernel("ES9"))},
+             {"\"roll_off\":", "\"crop\": {\"low\": [0, 0, 0]}, \"roll_off\":",
+              at("/crop", because::hasNo("high"))},
+             {"\"inverted\": false", "\"inverted\": 0",
+              at("/tone/inverted", because::mustBeTrueOrFalse)},
+             {"\"tone\":", "\"tone\": 3, \"tone_\":", at("/tone", because::mustBeAnObject)}}) {
+        std::string text = good;
+        text.replace(text.find(c.from), std::string(c.from).size(), c.to);
+        try {
+            scene::sceneFromJson(text);
+            ADD_FAILURE() << c.to << " is accepted";
+        } catch (const task::Error &error) {
+            EXPECT_EQ(error.reason(), c.reason) << error.reason().english();
+        }
+    }
 }
 
 TEST(Scene, ValidationNamesTheValue) {

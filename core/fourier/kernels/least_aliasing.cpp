@@ -23,10 +23,11 @@ Real dot(const Vector &a, const Vector &b) {
     return sum;
 }
 
-constexpr int positions = 32; ///< of samples, from the wrap voxel to the edge of the field
+// Sample positions from the wrap voxel to the edge of the field.
+constexpr int positions = 32;
 
-// The shares of the energy by position, half of them spread evenly. *Shape*: `energy` as of
-// `makeKernel`, or empty.
+// The energy at each position as a share of the total; half of it is distributed evenly. `energy`
+// is that of `makeKernel`.
 Vector energyByPosition(std::span<const double> energy) {
     Vector e(positions, 1 / Real(positions));
     if (energy.empty())
@@ -42,11 +43,11 @@ Vector energyByPosition(std::span<const double> energy) {
     return e;
 }
 
-// What the pieces of a basis make of a sample at a position x.
+// The responses of the pieces of a basis to a sample at a position x.
 struct Responses {
     Vector direct;               ///< b_0
-    std::vector<Vector> aliases; ///< b_m, and what they add up to for a frequency on the grid
-    std::vector<Vector> squares; ///< sum_m b_m b_m^T, its upper half
+    std::vector<Vector> aliases; ///< b_m, and their sums for a frequency on the grid
+    std::vector<Vector> squares; ///< the upper half of sum_m b_m b_m^T
 };
 
 Responses responsesAt(Real x, int width, const PiecewiseBasis &kernel) {
@@ -70,7 +71,7 @@ Responses responsesAt(Real x, int width, const PiecewiseBasis &kernel) {
     return r;
 }
 
-// The coefficients a for h and g by position.
+// The coefficients a for given h and g at each position.
 Vector solved(const std::vector<Responses> &responses, const Vector &energy, const Vector &h,
               const Vector &g) {
     const std::size_t count = responses.front().direct.size();
@@ -90,16 +91,17 @@ Vector solved(const std::vector<Responses> &responses, const Vector &energy, con
     return solveSymmetric(std::move(matrix), std::move(right));
 }
 
-// What is minimised is J(a) = sum_x e(x) g(x) / h(x)^2 with h = b_0.a and g the sum of the squares
-// of b_m.a over the aliases m, and of what they add up to for a frequency on the grid. There, in
-// views along an axis, they are in phase: the kernel of width 4 that only spared them one by one
-// had 2.6 times the error in these views, which are the standard ones. The gradient vanishes where
-//   [sum_x e/h^2 sum_m b_m b_m^T] a = sum_x e g/h^3 b_0,
-// which a few rounds of solving for a with g and h of the round before reach.
+// Minimises J(a) = sum_x e(x) g(x) / h(x)^2. h is b_0.a; g is the sum of the squares of b_m.a over
+// the aliases m, and of their sum for a frequency on the grid. There, in views along an axis, the
+// aliases are in phase: a kernel of width 4 that is optimised for single aliases only has 2.6 times
+// the error in these views, which are the standard ones. The gradient vanishes where
+//   [sum_x e/h^2 sum_m b_m b_m^T] a = sum_x e g/h^3 b_0.
+// Solving for a with g and h of the previous round converges in a few rounds.
 Vector leastAliasingCoefficients(int width, const PiecewiseBasis &kernel, double padding,
                                  std::span<const double> energy) {
     constexpr int rounds = 16;
-    constexpr Real settled = 1e-8; // of coefficients up to 1: the aliases change by its square
+    // Coefficients are at most 1, and the aliases change by the square of this.
+    constexpr Real tolerance = 1e-8;
     const Vector e = energyByPosition(energy);
     std::vector<Responses> responses(positions);
     tbb::parallel_for(0, positions, [&](int i) {
@@ -116,7 +118,7 @@ Vector leastAliasingCoefficients(int width, const PiecewiseBasis &kernel, double
         Real change = 0;
         for (std::size_t p = 0; p < a.size(); ++p)
             change = std::max(change, std::abs(a[p] - before[p]));
-        if (change < settled)
+        if (change < tolerance)
             break;
         for (int i = 0; i < positions; ++i) {
             h[i] = dot(a, responses[i].direct);
@@ -134,7 +136,7 @@ Vector leastAliasingCoefficients(int width, const PiecewiseBasis &kernel, double
 
 Kernel Kernel::leastAliasing(int width, double padding, std::span<const double> energy) {
     assert(width >= 2 && width <= largestWidth && padding > 1.0);
-    // Below this degree the error doubles and more; one degree above gains under a hundredth.
+    // One degree lower at least doubles the error; one degree higher gains less than 1 %.
     const int degree = std::max(3, width);
     const PiecewiseBasis kernel(width, degree, Parity::even);
     const Vector a = leastAliasingCoefficients(width, kernel, padding, energy);
