@@ -162,8 +162,9 @@ void addQualityOptions(CLI::App &command, SceneOptions &options) {
         ->check(CLI::Range(1.0, 4.0));
     command.add_option("--storage", options.storage, "Cells of the spectrum, default as needed")
         ->check(CLI::IsMember({"f16", "f32"}));
-    command.add_flag("--uniform", options.isUniform,
-                     "Read every frequency of the picture, whatever it is worth");
+    command.add_flag(
+        "--uniform", options.isUniform,
+        "Read all frequencies of the picture, even those that the tolerance makes unnecessary");
 }
 
 bool isGiven(const CLI::App &command, const char *option) {

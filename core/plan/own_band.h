@@ -11,14 +11,15 @@
 
 namespace pellucid::plan {
 
-/// An upper bound on the energy of a prepared field's spectrum, by blocks of cells, and the low
+/// The energy of a prepared field's spectrum: from above by blocks of cells, and of the low
 /// frequencies of every view.
 ///
-/// A view sees a plane of the spectrum. Its energy beyond a radius is at most the sum over the
-/// blocks that the plane crosses of their area in the plane times a bound on the mean energy in it.
-/// The bound is half the largest mean of 2 x 2 x 2 cells of the block: a line of cells, which a
-/// plane may contain, fills a quarter of them and an eighth of the block's width. The cells are of
-/// the field divided by the kernel's apodisation, which has more energy than the field.
+/// A view sees a plane of the spectrum. Its energy beyond a radius is the sum over the blocks that
+/// the plane crosses of their area in the plane times the mean energy there. That mean is not more
+/// than half the largest mean of 2 x 2 x 2 cells of the block, except by chance: a line of cells,
+/// which a plane may contain, fills a quarter of those eight, and an eighth of the block's width.
+/// The cells are those of the field divided by the kernel's apodisation, which has more energy than
+/// the field itself.
 class SpectrumEnergies {
 public:
     /// *Throws* Cancelled, Error{outOfMemory}.
@@ -26,10 +27,11 @@ public:
                      const task::Progress &progress = {});
 
     /// The energies of a view by frequency: entry n holds that of the ring from n to n + 1 times
-    /// `ringPerMm`, as an upper bound, up to `limitPerMm`.
+    /// `ringPerMm`, from above, up to `limitPerMm`.
     /// *Shape*: `axes`: columns U, V and W. *Units*: of the spectrum squared, over mm^2.
     std::vector<double> rings(const glm::dmat3 &axes, double limitPerMm) const;
-    /// At most the energy of the whole view, in the same units.
+    /// The energy of the low frequencies of a view, less a margin: the whole view has more.
+    /// *Units*: as `rings`.
     double least(const glm::dmat3 &axes) const;
     double ringPerMm() const { return m_ringPerMm; }
     /// Blocks are too coarse for frequencies below this.

@@ -31,7 +31,7 @@ struct Interpolation {
     /// Padded size over field size, 1 to 4, the same on every axis.
     std::optional<double> padding;
     std::optional<fourier::Storage> storage;
-    /// Every frequency of a picture is read, whatever it is worth.
+    /// Reads all frequencies of a picture, even those that the tolerance makes unnecessary.
     bool isUniform = false;
     bool operator==(const Interpolation &) const = default;
 };
