@@ -97,6 +97,18 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
     }
 }
 
+std::shared_ptr<const plan::OwnBand> ownBand(const render::EngineSpectra::Spectra &fields,
+                                             const plan::RenderPlan &plan,
+                                             const task::Progress &progress) {
+    if (plan.bandError == 0.0)
+        return nullptr;
+    std::vector<std::shared_ptr<const plan::SpectrumEnergies>> energies;
+    for (const auto &field : fields)
+        energies.push_back(
+            std::make_shared<const plan::SpectrumEnergies>(*field, plan.image, progress));
+    return std::make_shared<const plan::OwnBand>(std::move(energies), plan.bandError);
+}
+
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
                                               const classify::Color &color,
                                               const plan::RenderPlan &plan,
@@ -114,14 +126,7 @@ std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
         spectra.fields.push_back(prepare(field));
     for (const classify::DensityField &gradient : channels.gradients)
         spectra.gradients.push_back(prepare(gradient));
-    std::shared_ptr<const plan::OwnBand> band;
-    if (plan.bandError > 0.0) {
-        std::vector<std::shared_ptr<const plan::SpectrumEnergies>> energies;
-        for (const auto &field : spectra.fields)
-            energies.push_back(
-                std::make_shared<const plan::SpectrumEnergies>(*field, plan.image, progress));
-        band = std::make_shared<const plan::OwnBand>(std::move(energies), plan.bandError);
-    }
+    auto band = ownBand(spectra.fields, plan, progress);
     auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
     engine->setBand(std::move(band));
     if (channels.fields.size() == 1)
