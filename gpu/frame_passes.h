@@ -50,6 +50,7 @@ struct FrameCommand {
     scene::Camera camera;
     plan::SliceGrid grid;
     FrameBlock block;            ///< without the transform members, which the passes set
+    std::vector<int> lastRows;   ///< see FrameInputs
     std::vector<unsigned> pages; ///< texture names
     int fieldPages = 1, slabs = 1, sums = 1, layers = 1, channels = 1;
     int width = 4, evenTerms = 1, momentTerms = 1;

@@ -7,6 +7,7 @@
 
 #include <epoxy/gl.h>
 
+#include "core/fourier/transforms/strip_transform.h"
 #include "core/task/error.h"
 #include "gpu/buffer.h"
 #include "gpu/transform_passes.h"
@@ -29,12 +30,10 @@ struct CardTables {
     explicit CardTables(const plan::SliceGrid &of) : grid(of), tables(of) {
         rotations.upload(tables.rotations.data(),
                          tables.rotations.size() * sizeof(tables.rotations[0]));
-        discRows.upload(tables.discRows.data(),
-                        tables.discRows.size() * sizeof(tables.discRows[0]));
     }
     plan::SliceGrid grid;
     GridTables tables;
-    Buffer rotations, discRows;
+    Buffer rotations;
 };
 
 Defines sliceDefines(const FrameCommand &c) {
@@ -93,6 +92,19 @@ struct FramePasses::Resources {
         return *tables.front();
     }
 
+    // The rows of the disc that are read. They change with the view.
+    void bindDiscRows(const GridTables &tables, const std::vector<int> &lastRows) {
+        std::vector<std::int32_t> rows(tables.discRows.size(), -1);
+        for (std::size_t n = 0; n < rows.size(); ++n)
+            if (const std::size_t strip = n / fourier::stripLanes; strip < lastRows.size())
+                rows[n] = std::min(tables.discRows[n], std::int32_t(lastRows[strip]));
+        if (rows != shownRows) {
+            discRows.upload(rows.data(), rows.size() * sizeof(rows[0]));
+            shownRows = std::move(rows);
+        }
+        discRows.bindStorage(bindings::discRows);
+    }
+
     double stampMs(std::size_t from, std::size_t to) const {
         GLuint64 begin = 0, end = 0;
         glGetQueryObjectui64v(stamps[from].name(), GL_QUERY_RESULT, &begin);
@@ -101,7 +113,8 @@ struct FramePasses::Resources {
     }
 
     TransformPasses transform;
-    Buffer block;
+    Buffer block, discRows;
+    std::vector<std::int32_t> shownRows; ///< in `discRows`
     std::vector<std::unique_ptr<CardTables>> tables;
     std::array<QueryName, 3> stamps;
 };
@@ -201,7 +214,7 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
         resources.block.upload(&block, sizeof(block));
         resources.block.bindUniform(bindings::frameBlock);
         tables.rotations.bindStorage(bindings::rotations);
-        tables.discRows.bindStorage(bindings::discRows);
+        resources.bindDiscRows(tables.tables, command.lastRows);
         bindPages(command);
 
         glQueryCounter(resources.stamps[0].name(), GL_TIMESTAMP);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gpu/gpu_engine.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pellucid::gpu {
@@ -10,7 +11,10 @@ FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
     const FetchPlan exact{Fetch::exact, plan.predictedError};
     if (plan.spectrum.width() < 2 || !shading.isPlain()) // a single cell has nothing to filter
         return exact;
-    const double predicted = std::hypot(plan.predictedError, plan.filterError);
+    // Filtered fetches are so fast that they read the whole band.
+    const double ofKernel = std::sqrt(
+        std::max(0.0, plan.predictedError * plan.predictedError - plan.bandError * plan.bandError));
+    const double predicted = std::hypot(ofKernel, plan.filterError);
     return predicted <= tolerance ? FetchPlan{Fetch::trilinear, predicted} : exact;
 }
 
@@ -20,14 +24,16 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
     render::EngineParts parts = engine.parts();
     return std::make_shared<GpuEngine>(
         SpectrumTextures::upload(std::move(passes), std::move(parts.spectra), progress),
-        std::move(parts.channelWeights), parts.fieldOfView, fetch);
+        std::move(parts.channelWeights), parts.fieldOfView, fetch,
+        fetch == Fetch::exact ? parts.band : nullptr);
 }
 
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
                      std::vector<render::ChannelWeights> channelWeights,
-                     const plan::FieldOfView &fieldOfView, Fetch fetch)
+                     const plan::FieldOfView &fieldOfView, Fetch fetch,
+                     std::shared_ptr<const plan::OwnBand> band)
     : m_textures(std::move(textures)), m_channelWeights(std::move(channelWeights)), m_fetch(fetch),
-      m_setup(std::make_shared<render::FrameSetup>(fieldOfView)) {}
+      m_setup(std::make_shared<render::FrameSetup>(fieldOfView, std::move(band))) {}
 
 std::shared_ptr<GpuEngine>
 GpuEngine::withChannelWeights(std::vector<render::ChannelWeights> channelWeights) const {
@@ -43,7 +49,7 @@ std::shared_ptr<GpuEngine> GpuEngine::withoutLight() const {
 }
 
 render::EngineParts GpuEngine::parts() const {
-    return {m_textures->spectra(), m_channelWeights, m_setup->fieldOfView()};
+    return {m_textures->spectra(), m_channelWeights, m_setup->fieldOfView(), m_setup->band()};
 }
 
 task::Reason GpuEngine::description() const {
@@ -77,6 +83,7 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     FrameCommand command{.camera = camera, .grid = inputs.grid};
     command.block =
         frameBlock(inputs, image, layout, m_textures->layout(), m_textures->fieldPages());
+    command.lastRows = inputs.lastRows;
     command.pages = m_textures->pages(inputs.shading.lit);
     command.fieldPages = m_textures->fieldPages();
     command.slabs = m_textures->layout().slabs;

@@ -38,7 +38,8 @@ public:
     /// *Shape*: `channelWeights` as for CpuEngine::setChannelWeights.
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
               std::vector<render::ChannelWeights> channelWeights,
-              const plan::FieldOfView &fieldOfView, Fetch fetch = Fetch::exact);
+              const plan::FieldOfView &fieldOfView, Fetch fetch = Fetch::exact,
+              std::shared_ptr<const plan::OwnBand> band = nullptr);
 
     const SpectrumTextures &textures() const { return *m_textures; }
     std::shared_ptr<GpuEngine>

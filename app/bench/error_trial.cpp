@@ -152,7 +152,8 @@ Verdict judge(const Trial &trial) {
     const auto shaded = prepare::shadedFields(fields.channels, scene.shading,
                                               shading::shadingScale(trial.field.values.lattice()));
     const auto summaries = prepare::summarise(shaded, scene.shading.cue);
-    const auto plan = plan::planRender(scene, summaries, prepare::imagesOf(1, scene.shading));
+    auto plan = plan::planRender(scene, summaries, prepare::imagesOf(1, scene.shading));
+    plan::limitToOwnBand(plan, scene);
     const auto engine = prepare::makeEngine(shaded, {}, plan);
     const auto image = engine->render(scene.camera, scene.image, scene.shading);
     const auto truth =

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/fourier/transforms/transform.h"
+#include "core/prepare/prepared_engine.h"
 
 namespace pellucid::bench {
 
@@ -207,16 +208,20 @@ void fillError(Row &row, const ImageError &error) {
 Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
             const Measurement &how) {
     const classify::DensityField &field = subject.field;
-    const auto plan = plan::planRender(how.scene, plan::summarise(field));
+    auto plan = plan::planRender(how.scene, plan::summarise(field));
+    if (!how.fieldOfView)
+        plan::limitToOwnBand(plan, how.scene);
     Row row = plannedRow(suite, name, field.values.lattice().size(), plan, how.scene, how.threads);
     const double start = millisecondsNow();
     const auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(field.values, plan.spectrum));
+    auto band = prepare::ownBand({spectrum}, plan);
     row.prepareMs = millisecondsNow() - start;
     if (how.transform)
         row.fft3dMs = transformMs(plan.spectrum);
     row.bytes = double(spectrum->bytes());
     render::CpuEngine engine(spectrum, how.fieldOfView.value_or(plan.fieldOfView), how.threads);
+    engine.setBand(std::move(band));
     fillTimes(row, engine, how.scene, how.views);
 
     ImageError worst{0.0, 0.0, 1e9};

@@ -48,6 +48,7 @@ json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
             {"slice_grid", {grid.columns, grid.rows}},
             {"storage", fourier::storageName(layout.storage)},
             {"predicted_error", plan.predictedError},
+            {"own_band_error", plan.bandError},
             {"reason", plan.reason.english()}};
 }
 

@@ -162,6 +162,9 @@ void addQualityOptions(CLI::App &command, SceneOptions &options) {
         ->check(CLI::Range(1.0, 4.0));
     command.add_option("--storage", options.storage, "Cells of the spectrum, default as needed")
         ->check(CLI::IsMember({"f16", "f32"}));
+    command.add_flag(
+        "--uniform", options.isUniform,
+        "Read all frequencies of the picture, even those that the tolerance makes unnecessary");
 }
 
 bool isGiven(const CLI::App &command, const char *option) {
@@ -279,6 +282,8 @@ void setQuality(scene::Scene &scene, const SceneOptions &o, const CLI::App &comm
         scene.interpolation.padding = o.padding;
     if (isGiven(command, "--storage"))
         scene.interpolation.storage = fourier::storageFromName(o.storage);
+    if (o.isUniform)
+        scene.interpolation.isUniform = true;
 }
 
 } // namespace

@@ -47,7 +47,9 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                           task::because::imageNeedsMemory(scene.camera.width, scene.camera.height,
                                                           (frame >> 20) + 1, budget.bytes >> 20));
     try {
-        return {plan::planRender(scene, summaries, channels, budget), {}, 1};
+        FittingPlan fitting{plan::planRender(scene, summaries, channels, budget), {}, 1};
+        plan::limitToOwnBand(fitting.plan, scene);
+        return fitting;
     } catch (const task::Error &error) {
         if (error.code() != task::ErrorCode::outOfMemory)
             throw;
@@ -95,6 +97,18 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
     }
 }
 
+std::shared_ptr<const plan::OwnBand> ownBand(const render::EngineSpectra::Spectra &fields,
+                                             const plan::RenderPlan &plan,
+                                             const task::Progress &progress) {
+    if (plan.bandError == 0.0)
+        return nullptr;
+    std::vector<std::shared_ptr<const plan::SpectrumEnergies>> energies;
+    for (const auto &field : fields)
+        energies.push_back(
+            std::make_shared<const plan::SpectrumEnergies>(*field, plan.image, progress));
+    return std::make_shared<const plan::OwnBand>(std::move(energies), plan.bandError);
+}
+
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
                                               const classify::Color &color,
                                               const plan::RenderPlan &plan,
@@ -112,7 +126,9 @@ std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
         spectra.fields.push_back(prepare(field));
     for (const classify::DensityField &gradient : channels.gradients)
         spectra.gradients.push_back(prepare(gradient));
+    auto band = ownBand(spectra.fields, plan, progress);
     auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
+    engine->setBand(std::move(band));
     if (channels.fields.size() == 1)
         engine->setChannelWeights({{color.red, color.green, color.blue}});
     else

@@ -51,6 +51,11 @@ struct PreparedEngine {
     plan::SpectrumOf of = plan::SpectrumOf::look;
 };
 
+/// What plain frames of a plan need not read; null if they read everything. *Throws* Cancelled.
+std::shared_ptr<const plan::OwnBand> ownBand(const render::EngineSpectra::Spectra &fields,
+                                             const plan::RenderPlan &plan,
+                                             const task::Progress &progress = {});
+
 /// Makes an engine for the channels of a look from spectra that were prepared by one plan and share
 /// a layout.
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,

@@ -25,6 +25,9 @@ struct FrameBuffers {
     // Prepares for a frame.
     void fit(const FrameInputs &inputs, const scene::Camera &camera, double rollOffShare) {
         takeTables(inputs.grid, rollOffShare);
+        strips.assign(tables->strips.begin(), tables->strips.begin() + int(inputs.lastRows.size()));
+        for (std::size_t n = 0; n < strips.size(); ++n)
+            strips[n].outerRow = std::min(strips[n].outerRow, inputs.lastRows[n]);
         const plan::SliceGrid need{std::max(allocated.columns, inputs.grid.columns),
                                    std::max(allocated.rows, inputs.grid.rows)};
         const int channels = inputs.mixing.channels;
@@ -74,10 +77,10 @@ struct FrameBuffers {
         batches =
             system::allocatePages(scratch.size() * (batchesAhead + 1) * sizeof(FrequencyBatch),
                                   task::because::anImageOfThisSize);
-        strips.clear();
+        stripMemory.clear();
         for (std::size_t n = 0; n < scratch.size(); ++n) {
-            strips.push_back(floats(std::size_t(channels + 1) * length * stripFloats));
-            auto *const stripBuffer = reinterpret_cast<float *>(strips.back().get());
+            stripMemory.push_back(floats(std::size_t(channels + 1) * length * stripFloats));
+            auto *const stripBuffer = reinterpret_cast<float *>(stripMemory.back().get());
             for (int c = 0; c < channels; ++c)
                 scratch[n].strips[std::size_t(c)] =
                     stripBuffer + std::size_t(c) * length * stripFloats;
@@ -92,7 +95,7 @@ struct FrameBuffers {
 
     // Sets the phases of columns and rows.
     void setPhases(const FrameInputs &inputs) {
-        const int columns = int(tables->strips.size()) * stripLanes;
+        const int columns = int(strips.size()) * stripLanes;
         float *const columnValues = columnPhases();
         const auto turnU = rotations(columns, inputs.geometry.turnsPerColumn);
         for (int n = 0; n < columns; ++n) {
@@ -116,7 +119,8 @@ struct FrameBuffers {
     plan::SliceGrid allocated{0, 0};
     int allocatedChannels = 0;
     std::shared_ptr<std::byte[]> columnPhase, batches;
-    std::vector<std::shared_ptr<std::byte[]>> lines, strips;
+    std::vector<std::shared_ptr<std::byte[]>> lines, stripMemory;
+    std::vector<StripBounds> strips;                              ///< of the frame
     std::array<std::vector<float>, FrameJob::maxChannels> planes; ///< of color pictures
     std::vector<Complex> rowPhase;
 };
@@ -147,8 +151,8 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.cellsPerColumn = geometry.cellsPerColumn;
     job.cellsPerRow = geometry.cellsPerRow;
     job.edgeSlack = geometry.edgeSlack;
-    job.strips = tables.strips.data();
-    job.stripCount = int(tables.strips.size());
+    job.strips = buffers.strips.data();
+    job.stripCount = int(buffers.strips.size());
     job.rollOff = tables.rollOff.data();
     job.columnPhase = buffers.columnPhases();
     job.rowPhase = buffers.rowPhase.data();
@@ -249,6 +253,11 @@ CpuEngine::CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView
 }
 
 CpuEngine::~CpuEngine() = default;
+
+void CpuEngine::setBand(std::shared_ptr<const plan::OwnBand> band) {
+    m_parts.band = band;
+    m_buffers->setup.setBand(std::move(band));
+}
 
 void CpuEngine::setChannelWeights(std::vector<ChannelWeights> channelWeights) {
     m_parts.channelWeights = std::move(channelWeights);

@@ -35,6 +35,9 @@ public:
     ~CpuEngine() override;
 
     /// *Shape*: one entry per field.
+    /// Reads no more of plain frames than this allows; null: everything. *Requires*: no concurrent
+    /// frame.
+    void setBand(std::shared_ptr<const plan::OwnBand> band);
     void setChannelWeights(std::vector<ChannelWeights> channelWeights);
     std::size_t fieldCount() const { return m_parts.spectra.fields.size(); }
     /// Bytes of all spectra.

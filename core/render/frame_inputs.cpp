@@ -44,6 +44,12 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
             m_moments.emplace(momentKernels(spectrum.layout()));
         inputs.shading.kernels = &*m_moments;
     }
+    const double limitPerMm = 0.5 / camera.pixelMm;
+    // Cue and light change what frequencies are worth.
+    const bool hasBand = m_band && !inputs.isShaded;
+    inputs.lastRows = lastRows(
+        inputs.grid,
+        hasBand ? m_band->reach(axes, channelWeights, limitPerMm).radiusPerMm / limitPerMm : 1.0);
     inputs.zero = zeroSums(inputs.mixing, inputs.shading, spectrum.layout());
     return inputs;
 }

@@ -18,6 +18,8 @@ struct FrameInputs {
     FrameShading shading;
     bool isShaded = false; ///< whether cue or light change the slice
     ZeroSums zero{};       ///< of the sums, at frequency 0
+    /// The last row that is read of each strip of 16 columns; strips beyond them are not read.
+    std::vector<int> lastRows;
 
     /// Whether nothing is shown, so that the picture is zero.
     bool isEmpty() const { return mixing.sources.empty(); }
@@ -33,8 +35,12 @@ struct FrameInputs {
 /// framing, and the moment kernels. *Shape*: for spectra of one layout. Not thread-safe.
 class FrameSetup {
 public:
-    explicit FrameSetup(plan::FieldOfView fieldOfView) : m_fieldOfView(std::move(fieldOfView)) {}
+    explicit FrameSetup(plan::FieldOfView fieldOfView,
+                        std::shared_ptr<const plan::OwnBand> band = nullptr)
+        : m_fieldOfView(std::move(fieldOfView)), m_band(std::move(band)) {}
 
+    void setBand(std::shared_ptr<const plan::OwnBand> band) { m_band = std::move(band); }
+    const std::shared_ptr<const plan::OwnBand> &band() const { return m_band; }
     const plan::FieldOfView &fieldOfView() const { return m_fieldOfView; }
     /// Lights are off if there are no spectra of gradients. The moment kernels that the shading
     /// refers to live as long as this object. *Shape*: `channelWeights` has one entry per field.
@@ -46,6 +52,7 @@ public:
 
 private:
     plan::FieldOfView m_fieldOfView;
+    std::shared_ptr<const plan::OwnBand> m_band;
     FramedGrid m_framed;
     std::optional<MomentKernels>
         m_moments; // made for the first frame with a linear cue, in milliseconds

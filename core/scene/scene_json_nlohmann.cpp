@@ -79,6 +79,8 @@ Interpolation interpolationFrom(const JsonValue &in) {
         const std::string name = storage.text();
         fixed.storage = storage.checked([&] { return fourier::storageFromName(name); });
     }
+    if (const JsonValue uniform = in["uniform"])
+        fixed.isUniform = uniform.boolean();
     return fixed;
 }
 
@@ -155,6 +157,8 @@ std::string toJson(const Scene &scene) {
         out["padding"] = *fixed.padding;
     if (fixed.storage)
         out["storage"] = fourier::storageName(*fixed.storage);
+    if (fixed.isUniform)
+        out["uniform"] = true;
     return out.dump(2);
 }
 

@@ -5,7 +5,7 @@
 // SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
 layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
 
-// The last row of each column inside the disc of the band.
+// The last row of each column that is read; -1: none is.
 layout(std430, binding = DISC_ROWS) readonly buffer DiscRows {
     int discRows[];
 };
