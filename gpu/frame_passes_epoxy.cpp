@@ -93,11 +93,11 @@ struct FramePasses::Resources {
     }
 
     // The rows of the disc that are read. They change with the view.
-    void bindDiscRows(const GridTables &tables, const std::vector<int> &lastRows) {
-        std::vector<std::int32_t> rows(tables.discRows.size(), -1);
+    void bindDiscRows(const GridTables &grid, const std::vector<int> &lastRows) {
+        std::vector<std::int32_t> rows(grid.discRows.size(), -1);
         for (std::size_t n = 0; n < rows.size(); ++n)
             if (const std::size_t strip = n / fourier::stripLanes; strip < lastRows.size())
-                rows[n] = std::min(tables.discRows[n], std::int32_t(lastRows[strip]));
+                rows[n] = std::min(grid.discRows[n], std::int32_t(lastRows[strip]));
         if (rows != shownRows) {
             discRows.upload(rows.data(), rows.size() * sizeof(rows[0]));
             shownRows = std::move(rows);

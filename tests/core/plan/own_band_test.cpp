@@ -134,7 +134,7 @@ TEST_P(OwnBand, LeavesOutNoMoreThanItSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, OwnBand, testing::ValuesIn(shapes),
-                         [](const auto &info) { return std::to_string(info.index); });
+                         [](const auto &shape) { return std::to_string(shape.index); });
 
 } // namespace
 
