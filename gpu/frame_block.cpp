@@ -37,8 +37,7 @@ void split(const Steps &steps, FrameBlock::Four<std::uint32_t> &low,
 
 // A vector holds two even and two odd coefficients: even, odd, even, odd.
 template <class Kernel>
-void packPairs(const Kernel &kernel, int axis,
-               FrameBlock::Vectors<FrameBlock::kernelVectors> &vectors) {
+void packPairs(const Kernel &kernel, int axis, FrameBlock::Four<float> *vectors) {
     const auto terms = std::size_t(kernel.terms());
     const std::vector<float> &pairs = kernel.pairs();
     for (std::size_t pair = 0; pair < pairs.size() / (2 * terms); ++pair)
@@ -100,7 +99,7 @@ void setShading(FrameBlock &block, const render::FrameInputs &inputs) {
     }
     if (shading.kernels != nullptr)
         for (int d = 0; d < 3; ++d)
-            packPairs((*shading.kernels)[std::size_t(d)], d, block.momentKernels);
+            packPairs((*shading.kernels)[std::size_t(d)], d, block.momentKernels.data());
 }
 
 } // namespace
@@ -163,13 +162,21 @@ FrameBlock frameBlock(const render::FrameInputs &inputs, const scene::ImageDefin
     setSlice(block, inputs);
     block.reconstruction = int(image.reconstruction);
     block.rollOff = float(image.rollOff);
+    block.tilesPerSide = inputs.widths ? inputs.widths->tiles : 0;
     block.slabStep = texels.slabStep;
     block.padded = {layout.padded.i, layout.padded.j, layout.padded.k};
     for (int d = 0; d < 3; ++d) {
         const auto axis = std::size_t(d);
         block.firstCell[axis] = texels.firstCell[axis];
         block.inversePadded[axis] = 1.0F / float(layout.padded[d]);
-        packPairs(layout.kernels[axis], d, block.kernels);
+        const auto pack = [&](int width, const fourier::Kernel &kernel) {
+            packPairs(kernel, d,
+                      block.kernels.data() + std::size_t(width - 1) * FrameBlock::kernelVectors);
+        };
+        pack(layout.width(), layout.kernels[axis]);
+        for (int width = fourier::KernelsByWidth::narrowest;
+             inputs.kernels && width < layout.width(); ++width)
+            pack(width, inputs.kernels->of(width)[axis]);
     }
     block.sourceCount = std::int32_t(mixing.sources.size());
     for (std::size_t s = 0; s < mixing.sources.size(); ++s) {

@@ -33,7 +33,7 @@ struct FrameBlock {
     Vectors<bindings::maxTerms> termWeight;
     std::int32_t columns, rows, pictureColumns, pictureRows, periodRows;
     std::int32_t termCount, fieldCount, sourceCount;
-    std::int32_t reconstruction, wraps, slabStep;
+    std::int32_t reconstruction, wraps, tilesPerSide, slabStep;
     std::int32_t columnStages, rowStages;
     std::int32_t columnRotations, rowRotations, unpackRotations;
     float rollOff, unit, cueBase;
@@ -45,7 +45,8 @@ struct FrameBlock {
     std::array<ZeroSum, 6> zero;
     std::array<ImageShade, 3> shade;
     Vectors<3> gradient, excess;
-    Vectors<kernelVectors> kernels, momentKernels;
+    Vectors<bindings::maxWidth * kernelVectors> kernels;
+    Vectors<kernelVectors> momentKernels;
     std::array<Four<std::int32_t>, 8> radices;
 };
 

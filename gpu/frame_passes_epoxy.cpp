@@ -7,7 +7,6 @@
 
 #include <epoxy/gl.h>
 
-#include "core/fourier/transforms/strip_transform.h"
 #include "core/task/error.h"
 #include "gpu/buffer.h"
 #include "gpu/transform_passes.h"
@@ -30,10 +29,12 @@ struct CardTables {
     explicit CardTables(const plan::SliceGrid &of) : grid(of), tables(of) {
         rotations.upload(tables.rotations.data(),
                          tables.rotations.size() * sizeof(tables.rotations[0]));
+        discRows.upload(tables.discRows.data(),
+                        tables.discRows.size() * sizeof(tables.discRows[0]));
     }
     plan::SliceGrid grid;
     GridTables tables;
-    Buffer rotations;
+    Buffer rotations, discRows;
 };
 
 Defines sliceDefines(const FrameCommand &c) {
@@ -92,17 +93,14 @@ struct FramePasses::Resources {
         return *tables.front();
     }
 
-    // The rows of the disc that are read. They change with the view.
-    void bindDiscRows(const GridTables &grid, const std::vector<int> &lastRows) {
-        std::vector<std::int32_t> rows(grid.discRows.size(), -1);
-        for (std::size_t n = 0; n < rows.size(); ++n)
-            if (const std::size_t strip = n / fourier::stripLanes; strip < lastRows.size())
-                rows[n] = std::min(grid.discRows[n], std::int32_t(lastRows[strip]));
-        if (rows != shownRows) {
-            discRows.upload(rows.data(), rows.size() * sizeof(rows[0]));
-            shownRows = std::move(rows);
+    // The widths change with the view.
+    void bindTileWidths(const std::vector<std::int32_t> &ofFrame) {
+        if (ofFrame != shownWidths || shownWidths.empty()) {
+            shownWidths = ofFrame;
+            shownWidths.resize(std::max<std::size_t>(1, shownWidths.size()));
+            tileWidths.upload(shownWidths.data(), shownWidths.size() * sizeof(shownWidths[0]));
         }
-        discRows.bindStorage(bindings::discRows);
+        tileWidths.bindStorage(bindings::tileWidths);
     }
 
     double stampMs(std::size_t from, std::size_t to) const {
@@ -113,8 +111,8 @@ struct FramePasses::Resources {
     }
 
     TransformPasses transform;
-    Buffer block, discRows;
-    std::vector<std::int32_t> shownRows; ///< in `discRows`
+    Buffer block, tileWidths;
+    std::vector<std::int32_t> shownWidths; ///< in `tileWidths`
     std::vector<std::unique_ptr<CardTables>> tables;
     std::array<QueryName, 3> stamps;
 };
@@ -125,7 +123,7 @@ void CardPicture::markDrawn() const {
 }
 
 picture::ProjectionImage CardPicture::download() const {
-    std::vector<float> planes;
+    picture::Samples planes;
     m_passes->device().run([&] { planes = m_texture->download(); });
     picture::ProjectionImage image{m_width, m_height, m_pixelMm, {}, m_channels};
     if (m_channels == 1) {
@@ -214,7 +212,8 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
         resources.block.upload(&block, sizeof(block));
         resources.block.bindUniform(bindings::frameBlock);
         tables.rotations.bindStorage(bindings::rotations);
-        resources.bindDiscRows(tables.tables, command.lastRows);
+        tables.discRows.bindStorage(bindings::discRows);
+        resources.bindTileWidths(command.tileWidths);
         bindPages(command);
 
         glQueryCounter(resources.stamps[0].name(), GL_TIMESTAMP);

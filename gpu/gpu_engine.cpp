@@ -11,9 +11,9 @@ FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
     const FetchPlan exact{Fetch::exact, plan.predictedError};
     if (plan.spectrum.width() < 2 || !shading.isPlain()) // a single cell has nothing to filter
         return exact;
-    // Filtered fetches are so fast that they read the whole band.
+    // Filtered fetches are so fast that they read everything by one width.
     const double ofKernel = std::sqrt(
-        std::max(0.0, plan.predictedError * plan.predictedError - plan.bandError * plan.bandError));
+        std::max(0.0, plan.predictedError * plan.predictedError - plan.adaptiveError * plan.adaptiveError));
     const double predicted = std::hypot(ofKernel, plan.filterError);
     return predicted <= tolerance ? FetchPlan{Fetch::trilinear, predicted} : exact;
 }
@@ -25,15 +25,15 @@ std::shared_ptr<GpuEngine> copyToCard(std::shared_ptr<FramePasses> passes,
     return std::make_shared<GpuEngine>(
         SpectrumTextures::upload(std::move(passes), std::move(parts.spectra), progress),
         std::move(parts.channelWeights), parts.fieldOfView, fetch,
-        fetch == Fetch::exact ? parts.band : nullptr);
+        fetch == Fetch::exact ? parts.widths : nullptr);
 }
 
 GpuEngine::GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
                      std::vector<render::ChannelWeights> channelWeights,
                      const plan::FieldOfView &fieldOfView, Fetch fetch,
-                     std::shared_ptr<const plan::OwnBand> band)
+                     std::shared_ptr<const plan::AdaptiveWidths> widths)
     : m_textures(std::move(textures)), m_channelWeights(std::move(channelWeights)), m_fetch(fetch),
-      m_setup(std::make_shared<render::FrameSetup>(fieldOfView, std::move(band))) {}
+      m_setup(std::make_shared<render::FrameSetup>(fieldOfView, std::move(widths))) {}
 
 std::shared_ptr<GpuEngine>
 GpuEngine::withChannelWeights(std::vector<render::ChannelWeights> channelWeights) const {
@@ -49,7 +49,7 @@ std::shared_ptr<GpuEngine> GpuEngine::withoutLight() const {
 }
 
 render::EngineParts GpuEngine::parts() const {
-    return {m_textures->spectra(), m_channelWeights, m_setup->fieldOfView(), m_setup->band()};
+    return {m_textures->spectra(), m_channelWeights, m_setup->fieldOfView(), m_setup->widths()};
 }
 
 task::Reason GpuEngine::description() const {
@@ -63,7 +63,7 @@ picture::ProjectionImage GpuEngine::render(const scene::Camera &camera,
     CardTimes onCard;
     const auto picture = renderOnCard(camera, image, shading, &onCard);
     if (times != nullptr)
-        *times = {onCard.sliceMs, onCard.transformMs};
+        *times = {onCard.sliceMs, onCard.transformMs, onCard.widthShares};
     return picture->download();
 }
 
@@ -83,7 +83,8 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     FrameCommand command{.camera = camera, .grid = inputs.grid};
     command.block =
         frameBlock(inputs, image, layout, m_textures->layout(), m_textures->fieldPages());
-    command.lastRows = inputs.lastRows;
+    if (inputs.widths)
+        command.tileWidths.assign(inputs.widths->widths.begin(), inputs.widths->widths.end());
     command.pages = m_textures->pages(inputs.shading.lit);
     command.fieldPages = m_textures->fieldPages();
     command.slabs = m_textures->layout().slabs;
@@ -99,7 +100,11 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     command.lit = inputs.shading.lit;
     command.fetch = inputs.isShaded ? Fetch::exact : m_fetch;
     command.color = {float(tint[0]), float(tint[1]), float(tint[2])};
-    return m_textures->passes()->render(std::move(command), times);
+    if (times == nullptr)
+        return m_textures->passes()->render(std::move(command), nullptr);
+    auto picture = m_textures->passes()->render(std::move(command), times);
+    times->widthShares = inputs.widthShares(camera, layout);
+    return picture;
 }
 
 } // namespace pellucid::gpu

@@ -39,7 +39,7 @@ public:
     GpuEngine(std::shared_ptr<const SpectrumTextures> textures,
               std::vector<render::ChannelWeights> channelWeights,
               const plan::FieldOfView &fieldOfView, Fetch fetch = Fetch::exact,
-              std::shared_ptr<const plan::OwnBand> band = nullptr);
+              std::shared_ptr<const plan::AdaptiveWidths> widths = nullptr);
 
     const SpectrumTextures &textures() const { return *m_textures; }
     std::shared_ptr<GpuEngine>

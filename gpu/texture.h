@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fourier/storage.h"
+#include "core/picture/projection_image.h"
 #include "gpu/handle.h"
 
 namespace pellucid::gpu {
@@ -21,7 +22,7 @@ public:
     /// Allocates layers for passes to write. *Throws* Error{outOfMemory}.
     void reserve(int width, int height, int layers);
     /// *Shape*: layers x height x width.
-    std::vector<float> download() const;
+    picture::Samples download() const;
     /// Sets all pixels to zero.
     void clear();
     int width() const { return m_width; }

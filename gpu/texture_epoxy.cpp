@@ -57,8 +57,8 @@ void PixelTexture::reserve(int width, int height, int layers) {
     m_width = width;
 }
 
-std::vector<float> PixelTexture::download() const {
-    std::vector<float> samples(std::size_t(m_width) * std::size_t(m_height) *
+picture::Samples PixelTexture::download() const {
+    picture::Samples samples(std::size_t(m_width) * std::size_t(m_height) *
                                std::size_t(m_layers));
     glBindTexture(GL_TEXTURE_2D_ARRAY, m_name.name());
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);

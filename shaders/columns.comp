@@ -32,8 +32,7 @@ void main() {
     int halfColumns = frame.columns / 2, rows = frame.rows;
 #if FUSED
     int last = discRows[column];
-    // A column beyond the own band has no rows: last is -1.
-    for (int n = last + 1 + thread; n < min(rows, rows - last); n += THREADS)
+    for (int n = last + 1 + thread; n < rows - last; n += THREADS)
         line[n] = vec2(0.0);
     for (int n = thread; n <= 2 * last; n += THREADS) {
         int row = n - last;

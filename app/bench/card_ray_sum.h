@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/picture/projection_image.h"
 #include "core/scene/camera.h"
 #include "core/volume/volume.h"
 #include "gpu/frame_passes.h"
@@ -18,7 +19,7 @@ public:
     ~CardRaySum();
 
     struct Image {
-        std::vector<float> samples; ///< *Units*: field times mm
+        picture::Samples samples; ///< *Units*: field times mm
         double cardMs = 0.0;        ///< card time
     };
     Image render(const scene::Camera &camera, double stepMm);

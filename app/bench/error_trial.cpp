@@ -153,7 +153,7 @@ Verdict judge(const Trial &trial) {
                                               shading::shadingScale(trial.field.values.lattice()));
     const auto summaries = prepare::summarise(shaded, scene.shading.cue);
     auto plan = plan::planRender(scene, summaries, prepare::imagesOf(1, scene.shading));
-    plan::limitToOwnBand(plan, scene);
+    plan::adaptWidths(plan, scene);
     const auto engine = prepare::makeEngine(shaded, {}, plan);
     const auto image = engine->render(scene.camera, scene.image, scene.shading);
     const auto truth =

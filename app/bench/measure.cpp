@@ -35,7 +35,7 @@ std::vector<glm::dquat> randomViews(int count, unsigned seed) {
     return views;
 }
 
-ImageError compare(const std::vector<float> &image, const std::vector<double> &truth) {
+ImageError compare(std::span<const float> image, const std::vector<double> &truth) {
     double difference = 0.0, energy = 0.0, peak = 0.0, maximum = 0.0;
     for (std::size_t n = 0; n < truth.size(); ++n) {
         const double e = double(image[n]) - truth[n];
@@ -210,18 +210,18 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
     const classify::DensityField &field = subject.field;
     auto plan = plan::planRender(how.scene, plan::summarise(field));
     if (!how.fieldOfView)
-        plan::limitToOwnBand(plan, how.scene);
+        plan::adaptWidths(plan, how.scene);
     Row row = plannedRow(suite, name, field.values.lattice().size(), plan, how.scene, how.threads);
     const double start = millisecondsNow();
     const auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(field.values, plan.spectrum));
-    auto band = prepare::ownBand({spectrum}, plan);
+    auto widths = prepare::adaptiveWidths({spectrum}, plan);
     row.prepareMs = millisecondsNow() - start;
     if (how.transform)
         row.fft3dMs = transformMs(plan.spectrum);
     row.bytes = double(spectrum->bytes());
     render::CpuEngine engine(spectrum, how.fieldOfView.value_or(plan.fieldOfView), how.threads);
-    engine.setBand(std::move(band));
+    engine.setWidths(std::move(widths));
     fillTimes(row, engine, how.scene, how.views);
 
     ImageError worst{0.0, 0.0, 1e9};

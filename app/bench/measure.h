@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <span>
 #include <vector>
 
 #include "app/bench/report.h"
@@ -27,7 +28,7 @@ std::vector<glm::dquat> randomViews(int count, unsigned seed = 7);
 struct ImageError {
     double relativeL2 = 0.0, maximum = 0.0, psnrDb = 0.0;
 };
-ImageError compare(const std::vector<float> &image, const std::vector<double> &truth);
+ImageError compare(std::span<const float> image, const std::vector<double> &truth);
 
 /// The exact images of one field in the views at which errors are measured: two along axes and a
 /// few random ones. Computed on first use.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -114,7 +115,7 @@ double norm(const std::vector<double> &values) {
 struct Parts {
     double darkening = 0.0, ghosts = 0.0, level = 0.0;
 };
-Parts partsOf(const std::vector<float> &image, double level, const std::vector<double> &darkened,
+Parts partsOf(std::span<const float> image, double level, const std::vector<double> &darkened,
               const std::vector<double> &truth) {
     std::vector<double> missing, ghosts;
     for (std::size_t n = 0; n < truth.size(); ++n) {

@@ -34,12 +34,17 @@ json modelJson(const plan::FrameModel &model) {
 } // namespace
 
 json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
-              const plan::FrameFields &fields, const volume::Lattice &lattice) {
+              const plan::FrameFields &fields, const volume::Lattice &lattice,
+              std::span<const double> widthShares) {
     const fourier::SpectrumLayout &layout = plan.spectrum;
     const plan::SliceGrid grid =
         plan::sliceGrid(scene.camera, plan.fieldOfView, lattice, scene.image);
     const int w = layout.width();
-    return {{"model", modelJson(plan::modelFrame(plan, scene, fields, lattice))},
+    json shares = json::object();
+    for (std::size_t width = 0; width < widthShares.size(); ++width)
+        if (widthShares[width] > 0.0)
+            shares[std::to_string(width)] = widthShares[width];
+    return {{"model", modelJson(plan::modelFrame(plan, scene, fields, lattice, widthShares))},
             {"kernel", layout.kernels[0].name()},
             {"taps", w * w * w},
             {"padded", sizeJson(layout.padded)},
@@ -48,7 +53,8 @@ json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
             {"slice_grid", {grid.columns, grid.rows}},
             {"storage", fourier::storageName(layout.storage)},
             {"predicted_error", plan.predictedError},
-            {"own_band_error", plan.bandError},
+            {"adaptive_error", plan.adaptiveError},
+            {"kernel_widths", shares},
             {"reason", plan.reason.english()}};
 }
 

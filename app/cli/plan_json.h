@@ -10,10 +10,11 @@
 
 namespace pellucid::cli {
 
-/// The plan by which an engine renders a scene, and the model of its frame. `lattice`: of the
+/// The plan by which an engine renders a scene, and the model of its last frame. `lattice`: of the
 /// rendered fields.
 nlohmann::json planJson(const plan::RenderPlan &plan, const scene::Scene &scene,
-                        const plan::FrameFields &fields, const volume::Lattice &lattice);
+                        const plan::FrameFields &fields, const volume::Lattice &lattice,
+                        std::span<const double> widthShares);
 
 /// The same keys for the exact reference. `reason`: why it renders the images.
 nlohmann::json exactPlanJson(std::size_t images, std::size_t bytes, double predictedError,

@@ -236,7 +236,7 @@ private:
                             {"milliseconds", timesJson()},
                             {"bytes", m_renderer->bytes()},
                             {"card_bytes", m_renderer->cardBytes()},
-                            {"plan", m_renderer->planJson()},
+                            {"plan", m_renderer->planJson(m_times)},
                             {"tolerance", m_scene.tolerance},
                             {"predicted_error", errorJson()},
                             {"warnings", m_warnings},

@@ -193,14 +193,14 @@ std::string Renderer::description() const {
     return maker.description().english();
 }
 
-json Renderer::planJson() const {
+json Renderer::planJson(const picture::FrameTimes &last) const {
     if (isExact())
         return exactPlanJson(m_channels, m_bytes, m_predictedError, whyExact);
     const auto fields = int(m_fields.channels.size());
     return cli::planJson(m_fitting.plan, m_scene,
                          {fields, fields > 1 ? plan::SpectrumOf::channel : plan::SpectrumOf::look,
                           !m_fields.isGrey()},
-                         m_lattice);
+                         m_lattice, last.widthShares);
 }
 
 std::optional<double> Renderer::predictedMaximum() const {

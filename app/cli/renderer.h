@@ -51,7 +51,8 @@ public:
 
     /// Describes the engine that makes the images, one line.
     std::string description() const;
-    nlohmann::json planJson() const;
+    /// `last`: the times of the last image.
+    nlohmann::json planJson(const picture::FrameTimes &last) const;
     std::size_t channelCount() const { return m_channels; }
     std::size_t bytes() const { return m_bytes; }
     bool isReduced() const { return m_fitting.reduction > 1; }

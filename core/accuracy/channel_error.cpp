@@ -23,7 +23,7 @@ namespace {
 // 1304, 1401 to 1403, 1501, 1701), which can therefore no longer test them. Those of coarse pixels
 // and points were also fitted to counterexamples.
 constexpr double coherentMargin = 2.7, ///< aliases, block by block
-    bandMargin = 3.0,                  ///< of a part, for frequencies that are not read
+    narrowMargin = 3.0,                ///< of a part, for narrower kernels
     detailMargin = 2.4,                ///< aliases of detail finer than the blocks
     coarsePixelMargin = 2.5,           ///< aliases in pixels larger than the blocks
     restMargin = 1.1,                  ///< rounding of cells other than the central ones
@@ -73,7 +73,7 @@ public:
         const Rounding rounding = roundingErrors(whole);
         energies.error = coherentAliases() + detailMargin * detailAliases(outside) + rounding.few +
                          rounding.others + centralMargin * m_centralError +
-                         foldedTails(outside, whole) + momentError(whole) + beyondBand(whole) +
+                         foldedTails(outside, whole) + momentError(whole) + narrowing(whole) +
                          std::pow(unseenShare * bound, 2) * m_imageEnergy;
         return energies;
     }
@@ -286,9 +286,9 @@ private:
     }
 
     // Frequencies that are not read. Their energy is where the field's is, as that of other detail.
-    double beyondBand(double whole) const {
-        return m_context.left * m_context.left * whole *
-               std::min(1.0, bandMargin * m_blocks.inPicture / m_blocks.all);
+    double narrowing(double whole) const {
+        return m_context.narrowing * m_context.narrowing * whole *
+               std::min(1.0, narrowMargin * m_blocks.inPicture / m_blocks.all);
     }
 
     // A linear cue has its own kernels for depth, and these have their own error: the energy

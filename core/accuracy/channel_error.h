@@ -17,7 +17,7 @@ struct PictureContext {
     const shading::Shading &shading;
     plan::SliceGrid grid;
     CentralEnergies central; ///< of the picture
-    double left = 0.0;       ///< beyond the own band, at most, relative L2
+    double narrowing = 0.0;  ///< the error of narrower kernels, at most, relative L2
 };
 
 /// The weights of a field's mass and energy in a channel.

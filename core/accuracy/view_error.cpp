@@ -9,6 +9,7 @@
 
 #include "core/accuracy/central_rounding.h"
 #include "core/accuracy/channel_error.h"
+#include "core/render/frame_inputs.h"
 #include "core/shading/slice_shading.h"
 
 namespace pellucid::accuracy {
@@ -66,13 +67,17 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     // Without light the weights do not depend on R and the step.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
     const plan::SliceGrid grid = plan::sliceGrid(camera, m_fieldOfView, m_fields.lattice, image);
-    const bool hasBand = engine.band && slices.isPlain();
-    const double left =
-        hasBand ? engine.band->reach(camera.axes(), channelWeights, 0.5 / camera.pixelMm).left
-                : 0.0;
+    double narrowing = 0.0;
+    if (engine.widths && slices.isPlain()) {
+        const render::FrameGeometry geometry(camera, grid, *engine.spectra.fields.front());
+        narrowing = engine.widths
+                        ->mapFor(camera.axes(), render::slicePlane(camera, grid, geometry),
+                                 channelWeights)
+                        .left;
+    }
     const PictureContext context{picture, camera, image,
                                  shading, grid,   centralEnergies(engine, camera, grid, shading),
-                                 left};
+                                 narrowing};
     double energy = 0.0, error = 0.0;
     bool isWhole = true, hasOneFieldEach = true; // the plan's bound holds for these only
     for (int channel = 0; channel < picture.channels; ++channel) {

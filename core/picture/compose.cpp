@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace pellucid::picture {
 
 namespace {
 
 // The brightest channel of each pixel.
-std::vector<float> brightness(const ProjectionImage &image) {
+Samples brightness(const ProjectionImage &image) {
     if (image.channels == 1)
         return image.samples;
-    std::vector<float> most(image.samples.size() / std::size_t(image.channels));
+    Samples most(image.samples.size() / std::size_t(image.channels));
     for (std::size_t n = 0; n < most.size(); ++n) {
         const float *const pixel = image.samples.data() + n * std::size_t(image.channels);
         most[n] = *std::max_element(pixel, pixel + image.channels);
@@ -20,7 +21,7 @@ std::vector<float> brightness(const ProjectionImage &image) {
     return most;
 }
 
-ToneRange rangeOf(const std::vector<float> &pixels, const scene::Tone &tone) {
+ToneRange rangeOf(std::span<const float> pixels, const scene::Tone &tone) {
     ToneRange range{tone.low.value_or(0.0), tone.high.value_or(0.0)};
     if (!tone.high) {
         // Pixels outside the patient are no measure of the patient's brightness.
@@ -49,7 +50,7 @@ ToneRange toneRange(const ProjectionImage &image, const scene::Tone &tone) {
 }
 
 std::vector<std::uint8_t> compose(const ProjectionImage &image, const scene::Tone &tone) {
-    const std::vector<float> pixels = brightness(image);
+    const Samples pixels = brightness(image);
     const ToneRange range = rangeOf(pixels, tone);
     const auto low = float(range.low), scale = float(1.0 / (range.high - range.low));
     const float lift = std::min(0.0F, low);

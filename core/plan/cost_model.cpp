@@ -20,6 +20,10 @@ constexpr double cellTime = 0.25;
 
 } // namespace
 
+double readTime(int width) {
+    return sampleTime[std::size_t(width)];
+}
+
 double timeInCache(int width, fourier::Storage storage) {
     return transformTime + sampleTime[std::size_t(width)] *
                                (storage == fourier::Storage::float32 ? floatCells : 1.0);

@@ -6,6 +6,8 @@
 
 namespace pellucid::plan {
 
+/// The time to read a frequency sample whose cells are in the cache. *Units*: as `frameTime`.
+double readTime(int width);
 /// The time of a frequency sample whose cells are in the cache: its taps and its share of the
 /// transforms. *Units*: as `frameTime`.
 double timeInCache(int width, fourier::Storage storage);

@@ -9,7 +9,7 @@
 namespace pellucid::plan {
 
 FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const FrameFields &fields,
-                      const volume::Lattice &lattice) {
+                      const volume::Lattice &lattice, std::span<const double> widthShares) {
     const shading::Shading &shading = scene.shading;
     const fourier::SpectrumLayout &layout = plan.spectrum;
     const SliceGrid grid = sliceGrid(scene.camera, plan.fieldOfView, lattice, scene.image);
@@ -30,11 +30,16 @@ FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const F
     model.combination = hasChannels        ? Combination::channels
                         : fields.isColored ? Combination::tinted
                                            : Combination::one;
-    // Half of a disc; each tap is a real weight times a complex cell. A linear cue weights the same
-    // cells a second time.
+    double taps = 0.0;
+    for (std::size_t width = 0; width < widthShares.size(); ++width)
+        taps += widthShares[width] * std::pow(double(width), 3.0);
+    if (taps == 0.0)
+        taps = std::pow(layout.width(), 3.0);
+    // A linear cue weights the same cells a second time.
+    taps *= slices.slope != 0.0 ? 2.0 : 1.0;
+    // Half of a disc; each tap is a real weight times a complex cell.
     const double frequencies = double(grid.columns) * grid.rows,
-                 sampled = std::numbers::pi / 8.0 * frequencies,
-                 taps = std::pow(layout.width(), 3.0) * (slices.slope != 0.0 ? 2.0 : 1.0);
+                 sampled = std::numbers::pi / 8.0 * frequencies;
     model.multiplyAdds = 2.0 * model.slices * sampled * taps;
     model.transformOperations = 2.5 * model.images * frequencies * std::log2(frequencies);
     model.spectrumBytes = std::size_t(spectra) * layout.bytes();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,9 +60,10 @@ struct FrameModel {
     std::vector<LeftOut> leftOut;
 };
 
-/// The frame for the scene's camera. *Shape*: the volume's lattice.
+/// The frame for the scene's camera. `widthShares`: those of a frame that was made, see
+/// `picture::FrameTimes`; without them one width reads everything. *Shape*: the volume's lattice.
 FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const FrameFields &fields,
-                      const volume::Lattice &lattice);
+                      const volume::Lattice &lattice, std::span<const double> widthShares = {});
 
 /// One line each, for scripts and for the user.
 std::string spectrumText(SpectrumOf what); ///< what it represents

@@ -326,14 +326,14 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
     return Planner(scene, fields, channels, budget).plan();
 }
 
-void limitToOwnBand(RenderPlan &plan, const scene::Scene &scene) {
+void adaptWidths(RenderPlan &plan, const scene::Scene &scene) {
     // Little left would save little.
     constexpr double margin = 0.95, leastShare = 0.1;
     const double tolerance = scene.tolerance, error = plan.predictedError;
     const double left = margin * std::sqrt(std::max(0.0, tolerance * tolerance - error * error));
-    if (scene.interpolation.isUniform || !scene.shading.isPlain() || left < leastShare * tolerance)
+    if (scene.interpolation.isUniform || !scene.shading.isPlain() || plan.spectrum.width() < 2 || left < leastShare * tolerance)
         return;
-    plan.bandError = left;
+    plan.adaptiveError = left;
     plan.image = scene.image;
     plan.predictedError = std::hypot(error, left);
 }

@@ -36,10 +36,10 @@ struct RenderPlan {
     std::size_t bytes = 0;
     /// Why this plan was chosen: one line for the user.
     task::Reason reason = task::because::mostAccurate;
-    /// The part of `predictedError` that plain frames may leave out beyond the own band, see
-    /// OwnBand; 0: they read every frequency.
-    double bandError = 0.0;
-    scene::ImageDefinition image; ///< of which the own band is
+    /// The part of `predictedError` that plain frames may make by narrower kernels, see
+    /// AdaptiveWidths; 0: one kernel reads every frequency.
+    double adaptiveError = 0.0;
+    scene::ImageDefinition image; ///< for which that is
 };
 
 /// The cheapest choice of kernel, padding of each axis, storage and slice grid whose predicted
@@ -55,8 +55,8 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
                       const Budget &budget = {});
 
-/// Spends what a plan leaves of the tolerance on frequencies that need not be read, if the scene
-/// has neither cue nor light.
-void limitToOwnBand(RenderPlan &plan, const scene::Scene &scene);
+/// Spends what a plan leaves of the tolerance on narrower kernels, if the scene has neither cue nor
+/// light.
+void adaptWidths(RenderPlan &plan, const scene::Scene &scene);
 
 } // namespace pellucid::plan

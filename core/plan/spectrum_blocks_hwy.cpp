@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 // foreach_target comes first.
 #include <algorithm>
+#include <cmath>
 #include <hwy/highway.h>
 
 #include "core/plan/spectrum_blocks.h"
@@ -17,14 +18,25 @@ using Tag = hn::CappedTag<float, 16>;
 constexpr int side = fourier::CellLayout::planesTogether;
 constexpr std::size_t floatsPerLine = 2 * fourier::CellLayout::columnCells;
 
-// The largest sum of |F|^2 over 2 x 2 x 2 cells of a block.
+// The largest sum of |F|^2 over 2 x 2 x 2 cells of a block, and the brightest of these cells.
+struct Brightest {
+    float sum = 0.0F;
+    int x = 0, y = 0, z = 0;
+};
+
+template <class Cell> float energyOf(const Cell *cell) {
+    const hn::FixedTag<float, 2> pair;
+    const auto value = loadCells(pair, cell);
+    return hn::GetLane(hn::SumOfLanes(pair, hn::Mul(value, value)));
+}
+
 template <class Cell>
-float largestSum(const Cell *cells, const fourier::CellLayout &layout, int column, int plane,
-                 int row, int rows, int step) {
+Brightest brightestCells(const Cell *cells, const fourier::CellLayout &layout, int column,
+                         int plane, int row, int rows, int step) {
     const Tag d;
     constexpr std::size_t lanes = hn::MaxLanes(Tag());
     HWY_ALIGN float sums[floatsPerLine];
-    float largest = 0.0F;
+    Brightest brightest{0.0F, column * step, row, plane * side};
     for (int y = 0; y + 1 < rows; y += 2)
         for (int z = 0; z < side; z += 2) {
             for (std::size_t at = 0; at < floatsPerLine; at += lanes) {
@@ -38,80 +50,194 @@ float largestSum(const Cell *cells, const fourier::CellLayout &layout, int colum
                 }
                 hn::Store(sum, d, sums + at);
             }
-            for (int x = 0; x + 1 < step; x += 2)
-                largest = std::max(largest, (sums[2 * x] + sums[2 * x + 1]) +
-                                                (sums[2 * x + 2] + sums[2 * x + 3]));
+            for (int x = 0; x + 1 < step; x += 2) {
+                const float sum =
+                    (sums[2 * x] + sums[2 * x + 1]) + (sums[2 * x + 2] + sums[2 * x + 3]);
+                if (sum > brightest.sum)
+                    brightest = {sum, column * step + x, row + y, plane * side + z};
+            }
         }
-    return largest;
+    const Brightest first = brightest;
+    float most = 0.0F;
+    for (int n = 0; n < 8; ++n) {
+        const int x = n % 2, y = n / 2 % 2, z = n / 4;
+        if (first.y + y >= row + rows)
+            continue;
+        const std::size_t line = layout.line(column, first.z + z, first.y + y);
+        const float energy = energyOf(cells + line * fourier::CellLayout::columnCells +
+                                      std::size_t(first.x - column * step + x));
+        if (energy > most) {
+            most = energy;
+            brightest = {first.sum, first.x + x, first.y + y, first.z + z};
+        }
+    }
+    return brightest;
+}
+
+// The squared errors of the widths at a point, by entry. *Shape*: x, y and z are indices of the
+// first tap, from the first cell.
+template <class Cell>
+void errorsAt(const Cell *cells, const fourier::CellLayout &layout, int widest, int x, int y, int z,
+              const SpectrumBlocks::PointWeights &weights, float *errors) {
+    using Entries = hn::CappedTag<float, SpectrumBlocks::PointWeights::entries>;
+    const Entries e;
+    const Tag d;
+    constexpr std::size_t lanes = hn::MaxLanes(Entries()), perLine = hn::MaxLanes(Tag());
+    constexpr std::size_t vectors = SpectrumBlocks::PointWeights::entries / lanes;
+    const int columns = (layout.columns - 1) * layout.step + fourier::CellLayout::columnCells;
+    x = std::clamp(x, 0, columns - widest);
+    y = std::clamp(y, 0, layout.rows - widest);
+    z = std::clamp(z, 0, layout.planes - widest);
+    const int column = std::min(x / layout.step, layout.columns - 1);
+    const std::size_t inLine = std::size_t(x - column * layout.step);
+    HWY_ALIGN float line[floatsPerLine];
+    HWY_ALIGN float sums[2][SpectrumBlocks::PointWeights::entries];
+    for (std::size_t v = 0; v < vectors; ++v) {
+        auto re = hn::Zero(e), im = re;
+        for (int k = 0; k < widest; ++k)
+            for (int j = 0; j < widest; ++j) {
+                const Cell *const from =
+                    cells + layout.line(column, z + k, y + j) * fourier::CellLayout::columnCells;
+                for (std::size_t at = 0; at < floatsPerLine; at += perLine)
+                    hn::Store(loadCells(d, from + at / 2), d, line + at);
+                auto rowRe = hn::Zero(e), rowIm = rowRe;
+                for (std::size_t i = 0; i < std::size_t(widest); ++i) {
+                    const auto weight = hn::Load(e, weights.axis[0][i].data() + v * lanes);
+                    rowRe = hn::MulAdd(weight, hn::Set(e, line[2 * (inLine + i)]), rowRe);
+                    rowIm = hn::MulAdd(weight, hn::Set(e, line[2 * (inLine + i) + 1]), rowIm);
+                }
+                const auto weight =
+                    hn::Mul(hn::Load(e, weights.axis[1][std::size_t(j)].data() + v * lanes),
+                            hn::Load(e, weights.axis[2][std::size_t(k)].data() + v * lanes));
+                re = hn::MulAdd(weight, rowRe, re);
+                im = hn::MulAdd(weight, rowIm, im);
+            }
+        hn::Store(re, e, sums[0] + v * lanes);
+        hn::Store(im, e, sums[1] + v * lanes);
+    }
+    const auto own = std::size_t(SpectrumBlocks::entryOf(widest));
+    for (std::size_t n = 0; n < SpectrumBlocks::PointWeights::entries; ++n)
+        errors[n] = (sums[0][n] - sums[0][own]) * (sums[0][n] - sums[0][own]) +
+                    (sums[1][n] - sums[1][own]) * (sums[1][n] - sums[1][own]);
+}
+
+// Errors by entry at a block's brightest cells, and elsewhere in the block.
+template <class Cell>
+void measureBlock(const Cell *cells, const fourier::CellLayout &layout, const Brightest &brightest,
+                  int column, int plane, int row, float scale, const SpectrumBlocks &blocks,
+                  float *entries) {
+    constexpr std::size_t count = SpectrumBlocks::PointWeights::entries;
+    constexpr std::size_t elsewhere = 3;
+    const int widest = blocks.widest, before = widest / 2;
+    float found[count], most[count] = {}, sums[count] = {};
+    for (std::size_t n = 0; n < SpectrumBlocks::pointsInPhase; ++n) {
+        errorsAt(cells, layout, widest, brightest.x - before, brightest.y - before,
+                 brightest.z - before, blocks.points[n], found);
+        for (std::size_t w = 0; w < count; ++w)
+            most[w] = std::max(most[w], 0.5F * found[w]);
+    }
+    // Any places will do that neighbouring blocks do not share.
+    auto seed = std::uint32_t((column * 2654435761U) ^ (plane * 2246822519U) ^ (row * 3266489917U));
+    for (std::size_t n = 0; n < elsewhere; ++n) {
+        seed = seed * 1664525U + 1013904223U;
+        const int x = int((seed >> 8) % std::uint32_t(blocks.step)), y = int((seed >> 20) % side),
+                  z = int((seed >> 26) % side);
+        const std::size_t point =
+            SpectrumBlocks::pointsInPhase +
+            (seed >> 12) % (SpectrumBlocks::pointCount - SpectrumBlocks::pointsInPhase);
+        errorsAt(cells, layout, widest, column * blocks.step + x, row + y, plane * side + z,
+                 blocks.points[point], found);
+        for (std::size_t w = 0; w < count; ++w)
+            sums[w] += found[w] / float(elsewhere);
+    }
+    for (std::size_t w = 0; w < std::size_t(blocks.entries); ++w)
+        entries[w] = scale * std::max(most[w], sums[w]);
 }
 
 template <class Cell>
-void measureWith(const fourier::Spectrum &spectrum, int column, int plane, SpectrumBlocks &blocks) {
+void measureWith(const fourier::Spectrum &spectrum, int column, int plane, float dark,
+                 SpectrumBlocks &blocks) {
     const fourier::CellLayout &layout = spectrum.cellLayout();
     const auto *const cells = reinterpret_cast<const Cell *>(spectrum.cells());
-    // Half the mean of eight cells, see SpectrumEnergies.
-    const auto scale = float(spectrum.unit() * spectrum.unit() / 16.0);
+    const auto scale = float(spectrum.unit() * spectrum.unit());
     for (int block = 0; block < blocks.rows; ++block) {
         const int row = side * block, rows = std::min(side, layout.rows - row);
-        blocks.energy[(std::size_t(plane) * blocks.rows + block) * blocks.columns + column] =
-            scale * largestSum(cells, layout, column, plane, row, rows, blocks.step);
+        const Brightest brightest =
+            brightestCells(cells, layout, column, plane, row, rows, blocks.step);
+        const std::size_t at =
+            (std::size_t(plane) * blocks.rows + block) * blocks.columns + std::size_t(column);
+        float *const entries = blocks.errors.data() + at * std::size_t(blocks.entries);
+        if (scale * brightest.sum <= dark)
+            std::fill_n(entries, blocks.entries, scale * brightest.sum);
+        else
+            measureBlock(cells, layout, brightest, column, plane, row, scale, blocks, entries);
     }
 }
 
-void measure(const fourier::Spectrum &spectrum, int column, int plane, SpectrumBlocks &blocks) {
+void measure(const fourier::Spectrum &spectrum, int column, int plane, float dark,
+             SpectrumBlocks &blocks) {
     if (spectrum.layout().storage == fourier::Storage::binary16)
-        measureWith<Half>(spectrum, column, plane, blocks);
+        measureWith<Half>(spectrum, column, plane, dark, blocks);
     else
-        measureWith<std::complex<float>>(spectrum, column, plane, blocks);
+        measureWith<std::complex<float>>(spectrum, column, plane, dark, blocks);
 }
 
-void walk(const PlaneWalk &w, int v, float *rings) {
+// The compiler is told not to fuse multiplications and additions in this file; vectors of any
+// length then compute the same.
+void addPoints(const PointSum &sum, float *errors) {
     const Tag d;
     const hn::RebindToSigned<Tag> di;
-    const std::size_t lanes = hn::Lanes(d);
-    const SpectrumBlocks &b = *w.blocks;
-    const float y = float(v) + 0.25F; // no point at frequency 0
+    const SpectrumBlocks &blocks = *sum.blocks;
+    const std::int32_t counts[3] = {blocks.columns, blocks.rows, blocks.planes};
+    const float sizes[3] = {float(blocks.step), float(side), float(side)};
     const auto half = hn::Set(d, 0.5F);
-    HWY_ALIGN float energies[16];
-    HWY_ALIGN std::int32_t ringOf[16];
-    // Row 0 is its own mirror image.
-    for (int u = v == 0 ? 0 : -w.countU; u <= w.countU; u += int(lanes)) {
-        const auto x = hn::Iota(d, float(u) + 0.25F);
-        const auto along = hn::Mul(x, hn::Set(d, w.stepU));
-        const auto radius =
-            hn::Sqrt(hn::MulAdd(along, along, hn::Set(d, y * w.stepV * y * w.stepV)));
-        hn::Store(hn::ConvertTo(di, radius), di, ringOf);
+    HWY_ALIGN float factors[16];
+    HWY_ALIGN std::int32_t indices[16];
+    const hn::CappedTag<float, 4> four;
+    constexpr std::size_t lanesOfFour = hn::MaxLanes(hn::CappedTag<float, 4>());
+    const auto entries = std::size_t(blocks.entries);
+    HWY_ALIGN float sums[SpectrumBlocks::PointWeights::entries] = {};
+    for (std::size_t from = 0; from < sum.count; from += hn::Lanes(d)) {
         auto factor = hn::Set(d, 1.0F);
         hn::Vec<Tag> cell[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto at = hn::MulAdd(x, hn::Set(d, w.perU[axis]), hn::Set(d, y * w.perV[axis]));
-            const auto cycles = hn::Mul(at, hn::Set(d, 1.0F / w.padded[axis]));
+            const auto padded = hn::Set(d, sum.padded[axis]);
+            const auto at =
+                hn::Add(hn::LoadU(d, sum.cells[axis] + from), hn::Set(d, sum.first[axis]));
+            const auto cycles = hn::Mul(at, hn::Set(d, 1.0F / sum.padded[axis]));
+            const auto least =
+                hn::Max(hn::Zero(d), hn::Sub(hn::Abs(cycles), hn::Set(d, sum.reach[axis])));
             const auto entry =
-                hn::Min(hn::Set(di, w.lastFactor),
-                        hn::NearestInt(hn::Mul(hn::Abs(cycles), hn::Set(d, w.factorsPerCycle))));
-            factor = hn::Mul(factor, hn::GatherIndex(d, w.factors, entry));
-            cell[axis] = hn::NegMulAdd(hn::Round(cycles), hn::Set(d, w.padded[axis]), at);
+                hn::Min(hn::Set(di, sum.lastFactor),
+                        hn::ConvertTo(di, hn::Mul(least, hn::Set(d, sum.factorsPerCycle))));
+            factor = hn::Mul(factor, hn::GatherIndex(d, sum.factors, entry));
+            cell[axis] = hn::Sub(at, hn::Mul(hn::Round(cycles), padded));
         }
         // The half with negative x mirrors the other.
         const auto mirrored = hn::Lt(cell[0], hn::Zero(d));
         auto index = hn::Zero(di);
-        const std::int32_t counts[3] = {b.columns, b.rows, b.planes};
-        for (int axis = 2; axis >= 0; --axis) {
+        for (std::size_t axis = 3; axis-- > 0;) {
             const auto at = hn::IfThenElse(mirrored, hn::Neg(cell[axis]), cell[axis]);
-            const float size = axis == 0 ? float(b.step) : float(side);
             const auto block = hn::ConvertTo(
-                di, hn::Mul(hn::Add(hn::Sub(at, hn::Set(d, b.firstCell[std::size_t(axis)])), half),
-                            hn::Set(d, 1.0F / size)));
+                di, hn::Mul(hn::Add(hn::Sub(at, hn::Set(d, blocks.firstCell[axis])), half),
+                            hn::Set(d, 1.0F / sizes[axis])));
             const auto inside =
                 hn::Min(hn::Set(di, counts[axis] - 1), hn::Max(hn::Zero(di), block));
             index = hn::Add(hn::Mul(index, hn::Set(di, counts[axis])), inside);
         }
-        hn::Store(hn::Mul(factor, hn::GatherIndex(d, b.energy.data(), index)), d, energies);
-        const std::size_t count = std::min<std::size_t>(lanes, std::size_t(w.countU - u + 1));
-        for (std::size_t n = 0; n < count; ++n)
-            if (ringOf[n] < w.rings)
-                rings[ringOf[n]] += energies[n];
+        hn::Store(factor, d, factors);
+        hn::Store(index, di, indices);
+        const std::size_t count = std::min(hn::Lanes(d), sum.count - from);
+        for (std::size_t n = 0; n < count; ++n) {
+            const float *const of = blocks.errors.data() + std::size_t(indices[n]) * entries;
+            const auto weight = hn::Set(four, factors[n]);
+            for (std::size_t e = 0; e < entries; e += lanesOfFour)
+                hn::Store(hn::Add(hn::Load(four, sums + e), hn::Mul(weight, hn::LoadU(four, of + e))),
+                          four, sums + e);
+        }
     }
+    for (std::size_t e = 0; e < entries; ++e)
+        errors[e] += sums[e];
 }
 
 } // namespace pellucid::plan::HWY_NAMESPACE
@@ -121,9 +247,33 @@ HWY_AFTER_NAMESPACE();
 namespace pellucid::plan {
 
 HWY_EXPORT(measure);
-HWY_EXPORT(walk);
+HWY_EXPORT(addPoints);
 
-SpectrumBlocks::SpectrumBlocks(const fourier::Spectrum &spectrum) {
+namespace {
+
+// The weights at an offset c of the widest kernel's taps, by axis.
+SpectrumBlocks::PointWeights weightsAt(const fourier::KernelsByWidth &kernels,
+                                       const std::array<double, 3> &c) {
+    SpectrumBlocks::PointWeights weights{};
+    const int widest = kernels.widest();
+    for (std::size_t d = 0; d < 3; ++d)
+        for (int width = fourier::KernelsByWidth::narrowest; width <= widest; ++width) {
+            const fourier::Kernel &kernel = kernels.of(width)[d];
+            const double at = 0.5 * (widest - 1) - c[d]; // from the first tap of the widest
+            const int first = int(std::ceil(at - 0.5 * width));
+            for (int k = 0; k < width; ++k)
+                weights.axis[d][std::size_t(first + k)]
+                            [std::size_t(SpectrumBlocks::entryOf(width))] =
+                    float(kernel.value(first + k - at));
+        }
+    return weights;
+}
+
+} // namespace
+
+SpectrumBlocks::SpectrumBlocks(const fourier::Spectrum &spectrum,
+                               const fourier::KernelsByWidth &kernels)
+    : widest(kernels.widest()), entries(widest <= 5 ? 4 : 8) {
     const fourier::CellLayout &layout = spectrum.cellLayout();
     step = layout.step;
     columns = layout.columns;
@@ -131,16 +281,33 @@ SpectrumBlocks::SpectrumBlocks(const fourier::Spectrum &spectrum) {
            fourier::CellLayout::planesTogether;
     planes = layout.planes / fourier::CellLayout::planesTogether;
     firstCell = {float(layout.firstX), float(layout.firstY), float(layout.firstZ)};
-    energy.resize(std::size_t(columns) * rows * planes);
+    errors.resize(std::size_t(columns) * rows * planes * std::size_t(entries));
+    // On the grid, the first tap of an even width is on the edge of the kernel.
+    const double onGrid = widest % 2 == 0 ? -0.5 : 0.0, halfway = -0.5 - onGrid;
+    points[0] = weightsAt(kernels, {onGrid, onGrid, onGrid});
+    points[1] = weightsAt(kernels, {halfway, onGrid, onGrid});
+    points[2] = weightsAt(kernels, {onGrid, halfway, onGrid});
+    points[3] = weightsAt(kernels, {onGrid, onGrid, halfway});
+    points[4] = weightsAt(kernels, {halfway, halfway, halfway});
+    for (std::size_t n = pointsInPhase; n < pointCount; ++n) {
+        std::array<double, 3> c{};
+        // Additive recurrences fill the cell evenly.
+        for (std::size_t d = 0; d < 3; ++d) {
+            constexpr std::array<double, 3> steps{0.8191725, 0.6710436, 0.5497005};
+            const double turns = 0.25 + double(n) * steps[d];
+            c[d] = turns - std::floor(turns) - 0.5;
+        }
+        points[n] = weightsAt(kernels, c);
+    }
 }
 
-void measureBlocks(const fourier::Spectrum &spectrum, int column, int plane,
+void measureBlocks(const fourier::Spectrum &spectrum, int column, int plane, float dark,
                    SpectrumBlocks &blocks) {
-    HWY_DYNAMIC_DISPATCH(measure)(spectrum, column, plane, blocks);
+    HWY_DYNAMIC_DISPATCH(measure)(spectrum, column, plane, dark, blocks);
 }
 
-void walkRow(const PlaneWalk &w, int v, float *rings) {
-    HWY_DYNAMIC_DISPATCH(walk)(w, v, rings);
+void sumErrors(const PointSum &sum, float *errors) {
+    HWY_DYNAMIC_DISPATCH(addPoints)(sum, errors);
 }
 
 } // namespace pellucid::plan

@@ -168,7 +168,7 @@ picture::ProjectionImage LayerSet::render(const scene::Camera &camera,
         m_kept && m_kept->camera == camera && m_kept->image == image && m_kept->shading == shading;
     if (!sameView) {
         // While the view moves, kept projections would not be reused.
-        m_kept = Kept{camera, image, shading, std::vector<std::vector<float>>(count())};
+        m_kept = Kept{camera, image, shading, std::vector<picture::Samples>(count())};
         m_engine->setChannelWeights(channelWeights);
         return m_engine->render(camera, image, shading, times);
     }

@@ -72,7 +72,7 @@ private:
         scene::Camera camera;
         scene::ImageDefinition image;
         shading::Shading shading;
-        std::vector<std::vector<float>> projections;
+        std::vector<picture::Samples> projections;
     };
     std::optional<Kept> m_kept;
 };

@@ -48,7 +48,7 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                                                           (frame >> 20) + 1, budget.bytes >> 20));
     try {
         FittingPlan fitting{plan::planRender(scene, summaries, channels, budget), {}, 1};
-        plan::limitToOwnBand(fitting.plan, scene);
+        plan::adaptWidths(fitting.plan, scene);
         return fitting;
     } catch (const task::Error &error) {
         if (error.code() != task::ErrorCode::outOfMemory)
@@ -97,16 +97,19 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
     }
 }
 
-std::shared_ptr<const plan::OwnBand> ownBand(const render::EngineSpectra::Spectra &fields,
+std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra::Spectra &fields,
                                              const plan::RenderPlan &plan,
                                              const task::Progress &progress) {
-    if (plan.bandError == 0.0)
+    if (plan.adaptiveError == 0.0)
         return nullptr;
+    auto kernels = std::make_shared<const fourier::KernelsByWidth>(plan.spectrum);
     std::vector<std::shared_ptr<const plan::SpectrumEnergies>> energies;
     for (const auto &field : fields)
         energies.push_back(
-            std::make_shared<const plan::SpectrumEnergies>(*field, plan.image, progress));
-    return std::make_shared<const plan::OwnBand>(std::move(energies), plan.bandError);
+            std::make_shared<const plan::SpectrumEnergies>(*field, *kernels, plan.image,
+                                                           plan.adaptiveError, progress));
+    return std::make_shared<const plan::AdaptiveWidths>(std::move(kernels), std::move(energies),
+                                                        plan.adaptiveError);
 }
 
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
@@ -126,9 +129,9 @@ std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
         spectra.fields.push_back(prepare(field));
     for (const classify::DensityField &gradient : channels.gradients)
         spectra.gradients.push_back(prepare(gradient));
-    auto band = ownBand(spectra.fields, plan, progress);
+    auto widths = adaptiveWidths(spectra.fields, plan, progress);
     auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
-    engine->setBand(std::move(band));
+    engine->setWidths(std::move(widths));
     if (channels.fields.size() == 1)
         engine->setChannelWeights({{color.red, color.green, color.blue}});
     else

@@ -51,8 +51,9 @@ struct PreparedEngine {
     plan::SpectrumOf of = plan::SpectrumOf::look;
 };
 
-/// What plain frames of a plan need not read; null if they read everything. *Throws* Cancelled.
-std::shared_ptr<const plan::OwnBand> ownBand(const render::EngineSpectra::Spectra &fields,
+/// The widths that plain frames of a plan are read by; null if one width reads everything.
+/// *Throws* Error{outOfMemory}, Cancelled.
+std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra::Spectra &fields,
                                              const plan::RenderPlan &plan,
                                              const task::Progress &progress = {});
 

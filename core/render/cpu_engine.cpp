@@ -25,9 +25,9 @@ struct FrameBuffers {
     // Prepares for a frame.
     void fit(const FrameInputs &inputs, const scene::Camera &camera, double rollOffShare) {
         takeTables(inputs.grid, rollOffShare);
-        strips.assign(tables->strips.begin(), tables->strips.begin() + int(inputs.lastRows.size()));
-        for (std::size_t n = 0; n < strips.size(); ++n)
-            strips[n].outerRow = std::min(strips[n].outerRow, inputs.lastRows[n]);
+        strips = std::span(tables->strips);
+        if (inputs.widths)
+            strips = strips.first(std::size_t(inputs.widths->strips));
         const plan::SliceGrid need{std::max(allocated.columns, inputs.grid.columns),
                                    std::max(allocated.rows, inputs.grid.rows)};
         const int channels = inputs.mixing.channels;
@@ -120,7 +120,7 @@ struct FrameBuffers {
     int allocatedChannels = 0;
     std::shared_ptr<std::byte[]> columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> lines, stripMemory;
-    std::vector<StripBounds> strips;                              ///< of the frame
+    std::span<const StripBounds> strips; ///< of the tables, as many as the frame reads
     std::array<std::vector<float>, FrameJob::maxChannels> planes; ///< of color pictures
     std::vector<Complex> rowPhase;
 };
@@ -151,6 +151,10 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.cellsPerColumn = geometry.cellsPerColumn;
     job.cellsPerRow = geometry.cellsPerRow;
     job.edgeSlack = geometry.edgeSlack;
+    for (int width = fourier::KernelsByWidth::narrowest; inputs.kernels && width < spectrum.layout().width(); ++width)
+        job.kernels[std::size_t(width)] = inputs.kernels->of(width).data();
+    job.kernels[std::size_t(spectrum.layout().width())] = spectrum.layout().kernels.data();
+    job.widths = inputs.widths ? &*inputs.widths : nullptr;
     job.strips = buffers.strips.data();
     job.stripCount = int(buffers.strips.size());
     job.rollOff = tables.rollOff.data();
@@ -254,9 +258,9 @@ CpuEngine::CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView
 
 CpuEngine::~CpuEngine() = default;
 
-void CpuEngine::setBand(std::shared_ptr<const plan::OwnBand> band) {
-    m_parts.band = band;
-    m_buffers->setup.setBand(std::move(band));
+void CpuEngine::setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths) {
+    m_parts.widths = widths;
+    m_buffers->setup.setWidths(std::move(widths));
 }
 
 void CpuEngine::setChannelWeights(std::vector<ChannelWeights> channelWeights) {
@@ -292,6 +296,7 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
                               std::size_t(result.channels));
     });
     if (inputs.isEmpty()) {
+        std::fill(result.samples.begin(), result.samples.end(), 0.0F);
         if (times != nullptr)
             *times = {};
         return result;
@@ -301,8 +306,10 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
     FrameRun run(job, buffers.scratch, inputs.tint(),
                  inputs.mixing.grey ? nullptr : result.samples.data());
     run.runOn(buffers.team);
-    if (times != nullptr)
+    if (times != nullptr) {
         *times = run.timesSince(start);
+        times->widthShares = inputs.widthShares(camera, m_parts.spectra.fields.front()->layout());
+    }
     return result;
 }
 

@@ -34,10 +34,10 @@ public:
     CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads = 0);
     ~CpuEngine() override;
 
+    /// Reads plain frames by these widths; null: everything by the layout's own. *Requires*: no
+    /// concurrent frame.
+    void setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths);
     /// *Shape*: one entry per field.
-    /// Reads no more of plain frames than this allows; null: everything. *Requires*: no concurrent
-    /// frame.
-    void setBand(std::shared_ptr<const plan::OwnBand> band);
     void setChannelWeights(std::vector<ChannelWeights> channelWeights);
     std::size_t fieldCount() const { return m_parts.spectra.fields.size(); }
     /// Bytes of all spectra.

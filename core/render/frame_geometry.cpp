@@ -5,8 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/fourier/transforms/strip_transform.h"
-
 namespace pellucid::render {
 
 FrameGeometry::FrameGeometry(const scene::Camera &camera, const plan::SliceGrid &grid,
@@ -29,21 +27,6 @@ FrameGeometry::FrameGeometry(const scene::Camera &camera, const plan::SliceGrid 
     const double firstV = camera.panMm.y + 0.5 * (camera.height - 1) * camera.pixelMm;
     turnsPerColumn = du * (firstU - glm::dot(axes[0], toWrap));
     turnsPerRow = -dv * (firstV - glm::dot(axes[1], toWrap));
-}
-
-std::vector<int> lastRows(const plan::SliceGrid &grid, double radius) {
-    std::vector<int> rows;
-    // The Nyquist row and column are on the edge of the band, whose roll-off is 0.
-    int row = grid.rows / 2 - 1;
-    for (int column = 0; column < grid.columns / 2; column += fourier::stripLanes) {
-        const double u = 2.0 * column / grid.columns;
-        if (u >= radius)
-            break;
-        while (row > 0 && !(std::hypot(u, 2.0 * row / grid.rows) < radius))
-            --row;
-        rows.push_back(row);
-    }
-    return rows;
 }
 
 const plan::SliceGrid &FramedGrid::gridFor(const scene::Camera &camera,

@@ -35,10 +35,6 @@ struct FrameGeometry {
     glm::dvec3 toWrap{0.0}; ///< from the centre of rotation to the wrap voxel, mm
 };
 
-/// The last row of each strip of 16 columns within a disc around frequency 0, as wide as the first
-/// of its columns needs; strips beyond the disc have no entry. *Units*: `radius`: of the band's.
-std::vector<int> lastRows(const plan::SliceGrid &grid, double radius);
-
 /// Keeps the slice grid from one view to the next. A new grid is computed, in a fraction of a
 /// millisecond, only for a new framing, not for each direction.
 class FramedGrid {

@@ -19,8 +19,27 @@ double FrameInputs::unit() const {
     return geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
 }
 
+plan::WidthMap::Shares FrameInputs::widthShares(const scene::Camera &camera,
+                                                const fourier::SpectrumLayout &layout) const {
+    if (widths)
+        return widths->shares(slicePlane(camera, grid, geometry));
+    plan::WidthMap::Shares all{};
+    all[std::size_t(layout.width())] = 1.0;
+    return all;
+}
+
 ChannelWeights FrameInputs::tint() const {
     return !mixing.grey && mixing.channels == 1 ? mixing.color : ChannelWeights{1.0, 1.0, 1.0};
+}
+
+plan::SlicePlane slicePlane(const scene::Camera &camera, const plan::SliceGrid &grid,
+                            const FrameGeometry &geometry) {
+    return {grid.columns,
+            grid.rows,
+            geometry.cellsPerColumn,
+            geometry.cellsPerRow,
+            1.0 / (grid.columns * camera.pixelMm),
+            1.0 / (grid.rows * camera.pixelMm)};
 }
 
 FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
@@ -44,12 +63,12 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
             m_moments.emplace(momentKernels(spectrum.layout()));
         inputs.shading.kernels = &*m_moments;
     }
-    const double limitPerMm = 0.5 / camera.pixelMm;
     // Cue and light change what frequencies are worth.
-    const bool hasBand = m_band && !inputs.isShaded;
-    inputs.lastRows = lastRows(
-        inputs.grid,
-        hasBand ? m_band->reach(axes, channelWeights, limitPerMm).radiusPerMm / limitPerMm : 1.0);
+    if (m_widths && !inputs.isShaded) {
+        inputs.widths = m_widths->mapFor(axes, slicePlane(camera, inputs.grid, inputs.geometry),
+                                         channelWeights);
+        inputs.kernels = m_widths->kernels();
+    }
     inputs.zero = zeroSums(inputs.mixing, inputs.shading, spectrum.layout());
     return inputs;
 }

@@ -18,29 +18,37 @@ struct FrameInputs {
     FrameShading shading;
     bool isShaded = false; ///< whether cue or light change the slice
     ZeroSums zero{};       ///< of the sums, at frequency 0
-    /// The last row that is read of each strip of 16 columns; strips beyond them are not read.
-    std::vector<int> lastRows;
+    /// The widths that the slice is read by, and their kernels. Not set: the layout's own reads it.
+    std::optional<plan::WidthMap> widths;
+    std::shared_ptr<const fourier::KernelsByWidth> kernels;
 
     /// Whether nothing is shown, so that the picture is zero.
     bool isEmpty() const { return mixing.sources.empty(); }
     /// 1 for a grey picture, else 3.
     int pictureChannels() const { return mixing.grey ? 1 : 3; }
+    /// See `picture::FrameTimes`.
+    plan::WidthMap::Shares widthShares(const scene::Camera &camera,
+                                       const fourier::SpectrumLayout &layout) const;
     /// The factor of the sums. A single grey image also has its channel weight in it.
     double unit() const;
     /// The color of the single image of a color picture; three images already have theirs.
     ChannelWeights tint() const;
 };
 
+/// The plane of a slice as `plan::AdaptiveWidths` sees it.
+plan::SlicePlane slicePlane(const scene::Camera &camera, const plan::SliceGrid &grid,
+                            const FrameGeometry &geometry);
+
 /// Computes the inputs of frames, and keeps what successive views share: the slice grid of a
 /// framing, and the moment kernels. *Shape*: for spectra of one layout. Not thread-safe.
 class FrameSetup {
 public:
     explicit FrameSetup(plan::FieldOfView fieldOfView,
-                        std::shared_ptr<const plan::OwnBand> band = nullptr)
-        : m_fieldOfView(std::move(fieldOfView)), m_band(std::move(band)) {}
+                        std::shared_ptr<const plan::AdaptiveWidths> widths = nullptr)
+        : m_fieldOfView(std::move(fieldOfView)), m_widths(std::move(widths)) {}
 
-    void setBand(std::shared_ptr<const plan::OwnBand> band) { m_band = std::move(band); }
-    const std::shared_ptr<const plan::OwnBand> &band() const { return m_band; }
+    void setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths) { m_widths = std::move(widths); }
+    const std::shared_ptr<const plan::AdaptiveWidths> &widths() const { return m_widths; }
     const plan::FieldOfView &fieldOfView() const { return m_fieldOfView; }
     /// Lights are off if there are no spectra of gradients. The moment kernels that the shading
     /// refers to live as long as this object. *Shape*: `channelWeights` has one entry per field.
@@ -52,7 +60,7 @@ public:
 
 private:
     plan::FieldOfView m_fieldOfView;
-    std::shared_ptr<const plan::OwnBand> m_band;
+    std::shared_ptr<const plan::AdaptiveWidths> m_widths;
     FramedGrid m_framed;
     std::optional<MomentKernels>
         m_moments; // made for the first frame with a linear cue, in milliseconds

@@ -9,6 +9,7 @@
 #include "core/fourier/kernels/moment_kernel.h"
 #include "core/fourier/spectrum.h"
 #include "core/fourier/transforms/strip_transform.h"
+#include "core/plan/adaptive_widths.h"
 #include "core/scene/image_definition.h"
 #include "core/shading/shading.h"
 
@@ -110,6 +111,9 @@ struct FrameJob {
     /// Grid cells of the spectrum per column and per row of the slice, by axis.
     std::array<double, 3> cellsPerColumn{}, cellsPerRow{};
     std::array<float, 3> edgeSlack{}; ///< see FrameGeometry
+    /// By width: the kernels of the three axes, or null.
+    std::array<const fourier::Kernel *, fourier::Kernel::largestWidth + 1> kernels{};
+    const plan::WidthMap *widths = nullptr; ///< null: the layout's own width reads everything
     const StripBounds *strips = nullptr;
     int stripCount = 0;
     const float *rollOff = nullptr;

@@ -23,12 +23,18 @@ using fourier::StripTransform;
 #include "core/fourier/transforms/transpose_hwy.inc"
 #include "core/render/frame_sums_hwy.inc"
 #include "core/render/frame_weights_hwy.inc"
+
+// Rows of a strip that one width reads.
+struct Rows {
+    int first = 0, last = -1, width = 0;
+};
+
 // Included after the two files that it uses.
 #include "core/render/frame_shading_hwy.inc"
 
-// A strip of the slice of one spectrum without cue and light, as in most frames.
+// Rows of a strip of the slice of one spectrum without cue and light, as in most frames.
 template <int W, class Cell>
-void interpolatePlain(const FrameJob &job, int strip, FrameScratch &scratch) {
+void interpolatePlain(const FrameJob &job, int strip, const Rows &rows, FrameScratch &scratch) {
     const StripBounds &bounds = job.strips[strip];
     const int column = strip * stripLanes;
     const auto *const cells = reinterpret_cast<const Cell *>(job.sources[0].cells);
@@ -42,7 +48,7 @@ void interpolatePlain(const FrameJob &job, int strip, FrameScratch &scratch) {
             ring < 0 ? nullptr : job.rollOff + bounds.rollOff + std::size_t(ring) * stripLanes,
             batchOf(row));
     };
-    const int first = -bounds.outerRow, last = bounds.outerRow;
+    const int first = rows.first, last = rows.last;
     for (int row = first; row < first + batchesAhead && row <= last; ++row) {
         prepare(row);
         prefetchPart<W>(batchOf(row), cells, 0, 1);
@@ -63,33 +69,64 @@ void interpolatePlain(const FrameJob &job, int strip, FrameScratch &scratch) {
 }
 
 template <int W, class Cell>
-void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
+void interpolateRows(const FrameJob &job, int strip, const Rows &rows, FrameScratch &scratch) {
     if (job.shading != nullptr && job.shading->cued)
-        interpolateMixed<W, true, true, Cell>(job, strip, scratch);
+        interpolateMixed<W, true, true, Cell>(job, strip, rows, scratch);
     else if (job.shading != nullptr)
-        interpolateMixed<W, true, false, Cell>(job, strip, scratch);
+        interpolateMixed<W, true, false, Cell>(job, strip, rows, scratch);
     else if (job.sourceCount > 1)
-        interpolateMixed<W, false, false, Cell>(job, strip, scratch);
+        interpolateMixed<W, false, false, Cell>(job, strip, rows, scratch);
     else
-        interpolatePlain<W, Cell>(job, strip, scratch);
+        interpolatePlain<W, Cell>(job, strip, rows, scratch);
+}
+
+// Sets rows of the strip to zero.
+void clearRows(const FrameJob &job, const Rows &rows, FrameScratch &scratch) {
+    const auto clear = [&](int first, int last) {
+        for (int c = 0; c < job.channels && first <= last; ++c)
+            std::memset(scratch.strips[std::size_t(c)] + std::size_t(first) * stripFloats, 0,
+                        std::size_t(last - first + 1) * stripFloats * sizeof(float));
+    };
+    clear(std::max(rows.first, 0), rows.last);
+    clear(rows.first + job.rows, std::min(rows.last, -1) + job.rows);
+}
+
+template <class Cell>
+void interpolateRows(const FrameJob &job, int strip, const Rows &rows, FrameScratch &scratch) {
+    switch (rows.width) {
+    case 0:
+        return clearRows(job, rows, scratch);
+    case 1:
+        return interpolateRows<1, Cell>(job, strip, rows, scratch);
+    case 2:
+        return interpolateRows<2, Cell>(job, strip, rows, scratch);
+    case 3:
+        return interpolateRows<3, Cell>(job, strip, rows, scratch);
+    case 4:
+        return interpolateRows<4, Cell>(job, strip, rows, scratch);
+    case 5:
+        return interpolateRows<5, Cell>(job, strip, rows, scratch);
+    case 6:
+        return interpolateRows<6, Cell>(job, strip, rows, scratch);
+    default:
+        return interpolateRows<7, Cell>(job, strip, rows, scratch);
+    }
 }
 
 template <class Cell> void interpolateStrip(const FrameJob &job, int strip, FrameScratch &scratch) {
-    switch (job.layout->width()) {
-    case 1:
-        return interpolateStrip<1, Cell>(job, strip, scratch);
-    case 2:
-        return interpolateStrip<2, Cell>(job, strip, scratch);
-    case 3:
-        return interpolateStrip<3, Cell>(job, strip, scratch);
-    case 4:
-        return interpolateStrip<4, Cell>(job, strip, scratch);
-    case 5:
-        return interpolateStrip<5, Cell>(job, strip, scratch);
-    case 6:
-        return interpolateStrip<6, Cell>(job, strip, scratch);
-    default:
-        return interpolateStrip<7, Cell>(job, strip, scratch);
+    const int outer = job.strips[strip].outerRow;
+    if (job.widths == nullptr)
+        return interpolateRows<Cell>(job, strip, {-outer, outer, job.layout->width()}, scratch);
+    const auto widths = job.widths->strip(strip);
+    const int begin = -job.widths->tiles * plan::WidthMap::tileRows;
+    for (std::size_t tile = 0, next = 0; tile < widths.size(); tile = next) {
+        while (next < widths.size() && widths[next] == widths[tile])
+            ++next;
+        const Rows rows{std::max(-outer, begin + int(tile) * plan::WidthMap::tileRows),
+                        std::min(outer, begin + int(next) * plan::WidthMap::tileRows - 1),
+                        widths[tile]};
+        if (rows.first <= rows.last)
+            interpolateRows<Cell>(job, strip, rows, scratch);
     }
 }
 

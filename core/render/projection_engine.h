@@ -9,7 +9,7 @@
 
 #include "core/fourier/spectrum.h"
 #include "core/picture/projector.h"
-#include "core/plan/own_band.h"
+#include "core/plan/adaptive_widths.h"
 #include "core/plan/slice_grid.h"
 #include "core/shading/slice_shading.h"
 
@@ -38,8 +38,8 @@ struct EngineParts {
     EngineSpectra spectra;
     std::vector<ChannelWeights> channelWeights; ///< one entry per field
     plan::FieldOfView fieldOfView;
-    /// Which frequencies of plain frames are worth reading; null: all.
-    std::shared_ptr<const plan::OwnBand> band;
+    /// The widths that plain frames are read by; null: one reads everything.
+    std::shared_ptr<const plan::AdaptiveWidths> widths;
 };
 
 /// Makes projections of prepared fields by slicing their spectra. Engines are interchangeable:

@@ -5,6 +5,7 @@
 #define ROTATIONS 1
 #define SLICE 2
 #define LINES 3
+#define TILE_WIDTHS 4
 #define PICTURE 0
 #define FIRST_SPECTRUM 0
 #define MAX_SPECTRA 64
@@ -12,4 +13,7 @@
 #define MAX_TERMS 16
 #define MAX_PAIRS 4
 #define MAX_PAIR_VECTORS 3
+#define MAX_WIDTH 7
+#define TILE_COLUMNS 16
+#define TILE_ROWS 16
 #define THREADS 128

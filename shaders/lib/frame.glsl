@@ -25,6 +25,7 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     int termCount;
     int fieldCount, sourceCount; // fields come first
     int reconstruction, wraps;   // wraps: 0 or 1, see core/render/frame_geometry.h
+    int tilesPerSide;            // on each side of row 0; 0: one width reads everything
     int slabStep;                // planes from one slab's beginning to the next
     int columnStages, rowStages; // stages of a column's and a row's transform
     int columnRotations, rowRotations, unpackRotations; // offsets of the rotations
@@ -42,8 +43,8 @@ layout(std140, binding = FRAME_BLOCK) uniform Frame {
     ImageShade shade[3];
     vec4 gradient[3];
     vec4 excess[3];
-    // [axis][pair][...]: a vector holds two even and two odd coefficients
-    vec4 kernels[3 * MAX_PAIRS * MAX_PAIR_VECTORS];
+    // [width - 1][axis][pair][...]: a vector holds two even and two odd coefficients
+    vec4 kernels[MAX_WIDTH * 3 * MAX_PAIRS * MAX_PAIR_VECTORS];
     vec4 momentKernels[3 * MAX_PAIRS * MAX_PAIR_VECTORS];
     ivec4 radices[8];            // four vectors for a column, four for a row
 }

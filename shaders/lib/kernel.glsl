@@ -12,13 +12,23 @@ const int pairs = (WIDTH + 1) / 2;
         sum = sum * square + (n % 2 == 0 ? two.xy : two.zw);                                       \
     }
 
-// The weights along an axis for a centred offset c.
-void kernelWeights(int axis, float c, out float weights[WIDTH]) {
-    for (int k = 0; k < pairs; ++k) {
-        EVEN_AND_ODD(frame.kernels, axis, k, EVEN_TERMS, c * c, part)
-        weights[k] = part.x + c * part.y;
-        if (2 * k != WIDTH - 1)
-            weights[WIDTH - 1 - k] = part.x - c * part.y;
+// The weights along an axis for a centred offset c: of WIDTH taps, or of fewer for a narrower
+// kernel.
+void kernelWeights(int axis, float c, int width, out float weights[WIDTH]) {
+    int kernel = 3 * (width - 1) + axis;
+    if (width == WIDTH) {
+        for (int k = 0; k < pairs; ++k) {
+            EVEN_AND_ODD(frame.kernels, kernel, k, EVEN_TERMS, c * c, part)
+            weights[k] = part.x + c * part.y;
+            if (2 * k != WIDTH - 1)
+                weights[WIDTH - 1 - k] = part.x - c * part.y;
+        }
+        return;
+    }
+    for (int k = 0; k < WIDTH; ++k) {
+        int mirrored = width - 1 - k;
+        EVEN_AND_ODD(frame.kernels, kernel, max(0, min(k, mirrored)), EVEN_TERMS, c * c, part)
+        weights[k] = k < width ? part.x + (k > mirrored ? -c : c) * part.y : 0.0;
     }
 }
 
@@ -37,6 +47,7 @@ void momentWeights(int axis, float c, out float weights[WIDTH]) {
 
 struct Taps {
     ivec3 first; // the texel of the first tap
+    int width;
     float x[WIDTH], y[WIDTH], z[WIDTH];
 #if CUED
     float momentX[WIDTH], momentY[WIDTH], momentZ[WIDTH];
@@ -88,16 +99,22 @@ Sum sumOfCells(sampler3D cells, Taps taps) {
     sum.moment = vec2(0.0);
 #endif
     for (int k = 0; k < WIDTH; ++k) {
+        if (k >= taps.width)
+            break;
         vec2 plane = vec2(0.0);
 #if CUED
         vec2 planeMoment = vec2(0.0);
 #endif
         for (int j = 0; j < WIDTH; ++j) {
+            if (j >= taps.width)
+                break;
             vec2 row = vec2(0.0);
 #if CUED
             vec2 rowMoment = vec2(0.0);
 #endif
             for (int i = 0; i < WIDTH; ++i) {
+                if (i >= taps.width)
+                    break;
                 vec2 cell = texelFetch(cells, taps.first + ivec3(i, j, k), 0).rg;
                 row += taps.x[i] * cell;
 #if CUED

@@ -5,10 +5,22 @@
 // SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
 layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
 
-// The last row of each column that is read; -1: none is.
+// The last row of each column inside the disc of the band.
 layout(std430, binding = DISC_ROWS) readonly buffer DiscRows {
     int discRows[];
 };
+
+// The width that reads each tile, [strip][tile from -frame.tilesPerSide on].
+layout(std430, binding = TILE_WIDTHS) readonly buffer TileWidths {
+    int tileWidths[];
+};
+
+int widthAt(int column, int row) {
+    if (frame.tilesPerSide == 0)
+        return WIDTH;
+    int tile = (row + frame.tilesPerSide * TILE_ROWS) / TILE_ROWS;
+    return tileWidths[column / TILE_COLUMNS * 2 * frame.tilesPerSide + tile];
+}
 
 const int kinds = LIT + 1; // fields; gradient lengths under light
 
@@ -22,7 +34,7 @@ Fixed placeOf(int column, int row) {
 
 // The cells to read and their weights. q: a_d.s. mirrored: the result is the conjugate of the value
 // read.
-Taps tapsAt(Fixed place, out vec3 q, out bool mirrored) {
+Taps tapsAt(Fixed place, int width, out vec3 q, out bool mirrored) {
     ivec3 whole = wholeOf(place);
     vec3 part = partOf(place);
     q = (vec3(whole) + part) * frame.inversePadded.xyz;
@@ -33,13 +45,14 @@ Taps tapsAt(Fixed place, out vec3 q, out bool mirrored) {
         whole = -whole - 1;
         part = 1.0 - part;
     }
-    vec3 tap = ceil(part - (0.5 * float(WIDTH) + frame.edgeSlack.xyz));
-    vec3 c = tap - part + 0.5 * float(WIDTH - 1);
+    vec3 tap = ceil(part - (0.5 * float(width) + frame.edgeSlack.xyz));
+    vec3 c = tap - part + 0.5 * float(width - 1);
     Taps taps;
+    taps.width = width;
     taps.first = whole + ivec3(tap) - frame.firstCell.xyz;
-    kernelWeights(0, c.x, taps.x);
-    kernelWeights(1, c.y, taps.y);
-    kernelWeights(2, c.z, taps.z);
+    kernelWeights(0, c.x, width, taps.x);
+    kernelWeights(1, c.y, width, taps.y);
+    kernelWeights(2, c.z, width, taps.z);
 #if CUED
     momentWeights(0, c.x, taps.momentX);
     momentWeights(1, c.y, taps.momentY);
@@ -158,13 +171,16 @@ void addTerm(int term, Taps taps, bool mirrored, bool isCentre, vec3 q,
 void sliceAt(int column, int row, out vec2 slice[CHANNELS]) {
     for (int c = 0; c < CHANNELS; ++c)
         slice[c] = vec2(0.0);
+    int width = widthAt(column, row);
+    if (width == 0)
+        return;
     Fixed centre = placeOf(column, row);
     vec3 q, ofCentre;
     bool mirrored;
     for (int term = 0; term < frame.termCount; ++term) {
         // The picture's own factors are those of the central slice.
         Fixed place = plus(centre, Fixed(frame.termLow[term], frame.termHigh[term]));
-        Taps taps = tapsAt(place, q, mirrored);
+        Taps taps = tapsAt(place, width, q, mirrored);
         if (term == 0)
             ofCentre = q;
         addTerm(term, taps, mirrored, term == 0 && column == 0 && row == 0, q, slice);

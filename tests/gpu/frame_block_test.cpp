@@ -42,6 +42,7 @@ TEST_F(FrameBlock, LiesWhereTheShadersReadIt) {
         {"sourceCount", offsetof(FrameBlock, sourceCount)},
         {"reconstruction", offsetof(FrameBlock, reconstruction)},
         {"wraps", offsetof(FrameBlock, wraps)},
+        {"tilesPerSide", offsetof(FrameBlock, tilesPerSide)},
         {"slabStep", offsetof(FrameBlock, slabStep)},
         {"columnStages", offsetof(FrameBlock, columnStages)},
         {"rowStages", offsetof(FrameBlock, rowStages)},
@@ -112,6 +113,7 @@ TEST(Bindings, AreThoseOfTheShaders) {
     namespace bindings = gpu::bindings;
     const std::map<std::string, int> expected{{"FRAME_BLOCK", bindings::frameBlock},
                                               {"DISC_ROWS", bindings::discRows},
+                                              {"TILE_WIDTHS", bindings::tileWidths},
                                               {"ROTATIONS", bindings::rotations},
                                               {"SLICE", bindings::slice},
                                               {"LINES", bindings::lines},
@@ -122,6 +124,9 @@ TEST(Bindings, AreThoseOfTheShaders) {
                                               {"MAX_TERMS", bindings::maxTerms},
                                               {"MAX_PAIRS", bindings::maxPairs},
                                               {"MAX_PAIR_VECTORS", bindings::maxPairVectors},
+                                              {"MAX_WIDTH", bindings::maxWidth},
+                                              {"TILE_COLUMNS", bindings::tileColumns},
+                                              {"TILE_ROWS", bindings::tileRows},
                                               {"THREADS", bindings::threads}};
     EXPECT_EQ(defined, expected);
 }
@@ -130,6 +135,9 @@ TEST(Bindings, HoldWhatThePlanMayAskFor) {
     namespace bindings = gpu::bindings;
     EXPECT_GE(bindings::maxTerms, int(2 * shading::maxCurveValues));
     EXPECT_GE(2 * bindings::maxPairVectors, fourier::Kernel::largestTerms);
+    EXPECT_EQ(bindings::maxWidth, fourier::Kernel::largestWidth);
+    EXPECT_EQ(bindings::tileColumns, plan::WidthMap::tileColumns);
+    EXPECT_EQ(bindings::tileRows, plan::WidthMap::tileRows);
     EXPECT_GE(2 * bindings::maxPairs, fourier::Kernel::largestWidth);
     for (int n = 2; n <= 65536; n = fourier::smoothEvenSize(n + 1)) {
         int product = 1;

@@ -38,7 +38,7 @@ protected:
         const render::EngineParts parts = prepared.engine->parts();
         gpu::GpuEngine engine(
             gpu::SpectrumTextures::upload(card, parts.spectra, {}, maxTextureBytes),
-            parts.channelWeights, parts.fieldOfView);
+            parts.channelWeights, parts.fieldOfView, gpu::Fetch::exact, parts.widths);
         double worst = 0.0;
         for (const glm::dquat &view : views()) {
             scene.camera.orientation = view;
@@ -265,7 +265,7 @@ TEST_F(GpuEngine, PicturesKeepTheirPixels) {
     const auto prepared = prepare::prepareEngine(scene, fields, {});
     const auto engine = gpu::copyToCard(card, *prepared.engine);
     std::vector<std::shared_ptr<const gpu::CardPicture>> held;
-    std::vector<std::vector<float>> first;
+    std::vector<picture::Samples> first;
     for (int n = 0; n < 7; ++n) {
         scene.camera.orientation =
             scene::viewOrientation(scene::StandardView::front, {.azimuthDeg = 10.0 * n});

@@ -69,10 +69,10 @@ int largestDifference(const std::vector<std::uint8_t> &a, const std::vector<std:
 TEST_F(TonePass, DrawsWhatComposeComputes) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(-20.0F, 120.0F);
-    picture::ProjectionImage image{37, 23, 1.0, std::vector<float>(37 * 23)};
+    picture::ProjectionImage image{37, 23, 1.0, picture::Samples(37 * 23)};
     for (float &p : image.samples)
         p = uniform(random);
-    picture::ProjectionImage colored{37, 23, 1.0, std::vector<float>(37 * 23 * 3), 3};
+    picture::ProjectionImage colored{37, 23, 1.0, picture::Samples(37 * 23 * 3), 3};
     for (float &p : colored.samples)
         p = uniform(random);
     for (const auto &[shown, tone] : {std::pair(image, scene::Tone{}),

@@ -42,7 +42,7 @@ protected:
                 else
                     mirror = std::conj(value);
             }
-        std::vector<float> found;
+        picture::Samples found;
         card->device().run([&] {
             gpu::TransformPasses passes(card->device());
             passes.fit(grid, images);

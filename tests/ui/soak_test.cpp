@@ -155,7 +155,7 @@ private slots:
         m_program = std::make_unique<ui::Workstation>();
         m_program->window().resize(1400, 900);
         QVERIFY(QTest::qWaitForWindowExposed(&m_program->window()));
-        const std::vector<float> picture = pictureOfTheFirstStudy();
+        const picture::Samples picture = pictureOfTheFirstStudy();
         QVERIFY(!picture.empty());
         // Caches and kept studies have their size after a while: memory is compared from there on.
         fillCaches();
@@ -201,7 +201,7 @@ private slots:
         QVERIFY(document().problems().empty());
         QCOMPARE(warnings.texts(), QStringList());
         // Both are within the tolerance of the exact picture.
-        const std::vector<float> again = pictureOfTheFirstStudy();
+        const picture::Samples again = pictureOfTheFirstStudy();
         QCOMPARE(again.size(), picture.size());
         QVERIFY2(relativeL2(again, picture) <= 2.0 * m_picturedScene->tolerance,
                  "the picture is a different one");
@@ -239,8 +239,8 @@ private:
 
     // The projection of the first study, for the scene that it was first seen with. The study is
     // closed again.
-    std::vector<float> pictureOfTheFirstStudy() {
-        std::vector<float> samples;
+    picture::Samples pictureOfTheFirstStudy() {
+        picture::Samples samples;
         [&] {
             openStudy(0);
             QTRY_VERIFY_WITH_TIMEOUT(document().volume() && !document().isPreview(), patienceMs);

@@ -152,7 +152,7 @@ RenderWorker::CardFrame RenderWorker::askCard(const Request &request) {
                 frame->error = prepare::errorOf(request.prepared, image, request.camera,
                                                 request.image, request.shading);
         }
-        frame->times = {times.sliceMs, times.transformMs};
+        frame->times = {times.sliceMs, times.transformMs, times.widthShares};
         answer.frame = std::move(frame);
     } catch (const task::Error &error) {
         answer.refusal = error.reason();

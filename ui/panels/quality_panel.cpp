@@ -90,8 +90,8 @@ QualityPanel::QualityPanel(Document &document, QWidget *parent)
     m_more->setProperty("role", "link");
     m_more->setCheckable(true);
     m_more->setToolTip(tr("Override what the planner chose"));
-    const std::array<QWidget *, 8> expert{m_kernel, m_padding,   m_storage, m_largest,
-                                          m_padded, m_tolerance, m_model,   m_leftOut};
+    const std::array<QWidget *, 9> expert{m_kernel,    m_padding, m_storage, m_largest, m_padded,
+                                          m_tolerance, m_model,   m_widths,  m_leftOut};
     const auto showExpert = [form, expert](bool isShown) {
         for (QWidget *widget : expert)
             form->setRowVisible(widget, isShown);
@@ -157,6 +157,11 @@ void QualityPanel::addFigures(QFormLayout *form) {
     m_model = addFigure(form, tr("Per frame"), "modelLabel",
                         tr("Spectra, slices, images and multiplications that a frame needs"));
     m_model->setWordWrap(true);
+    m_widths = addFigure(
+        form, tr("Read"), "widthsLabel",
+        tr("Share of the frequencies that a kernel of each width reads; narrow kernels are accurate "
+           "enough where there is little energy, and the rest does not matter"));
+    m_widths->setWordWrap(true);
     m_leftOut = addFigure(form, tr("Skipped"), "leftOutLabel",
                           tr("Stages that are skipped because this scene does not need them"));
     m_leftOut->setWordWrap(true);
@@ -270,7 +275,7 @@ void QualityPanel::showScene() {
 }
 
 void QualityPanel::clearPlan() {
-    for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_leftOut})
+    for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_widths, m_leftOut})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
     m_shownFrame.reset();
@@ -324,7 +329,8 @@ void QualityPanel::showModel() {
     if (!m_shownFrame->isLit)
         scene.shading.lights.clear();
     const plan::FrameModel model = plan::modelFrame(m_shownFrame->plan, scene, m_shownFrame->fields,
-                                                    m_document.volume()->lattice());
+                                                    m_document.volume()->lattice(),
+                                                    m_times.widthShares);
     QStringList spectra, reasons;
     for (const plan::FrameModel::Spectra &kind : model.spectra) {
         spectra << spectraName(kind.of).arg(kind.count);
@@ -367,8 +373,20 @@ void QualityPanel::showReason(const QString &text, bool isWarning) {
 void QualityPanel::showFrame(const picture::FrameTimes &times, bool draft) {
     const QString text = millisecondsText(times.totalMs());
     m_time->setText(draft ? tr("%1, draft").arg(text) : text);
-    if (!draft) // the size of the pane may have changed
-        showModel();
+    if (draft)
+        return;
+    m_times = times;
+    showModel(); // the size of the pane may have changed
+    showWidths();
+}
+
+void QualityPanel::showWidths() {
+    QStringList shares;
+    for (std::size_t width = m_times.widthShares.size(); width-- > 0;)
+        if (const double share = m_times.widthShares[width]; share > 0.0)
+            shares << (width > 0 ? tr("width %1: %2").arg(width).arg(percent(share))
+                                 : tr("not read: %1").arg(percent(share)));
+    m_widths->setText(shares.isEmpty() ? QString::fromUtf8("\xe2\x80\x93") : shares.join(", "));
 }
 
 } // namespace pellucid::ui

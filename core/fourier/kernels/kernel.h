@@ -47,6 +47,10 @@ public:
     /// 1/(2 padding) of the period. Half of the weight is distributed evenly, so that faint parts
     /// near the ends are preserved, too; all of it, if `energy` is empty.
     static Kernel leastAliasing(int width, double padding, std::span<const double> energy = {});
+    /// A narrower kernel for a spectrum that was prepared for `wide`: its response is as close to
+    /// the apodisation of `wide` over the field, with as little aliasing, as its width allows.
+    /// `padding` is that of the axis.
+    static Kernel narrower(const Kernel &wide, int width, double padding);
 
     const std::string &name() const { return m_name; }
     int width() const { return m_shape.width(); }

@@ -57,7 +57,7 @@ Responses responsesAt(Real x, int width, const PiecewiseBasis &kernel) {
     for (int m = -farthest; m <= farthest; ++m)
         if (m != 0)
             r.aliases.push_back(kernel.transforms(x + m));
-    for (const Real c : width % 2 == 0 ? std::vector<Real>{-0.5} : std::vector<Real>{-0.5, 0}) {
+    for (const Real c : offsetsOnGrid(width)) {
         auto [real, imaginary] = kernel.transformsAt(c, x);
         for (std::size_t p = 0; p < count; ++p)
             real[p] -= r.direct[p];
@@ -132,7 +132,37 @@ Vector leastAliasingCoefficients(int width, const PiecewiseBasis &kernel, double
     return a;
 }
 
+// Minimises, by linear least squares,
+//   sum_x 1/h(x)^2 [(k(x) - h(x))^2 + sum_m k(x + m)^2 + |S(x) - h(x)|^2].
+// m are the aliases; S is the sum over the taps of a frequency on the grid.
+Vector narrowerCoefficients(int width, const PiecewiseBasis &basis, const Kernel &wide,
+                            double padding) {
+    constexpr int farthest = 5;
+    BasisFit fit(basis.count());
+    for (int i = 0; i < positions; ++i) {
+        const Real x = (i + Real(0.5)) / positions / (2 * Real(padding));
+        const Real h = wide.apodisation(double(x)), weight = 1 / (h * h);
+        fit.add(basis.transforms(x), h, weight);
+        for (int m = -farthest; m <= farthest; ++m)
+            if (m != 0)
+                fit.add(basis.transforms(x + m), 0, weight);
+        for (const Real c : offsetsOnGrid(width)) {
+            const auto [real, imaginary] = basis.transformsAt(c, x);
+            fit.add(real, h, weight);
+            fit.add(imaginary, 0, weight);
+        }
+    }
+    return fit.solved();
+}
+
 } // namespace
+
+Kernel Kernel::narrower(const Kernel &wide, int width, double padding) {
+    assert(width >= 2 && width < wide.width());
+    const PiecewiseBasis basis(width, std::max(3, width), Parity::even);
+    const Vector a = narrowerCoefficients(width, basis, wide, fittedPadding(padding));
+    return Kernel(wide.name() + " by " + std::to_string(width), basis.pieces(a));
+}
 
 Kernel Kernel::leastAliasing(int width, double padding, std::span<const double> energy) {
     assert(width >= 2 && width <= largestWidth && padding > 1.0);

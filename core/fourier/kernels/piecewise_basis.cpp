@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fourier/kernels/piecewise_basis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -133,6 +134,31 @@ std::vector<std::vector<double>> PiecewiseBasis::pieces(const Vector &coefficien
             result[m_width - 1 - k][n] = -result[k][n];
     }
     return result;
+}
+
+std::vector<Real> offsetsOnGrid(int width) {
+    return width % 2 == 0 ? std::vector<Real>{-0.5} : std::vector<Real>{-0.5, 0};
+}
+
+double fittedPadding(double padding) {
+    return std::clamp(padding, 1.0, 2.5);
+}
+
+BasisFit::BasisFit(std::size_t count) : m_matrix(count, Vector(count, 0)), m_right(count, 0) {}
+
+void BasisFit::add(const Vector &part, Real target, Real weight) {
+    for (std::size_t p = 0; p < part.size(); ++p) {
+        for (std::size_t q = p; q < part.size(); ++q)
+            m_matrix[p][q] += weight * part[p] * part[q];
+        m_right[p] += weight * target * part[p];
+    }
+}
+
+Vector BasisFit::solved() const {
+    std::vector<Vector> matrix = m_matrix;
+    for (std::size_t p = 0; p < matrix.size(); ++p)
+        matrix[p][p] += Real(1e-19); // far below the aliases of any width
+    return solveSymmetric(std::move(matrix), m_right);
 }
 
 // Gaussian elimination: a symmetric positive definite matrix needs no pivoting and stays symmetric.

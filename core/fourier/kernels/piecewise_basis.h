@@ -38,6 +38,26 @@ private:
     std::vector<std::pair<int, int>> m_at; // tap, Legendre degree
 };
 
+/// The offsets c of a frequency on the grid: at -1/2 the first tap of an even width is on the edge,
+/// and so is that of an odd width where the frequency is between two cells.
+std::vector<PiecewiseBasis::Real> offsetsOnGrid(int width);
+/// The padding that kernels are fitted for: short axes are padded more than necessary.
+double fittedPadding(double padding);
+
+/// A least-squares fit of the coefficients of a basis.
+class BasisFit {
+public:
+    explicit BasisFit(std::size_t count);
+    /// Adds weight (part . a - target)^2 to the sum that the coefficients a minimise.
+    void add(const PiecewiseBasis::Vector &part, PiecewiseBasis::Real target,
+             PiecewiseBasis::Real weight);
+    PiecewiseBasis::Vector solved() const;
+
+private:
+    std::vector<PiecewiseBasis::Vector> m_matrix;
+    PiecewiseBasis::Vector m_right;
+};
+
 /// Solves a x = b for a symmetric positive definite a. *Shape*: only the upper half of a is read.
 ///
 /// Not Eigen's `ldlt`: it eliminates in a different order, and the systems of widths 6 and 7 are so

@@ -22,7 +22,7 @@ TEST(Compose, MapsTheRangeAndInverts) {
 }
 
 TEST(Compose, TheAutomaticRangeIgnoresTheBackground) {
-    picture::ProjectionImage image{1000, 1, 1.0, std::vector<float>(1000, 0.0F)};
+    picture::ProjectionImage image{1000, 1, 1.0, picture::Samples(1000, 0.0F)};
     for (int n = 0; n < 100; ++n)
         image.samples[n] = float(n + 1);
     const auto range = picture::toneRange(image, {});

@@ -102,7 +102,7 @@ TEST(InstructionSets, AgreeWithinRounding) {
                     std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
                         field.values,
                         {{kernel, kernel, kernel}, field.support, {48, 48, 28}, storage}));
-                std::vector<float> best;
+                picture::Samples best;
                 float peak = 0.0F;
                 const std::int64_t all = hwy::SupportedTargets();
                 for (std::int64_t rest = all; rest != 0; rest &= rest - 1) {

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/plan/adaptive_widths.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/plan/cost_model.h"
+
+namespace pellucid::plan {
+
+namespace {
+
+constexpr int tileColumns = WidthMap::tileColumns, tileRows = WidthMap::tileRows;
+// Of the errors by blocks.
+constexpr double blockMargin = 1.5;
+
+using Errors = SpectrumEnergies::Errors;
+
+// The tiles of a slice within the largest circle. The Nyquist row is on its edge, where the
+// roll-off is 0.
+struct Circle {
+    explicit Circle(const SlicePlane &plane)
+        : strips((plane.columns / 2 + tileColumns - 1) / tileColumns),
+          tiles((plane.rows / 2 + tileRows - 1) / tileRows) {
+        for (int strip = 0; strip < strips; ++strip) {
+            const double u = 2.0 * tileColumns * strip / plane.columns;
+            const double last = std::sqrt(std::max(0.0, 1.0 - u * u)) * plane.rows / 2.0;
+            sides.push_back(std::min(tiles, int(std::ceil(last / tileRows))));
+        }
+    }
+
+    int strips, tiles;      ///< tiles: on each side of row 0
+    std::vector<int> sides; ///< of them within the circle, by strip
+};
+
+// The tiles that are worth being read.
+class Tiles {
+public:
+    struct Tile {
+        int strip = 0, row = 0; ///< row: of the tile, from -tiles to tiles - 1
+        /// Of its frequencies together, by entry, as shares of the budget. Infinite where the
+        /// frequencies are low, which the widest kernel always reads.
+        Errors errors{};
+    };
+
+    Tiles(const SlicePlane &plane, const Circle &circle,
+          std::span<const std::shared_ptr<const SpectrumEnergies>> fields,
+          std::span<const AdaptiveWidths::Weights> weights, double budget)
+        : m_plane(plane), m_circle(circle), m_fields(fields), m_weights(weights),
+          m_patch{plane.perColumn, plane.perRow, tileColumns, tileRows}, m_points(m_patch),
+          m_area(2.0 * tileColumns * tileRows * plane.columnPerMm * plane.rowPerMm * blockMargin /
+                 budget),
+          m_dark(darkShare / (2.0 * circle.strips * circle.tiles)), m_errors(fields.size()) {
+        for (int strip = 0; strip < circle.strips; strip += groupSide)
+            for (int row = -circle.tiles; row < circle.tiles; row += groupSide)
+                addGroup(strip, row);
+    }
+
+    std::vector<Tile> bright;
+    double left = 0.0; ///< the errors of the others, which are left out
+
+private:
+    // Tiles that together take less than this share of the budget are not measured.
+    static constexpr double darkShare = 0.02;
+    // Tiles are tried together first.
+    static constexpr int groupSide = 4;
+
+    void addGroup(int firstStrip, int firstRow) {
+        const int lastStrip = std::min(firstStrip + groupSide, m_circle.strips);
+        const int side = m_circle.sides[std::size_t(firstStrip)];
+        if (firstRow >= side || firstRow + groupSide <= -side)
+            return;
+        if (!isLow(firstStrip, firstRow, groupSide)) {
+            PlanePatch group = patchAt(firstStrip, firstRow);
+            group.columns *= groupSide;
+            group.rows *= groupSide;
+            if (const double bound = boundOf(group); bound <= m_dark) {
+                left += groupSide * groupSide * bound;
+                return;
+            }
+        }
+        for (int strip = firstStrip; strip < lastStrip; ++strip) {
+            const int tiles = m_circle.sides[std::size_t(strip)];
+            for (int row = std::max(firstRow, -tiles);
+                 row < std::min(firstRow + groupSide, tiles); ++row)
+                addTile(strip, row);
+        }
+    }
+
+    void addTile(int strip, int row) {
+        Tile tile{strip, row, {}};
+        const PlanePatch patch = patchAt(strip, row);
+        if (isLow(strip, row, 1)) {
+            tile.errors.fill(std::numeric_limits<float>::infinity());
+        } else if (const double bound = boundOf(patch); bound <= m_dark) {
+            left += bound;
+            return;
+        } else {
+            for (std::size_t f = 0; f < m_fields.size(); ++f)
+                if (m_weights[f] != AdaptiveWidths::Weights{})
+                    m_errors[f] = m_fields[f]->errorsIn(patch, m_points);
+            for (std::size_t n = 0; n < tile.errors.size(); ++n)
+                tile.errors[n] = float(sumOf(n));
+        }
+        bright.push_back(tile);
+    }
+
+    PlanePatch patchAt(int strip, int row) const {
+        PlanePatch patch = m_patch;
+        patch.firstColumn = double(strip) * tileColumns - 0.5;
+        patch.firstRow = double(row) * tileRows - 0.5;
+        return patch;
+    }
+
+    // Whether some of `tiles` x `tiles` tiles are.
+    bool isLow(int strip, int row, int tiles) const {
+        const double lowest = row >= 0 ? row : std::max(0, -row - tiles);
+        const double u = strip * tileColumns * m_plane.columnPerMm,
+                     v = lowest * tileRows * m_plane.rowPerMm,
+                     low = m_fields.front()->lowPerMm();
+        return u * u + v * v < low * low;
+    }
+
+    double boundOf(const PlanePatch &patch) {
+        for (std::size_t f = 0; f < m_fields.size(); ++f)
+            m_errors[f][0] = m_weights[f] == AdaptiveWidths::Weights{}
+                                 ? 0.0F
+                                 : m_fields[f]->energyBound(patch);
+        return sumOf(0);
+    }
+
+    // Amplitudes of fields without negative samples add up, and so do those of their errors at
+    // worst.
+    double sumOf(std::size_t entry) const {
+        double sum = 0.0;
+        if (m_fields.size() == 1) {
+            for (const double weight : m_weights.front())
+                sum += weight * weight;
+            return m_area * sum * double(m_errors.front()[entry]);
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            double amplitude = 0.0;
+            for (std::size_t f = 0; f < m_fields.size(); ++f)
+                amplitude += std::abs(m_weights[f][c]) * std::sqrt(double(m_errors[f][entry]));
+            sum += amplitude * amplitude;
+        }
+        return m_area * sum;
+    }
+
+    const SlicePlane &m_plane;
+    const Circle &m_circle;
+    std::span<const std::shared_ptr<const SpectrumEnergies>> m_fields;
+    std::span<const AdaptiveWidths::Weights> m_weights;
+    PlanePatch m_patch;
+    PatchPoints m_points;
+    double m_area; ///< of a tile in both halves of the plane, over the budget
+    double m_dark;
+    std::vector<Errors> m_errors; ///< by field
+};
+
+// The widths of a tile that save time at a price, from the widest kernel on, each at a higher price
+// than the one before: widths that are no bargain are passed over.
+class Savings {
+public:
+    struct Saving {
+        std::uint16_t price = 0; ///< a class
+        std::uint8_t width = 0;
+        float error = 0.0F; ///< that it adds
+    };
+
+    // *Units*: errors as shares of the budget.
+    Savings(int widest, const Errors &errors) {
+        int from = widest;
+        float error = 0.0F;
+        while (from > 0) {
+            Saving best;
+            float least = std::numeric_limits<float>::infinity();
+            for (int width = from - 1; width >= 0; width -= width == 2 ? 2 : 1) {
+                const float more =
+                    std::max(0.0F, errors[SpectrumEnergies::entryOf(width)] - error);
+                const float price = more / float(readTime(from) - readTime(width));
+                if (price <= least) {
+                    least = price;
+                    best = {classOf(price), std::uint8_t(width), more};
+                }
+            }
+            m_savings[m_count++] = best;
+            error += best.error;
+            from = best.width;
+        }
+    }
+    std::span<const Saving> all() const { return std::span(m_savings).first(m_count); }
+
+    // Exponent and first four bits: 16 classes an octave.
+    static constexpr std::size_t classes = 1U << 12U;
+
+private:
+    static std::uint16_t classOf(float price) {
+        return std::uint16_t(std::bit_cast<std::uint32_t>(price) >> 19U);
+    }
+
+    std::array<Saving, fourier::Kernel::largestWidth> m_savings;
+    std::size_t m_count = 0;
+};
+
+} // namespace
+
+WidthMap::Shares WidthMap::shares(const SlicePlane &plane) const {
+    Shares shares{};
+    const Circle circle(plane);
+    double all = 0.0;
+    for (int column = 0; column < circle.strips; ++column)
+        for (int row = -circle.sides[std::size_t(column)];
+             row < circle.sides[std::size_t(column)]; ++row, all += 1.0)
+            shares[column < strips ? strip(column)[std::size_t(row + tiles)] : 0] += 1.0;
+    for (double &share : shares)
+        share /= all;
+    return shares;
+}
+
+WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
+                                std::span<const Weights> weights) const {
+    double least = 0.0;
+    for (std::size_t f = 0; f < m_fields.size(); ++f)
+        for (const double weight : weights[f])
+            least += weight * weight * m_fields[f]->least(axes);
+    const Circle circle(plane);
+    // Where little is known to be in the picture, everything is read.
+    const double budget =
+        std::max(m_tolerance * m_tolerance * least, std::numeric_limits<double>::min());
+    const Tiles tiles(plane, circle, m_fields, weights, budget);
+    std::vector<Savings> savings;
+    savings.reserve(tiles.bright.size());
+    std::vector<double> errors(Savings::classes, 0.0);
+    for (const Tiles::Tile &tile : tiles.bright) {
+        savings.emplace_back(m_kernels->widest(), tile.errors);
+        for (const Savings::Saving &saving : savings.back().all())
+            errors[saving.price] += double(saving.error);
+    }
+    // The first class that the budget does not pay in full.
+    double spent = tiles.left;
+    std::size_t limit = 0;
+    while (limit < errors.size() && spent + errors[limit] <= 1.0)
+        spent += errors[limit++];
+
+    WidthMap map{0, circle.tiles, {}, m_tolerance * std::sqrt(spent)};
+    const auto perStrip = 2 * std::size_t(circle.tiles);
+    map.widths.resize(std::size_t(circle.strips) * perStrip, 0);
+    for (std::size_t n = 0; n < savings.size(); ++n) {
+        const Tiles::Tile &tile = tiles.bright[n];
+        int width = m_kernels->widest();
+        for (const Savings::Saving &saving : savings[n].all()) {
+            if (saving.price >= limit)
+                break;
+            width = saving.width;
+        }
+        map.widths[std::size_t(tile.strip) * perStrip + std::size_t(tile.row + circle.tiles)] =
+            std::uint8_t(width);
+        if (width > 0)
+            map.strips = std::max(map.strips, tile.strip + 1);
+    }
+    return map;
+}
+
+} // namespace pellucid::plan

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/plan/spectrum_energies.h"
+
+namespace pellucid::plan {
+
+/// The grid of a view's slice: half a plane, columns 0 to columns / 2 and rows on both sides of 0.
+struct SlicePlane {
+    int columns = 0, rows = 0; ///< of the whole grid
+    /// Cells of the spectrum per column and per row, by axis.
+    std::array<double, 3> perColumn{}, perRow{};
+    double columnPerMm = 0.0, rowPerMm = 0.0; ///< the frequency steps
+};
+
+/// The width of the kernel that reads each tile of a slice: `tileColumns` columns of `tileRows`
+/// rows. Width 0 leaves a tile out.
+struct WidthMap {
+    static constexpr int tileColumns = 16, tileRows = 16;
+
+    int strips = 0; ///< up to the last one that is read
+    int tiles = 0;  ///< on each side of row 0
+    std::vector<std::uint8_t> widths; ///< *Shape*: [strip][tile, from -tiles on]
+    double left = 0.0;                ///< the error that the choice makes, relative L2, at most
+
+    /// Tiles of a strip; the first begins at row -tiles * tileRows.
+    std::span<const std::uint8_t> strip(int strip) const {
+        return std::span(widths).subspan(std::size_t(strip) * 2 * std::size_t(tiles),
+                                         2 * std::size_t(tiles));
+    }
+    /// The share of the frequencies of the largest circle that each width reads.
+    using Shares = std::array<double, fourier::Kernel::largestWidth + 1>;
+    Shares shares(const SlicePlane &plane) const;
+};
+
+/// Chooses for each view the widths of the kernels that read it. Most frequencies of a picture have
+/// next to no energy: a narrow kernel is accurate enough for them, or they need not be read at all.
+/// The widths that take the least time are those for which every tile saves the same time for each
+/// bit of error; a view spends the whole tolerance.
+class AdaptiveWidths {
+public:
+    using Weights = std::array<double, 3>; ///< of a field in red, green and blue
+
+    /// `tolerance`: the error that a view may make, relative L2.
+    AdaptiveWidths(std::shared_ptr<const fourier::KernelsByWidth> kernels,
+                   std::vector<std::shared_ptr<const SpectrumEnergies>> fields, double tolerance)
+        : m_kernels(std::move(kernels)), m_fields(std::move(fields)), m_tolerance(tolerance) {}
+
+    /// *Shape*: one weight for each field. `axes`: columns U, V and W.
+    WidthMap mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
+                    std::span<const Weights> weights) const;
+
+    const std::shared_ptr<const fourier::KernelsByWidth> &kernels() const { return m_kernels; }
+    double tolerance() const { return m_tolerance; }
+
+private:
+    std::shared_ptr<const fourier::KernelsByWidth> m_kernels;
+    std::vector<std::shared_ptr<const SpectrumEnergies>> m_fields;
+    double m_tolerance;
+};
+
+} // namespace pellucid::plan

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/plan/spectrum_energies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "core/plan/spectrum_blocks.h"
+#include "core/task/error.h"
+
+namespace pellucid::plan {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Blocks of 8 cells say nothing of the energies nearer to frequency 0 than this, in cells.
+constexpr double lowCells = 12.0;
+// Points of a patch are at most this far apart along each axis.
+constexpr double cellsPerPoint = 6.0;
+// Of the energy of a view by directions.
+constexpr double leastMargin = 0.9;
+// The reconstruction's factor is tabled to here; beyond, it stays below its largest value there.
+constexpr float factorsPerCycle = 128.0F;
+constexpr int tabledCycles = 4;
+
+// Directions on three faces of a cube; opposite ones have the same energy.
+constexpr int faceSide = 8;
+constexpr int directionCount = 3 * faceSide * faceSide;
+
+glm::dvec3 directionOf(int n) {
+    const int face = n / (faceSide * faceSide);
+    const auto tangent = [](int at) {
+        return std::tan(0.25 * pi * ((2 * at + 1.0) / faceSide - 1.0));
+    };
+    glm::dvec3 direction;
+    direction[face] = 1.0;
+    direction[(face + 1) % 3] = tangent(n / faceSide % faceSide);
+    direction[(face + 2) % 3] = tangent(n % faceSide);
+    return glm::normalize(direction);
+}
+
+int indexOf(const glm::dvec3 &direction) {
+    const glm::dvec3 a = glm::abs(direction);
+    const int face = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    const auto at = [&](int axis) {
+        const double angle = std::atan(direction[axis] / direction[face]) / (0.25 * pi);
+        return std::clamp(int(0.5 * (angle + 1.0) * faceSide), 0, faceSide - 1);
+    };
+    return (face * faceSide + at((face + 1) % 3)) * faceSide + at((face + 2) % 3);
+}
+
+// |F|^2 between the cells of a half spectrum.
+double energyAt(const fourier::Spectrum &spectrum, glm::dvec3 cell) {
+    const fourier::SpectrumLayout &layout = spectrum.layout();
+    const int width = layout.width();
+    if (cell.x < 0.0)
+        cell = -cell;
+    std::array<std::array<double, fourier::Kernel::largestWidth>, 3> taps;
+    glm::ivec3 first;
+    for (int d = 0; d < 3; ++d) {
+        first[d] = int(std::ceil(cell[d] - 0.5 * width));
+        for (int k = 0; k < width; ++k)
+            taps[std::size_t(d)][std::size_t(k)] =
+                layout.kernels[std::size_t(d)].value(first[d] + k - cell[d]);
+    }
+    std::complex<double> sum = 0.0;
+    for (int z = 0; z < width; ++z)
+        for (int y = 0; y < width; ++y) {
+            std::complex<double> row = 0.0;
+            for (int x = 0; x < width; ++x)
+                row += taps[0][std::size_t(x)] *
+                       spectrum.value(first[0] + x, first[1] + y, first[2] + z);
+            sum += taps[1][std::size_t(y)] * taps[2][std::size_t(z)] * row;
+        }
+    return std::norm(sum);
+}
+
+} // namespace
+
+struct SpectrumEnergies::Blocks {
+    Blocks(const fourier::Spectrum &spectrum, const fourier::KernelsByWidth &kernels,
+           const scene::ImageDefinition &image)
+        : blocks(spectrum, kernels), lattice(spectrum.lattice()), padded(spectrum.layout().padded),
+          factors(factorBounds(image)) {}
+
+    // The largest squared factor of the reconstruction at a frequency or beyond it, along one axis.
+    static std::vector<float> factorBounds(const scene::ImageDefinition &image) {
+        constexpr int finer = 8;
+        std::vector<float> bounds(std::size_t(tabledCycles * int(factorsPerCycle)) + 1, 0.0F);
+        float largest = 0.0F;
+        for (int n = int(bounds.size()) * finer; n-- > 0;) {
+            const double factor =
+                scene::reconstructionFactor(image, n / (double(factorsPerCycle) * finer));
+            largest = std::max(largest, float(factor * factor));
+            bounds[std::size_t(n / finer)] = largest;
+        }
+        return bounds;
+    }
+
+    // For `slabs`: first by block, then by the distance of its cells.
+    void boundEnergies() {
+        const std::array<int, 3> counts{blocks.columns, blocks.rows, blocks.planes};
+        std::array<std::vector<float>, 3> most;
+        for (std::size_t d = 0; d < 3; ++d)
+            most[d].resize(std::size_t(counts[d]), 0.0F);
+        const float *errors = blocks.errors.data();
+        for (int z = 0; z < counts[2]; ++z)
+            for (int y = 0; y < counts[1]; ++y)
+                for (int x = 0; x < counts[0]; ++x, errors += blocks.entries)
+                    for (const auto &[d, at] : {std::pair(0, x), std::pair(1, y), std::pair(2, z)})
+                        most[std::size_t(d)][std::size_t(at)] =
+                            std::max(most[std::size_t(d)][std::size_t(at)], errors[0]);
+        for (std::size_t d = 0; d < 3; ++d) {
+            const int size = d == 0 ? blocks.step : fourier::CellLayout::planesTogether;
+            std::vector<float> byCell(std::size_t(padded[int(d)] / 2) + 1, 0.0F);
+            for (int at = 0; at < counts[d] * size; ++at) {
+                const auto cell = std::size_t(std::abs(int(blocks.firstCell[d]) + at));
+                if (cell < byCell.size())
+                    byCell[cell] = std::max(byCell[cell], most[d][std::size_t(at / size)]);
+            }
+            slabs[d].resize(byCell.size());
+            for (std::size_t cell = 0; cell < byCell.size(); ++cell)
+                slabs[d][cell] = *std::max_element(
+                    byCell.begin() + std::ptrdiff_t(cell),
+                    byCell.begin() + std::ptrdiff_t(std::min(cell + slabCells, byCell.size())));
+        }
+    }
+
+    // Cells along each axis per cycle per mm in a direction.
+    glm::dvec3 cellsPer(const glm::dvec3 &direction) const {
+        glm::dvec3 cells;
+        for (int d = 0; d < 3; ++d)
+            cells[d] = padded[d] * glm::dot(lattice.step(d), direction);
+        return cells;
+    }
+
+    SpectrumBlocks blocks;
+    volume::Lattice lattice;
+    volume::GridSize padded;
+    std::vector<float> factors;
+    /// By axis: the largest energy of a slab of `slabCells` cells, by the distance of its first cell
+    /// from frequency 0.
+    static constexpr std::size_t slabCells = 32;
+    std::array<std::vector<float>, 3> slabs;
+};
+
+SpectrumEnergies::SpectrumEnergies(const fourier::Spectrum &spectrum,
+                                   const fourier::KernelsByWidth &kernels,
+                                   const scene::ImageDefinition &image, double tolerance,
+                                   const task::Progress &progress) {
+    const auto made = task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
+        return std::make_shared<Blocks>(spectrum, kernels, image);
+    });
+    const volume::Lattice &lattice = made->lattice;
+    double cellsPerMm = 0.0;
+    for (int d = 0; d < 3; ++d)
+        cellsPerMm = std::max(cellsPerMm, made->padded[d] * lattice.spacingMm(d));
+    m_lowPerMm = lowCells / cellsPerMm;
+    m_low.resize(directionCount);
+    tbb::parallel_for(0, directionCount, [&](int n) {
+        constexpr int points = 24;
+        const glm::dvec3 direction = directionOf(n), cells = made->cellsPer(direction);
+        const double step = m_lowPerMm / points;
+        double sum = 0.0;
+        for (int k = 0; k < points; ++k) {
+            const double radius = (k + 0.5) * step;
+            sum += radius * step * energyAt(spectrum, radius * cells);
+        }
+        m_low[std::size_t(n)] = float(sum);
+    });
+    // A plane that is dark everywhere, as far as twice the Nyquist frequency, has so little.
+    constexpr double darkShare = 1e-3;
+    const double farthestPerMm = 1.0 / lattice.shortestStepMm();
+    const double dark =
+        darkShare * tolerance * tolerance * leastOfAll() / (pi * farthestPerMm * farthestPerMm);
+    SpectrumBlocks &blocks = made->blocks;
+    tbb::parallel_for(0, blocks.columns * blocks.planes, [&](int part) {
+        progress.check();
+        measureBlocks(spectrum, part / blocks.planes, part % blocks.planes, float(dark), blocks);
+    });
+    made->boundEnergies();
+    m_blocks = made;
+}
+
+int SpectrumEnergies::widest() const {
+    return m_blocks->blocks.widest;
+}
+
+std::size_t SpectrumEnergies::entryOf(int width) {
+    return std::size_t(SpectrumBlocks::entryOf(width));
+}
+
+float SpectrumEnergies::energyBound(const PlanePatch &patch) const {
+    const Blocks &all = *m_blocks;
+    const int lastFactor = int(all.factors.size()) - 1;
+    float factor = 1.0F, energy = std::numeric_limits<float>::infinity();
+    for (std::size_t d = 0; d < 3; ++d) {
+        const auto padded = float(all.padded[int(d)]);
+        const auto middle =
+            float((patch.firstColumn + 0.5 * patch.columns) * patch.perColumn[d] +
+                  (patch.firstRow + 0.5 * patch.rows) * patch.perRow[d]),
+                   reach = float(0.5 * (std::abs(patch.perColumn[d]) * patch.columns +
+                                        std::abs(patch.perRow[d]) * patch.rows));
+        const float least = std::max(0.0F, std::abs(middle) - reach);
+        factor *= all.factors[std::size_t(
+            std::min(lastFactor, int(least / padded * factorsPerCycle)))];
+        const float folded = std::abs(middle - padded * float(int(middle / padded + (middle < 0.0F ? -0.5F : 0.5F))));
+        const std::vector<float> &slabs = all.slabs[d];
+        float most = 0.0F;
+        const auto last = std::min(slabs.size() - 1, std::size_t(folded + reach) + 1);
+        for (auto cell = std::min(last, std::size_t(std::max(0.0F, folded - reach)));
+             cell <= last; cell += Blocks::slabCells)
+            most = std::max(most, slabs[cell]);
+        energy = std::min(energy, most);
+    }
+    return factor * energy;
+}
+
+PatchPoints::PatchPoints(const PlanePatch &patch) {
+    const auto countAlong = [](const std::array<double, 3> &per, double length) {
+        double most = 0.0;
+        for (const double along : per)
+            most = std::max(most, std::abs(along) * length);
+        return std::max(1, int(std::ceil(most / cellsPerPoint)));
+    };
+    const int countU = countAlong(patch.perColumn, patch.columns),
+              countV = countAlong(patch.perRow, patch.rows);
+    count = std::size_t(countU) * std::size_t(countV);
+    const double stepU = patch.columns / countU, stepV = patch.rows / countV;
+    for (std::size_t d = 0; d < 3; ++d) {
+        for (int v = 0; v < countV; ++v)
+            for (int u = 0; u < countU; ++u)
+                cells[d].push_back(float((u + 0.5) * stepU * patch.perColumn[d] +
+                                         (v + 0.5) * stepV * patch.perRow[d]));
+        cells[d].resize((count + vector - 1) / vector * vector, cells[d].back());
+        reach[d] = float(0.5 * (std::abs(stepU * patch.perColumn[d]) +
+                                std::abs(stepV * patch.perRow[d])));
+    }
+}
+
+SpectrumEnergies::Errors SpectrumEnergies::errorsIn(const PlanePatch &patch,
+                                                    const PatchPoints &points) const {
+    const Blocks &all = *m_blocks;
+    PointSum sum{.blocks = &all.blocks,
+                 .count = points.count,
+                 .factors = all.factors.data(),
+                 .factorsPerCycle = factorsPerCycle,
+                 .lastFactor = int(all.factors.size()) - 1};
+    for (std::size_t d = 0; d < 3; ++d) {
+        sum.cells[d] = points.cells[d].data();
+        sum.first[d] =
+            float(patch.firstColumn * patch.perColumn[d] + patch.firstRow * patch.perRow[d]);
+        sum.padded[d] = float(all.padded[int(d)]);
+        sum.reach[d] = points.reach[d] / sum.padded[d];
+    }
+    Errors errors{};
+    sumErrors(sum, errors.data());
+    for (float &error : errors)
+        error /= float(points.count);
+    return errors;
+}
+
+double SpectrumEnergies::leastOfAll() const {
+    return 2.0 * pi * leastMargin * double(*std::min_element(m_low.begin(), m_low.end()));
+}
+
+double SpectrumEnergies::least(const glm::dmat3 &axes) const {
+    constexpr int points = 64;
+    double sum = 0.0;
+    for (int n = 0; n < points; ++n) {
+        const double angle = pi * (n + 0.5) / points;
+        sum += m_low[std::size_t(indexOf(std::cos(angle) * axes[0] + std::sin(angle) * axes[1]))];
+    }
+    return 2.0 * leastMargin * sum * pi / points;
+}
+
+} // namespace pellucid::plan
