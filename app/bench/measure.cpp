@@ -215,7 +215,7 @@ Row measure(const std::string &suite, const std::string &name, const Subject &su
     const double start = millisecondsNow();
     const auto spectrum = std::make_shared<const fourier::Spectrum>(
         fourier::Spectrum::prepare(field.values, plan.spectrum));
-    auto widths = prepare::adaptiveWidths({spectrum}, plan);
+    auto widths = prepare::adaptiveWidths({{spectrum}, {}, {}}, plan);
     row.prepareMs = millisecondsNow() - start;
     if (how.transform)
         row.fft3dMs = transformMs(plan.spectrum);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "app/bench/suites.h"
+#include "core/prepare/prepared_engine.h"
 
 namespace pellucid::bench {
 
@@ -77,6 +79,30 @@ double raySumError(const SpatialVolume &volume, Truth &truth, double stepMm) {
     return worst;
 }
 
+// The engines of a plan and of the plan with one width of kernel, each with threads of its own.
+struct Engines {
+    Engines(const Subject &subject, const scene::Scene &scene) {
+        auto plan = plan::planRender(scene, plan::summarise(subject.field));
+        plan::adaptWidths(plan, scene);
+        const auto spectrum = std::make_shared<const fourier::Spectrum>(
+            fourier::Spectrum::prepare(subject.field.values, plan.spectrum));
+        const auto widths = prepare::adaptiveWidths({{spectrum}, {}, {}}, plan);
+        all = std::make_unique<render::CpuEngine>(spectrum, plan.fieldOfView);
+        one = std::make_unique<render::CpuEngine>(spectrum, plan.fieldOfView, 1);
+        all->setWidths(widths);
+        one->setWidths(widths);
+        scene::Scene asked = scene;
+        asked.interpolation.isUniform = true;
+        const auto single = plan::planRender(asked, plan::summarise(subject.field));
+        uniform = std::make_unique<render::CpuEngine>(
+            std::make_shared<const fourier::Spectrum>(
+                fourier::Spectrum::prepare(subject.field.values, single.spectrum)),
+            single.fieldOfView);
+    }
+
+    std::unique_ptr<render::CpuEngine> all, one, uniform;
+};
+
 // The row of one thread beside that of all.
 Row rowOfOneThread(const Row &row, const std::string &name, const FrameSamples &frames) {
     Row single = row;
@@ -100,20 +126,18 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
     Truth truth(subject, how.scene.camera, checkedViews);
     Row row = measure("scaling", "default " + name, subject, truth, how);
 
-    const auto plan = plan::planRender(how.scene, plan::summarise(subject.field));
-    const auto spectrum = std::make_shared<const fourier::Spectrum>(
-        fourier::Spectrum::prepare(subject.field.values, plan.spectrum));
-    render::CpuEngine engine(spectrum, plan.fieldOfView), alone(spectrum, plan.fieldOfView, 1);
+    const Engines engines(subject, how.scene);
     const SpatialVolume inSpace(subject.field.values);
     const double step = lattice.shortestStepMm();
     const auto views = randomViews(rounds * viewsPerRound);
-    FrameSamples all, one;
+    FrameSamples all, one, uniform;
     PeerSamples peers;
     for (int round = 0; round < rounds; ++round) {
         const auto ofRound = std::span(views).subspan(std::size_t(round * viewsPerRound),
                                                       std::size_t(viewsPerRound));
-        all.addRound(engine, how.scene, ofRound);
-        one.addRound(alone, how.scene, ofRound);
+        all.addRound(*engines.all, how.scene, ofRound);
+        uniform.addRound(*engines.uniform, how.scene, ofRound);
+        one.addRound(*engines.one, how.scene, ofRound);
         scene::Camera camera = how.scene.camera;
         camera.orientation = ofRound.front();
         peers.addRound(inSpace, camera, step);
@@ -124,10 +148,11 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
         row.raySumRelativeL2 = raySumError(inSpace, truth, step);
     const Row single = rowOfOneThread(row, name, one);
     row.note =
-        fmt::format("{:.0f} times the ray sum, {:.1f} times the shear-warp sum; {:.2f} times "
-                    "one thread; prepared in {:.2f} times FFTW's 3D transform",
-                    *row.raySumMs / *row.frameMs, *row.shearWarpMs / *row.frameMs,
-                    *single.frameMs / *row.frameMs, *row.prepareMs / *row.fft3dMs);
+        fmt::format("{:.2f} times one width of kernel; {:.0f} times the ray sum, {:.1f} times the "
+                    "shear-warp sum; {:.2f} times one thread; prepared in {:.2f} times FFTW's 3D "
+                    "transform",
+                    median(uniform.frameMs) / *row.frameMs, *row.raySumMs / *row.frameMs,
+                    *row.shearWarpMs / *row.frameMs, *single.frameMs / *row.frameMs, *row.prepareMs / *row.fft3dMs);
     report(row);
     report(single);
     return {double(side), *row.frameMs, *row.raySumMs, *row.shearWarpMs};

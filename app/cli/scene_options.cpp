@@ -164,7 +164,8 @@ void addQualityOptions(CLI::App &command, SceneOptions &options) {
         ->check(CLI::IsMember({"f16", "f32"}));
     command.add_flag(
         "--uniform", options.isUniform,
-        "Read all frequencies of the picture, even those that the tolerance makes unnecessary");
+        "Read every frequency of the picture with the same kernel, even where the tolerance would "
+        "allow a narrower one");
 }
 
 bool isGiven(const CLI::App &command, const char *option) {

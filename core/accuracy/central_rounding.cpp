@@ -12,6 +12,7 @@
 
 #include "core/render/frame_geometry.h"
 #include "core/render/frame_mixing.h"
+#include "core/render/slice_reader.h"
 
 namespace pellucid::accuracy {
 
@@ -21,34 +22,28 @@ using Complex = std::complex<double>;
 using fourier::Spectrum;
 
 constexpr std::size_t maxTaps = 2 * Spectrum::roundingReach;
-using Taps = std::array<std::array<double, maxTaps>, 3>;
 
-// A value read from a spectrum, and its rounding error.
-struct Read {
-    Complex value = 0.0, error = 0.0;
-    Read &operator+=(const Read &other) {
-        value += other.value;
-        error += other.error;
-        return *this;
-    }
-};
-Read operator*(const Complex &factor, const Read &read) {
-    return {factor * read.value, factor * read.error};
-}
+using Read = render::SliceReader::Read;
 
 class CentralSlices {
 public:
     CentralSlices(const render::EngineParts &engine, const scene::Camera &camera,
                   const plan::SliceGrid &grid, const shading::Shading &shading)
-        : m_engine(engine), m_spectrum(*engine.spectra.fields.front()),
-          m_layout(m_spectrum.layout()), m_geometry(camera, grid, m_spectrum),
+        : m_layout(engine.spectra.fields.front()->layout()),
+          m_geometry(camera, grid, *engine.spectra.fields.front()),
           m_slices(shading::sliceShading(shading, camera.axes(), engine.spectra.scale)),
           m_mixing(engine.spectra, engine.channelWeights, m_slices, shading.isGrey()),
-          m_frameShading(render::frameShading(m_slices, m_mixing, m_spectrum, m_geometry.toWrap,
-                                              camera.axes()[2], engine.spectra.scale.stepMm)) {
-        if (m_frameShading.cued)
+          m_frameShading(render::frameShading(m_slices, m_mixing, *engine.spectra.fields.front(),
+                                              m_geometry.toWrap, camera.axes()[2],
+                                              engine.spectra.scale.stepMm)),
+          m_reader(engine.spectra, m_mixing, m_frameShading) {
+        if (m_frameShading.cued) {
             m_moments.emplace(render::momentKernels(m_layout));
+            m_frameShading.kernels = &*m_moments;
+        }
     }
+    CentralSlices(const CentralSlices &) = delete;
+    CentralSlices &operator=(const CentralSlices &) = delete;
 
     CentralEnergies energies(const scene::Camera &camera, const plan::SliceGrid &grid) const {
         const auto &across = m_geometry.cellsPerColumn, &down = m_geometry.cellsPerRow;
@@ -64,7 +59,7 @@ public:
                 std::array<double, 3> at{};
                 for (std::size_t d = 0; d < 3; ++d)
                     at[d] = column * across[d] + row * down[d];
-                waves.images.push_back(isWithinReach(at) ? slicesAt(at, row == 0 && column == 0)
+                waves.images.push_back(isWithinReach(at) ? m_reader.at(at)
                                                          : std::array<Read, 3>{});
             }
         CentralEnergies energies = energiesIn(camera, grid, waves);
@@ -83,17 +78,11 @@ private:
             for (int r = -reach; r <= reach; ++r)
                 for (int q = -reach; q <= reach; ++q)
                     for (int p = 0; p <= reach; ++p) {
-                        const Read cell = readCell(spectrumOf(source), p, q, r);
+                        const Read cell = m_reader.cell(source, {p, q, r});
                         energy += std::norm(cell.value);
                         error += std::norm(cell.error);
                     }
         return energy > 0.0 ? error / energy : 0.0;
-    }
-
-    const Spectrum &spectrumOf(const render::FrameSource &source) const {
-        return *(source.kind == render::FrameKind::field
-                     ? m_engine.spectra.fields[source.field]
-                     : m_engine.spectra.gradients[source.field]);
     }
 
     bool isWithinReach(const std::array<double, 3> &at) const {
@@ -110,19 +99,6 @@ private:
         int columns, rows;
         std::vector<std::array<Read, 3>> images; ///< by row and column, then by channel
     };
-
-    std::array<Read, 3> slicesAt(const std::array<double, 3> &at, bool isZero) const {
-        std::array<Read, 3> image{};
-        for (int t = 0; t < m_frameShading.termCount; ++t)
-            addTerm(at, t, isZero, image);
-        if (m_mixing.channels > 1)
-            return image;
-        // A single image is colored afterwards.
-        const Read grey = image[0];
-        for (std::size_t c = 0; c < 3; ++c)
-            image[c] = Complex(m_mixing.color[c]) * grey;
-        return image;
-    }
 
     // The waves are slow, so a few points of the picture are enough for their energy in it.
     CentralEnergies energiesIn(const scene::Camera &camera, const plan::SliceGrid &grid,
@@ -181,95 +157,13 @@ private:
         return sum;
     }
 
-    // See FrameShading.
-    void addTerm(const std::array<double, 3> &central, int term, bool isZero,
-                 std::array<Read, 3> &images) const {
-        const render::FrameShading::Term &shadingTerm = m_frameShading.terms[std::size_t(term)];
-        const Complex weight(shadingTerm.weight);
-        std::array<double, 3> at{};
-        for (std::size_t d = 0; d < 3; ++d)
-            at[d] = central[d] + shadingTerm.cells[d];
-        // Plain and cued, by kind (field, gradient) and sum.
-        std::array<std::array<std::array<Read, 3>, 2>, 2> reads{};
-        for (const render::FrameSource &source : m_mixing.sources) {
-            const auto kind = std::size_t(source.kind);
-            const Spectrum &spectrum = spectrumOf(source);
-            auto [plain, cued] = readAt(spectrum, at);
-            // The sum at frequency 0 is known exactly.
-            if (isZero && term == 0)
-                plain.error = cued.error = 0.0;
-            for (std::size_t c = 0; c < std::size_t(m_mixing.sums); ++c) {
-                const double share =
-                    double(source.channelWeights[c]) * m_mixing.unit / spectrum.unit();
-                reads[0][kind][c] += share * plain;
-                reads[1][kind][c] += share * cued;
-            }
-        }
-        for (std::size_t c = 0; c < std::size_t(m_mixing.channels); ++c) {
-            const render::FrameShading::Image &image = m_frameShading.images[c];
-            const std::size_t sum = m_mixing.sums == 1 ? 0 : c;
-            double gradient = 0.0, excess = 0.0;
-            for (std::size_t d = 0; d < 3; ++d) {
-                const double turn = 2.0 * std::numbers::pi * at[d] / m_layout.padded[int(d)];
-                gradient += image.gradient[d] * std::sin(turn);
-                excess += image.excess[d] * std::cos(turn);
-            }
-            Read slice = Complex(image.ambient, gradient) * reads[1][0][sum];
-            slice += Complex(-excess) * reads[0][0][sum];
-            slice += Complex(image.magnitude) * reads[1][1][sum];
-            images[c] += weight * slice;
-        }
-    }
-
-    std::array<Read, 2> readAt(const Spectrum &spectrum, const std::array<double, 3> &at) const {
-        const int width = m_layout.width();
-        std::array<int, 3> first{};
-        Taps taps{}, moments{};
-        for (std::size_t d = 0; d < 3; ++d) {
-            first[d] = int(std::ceil(at[d] - 0.5 * width));
-            for (int tap = 0; tap < width; ++tap) {
-                const double away = first[d] + tap - at[d];
-                taps[d][std::size_t(tap)] = m_layout.kernels[d].value(away);
-                if (m_moments)
-                    moments[d][std::size_t(tap)] =
-                        m_frameShading.perMoment[d] * (*m_moments)[d].value(away);
-            }
-        }
-        Read plain, moment;
-        for (std::size_t r = 0; r < std::size_t(width); ++r)
-            for (std::size_t q = 0; q < std::size_t(width); ++q)
-                for (std::size_t p = 0; p < std::size_t(width); ++p) {
-                    const Read cell =
-                        readCell(spectrum, first[0] + int(p), first[1] + int(q), first[2] + int(r));
-                    const double x = taps[0][p], y = taps[1][q], z = taps[2][r];
-                    plain += Complex(x * y * z) * cell;
-                    if (m_moments)
-                        moment += Complex(moments[0][p] * y * z + x * moments[1][q] * z +
-                                          x * y * moments[2][r]) *
-                                  cell;
-                }
-        // The odd kernel yields -i times the field times its distance.
-        Read cued = Complex(m_frameShading.base) * plain;
-        cued += Complex(0.0, 1.0) * moment;
-        return {plain, m_frameShading.cued ? cued : plain};
-    }
-
-    static Read readCell(const Spectrum &spectrum, int p, int q, int r) {
-        if (p < 0) {
-            const Read mirrored = readCell(spectrum, -p, -q, -r);
-            return {std::conj(mirrored.value), std::conj(mirrored.error)};
-        }
-        return {spectrum.value(p, q, r), spectrum.rounding(p, q, r)};
-    }
-
-    const render::EngineParts &m_engine;
-    const Spectrum &m_spectrum;
     const fourier::SpectrumLayout &m_layout;
     render::FrameGeometry m_geometry;
     shading::SliceShading m_slices;
     render::Mixing m_mixing;
     render::FrameShading m_frameShading;
     std::optional<render::MomentKernels> m_moments;
+    render::SliceReader m_reader;
 };
 
 } // namespace

@@ -67,13 +67,13 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     // Without light the weights do not depend on R and the step.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
     const plan::SliceGrid grid = plan::sliceGrid(camera, m_fieldOfView, m_fields.lattice, image);
+    // The widths that the frame was read by.
     double narrowing = 0.0;
-    if (engine.widths && slices.isPlain()) {
-        const render::FrameGeometry geometry(camera, grid, *engine.spectra.fields.front());
-        narrowing = engine.widths
-                        ->mapFor(camera.axes(), render::slicePlane(camera, grid, geometry),
-                                 channelWeights)
-                        .left;
+    if (engine.widths) {
+        render::FrameSetup setup(m_fieldOfView, engine.widths);
+        const render::FrameInputs inputs =
+            setup.inputsFor(engine.spectra, channelWeights, camera, image, shading);
+        narrowing = inputs.widths ? inputs.widths->left : 0.0;
     }
     const PictureContext context{picture, camera, image,
                                  shading, grid,   centralEnergies(engine, camera, grid, shading),

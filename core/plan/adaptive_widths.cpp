@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "core/plan/cost_model.h"
 
@@ -45,14 +47,20 @@ public:
         Errors errors{};
     };
 
-    Tiles(const SlicePlane &plane, const Circle &circle,
-          std::span<const std::shared_ptr<const SpectrumEnergies>> fields,
-          std::span<const AdaptiveWidths::Weights> weights, double budget)
-        : m_plane(plane), m_circle(circle), m_fields(fields), m_weights(weights),
+    // A source and what is known of its spectrum.
+    struct Measured {
+        SliceSource source;
+        const SpectrumEnergies *energies = nullptr;
+    };
+
+    Tiles(const SlicePlane &plane, const Circle &circle, std::vector<Measured> sources,
+          double budget)
+        : m_circle(circle), m_sources(std::move(sources)),
           m_patch{plane.perColumn, plane.perRow, tileColumns, tileRows}, m_points(m_patch),
           m_area(2.0 * tileColumns * tileRows * plane.columnPerMm * plane.rowPerMm * blockMargin /
                  budget),
-          m_dark(darkShare / (2.0 * circle.strips * circle.tiles)), m_errors(fields.size()) {
+          m_dark(darkShare / (2.0 * circle.strips * circle.tiles)), m_errors(m_sources.size()),
+          m_amplitudes(m_sources.size()) {
         for (int strip = 0; strip < circle.strips; strip += groupSide)
             for (int row = -circle.tiles; row < circle.tiles; row += groupSide)
                 addGroup(strip, row);
@@ -72,10 +80,10 @@ private:
         const int side = m_circle.sides[std::size_t(firstStrip)];
         if (firstRow >= side || firstRow + groupSide <= -side)
             return;
-        if (!isLow(firstStrip, firstRow, groupSide)) {
-            PlanePatch group = patchAt(firstStrip, firstRow);
-            group.columns *= groupSide;
-            group.rows *= groupSide;
+        PlanePatch group = patchAt(firstStrip, firstRow);
+        group.columns *= groupSide;
+        group.rows *= groupSide;
+        if (!isLow(group)) {
             if (const double bound = boundOf(group); bound <= m_dark) {
                 left += groupSide * groupSide * bound;
                 return;
@@ -92,15 +100,15 @@ private:
     void addTile(int strip, int row) {
         Tile tile{strip, row, {}};
         const PlanePatch patch = patchAt(strip, row);
-        if (isLow(strip, row, 1)) {
+        if (isLow(patch)) {
             tile.errors.fill(std::numeric_limits<float>::infinity());
         } else if (const double bound = boundOf(patch); bound <= m_dark) {
             left += bound;
             return;
         } else {
-            for (std::size_t f = 0; f < m_fields.size(); ++f)
-                if (m_weights[f] != AdaptiveWidths::Weights{})
-                    m_errors[f] = m_fields[f]->errorsIn(patch, m_points);
+            for (std::size_t s = 0; s < m_sources.size(); ++s)
+                m_errors[s] = m_sources[s].energies->errorsIn(
+                    offsetBy(patch, m_sources[s].source), m_points);
             for (std::size_t n = 0; n < tile.errors.size(); ++n)
                 tile.errors[n] = float(sumOf(n));
         }
@@ -114,50 +122,80 @@ private:
         return patch;
     }
 
-    // Whether some of `tiles` x `tiles` tiles are.
-    bool isLow(int strip, int row, int tiles) const {
-        const double lowest = row >= 0 ? row : std::max(0, -row - tiles);
-        const double u = strip * tileColumns * m_plane.columnPerMm,
-                     v = lowest * tileRows * m_plane.rowPerMm,
-                     low = m_fields.front()->lowPerMm();
-        return u * u + v * v < low * low;
+    // Whether some point of a patch is so close to frequency 0 that blocks are too coarse for it.
+    bool isLow(const PlanePatch &patch) const {
+        double distance = 0.0; // the largest along any axis, at least
+        for (std::size_t d = 0; d < 3; ++d)
+            distance = std::max(distance, std::abs(middleOf(patch, d)) - reachOf(patch, d));
+        return distance < SpectrumEnergies::lowCells;
+    }
+
+    static double middleOf(const PlanePatch &patch, std::size_t d) {
+        return patch.offset[d] + (patch.firstColumn + 0.5 * patch.columns) * patch.perColumn[d] +
+               (patch.firstRow + 0.5 * patch.rows) * patch.perRow[d];
+    }
+    static double reachOf(const PlanePatch &patch, std::size_t d) {
+        return 0.5 * (std::abs(patch.perColumn[d]) * patch.columns +
+                      std::abs(patch.perRow[d]) * patch.rows);
+    }
+
+    static PlanePatch offsetBy(PlanePatch patch, const SliceSource &source) {
+        patch.offset = source.offset;
+        return patch;
     }
 
     double boundOf(const PlanePatch &patch) {
-        for (std::size_t f = 0; f < m_fields.size(); ++f)
-            m_errors[f][0] = m_weights[f] == AdaptiveWidths::Weights{}
-                                 ? 0.0F
-                                 : m_fields[f]->energyBound(patch);
+        for (std::size_t s = 0; s < m_sources.size(); ++s)
+            m_errors[s][0] =
+                m_sources[s].energies->energyBound(offsetBy(patch, m_sources[s].source));
+        setAmplitudes(patch);
         return sumOf(0);
+    }
+
+    void setAmplitudes(const PlanePatch &patch) {
+        for (std::size_t s = 0; s < m_sources.size(); ++s)
+            for (std::size_t c = 0; c < 3; ++c)
+                m_amplitudes[s][c] = amplitudeOf(m_sources[s], patch, c);
     }
 
     // Amplitudes of fields without negative samples add up, and so do those of their errors at
     // worst.
     double sumOf(std::size_t entry) const {
+        std::array<double, 3> amplitudes{};
+        for (std::size_t s = 0; s < m_sources.size(); ++s) {
+            const double error = std::sqrt(double(m_errors[s][entry]));
+            for (std::size_t c = 0; c < 3; ++c)
+                amplitudes[c] += m_amplitudes[s][c] * error;
+        }
         double sum = 0.0;
-        if (m_fields.size() == 1) {
-            for (const double weight : m_weights.front())
-                sum += weight * weight;
-            return m_area * sum * double(m_errors.front()[entry]);
-        }
-        for (std::size_t c = 0; c < 3; ++c) {
-            double amplitude = 0.0;
-            for (std::size_t f = 0; f < m_fields.size(); ++f)
-                amplitude += std::abs(m_weights[f][c]) * std::sqrt(double(m_errors[f][entry]));
+        for (const double amplitude : amplitudes)
             sum += amplitude * amplitude;
-        }
         return m_area * sum;
     }
 
-    const SlicePlane &m_plane;
+    // The most that a source is multiplied by in a patch.
+    static double amplitudeOf(const Measured &measured, const PlanePatch &patch, std::size_t c) {
+        const SliceSource &source = measured.source;
+        double amplitude = source.amplitude[c];
+        for (std::size_t d = 0; d < 3; ++d) {
+            if (source.perSine[c][d] == 0.0)
+                continue;
+            const double perCell = 2.0 * std::numbers::pi / measured.energies->padded()[int(d)];
+            const double middle = middleOf(patch, d) + source.offset[d];
+            amplitude += source.perSine[c][d] * std::min(1.0, std::abs(std::sin(perCell * middle)) +
+                                                                  perCell * reachOf(patch, d));
+        }
+        return amplitude;
+    }
+
     const Circle &m_circle;
-    std::span<const std::shared_ptr<const SpectrumEnergies>> m_fields;
-    std::span<const AdaptiveWidths::Weights> m_weights;
+    std::vector<Measured> m_sources;
     PlanePatch m_patch;
     PatchPoints m_points;
     double m_area; ///< of a tile in both halves of the plane, over the budget
     double m_dark;
-    std::vector<Errors> m_errors; ///< by field
+    std::vector<Errors> m_errors; ///< by source
+    std::vector<std::array<double, 3>> m_amplitudes; ///< by source, of the last patch
 };
 
 // The widths of a tile that save time at a price, from the widest kernel on, each at a higher price
@@ -223,14 +261,34 @@ WidthMap::Shares WidthMap::shares(const SlicePlane &plane) const {
 WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
                                 std::span<const Weights> weights) const {
     double least = 0.0;
-    for (std::size_t f = 0; f < m_fields.size(); ++f)
-        for (const double weight : weights[f])
-            least += weight * weight * m_fields[f]->least(axes);
+    std::vector<SliceSource> sources;
+    for (std::size_t f = 0; f < m_fields.size(); ++f) {
+        if (weights[f] == Weights{})
+            continue;
+        SliceSource source{.field = f};
+        for (std::size_t c = 0; c < 3; ++c) {
+            source.amplitude[c] = std::abs(weights[f][c]);
+            least += weights[f][c] * weights[f][c] * m_fields[f]->least(axes);
+        }
+        // One channel's amplitudes are enough for a single field.
+        if (m_fields.size() == 1)
+            source.amplitude = {std::hypot(weights[f][0], weights[f][1], weights[f][2]), 0.0, 0.0};
+        sources.push_back(source);
+    }
+    return mapFor(plane, sources, least);
+}
+
+WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSource> sources,
+                                double least) const {
     const Circle circle(plane);
     // Where little is known to be in the picture, everything is read.
     const double budget =
         std::max(m_tolerance * m_tolerance * least, std::numeric_limits<double>::min());
-    const Tiles tiles(plane, circle, m_fields, weights, budget);
+    std::vector<Tiles::Measured> measured;
+    for (const SliceSource &source : sources)
+        measured.push_back(
+            {source, (source.isGradient ? m_gradients : m_fields)[source.field].get()});
+    const Tiles tiles(plane, circle, std::move(measured), budget);
     std::vector<Savings> savings;
     savings.reserve(tiles.bright.size());
     std::vector<double> errors(Savings::classes, 0.0);

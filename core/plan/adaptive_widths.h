@@ -19,6 +19,16 @@ struct SlicePlane {
     double columnPerMm = 0.0, rowPerMm = 0.0; ///< the frequency steps
 };
 
+/// A spectrum that a slice is read from, and how it enters the channels of the picture: its slice,
+/// at an offset, times at most amplitude + sum_d perSine[d] |sin 2 pi q_d|, q in cycles per sample.
+struct SliceSource {
+    std::size_t field = 0;
+    bool isGradient = false;
+    std::array<double, 3> offset{}; ///< *Units*: cells
+    std::array<double, 3> amplitude{};                ///< by channel
+    std::array<std::array<double, 3>, 3> perSine{};   ///< by channel and axis
+};
+
 /// The width of the kernel that reads each tile of a slice: `tileColumns` columns of `tileRows`
 /// rows. Width 0 leaves a tile out.
 struct WidthMap {
@@ -47,21 +57,30 @@ class AdaptiveWidths {
 public:
     using Weights = std::array<double, 3>; ///< of a field in red, green and blue
 
-    /// `tolerance`: the error that a view may make, relative L2.
-    AdaptiveWidths(std::shared_ptr<const fourier::KernelsByWidth> kernels,
-                   std::vector<std::shared_ptr<const SpectrumEnergies>> fields, double tolerance)
-        : m_kernels(std::move(kernels)), m_fields(std::move(fields)), m_tolerance(tolerance) {}
+    using Energies = std::vector<std::shared_ptr<const SpectrumEnergies>>;
 
-    /// *Shape*: one weight for each field. `axes`: columns U, V and W.
+    /// `tolerance`: the error that a view may make, relative L2. *Shape*: one gradient per field, or
+    /// none.
+    AdaptiveWidths(std::shared_ptr<const fourier::KernelsByWidth> kernels, Energies fields,
+                   Energies gradients, double tolerance)
+        : m_kernels(std::move(kernels)), m_fields(std::move(fields)),
+          m_gradients(std::move(gradients)), m_tolerance(tolerance) {}
+
+    /// For plain frames. *Shape*: one weight for each field. `axes`: columns U, V and W.
     WidthMap mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
                     std::span<const Weights> weights) const;
+    /// For frames with cue or light. `least`: the energy of low frequencies of the picture; the
+    /// whole has more. *Units*: of the spectrum squared, over mm^2.
+    WidthMap mapFor(const SlicePlane &plane, std::span<const SliceSource> sources,
+                    double least) const;
+    bool hasGradients() const { return !m_gradients.empty(); }
 
     const std::shared_ptr<const fourier::KernelsByWidth> &kernels() const { return m_kernels; }
     double tolerance() const { return m_tolerance; }
 
 private:
     std::shared_ptr<const fourier::KernelsByWidth> m_kernels;
-    std::vector<std::shared_ptr<const SpectrumEnergies>> m_fields;
+    Energies m_fields, m_gradients;
     double m_tolerance;
 };
 

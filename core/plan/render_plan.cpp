@@ -85,9 +85,10 @@ task::Reason reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool o
 // The search for the best plan: kernels, storages, paddings and slice grids, each tried in turn.
 class Planner {
 public:
-    Planner(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
-            const Budget &budget)
-        : m_scene(scene), m_fields(fields), m_channels(channels), m_budget(budget),
+    // `limit`: the error that a plan may predict.
+    Planner(const scene::Scene &scene, double limit, std::span<const FieldSummary> fields,
+            int channels, const Budget &budget)
+        : m_scene(scene), m_limit(limit), m_fields(fields), m_channels(channels), m_budget(budget),
           m_kernels(
               choices<fourier::KernelChoice>(scene.interpolation.kernel, {{leastAliasing, 3},
                                                                           {leastAliasing, 4},
@@ -199,7 +200,7 @@ private:
                 return a.folded < b.folded;
             })->folded;
         return std::hypot(relativeError(layoutAt(choice, storage, {most, most, most})), minFolded) >
-               m_scene.tolerance;
+               m_limit;
     }
 
     // Starts with the least padding and adds to one axis at a time.
@@ -272,7 +273,7 @@ private:
         const double predicted = std::hypot(layoutError, planned.folded);
         const double time =
             frameTime(planned.grid, m_scene.camera, m_fields.front().lattice, layout.spectrum);
-        const bool meets = predicted <= m_scene.tolerance, unmet = std::isinf(m_bestTime);
+        const bool meets = predicted <= m_limit, unmet = std::isinf(m_bestTime);
         if (meets ? time < m_bestTime : unmet && (!m_best || predicted < m_best->predictedError)) {
             m_best = RenderPlan{layout.spectrum,
                                 planned.fieldOfView,
@@ -297,6 +298,7 @@ private:
     }
 
     const scene::Scene &m_scene;
+    double m_limit;
     std::span<const FieldSummary> m_fields; ///< on one lattice, in one box
     int m_channels;
     Budget m_budget;
@@ -316,6 +318,13 @@ private:
 
 } // namespace
 
+// Whether frames may be read by kernels of several widths.
+static bool mayAdapt(const scene::Scene &scene) {
+    const shading::DepthCue &cue = scene.shading.cue;
+    return !scene.interpolation.isUniform &&
+           !(cue.isActive() && cue.kind == shading::CueKind::linear);
+}
+
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, const Budget &budget) {
     return planRender(scene, {&field, 1}, 1, budget);
 }
@@ -323,7 +332,14 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, cons
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
                       const Budget &budget) {
     scene::validate(scene);
-    return Planner(scene, fields, channels, budget).plan();
+    if (mayAdapt(scene)) {
+        // What is left for narrower kernels is worth more than a little less padding.
+        const double limit = 0.8 * scene.tolerance;
+        RenderPlan plan = Planner(scene, limit, fields, channels, budget).plan();
+        if (plan.predictedError <= limit)
+            return plan;
+    }
+    return Planner(scene, scene.tolerance, fields, channels, budget).plan();
 }
 
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene) {
@@ -331,7 +347,7 @@ void adaptWidths(RenderPlan &plan, const scene::Scene &scene) {
     constexpr double margin = 0.95, leastShare = 0.1;
     const double tolerance = scene.tolerance, error = plan.predictedError;
     const double left = margin * std::sqrt(std::max(0.0, tolerance * tolerance - error * error));
-    if (scene.interpolation.isUniform || !scene.shading.isPlain() || plan.spectrum.width() < 2 || left < leastShare * tolerance)
+    if (!mayAdapt(scene) || plan.spectrum.width() < 2 || left < leastShare * tolerance)
         return;
     plan.adaptiveError = left;
     plan.image = scene.image;

@@ -36,7 +36,7 @@ struct RenderPlan {
     std::size_t bytes = 0;
     /// Why this plan was chosen: one line for the user.
     task::Reason reason = task::because::mostAccurate;
-    /// The part of `predictedError` that plain frames may make by narrower kernels, see
+    /// The part of `predictedError` that frames may make by narrower kernels, see
     /// AdaptiveWidths; 0: one kernel reads every frequency.
     double adaptiveError = 0.0;
     scene::ImageDefinition image; ///< for which that is
@@ -55,8 +55,8 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
                       const Budget &budget = {});
 
-/// Spends what a plan leaves of the tolerance on narrower kernels, if the scene has neither cue nor
-/// light.
+/// Spends what a plan leaves of the tolerance on narrower kernels, if the scene has no linear cue,
+/// whose moments have kernels of their own.
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene);
 
 } // namespace pellucid::plan

@@ -20,8 +20,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Blocks of 8 cells say nothing of the energies nearer to frequency 0 than this, in cells.
-constexpr double lowCells = 12.0;
 // Points of a patch are at most this far apart along each axis.
 constexpr double cellsPerPoint = 6.0;
 // Of the energy of a view by directions.
@@ -193,6 +191,10 @@ int SpectrumEnergies::widest() const {
     return m_blocks->blocks.widest;
 }
 
+const volume::GridSize &SpectrumEnergies::padded() const {
+    return m_blocks->padded;
+}
+
 std::size_t SpectrumEnergies::entryOf(int width) {
     return std::size_t(SpectrumBlocks::entryOf(width));
 }
@@ -204,7 +206,7 @@ float SpectrumEnergies::energyBound(const PlanePatch &patch) const {
     for (std::size_t d = 0; d < 3; ++d) {
         const auto padded = float(all.padded[int(d)]);
         const auto middle =
-            float((patch.firstColumn + 0.5 * patch.columns) * patch.perColumn[d] +
+            float(patch.offset[d] + (patch.firstColumn + 0.5 * patch.columns) * patch.perColumn[d] +
                   (patch.firstRow + 0.5 * patch.rows) * patch.perRow[d]),
                    reach = float(0.5 * (std::abs(patch.perColumn[d]) * patch.columns +
                                         std::abs(patch.perRow[d]) * patch.rows));
@@ -256,7 +258,8 @@ SpectrumEnergies::Errors SpectrumEnergies::errorsIn(const PlanePatch &patch,
     for (std::size_t d = 0; d < 3; ++d) {
         sum.cells[d] = points.cells[d].data();
         sum.first[d] =
-            float(patch.firstColumn * patch.perColumn[d] + patch.firstRow * patch.perRow[d]);
+            float(patch.offset[d] + patch.firstColumn * patch.perColumn[d] +
+                  patch.firstRow * patch.perRow[d]);
         sum.padded[d] = float(all.padded[int(d)]);
         sum.reach[d] = points.reach[d] / sum.padded[d];
     }

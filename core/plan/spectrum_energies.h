@@ -13,12 +13,13 @@
 
 namespace pellucid::plan {
 
-/// A part of a view's plane in a spectrum: the points column * perColumn + row * perRow.
+/// A part of a plane in a spectrum: the points offset + column * perColumn + row * perRow.
 /// *Units*: cells, by axis.
 struct PlanePatch {
     std::array<double, 3> perColumn{}, perRow{};
     double columns = 0.0, rows = 0.0; ///< its size
     double firstColumn = 0.0, firstRow = 0.0;
+    std::array<double, 3> offset{};
 };
 
 /// The points that represent patches of one size, relative to their first column and row. *Units*:
@@ -49,6 +50,7 @@ public:
 
     int widest() const;
     static std::size_t entryOf(int width);
+    const volume::GridSize &padded() const;
     /// A bound on the energy of any frequency of the picture in a patch, in far less time.
     float energyBound(const PlanePatch &patch) const;
     /// The mean squared error of a frequency of the picture in a patch. *Units*: of the spectrum
@@ -57,8 +59,8 @@ public:
     /// The energy of the low frequencies of a view, less a margin: the whole view has more.
     /// *Shape*: `axes`: columns U, V and W. *Units*: of the spectrum squared, over mm^2.
     double least(const glm::dmat3 &axes) const;
-    /// Blocks are too coarse for frequencies below this.
-    double lowPerMm() const { return m_lowPerMm; }
+    /// Blocks are too coarse for frequencies within so many cells of frequency 0 along each axis.
+    static constexpr double lowCells = 12.0;
 
 private:
     struct Blocks;

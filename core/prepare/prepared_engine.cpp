@@ -97,19 +97,22 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
     }
 }
 
-std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra::Spectra &fields,
+std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
                                              const plan::RenderPlan &plan,
                                              const task::Progress &progress) {
     if (plan.adaptiveError == 0.0)
         return nullptr;
     auto kernels = std::make_shared<const fourier::KernelsByWidth>(plan.spectrum);
-    std::vector<std::shared_ptr<const plan::SpectrumEnergies>> energies;
-    for (const auto &field : fields)
-        energies.push_back(
-            std::make_shared<const plan::SpectrumEnergies>(*field, *kernels, plan.image,
-                                                           plan.adaptiveError, progress));
-    return std::make_shared<const plan::AdaptiveWidths>(std::move(kernels), std::move(energies),
-                                                        plan.adaptiveError);
+    const auto energiesOf = [&](const render::EngineSpectra::Spectra &of) {
+        plan::AdaptiveWidths::Energies energies;
+        for (const auto &spectrum : of)
+            energies.push_back(std::make_shared<const plan::SpectrumEnergies>(
+                *spectrum, *kernels, plan.image, plan.adaptiveError, progress));
+        return energies;
+    };
+    auto fields = energiesOf(spectra.fields), gradients = energiesOf(spectra.gradients);
+    return std::make_shared<const plan::AdaptiveWidths>(
+        std::move(kernels), std::move(fields), std::move(gradients), plan.adaptiveError);
 }
 
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
@@ -129,7 +132,7 @@ std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
         spectra.fields.push_back(prepare(field));
     for (const classify::DensityField &gradient : channels.gradients)
         spectra.gradients.push_back(prepare(gradient));
-    auto widths = adaptiveWidths(spectra.fields, plan, progress);
+    auto widths = adaptiveWidths(spectra, plan, progress);
     auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
     engine->setWidths(std::move(widths));
     if (channels.fields.size() == 1)
@@ -206,6 +209,7 @@ PreparedEngine withoutLight(const PreparedEngine &prepared) {
     render::EngineParts parts = prepared.engine->parts();
     parts.spectra.gradients.clear();
     auto engine = std::make_shared<render::CpuEngine>(std::move(parts.spectra), parts.fieldOfView);
+    engine->setWidths(std::move(parts.widths));
     engine->setChannelWeights(std::move(parts.channelWeights));
     const std::size_t bytes = engine->bytes();
     plan::RenderPlan plan = prepared.plan;

@@ -51,9 +51,9 @@ struct PreparedEngine {
     plan::SpectrumOf of = plan::SpectrumOf::look;
 };
 
-/// The widths that plain frames of a plan are read by; null if one width reads everything.
-/// *Throws* Error{outOfMemory}, Cancelled.
-std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra::Spectra &fields,
+/// The widths that frames of a plan are read by; null if one width reads everything. *Throws*
+/// Error{outOfMemory}, Cancelled.
+std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
                                              const plan::RenderPlan &plan,
                                              const task::Progress &progress = {});
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/render/frame_inputs.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/render/slice_reader.h"
+
 namespace pellucid::render {
 
 namespace {
@@ -11,6 +16,70 @@ shading::Shading activeShading(const shading::Shading &shading, const EngineSpec
     if (spectra.gradients.empty())
         active.lights.clear();
     return active;
+}
+
+// The sources of a shaded slice, each at the offset of every term; see FrameShading.
+std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs) {
+    const Mixing &mixing = inputs.mixing;
+    std::vector<plan::SliceSource> sources;
+    for (const FrameSource &from : mixing.sources)
+        for (int t = 0; t < inputs.shading.termCount; ++t) {
+            const FrameShading::Term &term = inputs.shading.terms[std::size_t(t)];
+            plan::SliceSource source{.field = from.field,
+                                     .isGradient = from.kind == FrameKind::gradient,
+                                     .offset = term.cells};
+            // A single image is colored afterwards: one channel has the amplitudes of all three.
+            const double color =
+                mixing.channels > 1
+                    ? 1.0
+                    : std::hypot(mixing.color[0], mixing.color[1], mixing.color[2]);
+            for (std::size_t c = 0; c < std::size_t(mixing.channels); ++c) {
+                const FrameShading::Image &shade = inputs.shading.images[c];
+                const double share = from.channelWeights[mixing.sums > 1 ? c : 0] * from.unitShare;
+                const double weight = std::abs(double(std::abs(term.weight)) * color * share);
+                if (source.isGradient) {
+                    source.amplitude[c] = weight * std::abs(double(shade.magnitude));
+                    continue;
+                }
+                source.amplitude[c] = weight * std::abs(double(shade.ambient));
+                for (std::size_t d = 0; d < 3; ++d)
+                    source.perSine[c][d] = weight * std::abs(shade.gradient[d]);
+            }
+            sources.push_back(source);
+        }
+    return sources;
+}
+
+// The energy of the picture's frequencies next to 0, less a margin: the whole picture has more.
+double lowEnergy(const FrameInputs &inputs, const EngineSpectra &spectra,
+                 const plan::SlicePlane &plane) {
+    constexpr double mostCells = 7.0, margin = 0.8;
+    const SliceReader reader(spectra, inputs.mixing, inputs.shading);
+    const auto longest = [](const std::array<double, 3> &step) {
+        return std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])});
+    };
+    // A slice is smooth from cell to cell; a fine one need not be read everywhere.
+    const int stepColumns = std::max(1, int(1.0 / longest(plane.perColumn))),
+              stepRows = std::max(1, int(1.0 / longest(plane.perRow)));
+    const auto countOf = [&](const std::array<double, 3> &step, int each, int count) {
+        return std::min(count / 2 - 1, int(mostCells / longest(step))) / each;
+    };
+    const int columns = countOf(plane.perColumn, stepColumns, plane.columns),
+              rows = countOf(plane.perRow, stepRows, plane.rows);
+    double energy = 0.0;
+    for (int row = -rows; row <= rows; ++row)
+        for (int column = 0; column <= columns; ++column) {
+            std::array<double, 3> cells{};
+            for (std::size_t d = 0; d < 3; ++d)
+                cells[d] = column * stepColumns * plane.perColumn[d] +
+                           row * stepRows * plane.perRow[d];
+            if (longest(cells) > mostCells)
+                continue;
+            // The other half of the plane mirrors this one.
+            for (const SliceReader::Read &channel : reader.at(cells))
+                energy += (column > 0 ? 2.0 : 1.0) * std::norm(channel.value);
+        }
+    return margin * energy * stepColumns * stepRows * plane.columnPerMm * plane.rowPerMm;
 }
 
 } // namespace
@@ -63,10 +132,14 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
             m_moments.emplace(momentKernels(spectrum.layout()));
         inputs.shading.kernels = &*m_moments;
     }
-    // Cue and light change what frequencies are worth.
-    if (m_widths && !inputs.isShaded) {
-        inputs.widths = m_widths->mapFor(axes, slicePlane(camera, inputs.grid, inputs.geometry),
-                                         channelWeights);
+    // The moments of a linear cue have kernels of their own.
+    if (m_widths && !inputs.shading.cued &&
+        (!inputs.shading.lit || m_widths->hasGradients())) {
+        const plan::SlicePlane plane = slicePlane(camera, inputs.grid, inputs.geometry);
+        inputs.widths = inputs.isShaded
+                            ? m_widths->mapFor(plane, sliceSources(inputs),
+                                               lowEnergy(inputs, spectra, plane))
+                            : m_widths->mapFor(axes, plane, channelWeights);
         inputs.kernels = m_widths->kernels();
     }
     inputs.zero = zeroSums(inputs.mixing, inputs.shading, spectrum.layout());

@@ -54,6 +54,8 @@ struct FrameSource {
     std::size_t field = 0; ///< index in the engine's spectra
     std::array<float, 3> channelWeights{1.0F, 1.0F, 1.0F};
     FrameKind kind = FrameKind::field;
+    /// What the channel weights are to be multiplied by for the spectrum's own unit.
+    double unitShare = 1.0;
 };
 
 /// A shading::SliceShading in terms of the spectra's cells. With F and G the slices of f and of

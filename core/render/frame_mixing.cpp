@@ -46,7 +46,8 @@ void Mixing::add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t 
     sources.push_back({spectrum.cells(),
                        field,
                        {float(s * share[0]), float(s * share[1]), float(s * share[2])},
-                       kind});
+                       kind,
+                       1.0 / s});
     const auto &moments = spectrum.moments();
     for (std::size_t c = 0; c < share.size(); ++c) {
         Dc &sum = dc[std::size_t(kind)][c];

@@ -3710,6 +3710,22 @@
         <source>, </source>
         <translation>、</translation>
     </message>
+    <message>
+        <source>Read</source>
+        <translation>讀取</translation>
+    </message>
+    <message>
+        <source>Share of the frequencies that a kernel of each width reads; narrow kernels are accurate enough where there is little energy, and the rest does not matter</source>
+        <translation>各寬度的核所讀取頻率的比例；能量少之處較窄的核已足夠準確，其餘則無關緊要</translation>
+    </message>
+    <message>
+        <source>width %1: %2</source>
+        <translation>寬度 %1：%2</translation>
+    </message>
+    <message>
+        <source>not read: %1</source>
+        <translation>不讀取：%1</translation>
+    </message>
 </context>
 <context>
     <name>pellucid::ui::ShadingPanel</name>

@@ -122,7 +122,8 @@ TEST_P(AdaptiveWidths, DifferNoMoreThanTheySay) {
                 const auto all = engine->render(scene.camera, scene.image, {});
                 for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
                     const auto widths = std::make_shared<const plan::AdaptiveWidths>(
-                        kernels, std::vector{energies}, tolerance);
+                        kernels, plan::AdaptiveWidths::Energies{energies},
+                        plan::AdaptiveWidths::Energies{}, tolerance);
                     render::CpuEngine narrow(parts.spectra, parts.fieldOfView);
                     narrow.setChannelWeights(parts.channelWeights);
                     narrow.setWidths(widths);
