@@ -36,7 +36,7 @@ public:
           m_frameShading(render::frameShading(m_slices, m_mixing, *engine.spectra.fields.front(),
                                               m_geometry.toWrap, camera.axes()[2],
                                               engine.spectra.scale.stepMm)),
-          m_reader(engine.spectra, m_mixing, m_frameShading) {
+          m_reader(engine.spectra, m_mixing, m_frameShading, render::SliceReader::Rounding::read) {
         if (m_frameShading.cued) {
             m_moments.emplace(render::momentKernels(m_layout));
             m_frameShading.kernels = &*m_moments;

@@ -53,8 +53,9 @@ std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs) {
 // The energy of the picture's frequencies next to 0, less a margin: the whole picture has more.
 double lowEnergy(const FrameInputs &inputs, const EngineSpectra &spectra,
                  const plan::SlicePlane &plane) {
-    constexpr double mostCells = 7.0, margin = 0.8;
-    const SliceReader reader(spectra, inputs.mixing, inputs.shading);
+    constexpr double mostCells = 4.0, margin = 0.8;
+    const SliceReader reader(spectra, inputs.mixing, inputs.shading,
+                             SliceReader::Rounding::unknown);
     const auto longest = [](const std::array<double, 3> &step) {
         return std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])});
     };

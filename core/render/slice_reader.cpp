@@ -20,9 +20,9 @@ Read conjugate(const Read &read) {
 } // namespace
 
 SliceReader::SliceReader(const EngineSpectra &spectra, const Mixing &mixing,
-                         const FrameShading &shading)
+                         const FrameShading &shading, Rounding rounding)
     : m_spectra(spectra), m_mixing(mixing), m_shading(shading),
-      m_layout(spectra.fields.front()->layout()) {}
+      m_layout(spectra.fields.front()->layout()), m_rounding(rounding) {}
 
 const fourier::Spectrum &SliceReader::spectrumOf(const FrameSource &source) const {
     return *(source.kind == FrameKind::field ? m_spectra.fields[source.field]
@@ -45,14 +45,16 @@ std::array<Read, 3> SliceReader::at(const std::array<double, 3> &cells) const {
 Read SliceReader::cell(const FrameSource &source, std::array<int, 3> index) const {
     for (std::size_t d = 0; d < 3; ++d) {
         const int padded = m_layout.padded[int(d)];
-        index[d] -= padded * int(std::lround(double(index[d]) / padded));
+        if (2 * std::abs(index[d]) > padded)
+            index[d] -= padded * int(std::lround(double(index[d]) / padded));
     }
     if (index[0] < 0)
         return conjugate(cell(source, {-index[0], -index[1], -index[2]}));
     const fourier::Spectrum &spectrum = spectrumOf(source);
     Read read{spectrum.value(index[0], index[1], index[2]), 0.0};
     constexpr int reach = fourier::Spectrum::roundingReach;
-    if (std::all_of(index.begin(), index.end(), [](int n) { return std::abs(n) <= reach; }))
+    if (m_rounding == Rounding::read &&
+        std::all_of(index.begin(), index.end(), [](int n) { return std::abs(n) <= reach; }))
         read.error = spectrum.rounding(index[0], index[1], index[2]);
     return read;
 }

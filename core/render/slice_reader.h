@@ -12,7 +12,8 @@ namespace pellucid::render {
 /// for the few frequencies that something has to be known about; frames read theirs in vectors.
 class SliceReader {
 public:
-    /// A value, and the rounding error of the cells that it was read from, if spectra keep it.
+    /// A value, and the rounding error of the cells that it was read from, if it is read and the
+    /// spectra keep it.
     struct Read {
         std::complex<double> value = 0.0, error = 0.0;
         Read &operator+=(const Read &other) {
@@ -25,8 +26,10 @@ public:
         }
     };
 
+    enum class Rounding { unknown, read };
     /// `shading` with its moment kernels, if it has moments. Keeps references.
-    SliceReader(const EngineSpectra &spectra, const Mixing &mixing, const FrameShading &shading);
+    SliceReader(const EngineSpectra &spectra, const Mixing &mixing, const FrameShading &shading,
+                Rounding rounding);
 
     /// The channels of the picture at a point of the central slice. *Units*: cells, by axis; the
     /// spectrum's.
@@ -44,6 +47,7 @@ private:
     const Mixing &m_mixing;
     const FrameShading &m_shading;
     const fourier::SpectrumLayout &m_layout;
+    Rounding m_rounding;
 };
 
 } // namespace pellucid::render
