@@ -49,9 +49,9 @@ private:
 struct FrameCommand {
     scene::Camera camera;
     plan::SliceGrid grid;
-    FrameBlock block;            ///< without the transform members, which the passes set
+    FrameBlock block;                     ///< without the transform members, which the passes set
     std::vector<std::int32_t> tileWidths; ///< of plan::WidthMap; empty: `width` reads everything
-    std::vector<unsigned> pages; ///< texture names
+    std::vector<unsigned> pages;          ///< texture names
     int fieldPages = 1, slabs = 1, sums = 1, layers = 1, channels = 1;
     int width = 4, evenTerms = 1, momentTerms = 1;
     bool shaded = false, cued = false, lit = false;

@@ -12,8 +12,8 @@ FetchPlan planFetch(const plan::RenderPlan &plan, double tolerance,
     if (plan.spectrum.width() < 2 || !shading.isPlain()) // a single cell has nothing to filter
         return exact;
     // Filtered fetches are so fast that they read everything by one width.
-    const double ofKernel = std::sqrt(
-        std::max(0.0, plan.predictedError * plan.predictedError - plan.adaptiveError * plan.adaptiveError));
+    const double ofKernel = std::sqrt(std::max(0.0, plan.predictedError * plan.predictedError -
+                                                        plan.adaptiveError * plan.adaptiveError));
     const double predicted = std::hypot(ofKernel, plan.filterError);
     return predicted <= tolerance ? FetchPlan{Fetch::trilinear, predicted} : exact;
 }

@@ -58,8 +58,7 @@ void PixelTexture::reserve(int width, int height, int layers) {
 }
 
 picture::Samples PixelTexture::download() const {
-    picture::Samples samples(std::size_t(m_width) * std::size_t(m_height) *
-                               std::size_t(m_layers));
+    picture::Samples samples(std::size_t(m_width) * std::size_t(m_height) * std::size_t(m_layers));
     glBindTexture(GL_TEXTURE_2D_ARRAY, m_name.name());
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);

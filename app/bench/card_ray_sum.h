@@ -20,7 +20,7 @@ public:
 
     struct Image {
         picture::Samples samples; ///< *Units*: field times mm
-        double cardMs = 0.0;        ///< card time
+        double cardMs = 0.0;      ///< card time
     };
     Image render(const scene::Camera &camera, double stepMm);
 

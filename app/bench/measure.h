@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <string>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/bench/report.h"

@@ -152,7 +152,8 @@ SizeResult measureSize(const Report &report, const Subject &subject, const std::
                     "shear-warp sum; {:.2f} times one thread; prepared in {:.2f} times FFTW's 3D "
                     "transform",
                     median(uniform.frameMs) / *row.frameMs, *row.raySumMs / *row.frameMs,
-                    *row.shearWarpMs / *row.frameMs, *single.frameMs / *row.frameMs, *row.prepareMs / *row.fft3dMs);
+                    *row.shearWarpMs / *row.frameMs, *single.frameMs / *row.frameMs,
+                    *row.prepareMs / *row.fft3dMs);
     report(row);
     report(single);
     return {double(side), *row.frameMs, *row.raySumMs, *row.shearWarpMs};

@@ -59,8 +59,7 @@ public:
                 std::array<double, 3> at{};
                 for (std::size_t d = 0; d < 3; ++d)
                     at[d] = column * across[d] + row * down[d];
-                waves.images.push_back(isWithinReach(at) ? m_reader.at(at)
-                                                         : std::array<Read, 3>{});
+                waves.images.push_back(isWithinReach(at) ? m_reader.at(at) : std::array<Read, 3>{});
             }
         CentralEnergies energies = energiesIn(camera, grid, waves);
         energies.cellRounding = roundingOfCells();

@@ -24,6 +24,7 @@ namespace {
 // and points were also fitted to counterexamples.
 constexpr double coherentMargin = 2.7, ///< aliases, block by block
     narrowMargin = 3.0,                ///< of a part, for narrower kernels
+    spreadMargin = 2.0,                ///< the same, by area
     detailMargin = 2.4,                ///< aliases of detail finer than the blocks
     coarsePixelMargin = 2.5,           ///< aliases in pixels larger than the blocks
     restMargin = 1.1,                  ///< rounding of cells other than the central ones
@@ -73,7 +74,7 @@ public:
         const Rounding rounding = roundingErrors(whole);
         energies.error = coherentAliases() + detailMargin * detailAliases(outside) + rounding.few +
                          rounding.others + centralMargin * m_centralError +
-                         foldedTails(outside, whole) + momentError(whole) + narrowing(whole) +
+                         foldedTails(outside, whole) + momentError(whole) + narrowing() +
                          std::pow(unseenShare * bound, 2) * m_imageEnergy;
         return energies;
     }
@@ -285,10 +286,26 @@ private:
         return worst;
     }
 
-    // Frequencies that are not read. Their energy is where the field's is, as that of other detail.
-    double narrowing(double whole) const {
-        return m_context.narrowing * m_context.narrowing * whole *
-               std::min(1.0, narrowMargin * m_blocks.inPicture / m_blocks.all);
+    // The error of narrower kernels is where the field's energy is, as that of other detail, but
+    // tiles are so narrow that a part of it is spread over the whole picture.
+    double narrowing() const {
+        double area = 1.0; // the picture's share of the field's
+        for (int axis = 0; axis < 2; ++axis) {
+            const double lengthMm = extentMm(m_axes[axis]);
+            area *= std::min(lengthMm, m_windowMm[axis]) / lengthMm;
+        }
+        const double share = std::max(narrowMargin * m_blocks.inPicture / m_blocks.all,
+                                      spreadMargin * area);
+        return m_context.narrowing * std::min(1.0, share);
+    }
+
+    // Of the lattice, along a direction.
+    double extentMm(const glm::dvec3 &direction) const {
+        const volume::Lattice &lattice = m_fields.lattice;
+        double extent = 0.0;
+        for (int d = 0; d < 3; ++d)
+            extent += lattice.size()[d] * std::abs(glm::dot(lattice.step(d), direction));
+        return extent;
     }
 
     // A linear cue has its own kernels for depth, and these have their own error: the energy

@@ -17,7 +17,8 @@ struct PictureContext {
     const shading::Shading &shading;
     plan::SliceGrid grid;
     CentralEnergies central; ///< of the picture
-    double narrowing = 0.0;  ///< the error of narrower kernels, at most, relative L2
+    /// The energy of the error of narrower kernels in each channel of the whole picture, at most.
+    double narrowing = 0.0;
 };
 
 /// The weights of a field's mass and energy in a channel.

@@ -67,16 +67,16 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     // Without light the weights do not depend on R and the step.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
     const plan::SliceGrid grid = plan::sliceGrid(camera, m_fieldOfView, m_fields.lattice, image);
-    // The widths that the frame was read by.
+    // The widths that the frame was read by; a grey picture is one of three equal channels.
     double narrowing = 0.0;
     if (engine.widths) {
         render::FrameSetup setup(m_fieldOfView, engine.widths);
         const render::FrameInputs inputs =
             setup.inputsFor(engine.spectra, channelWeights, camera, image, shading);
-        narrowing = inputs.widths ? inputs.widths->left : 0.0;
+        narrowing = inputs.widths ? inputs.widths->leftEnergy / 3.0 : 0.0;
     }
-    const PictureContext context{picture, camera, image,
-                                 shading, grid,   centralEnergies(engine, camera, grid, shading),
+    const PictureContext context{picture,  camera, image,
+                                 shading,  grid,   centralEnergies(engine, camera, grid, shading),
                                  narrowing};
     double energy = 0.0, error = 0.0;
     bool isWhole = true, hasOneFieldEach = true; // the plan's bound holds for these only

@@ -16,8 +16,7 @@ volume::Volume projectionVolume(const ProjectionImage &image, const scene::Camer
         center - 0.5 * (camera.width - 1) * right - 0.5 * (camera.height - 1) * down;
     const auto lattice = volume::Lattice::make({image.width, image.height, 1}, {origin},
                                                {right, down, -camera.pixelMm * axes[2]});
-    return volume::Volume(lattice,
-                          std::vector<float>(image.samples.begin(), image.samples.end()),
+    return volume::Volume(lattice, std::vector<float>(image.samples.begin(), image.samples.end()),
                           volume::ValueUnit::none);
 }
 

@@ -55,10 +55,10 @@ public:
 
     Tiles(const SlicePlane &plane, const Circle &circle, std::vector<Measured> sources,
           double budget)
-        : m_circle(circle), m_sources(std::move(sources)),
-          m_patch{plane.perColumn, plane.perRow, tileColumns, tileRows}, m_points(m_patch),
-          m_area(2.0 * tileColumns * tileRows * plane.columnPerMm * plane.rowPerMm * blockMargin /
-                 budget),
+        : m_circle(circle), m_sources(std::move(sources)), m_patch{plane.perColumn, plane.perRow,
+                                                                   tileColumns, tileRows},
+          m_points(m_patch), m_area(2.0 * tileColumns * tileRows * plane.columnPerMm *
+                                    plane.rowPerMm * blockMargin / budget),
           m_dark(darkShare / (2.0 * circle.strips * circle.tiles)), m_errors(m_sources.size()),
           m_amplitudes(m_sources.size()) {
         for (int strip = 0; strip < circle.strips; strip += groupSide)
@@ -91,8 +91,8 @@ private:
         }
         for (int strip = firstStrip; strip < lastStrip; ++strip) {
             const int tiles = m_circle.sides[std::size_t(strip)];
-            for (int row = std::max(firstRow, -tiles);
-                 row < std::min(firstRow + groupSide, tiles); ++row)
+            for (int row = std::max(firstRow, -tiles); row < std::min(firstRow + groupSide, tiles);
+                 ++row)
                 addTile(strip, row);
         }
     }
@@ -107,8 +107,8 @@ private:
             return;
         } else {
             for (std::size_t s = 0; s < m_sources.size(); ++s)
-                m_errors[s] = m_sources[s].energies->errorsIn(
-                    offsetBy(patch, m_sources[s].source), m_points);
+                m_errors[s] =
+                    m_sources[s].energies->errorsIn(offsetBy(patch, m_sources[s].source), m_points);
             for (std::size_t n = 0; n < tile.errors.size(); ++n)
                 tile.errors[n] = float(sumOf(n));
         }
@@ -194,7 +194,7 @@ private:
     PatchPoints m_points;
     double m_area; ///< of a tile in both halves of the plane, over the budget
     double m_dark;
-    std::vector<Errors> m_errors; ///< by source
+    std::vector<Errors> m_errors;                    ///< by source
     std::vector<std::array<double, 3>> m_amplitudes; ///< by source, of the last patch
 };
 
@@ -216,8 +216,7 @@ public:
             Saving best;
             float least = std::numeric_limits<float>::infinity();
             for (int width = from - 1; width >= 0; width -= width == 2 ? 2 : 1) {
-                const float more =
-                    std::max(0.0F, errors[SpectrumEnergies::entryOf(width)] - error);
+                const float more = std::max(0.0F, errors[SpectrumEnergies::entryOf(width)] - error);
                 const float price = more / float(readTime(from) - readTime(width));
                 if (price <= least) {
                     least = price;
@@ -250,8 +249,8 @@ WidthMap::Shares WidthMap::shares(const SlicePlane &plane) const {
     const Circle circle(plane);
     double all = 0.0;
     for (int column = 0; column < circle.strips; ++column)
-        for (int row = -circle.sides[std::size_t(column)];
-             row < circle.sides[std::size_t(column)]; ++row, all += 1.0)
+        for (int row = -circle.sides[std::size_t(column)]; row < circle.sides[std::size_t(column)];
+             ++row, all += 1.0)
             shares[column < strips ? strip(column)[std::size_t(row + tiles)] : 0] += 1.0;
     for (double &share : shares)
         share /= all;
@@ -303,7 +302,7 @@ WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSo
     while (limit < errors.size() && spent + errors[limit] <= 1.0)
         spent += errors[limit++];
 
-    WidthMap map{0, circle.tiles, {}, m_tolerance * std::sqrt(spent)};
+    WidthMap map{0, circle.tiles, {}, m_tolerance * std::sqrt(spent), budget * spent};
     const auto perStrip = 2 * std::size_t(circle.tiles);
     map.widths.resize(std::size_t(circle.strips) * perStrip, 0);
     for (std::size_t n = 0; n < savings.size(); ++n) {

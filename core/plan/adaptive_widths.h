@@ -24,9 +24,9 @@ struct SlicePlane {
 struct SliceSource {
     std::size_t field = 0;
     bool isGradient = false;
-    std::array<double, 3> offset{}; ///< *Units*: cells
-    std::array<double, 3> amplitude{};                ///< by channel
-    std::array<std::array<double, 3>, 3> perSine{};   ///< by channel and axis
+    std::array<double, 3> offset{};                 ///< *Units*: cells
+    std::array<double, 3> amplitude{};              ///< by channel
+    std::array<std::array<double, 3>, 3> perSine{}; ///< by channel and axis
 };
 
 /// The width of the kernel that reads each tile of a slice: `tileColumns` columns of `tileRows`
@@ -34,10 +34,13 @@ struct SliceSource {
 struct WidthMap {
     static constexpr int tileColumns = 16, tileRows = 16;
 
-    int strips = 0; ///< up to the last one that is read
-    int tiles = 0;  ///< on each side of row 0
+    int strips = 0;                   ///< up to the last one that is read
+    int tiles = 0;                    ///< on each side of row 0
     std::vector<std::uint8_t> widths; ///< *Shape*: [strip][tile, from -tiles on]
-    double left = 0.0;                ///< the error that the choice makes, relative L2, at most
+    double left = 0.0; ///< the error that the choice makes, relative L2, at most
+    /// The same as energy, of red, green and blue together. *Units*: of the spectrum squared, over
+    /// mm^2: those of the picture squared, times mm^2.
+    double leftEnergy = 0.0;
 
     /// Tiles of a strip; the first begins at row -tiles * tileRows.
     std::span<const std::uint8_t> strip(int strip) const {
@@ -59,8 +62,8 @@ public:
 
     using Energies = std::vector<std::shared_ptr<const SpectrumEnergies>>;
 
-    /// `tolerance`: the error that a view may make, relative L2. *Shape*: one gradient per field, or
-    /// none.
+    /// `tolerance`: the error that a view may make, relative L2. *Shape*: one gradient per field,
+    /// or none.
     AdaptiveWidths(std::shared_ptr<const fourier::KernelsByWidth> kernels, Energies fields,
                    Energies gradients, double tolerance)
         : m_kernels(std::move(kernels)), m_fields(std::move(fields)),

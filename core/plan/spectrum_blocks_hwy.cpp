@@ -232,8 +232,9 @@ void addPoints(const PointSum &sum, float *errors) {
             const float *const of = blocks.errors.data() + std::size_t(indices[n]) * entries;
             const auto weight = hn::Set(four, factors[n]);
             for (std::size_t e = 0; e < entries; e += lanesOfFour)
-                hn::Store(hn::Add(hn::Load(four, sums + e), hn::Mul(weight, hn::LoadU(four, of + e))),
-                          four, sums + e);
+                hn::Store(
+                    hn::Add(hn::Load(four, sums + e), hn::Mul(weight, hn::LoadU(four, of + e))),
+                    four, sums + e);
         }
     }
     for (std::size_t e = 0; e < entries; ++e)
@@ -262,8 +263,8 @@ SpectrumBlocks::PointWeights weightsAt(const fourier::KernelsByWidth &kernels,
             const double at = 0.5 * (widest - 1) - c[d]; // from the first tap of the widest
             const int first = int(std::ceil(at - 0.5 * width));
             for (int k = 0; k < width; ++k)
-                weights.axis[d][std::size_t(first + k)]
-                            [std::size_t(SpectrumBlocks::entryOf(width))] =
+                weights
+                    .axis[d][std::size_t(first + k)][std::size_t(SpectrumBlocks::entryOf(width))] =
                     float(kernel.value(first + k - at));
         }
     return weights;

@@ -143,8 +143,8 @@ struct SpectrumEnergies::Blocks {
     volume::Lattice lattice;
     volume::GridSize padded;
     std::vector<float> factors;
-    /// By axis: the largest energy of a slab of `slabCells` cells, by the distance of its first cell
-    /// from frequency 0.
+    /// By axis: the largest energy of a slab of `slabCells` cells, by the distance of its first
+    /// cell from frequency 0.
     static constexpr std::size_t slabCells = 32;
     std::array<std::vector<float>, 3> slabs;
 };
@@ -205,20 +205,21 @@ float SpectrumEnergies::energyBound(const PlanePatch &patch) const {
     float factor = 1.0F, energy = std::numeric_limits<float>::infinity();
     for (std::size_t d = 0; d < 3; ++d) {
         const auto padded = float(all.padded[int(d)]);
-        const auto middle =
-            float(patch.offset[d] + (patch.firstColumn + 0.5 * patch.columns) * patch.perColumn[d] +
-                  (patch.firstRow + 0.5 * patch.rows) * patch.perRow[d]),
+        const auto middle = float(patch.offset[d] +
+                                  (patch.firstColumn + 0.5 * patch.columns) * patch.perColumn[d] +
+                                  (patch.firstRow + 0.5 * patch.rows) * patch.perRow[d]),
                    reach = float(0.5 * (std::abs(patch.perColumn[d]) * patch.columns +
                                         std::abs(patch.perRow[d]) * patch.rows));
         const float least = std::max(0.0F, std::abs(middle) - reach);
-        factor *= all.factors[std::size_t(
-            std::min(lastFactor, int(least / padded * factorsPerCycle)))];
-        const float folded = std::abs(middle - padded * float(int(middle / padded + (middle < 0.0F ? -0.5F : 0.5F))));
+        factor *=
+            all.factors[std::size_t(std::min(lastFactor, int(least / padded * factorsPerCycle)))];
+        const float folded = std::abs(
+            middle - padded * float(int(middle / padded + (middle < 0.0F ? -0.5F : 0.5F))));
         const std::vector<float> &slabs = all.slabs[d];
         float most = 0.0F;
         const auto last = std::min(slabs.size() - 1, std::size_t(folded + reach) + 1);
-        for (auto cell = std::min(last, std::size_t(std::max(0.0F, folded - reach)));
-             cell <= last; cell += Blocks::slabCells)
+        for (auto cell = std::min(last, std::size_t(std::max(0.0F, folded - reach))); cell <= last;
+             cell += Blocks::slabCells)
             most = std::max(most, slabs[cell]);
         energy = std::min(energy, most);
     }
@@ -242,8 +243,8 @@ PatchPoints::PatchPoints(const PlanePatch &patch) {
                 cells[d].push_back(float((u + 0.5) * stepU * patch.perColumn[d] +
                                          (v + 0.5) * stepV * patch.perRow[d]));
         cells[d].resize((count + vector - 1) / vector * vector, cells[d].back());
-        reach[d] = float(0.5 * (std::abs(stepU * patch.perColumn[d]) +
-                                std::abs(stepV * patch.perRow[d])));
+        reach[d] =
+            float(0.5 * (std::abs(stepU * patch.perColumn[d]) + std::abs(stepV * patch.perRow[d])));
     }
 }
 
@@ -257,9 +258,8 @@ SpectrumEnergies::Errors SpectrumEnergies::errorsIn(const PlanePatch &patch,
                  .lastFactor = int(all.factors.size()) - 1};
     for (std::size_t d = 0; d < 3; ++d) {
         sum.cells[d] = points.cells[d].data();
-        sum.first[d] =
-            float(patch.offset[d] + patch.firstColumn * patch.perColumn[d] +
-                  patch.firstRow * patch.perRow[d]);
+        sum.first[d] = float(patch.offset[d] + patch.firstColumn * patch.perColumn[d] +
+                             patch.firstRow * patch.perRow[d]);
         sum.padded[d] = float(all.padded[int(d)]);
         sum.reach[d] = points.reach[d] / sum.padded[d];
     }

@@ -98,8 +98,8 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
 }
 
 std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
-                                             const plan::RenderPlan &plan,
-                                             const task::Progress &progress) {
+                                                           const plan::RenderPlan &plan,
+                                                           const task::Progress &progress) {
     if (plan.adaptiveError == 0.0)
         return nullptr;
     auto kernels = std::make_shared<const fourier::KernelsByWidth>(plan.spectrum);
@@ -111,8 +111,8 @@ std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineS
         return energies;
     };
     auto fields = energiesOf(spectra.fields), gradients = energiesOf(spectra.gradients);
-    return std::make_shared<const plan::AdaptiveWidths>(
-        std::move(kernels), std::move(fields), std::move(gradients), plan.adaptiveError);
+    return std::make_shared<const plan::AdaptiveWidths>(std::move(kernels), std::move(fields),
+                                                        std::move(gradients), plan.adaptiveError);
 }
 
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,

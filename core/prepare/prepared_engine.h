@@ -54,8 +54,8 @@ struct PreparedEngine {
 /// The widths that frames of a plan are read by; null if one width reads everything. *Throws*
 /// Error{outOfMemory}, Cancelled.
 std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineSpectra &spectra,
-                                             const plan::RenderPlan &plan,
-                                             const task::Progress &progress = {});
+                                                           const plan::RenderPlan &plan,
+                                                           const task::Progress &progress = {});
 
 /// Makes an engine for the channels of a look from spectra that were prepared by one plan and share
 /// a layout.

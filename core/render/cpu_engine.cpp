@@ -151,7 +151,8 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.cellsPerColumn = geometry.cellsPerColumn;
     job.cellsPerRow = geometry.cellsPerRow;
     job.edgeSlack = geometry.edgeSlack;
-    for (int width = fourier::KernelsByWidth::narrowest; inputs.kernels && width < spectrum.layout().width(); ++width)
+    for (int width = fourier::KernelsByWidth::narrowest;
+         inputs.kernels && width < spectrum.layout().width(); ++width)
         job.kernels[std::size_t(width)] = inputs.kernels->of(width).data();
     job.kernels[std::size_t(spectrum.layout().width())] = spectrum.layout().kernels.data();
     job.widths = inputs.widths ? &*inputs.widths : nullptr;

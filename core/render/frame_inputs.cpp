@@ -30,9 +30,8 @@ std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs) {
                                      .offset = term.cells};
             // A single image is colored afterwards: one channel has the amplitudes of all three.
             const double color =
-                mixing.channels > 1
-                    ? 1.0
-                    : std::hypot(mixing.color[0], mixing.color[1], mixing.color[2]);
+                mixing.channels > 1 ? 1.0
+                                    : std::hypot(mixing.color[0], mixing.color[1], mixing.color[2]);
             for (std::size_t c = 0; c < std::size_t(mixing.channels); ++c) {
                 const FrameShading::Image &shade = inputs.shading.images[c];
                 const double share = from.channelWeights[mixing.sums > 1 ? c : 0] * from.unitShare;
@@ -72,8 +71,8 @@ double lowEnergy(const FrameInputs &inputs, const EngineSpectra &spectra,
         for (int column = 0; column <= columns; ++column) {
             std::array<double, 3> cells{};
             for (std::size_t d = 0; d < 3; ++d)
-                cells[d] = column * stepColumns * plane.perColumn[d] +
-                           row * stepRows * plane.perRow[d];
+                cells[d] =
+                    column * stepColumns * plane.perColumn[d] + row * stepRows * plane.perRow[d];
             if (longest(cells) > mostCells)
                 continue;
             // The other half of the plane mirrors this one.
@@ -134,13 +133,11 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
         inputs.shading.kernels = &*m_moments;
     }
     // The moments of a linear cue have kernels of their own.
-    if (m_widths && !inputs.shading.cued &&
-        (!inputs.shading.lit || m_widths->hasGradients())) {
+    if (m_widths && !inputs.shading.cued && (!inputs.shading.lit || m_widths->hasGradients())) {
         const plan::SlicePlane plane = slicePlane(camera, inputs.grid, inputs.geometry);
-        inputs.widths = inputs.isShaded
-                            ? m_widths->mapFor(plane, sliceSources(inputs),
-                                               lowEnergy(inputs, spectra, plane))
-                            : m_widths->mapFor(axes, plane, channelWeights);
+        inputs.widths = inputs.isShaded ? m_widths->mapFor(plane, sliceSources(inputs),
+                                                           lowEnergy(inputs, spectra, plane))
+                                        : m_widths->mapFor(axes, plane, channelWeights);
         inputs.kernels = m_widths->kernels();
     }
     inputs.zero = zeroSums(inputs.mixing, inputs.shading, spectrum.layout());

@@ -47,7 +47,9 @@ public:
                         std::shared_ptr<const plan::AdaptiveWidths> widths = nullptr)
         : m_fieldOfView(std::move(fieldOfView)), m_widths(std::move(widths)) {}
 
-    void setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths) { m_widths = std::move(widths); }
+    void setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths) {
+        m_widths = std::move(widths);
+    }
     const std::shared_ptr<const plan::AdaptiveWidths> &widths() const { return m_widths; }
     const plan::FieldOfView &fieldOfView() const { return m_fieldOfView; }
     /// Lights are off if there are no spectra of gradients. The moment kernels that the shading

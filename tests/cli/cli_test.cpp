@@ -319,7 +319,7 @@ TEST_F(Cli, TheSameBitsForAnyNumberOfThreads) {
 TEST_F(Cli, BothEnginesGiveOnePicture) {
     const fs::path series = phantomFolder("--kind head --size 48x52x40 --tilt 12");
     for (const char *options : {"", "--depth-cue linear:1 --light 1,0,0.5 --ambient 0.4",
-                                "--quality draft --azimuth 40"}) {
+                                "--quality draft --azimuth 40 --uniform"}) {
         const std::string asked = std::string(" --view left ") + options;
         const auto processor = picture(series, "--engine cpu" + asked);
         const auto card = picture(series, "--engine gpu" + asked);

@@ -157,10 +157,10 @@ void QualityPanel::addFigures(QFormLayout *form) {
     m_model = addFigure(form, tr("Per frame"), "modelLabel",
                         tr("Spectra, slices, images and multiplications that a frame needs"));
     m_model->setWordWrap(true);
-    m_widths = addFigure(
-        form, tr("Read"), "widthsLabel",
-        tr("Share of the frequencies that a kernel of each width reads; narrow kernels are accurate "
-           "enough where there is little energy, and the rest does not matter"));
+    m_widths = addFigure(form, tr("Read"), "widthsLabel",
+                         tr("Share of the frequencies that a kernel of each width reads; narrow "
+                            "kernels are accurate "
+                            "enough where there is little energy, and the rest does not matter"));
     m_widths->setWordWrap(true);
     m_leftOut = addFigure(form, tr("Skipped"), "leftOutLabel",
                           tr("Stages that are skipped because this scene does not need them"));
@@ -275,7 +275,8 @@ void QualityPanel::showScene() {
 }
 
 void QualityPanel::clearPlan() {
-    for (QLabel *label : {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_widths, m_leftOut})
+    for (QLabel *label :
+         {m_time, m_error, m_largest, m_plan, m_padded, m_model, m_widths, m_leftOut})
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
     m_shownFrame.reset();
@@ -328,9 +329,9 @@ void QualityPanel::showModel() {
     scene::Scene scene = m_document.scene();
     if (!m_shownFrame->isLit)
         scene.shading.lights.clear();
-    const plan::FrameModel model = plan::modelFrame(m_shownFrame->plan, scene, m_shownFrame->fields,
-                                                    m_document.volume()->lattice(),
-                                                    m_times.widthShares);
+    const plan::FrameModel model =
+        plan::modelFrame(m_shownFrame->plan, scene, m_shownFrame->fields,
+                         m_document.volume()->lattice(), m_times.widthShares);
     QStringList spectra, reasons;
     for (const plan::FrameModel::Spectra &kind : model.spectra) {
         spectra << spectraName(kind.of).arg(kind.count);

@@ -137,7 +137,7 @@ TEST(Invariants, ViewsAlongTheGridDoNotDependOnRounding) {
         const auto lattice = volume::Lattice::centred({24, 20, 16}, {0.5, 1.0, thickness});
         const auto field = test::noiseField(lattice);
         scene::Scene scene{.camera = scene::defaultCamera(lattice)};
-        scene.camera.pixelMm = 0.75 / 2.0; // thirds of a cell from column to column
+        scene.camera.pixelMm = 0.75 / 2.0;    // thirds of a cell from column to column
         scene.interpolation.isUniform = true; // widths may change wherever the error allows it
         const auto prepared = prepare::prepareEngine(scene, {{field}, {}}, {});
         std::mt19937 random(6);
