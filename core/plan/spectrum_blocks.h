@@ -49,6 +49,7 @@ void measureBlocks(const fourier::Spectrum &spectrum, int column, int plane, flo
 struct PointSum {
     const SpectrumBlocks *blocks = nullptr;
     std::size_t count = 0;
+    bool takesLargest = false; ///< instead of the sum
     /// By axis: the cells of the points from a first cell on. *Shape*: whole vectors of 16.
     std::array<const float *, 3> cells{};
     std::array<float, 3> first{}, padded{};

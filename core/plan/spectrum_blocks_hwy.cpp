@@ -231,10 +231,12 @@ void addPoints(const PointSum &sum, float *errors) {
         for (std::size_t n = 0; n < count; ++n) {
             const float *const of = blocks.errors.data() + std::size_t(indices[n]) * entries;
             const auto weight = hn::Set(four, factors[n]);
-            for (std::size_t e = 0; e < entries; e += lanesOfFour)
-                hn::Store(
-                    hn::Add(hn::Load(four, sums + e), hn::Mul(weight, hn::LoadU(four, of + e))),
-                    four, sums + e);
+            for (std::size_t e = 0; e < entries; e += lanesOfFour) {
+                const auto error = hn::Mul(weight, hn::LoadU(four, of + e));
+                const auto before = hn::Load(four, sums + e);
+                hn::Store(sum.takesLargest ? hn::Max(before, error) : hn::Add(before, error), four,
+                          sums + e);
+            }
         }
     }
     for (std::size_t e = 0; e < entries; ++e)

@@ -22,6 +22,8 @@ constexpr double pi = std::numbers::pi;
 
 // Points of a patch are at most this far apart along each axis.
 constexpr double cellsPerPoint = 6.0;
+// Patches of fewer cells are small, see PatchPoints.
+constexpr double smallestPatch = 12.0, aroundPatch = 1.5;
 // Of the energy of a view by directions.
 constexpr double leastMargin = 0.9;
 // The reconstruction's factor is tabled to here; beyond, it stays below its largest value there.
@@ -227,21 +229,30 @@ float SpectrumEnergies::energyBound(const PlanePatch &patch) const {
 }
 
 PatchPoints::PatchPoints(const PlanePatch &patch) {
-    const auto countAlong = [](const std::array<double, 3> &per, double length) {
-        double most = 0.0;
-        for (const double along : per)
-            most = std::max(most, std::abs(along) * length);
-        return std::max(1, int(std::ceil(most / cellsPerPoint)));
+    const auto longest = [](const std::array<double, 3> &per) {
+        return std::max({std::abs(per[0]), std::abs(per[1]), std::abs(per[2]), 1e-12});
     };
-    const int countU = countAlong(patch.perColumn, patch.columns),
-              countV = countAlong(patch.perRow, patch.rows);
+    const double cellsU = longest(patch.perColumn) * patch.columns,
+                 cellsV = longest(patch.perRow) * patch.rows;
+    isSmall = std::min(cellsU, cellsV) < smallestPatch;
+    const auto countAlong = [&](double length) {
+        const int even = std::max(1, int(std::ceil(length / cellsPerPoint)));
+        return isSmall ? std::max(3, even) : even;
+    };
+    const int countU = countAlong(cellsU), countV = countAlong(cellsV);
     count = std::size_t(countU) * std::size_t(countV);
-    const double stepU = patch.columns / countU, stepV = patch.rows / countV;
+    // Cells beyond the patch that the kernels of its frequencies read.
+    const double aroundU = isSmall ? aroundPatch / cellsU : 0.0,
+                 aroundV = isSmall ? aroundPatch / cellsV : 0.0;
+    const double stepU = patch.columns * (1.0 + 2.0 * aroundU) / (isSmall ? countU - 1 : countU),
+                 stepV = patch.rows * (1.0 + 2.0 * aroundV) / (isSmall ? countV - 1 : countV);
+    const double firstU = isSmall ? -aroundU * patch.columns : 0.5 * stepU,
+                 firstV = isSmall ? -aroundV * patch.rows : 0.5 * stepV;
     for (std::size_t d = 0; d < 3; ++d) {
         for (int v = 0; v < countV; ++v)
             for (int u = 0; u < countU; ++u)
-                cells[d].push_back(float((u + 0.5) * stepU * patch.perColumn[d] +
-                                         (v + 0.5) * stepV * patch.perRow[d]));
+                cells[d].push_back(float((firstU + u * stepU) * patch.perColumn[d] +
+                                         (firstV + v * stepV) * patch.perRow[d]));
         cells[d].resize((count + vector - 1) / vector * vector, cells[d].back());
         reach[d] =
             float(0.5 * (std::abs(stepU * patch.perColumn[d]) + std::abs(stepV * patch.perRow[d])));
@@ -253,6 +264,7 @@ SpectrumEnergies::Errors SpectrumEnergies::errorsIn(const PlanePatch &patch,
     const Blocks &all = *m_blocks;
     PointSum sum{.blocks = &all.blocks,
                  .count = points.count,
+                 .takesLargest = points.isSmall,
                  .factors = all.factors.data(),
                  .factorsPerCycle = factorsPerCycle,
                  .lastFactor = int(all.factors.size()) - 1};
@@ -265,8 +277,10 @@ SpectrumEnergies::Errors SpectrumEnergies::errorsIn(const PlanePatch &patch,
     }
     Errors errors{};
     sumErrors(sum, errors.data());
+    // A line may fill a small patch, but only half of the block that it is in.
+    const float scale = points.isSmall ? 2.0F : 1.0F / float(points.count);
     for (float &error : errors)
-        error /= float(points.count);
+        error *= scale;
     return errors;
 }
 

@@ -30,6 +30,9 @@ struct PatchPoints {
     explicit PatchPoints(const PlanePatch &patch);
 
     std::size_t count = 0;
+    /// Whether patches are smaller than blocks, which say little of where in them the energy is:
+    /// then the largest error of any point counts, and the points surround the patch.
+    bool isSmall = false;
     std::array<std::vector<float>, 3> cells;
     std::array<float, 3> reach{}; ///< from a point to the end of its part of the patch, by axis
 };
