@@ -15,8 +15,9 @@ namespace pellucid::plan {
 namespace {
 
 constexpr int tileColumns = WidthMap::tileColumns, tileRows = WidthMap::tileRows;
-// Of the errors by blocks.
-constexpr double blockMargin = 1.5;
+// Of the errors by blocks, as energy: the tiles that are chosen first are those whose errors were
+// found too small.
+constexpr double blockMargin = 2.0;
 
 using Errors = SpectrumEnergies::Errors;
 
