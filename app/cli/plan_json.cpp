@@ -74,6 +74,8 @@ json exactPlanJson(std::size_t images, std::size_t bytes, double predictedError,
             {"padding", 2.0},
             {"storage", "f64"},
             {"predicted_error", predictedError},
+            {"adaptive_error", 0.0},
+            {"kernel_widths", json::object()},
             {"reason", reason}};
 }
 

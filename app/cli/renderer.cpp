@@ -180,10 +180,12 @@ std::optional<picture::ProjectionImage> Renderer::imageOfCard(const scene::Camer
 void Renderer::judge(const picture::ProjectionImage &image, const scene::Camera &camera) {
     if (!m_viewModel)
         return;
-    const render::EngineParts parts = m_planned->parts();
-    // The card's own texture filter adds the same error to every view.
+    const render::EngineParts parts = m_card ? m_card->parts() : m_planned->parts();
+    // The card's own texture filter adds the same error to every view; it reads with one kernel.
     const double bound = m_fitting.plan.predictedError,
-                 added = std::max(0.0, m_predictedError * m_predictedError - bound * bound);
+                 adaptive = parts.widths ? 0.0 : m_fitting.plan.adaptiveError,
+                 added = std::max(0.0, m_predictedError * m_predictedError -
+                                           (bound * bound - adaptive * adaptive));
     m_picture = m_viewModel->errorOf(image, camera, m_scene.image, parts, m_scene.shading);
     m_picture->relative = std::hypot(m_picture->relative, std::sqrt(added));
 }

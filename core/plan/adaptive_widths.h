@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/plan/spectrum_energies.h"
@@ -37,7 +38,7 @@ struct WidthMap {
     int strips = 0;                   ///< up to the last one that is read
     int tiles = 0;                    ///< on each side of row 0
     std::vector<std::uint8_t> widths; ///< *Shape*: [strip][tile, from -tiles on]
-    double left = 0.0; ///< the error that the choice makes, relative L2, at most
+    double left = 0.0;                ///< the error that the choice makes, relative L2, at most
     /// The same as energy, of red, green and blue together. *Units*: of the spectrum squared, over
     /// mm^2: those of the picture squared, times mm^2.
     double leftEnergy = 0.0;
@@ -65,9 +66,9 @@ public:
     /// `tolerance`: the error that a view may make, relative L2. *Shape*: one gradient per field,
     /// or none.
     AdaptiveWidths(std::shared_ptr<const fourier::KernelsByWidth> kernels, Energies fields,
-                   Energies gradients, double tolerance)
+                   Energies gradients, const scene::ImageDefinition &image, double tolerance)
         : m_kernels(std::move(kernels)), m_fields(std::move(fields)),
-          m_gradients(std::move(gradients)), m_tolerance(tolerance) {}
+          m_gradients(std::move(gradients)), m_image(image), m_tolerance(tolerance) {}
 
     /// For plain frames. *Shape*: one weight for each field. `axes`: columns U, V and W.
     WidthMap mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
@@ -79,11 +80,13 @@ public:
     bool hasGradients() const { return !m_gradients.empty(); }
 
     const std::shared_ptr<const fourier::KernelsByWidth> &kernels() const { return m_kernels; }
-    double tolerance() const { return m_tolerance; }
+    /// What the energies were measured for.
+    const scene::ImageDefinition &image() const { return m_image; }
 
 private:
     std::shared_ptr<const fourier::KernelsByWidth> m_kernels;
     Energies m_fields, m_gradients;
+    scene::ImageDefinition m_image;
     double m_tolerance;
 };
 

@@ -5,6 +5,8 @@
 // foreach_target comes first.
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstdint>
 #include <hwy/highway.h>
 
 #include "core/plan/spectrum_blocks.h"
@@ -50,7 +52,7 @@ Brightest brightestCells(const Cell *cells, const fourier::CellLayout &layout, i
                 }
                 hn::Store(sum, d, sums + at);
             }
-            for (int x = 0; x + 1 < step; x += 2) {
+            for (int x = 0; x < step; x += 2) {
                 const float sum =
                     (sums[2 * x] + sums[2 * x + 1]) + (sums[2 * x + 2] + sums[2 * x + 3]);
                 if (sum > brightest.sum)
@@ -145,8 +147,8 @@ void measureBlock(const Cell *cells, const fourier::CellLayout &layout, const Br
         const std::size_t point =
             SpectrumBlocks::pointsInPhase +
             (seed >> 12) % (SpectrumBlocks::pointCount - SpectrumBlocks::pointsInPhase);
-        errorsAt(cells, layout, widest, column * blocks.step + x, row + y, plane * side + z,
-                 blocks.points[point], found);
+        errorsAt(cells, layout, widest, column * blocks.step + x - before, row + y - before,
+                 plane * side + z - before, blocks.points[point], found);
         for (std::size_t w = 0; w < count; ++w)
             sums[w] += found[w] / float(elsewhere);
     }

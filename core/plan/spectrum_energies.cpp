@@ -24,7 +24,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double cellsPerPoint = 6.0;
 // Patches of fewer cells are small, see PatchPoints.
 constexpr double smallestPatch = 12.0, aroundPatch = 1.5;
-// Of the energy of a view by directions.
+// Margin for the energy of a view, which is sampled by direction.
 constexpr double leastMargin = 0.9;
 // The reconstruction's factor is tabled to here; beyond, it stays below its largest value there.
 constexpr float factorsPerCycle = 128.0F;
@@ -60,6 +60,8 @@ int indexOf(const glm::dvec3 &direction) {
 double energyAt(const fourier::Spectrum &spectrum, glm::dvec3 cell) {
     const fourier::SpectrumLayout &layout = spectrum.layout();
     const int width = layout.width();
+    for (int d = 0; d < 3; ++d)
+        cell[d] -= layout.padded[d] * std::round(cell[d] / layout.padded[d]);
     if (cell.x < 0.0)
         cell = -cell;
     std::array<std::array<double, fourier::Kernel::largestWidth>, 3> taps;
@@ -120,10 +122,12 @@ struct SpectrumEnergies::Blocks {
         for (std::size_t d = 0; d < 3; ++d) {
             const int size = d == 0 ? blocks.step : fourier::CellLayout::planesTogether;
             std::vector<float> byCell(std::size_t(padded[int(d)] / 2) + 1, 0.0F);
-            for (int at = 0; at < counts[d] * size; ++at) {
+            const int last = int(byCell.size()) - 1 - int(blocks.firstCell[d]);
+            for (int at = 0; at <= last; ++at) {
                 const auto cell = std::size_t(std::abs(int(blocks.firstCell[d]) + at));
                 if (cell < byCell.size())
-                    byCell[cell] = std::max(byCell[cell], most[d][std::size_t(at / size)]);
+                    byCell[cell] = std::max(
+                        byCell[cell], most[d][std::size_t(std::min(at / size, counts[d] - 1))]);
             }
             slabs[d].resize(byCell.size());
             for (std::size_t cell = 0; cell < byCell.size(); ++cell)
@@ -171,7 +175,10 @@ SpectrumEnergies::SpectrumEnergies(const fourier::Spectrum &spectrum,
         double sum = 0.0;
         for (int k = 0; k < points; ++k) {
             const double radius = (k + 0.5) * step;
-            sum += radius * step * energyAt(spectrum, radius * cells);
+            double factor = 1.0;
+            for (int d = 0; d < 3; ++d)
+                factor *= scene::reconstructionFactor(image, radius * cells[d] / made->padded[d]);
+            sum += radius * step * factor * factor * energyAt(spectrum, radius * cells);
         }
         m_low[std::size_t(n)] = float(sum);
     });
@@ -187,10 +194,6 @@ SpectrumEnergies::SpectrumEnergies(const fourier::Spectrum &spectrum,
     });
     made->boundEnergies();
     m_blocks = made;
-}
-
-int SpectrumEnergies::widest() const {
-    return m_blocks->blocks.widest;
 }
 
 const volume::GridSize &SpectrumEnergies::padded() const {

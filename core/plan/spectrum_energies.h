@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "core/fourier/kernels_by_width.h"
 #include "core/scene/image_definition.h"
+#include "core/task/progress.h"
 
 namespace pellucid::plan {
 
@@ -51,7 +53,6 @@ public:
                      const scene::ImageDefinition &image, double tolerance,
                      const task::Progress &progress = {});
 
-    int widest() const;
     static std::size_t entryOf(int width);
     const volume::GridSize &padded() const;
     /// A bound on the energy of any frequency of the picture in a patch, in far less time.

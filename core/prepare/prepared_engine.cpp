@@ -77,7 +77,9 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
             if (held >= budget.bytes)
                 continue;
             try {
-                FittingPlan fitting{plan::planRender(scene, summarise(coarse, scene.shading.cue),
+                scene::Scene uniform = scene; // its error is that of the lost detail
+                uniform.interpolation.isUniform = true;
+                FittingPlan fitting{plan::planRender(uniform, summarise(coarse, scene.shading.cue),
                                                      channels, {budget.bytes - held}),
                                     std::move(coarse), reduction};
                 plan::RenderPlan &plan = fitting.plan;
@@ -112,7 +114,8 @@ std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineS
     };
     auto fields = energiesOf(spectra.fields), gradients = energiesOf(spectra.gradients);
     return std::make_shared<const plan::AdaptiveWidths>(std::move(kernels), std::move(fields),
-                                                        std::move(gradients), plan.adaptiveError);
+                                                        std::move(gradients), plan.image,
+                                                        plan.adaptiveError);
 }
 
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,

@@ -34,8 +34,8 @@ public:
     CpuEngine(EngineSpectra spectra, const plan::FieldOfView &fieldOfView, int threads = 0);
     ~CpuEngine() override;
 
-    /// Reads plain frames by these widths; null: everything by the layout's own. *Requires*: no
-    /// concurrent frame.
+    /// Reads frames without a linear cue by these widths; null: everything by the layout's own.
+    /// *Requires*: no concurrent frame.
     void setWidths(std::shared_ptr<const plan::AdaptiveWidths> widths);
     /// *Shape*: one entry per field.
     void setChannelWeights(std::vector<ChannelWeights> channelWeights);

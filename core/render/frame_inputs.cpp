@@ -133,7 +133,8 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
         inputs.shading.kernels = &*m_moments;
     }
     // The moments of a linear cue have kernels of their own.
-    if (m_widths && !inputs.shading.cued && (!inputs.shading.lit || m_widths->hasGradients())) {
+    if (m_widths && m_widths->image() == image && !inputs.shading.cued &&
+        (!inputs.shading.lit || m_widths->hasGradients())) {
         const plan::SlicePlane plane = slicePlane(camera, inputs.grid, inputs.geometry);
         inputs.widths = inputs.isShaded ? m_widths->mapFor(plane, sliceSources(inputs),
                                                            lowEnergy(inputs, spectra, plane))

@@ -38,7 +38,7 @@ struct EngineParts {
     EngineSpectra spectra;
     std::vector<ChannelWeights> channelWeights; ///< one entry per field
     plan::FieldOfView fieldOfView;
-    /// The widths that plain frames are read by; null: one reads everything.
+    /// The kernel widths that frames are read by; null: the layout's own kernel reads everything.
     std::shared_ptr<const plan::AdaptiveWidths> widths;
 };
 

@@ -31,7 +31,8 @@ struct Interpolation {
     /// Padded size over field size, 1 to 4, the same on every axis.
     std::optional<double> padding;
     std::optional<fourier::Storage> storage;
-    /// Reads all frequencies of a picture, even those that the tolerance makes unnecessary.
+    /// Reads every frequency of a picture with the same kernel, even where the tolerance would
+    /// allow a narrower one or none.
     bool isUniform = false;
     bool operator==(const Interpolation &) const = default;
 };

@@ -28,6 +28,14 @@ public:
         return nullptr;
     }
 
+    void drop() {
+        const std::lock_guard lock(m_mutex);
+        for (const Block &block : m_blocks)
+            std::free(block.memory);
+        m_blocks.clear();
+        m_bytes = 0;
+    }
+
     // The oldest is dropped when there are too many.
     void keep(void *memory, std::size_t bytes) {
         const std::lock_guard lock(m_mutex);
@@ -67,6 +75,10 @@ void *takeRecycled(std::size_t bytes) {
     void *memory = bytes >= smallest ? kept().take(bytes) : nullptr;
     if (memory == nullptr)
         memory = std::malloc(bytes);
+    if (memory == nullptr) {
+        kept().drop();
+        memory = std::malloc(bytes);
+    }
     if (memory == nullptr)
         throw std::bad_alloc();
     return memory;

@@ -280,6 +280,7 @@ void QualityPanel::clearPlan() {
         label->setText(QString::fromUtf8("\xe2\x80\x93"));
     m_reason->clear();
     m_shownFrame.reset();
+    m_times = {};
 }
 
 void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {

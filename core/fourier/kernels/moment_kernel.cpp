@@ -16,8 +16,7 @@ using Vector = PiecewiseBasis::Vector;
 //   sum_x 1/h(x)^2 [(k(x) - x h(x))^2 + sum_m k(x + m)^2 + |S(x) - i x h(x)|^2].
 // m are the aliases; S is the sum over the taps of a frequency on the grid, where the aliases are
 // in phase.
-Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, int width,
-                       double padding) {
+Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, double padding) {
     constexpr int positions = 24, farthest = 4;
     BasisFit fit(basis.count());
     for (int i = 0; i < positions; ++i) {
@@ -27,7 +26,7 @@ Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, int wi
         for (int m = -farthest; m <= farthest; ++m)
             if (m != 0)
                 fit.add(basis.transforms(x + m), 0, weight);
-        for (const Real c : offsetsOnGrid(width)) {
+        for (const Real c : offsetsOnGrid(kernel.width())) {
             const auto [real, imaginary] = basis.transformsAt(c, x);
             fit.add(real, 0, weight);
             fit.add(imaginary, x * h, weight);
@@ -36,18 +35,15 @@ Vector coefficientsFor(const PiecewiseBasis &basis, const Kernel &kernel, int wi
     return fit.solved();
 }
 
-PiecewiseKernel momentKernel(const Kernel &kernel, int width, double padding) {
-    const PiecewiseBasis basis(width, std::max(3, width), Parity::odd);
-    const Vector best = coefficientsFor(basis, kernel, width, fittedPadding(padding));
+PiecewiseKernel momentKernel(const Kernel &kernel, double padding) {
+    const PiecewiseBasis basis(kernel.width(), std::max(3, kernel.width()), Parity::odd);
+    const Vector best = coefficientsFor(basis, kernel, fittedPadding(padding));
     return {basis.pieces(best), Parity::odd};
 }
 
 } // namespace
 
 MomentKernel::MomentKernel(const Kernel &kernel, double padding)
-    : MomentKernel(kernel, kernel.width(), padding) {}
-
-MomentKernel::MomentKernel(const Kernel &kernel, int width, double padding)
-    : m_shape(momentKernel(kernel, width, padding)) {}
+    : m_shape(momentKernel(kernel, padding)) {}
 
 } // namespace pellucid::fourier

@@ -20,8 +20,6 @@ class MomentKernel {
 public:
     /// `padding` is that of the axis: the field ends at 1/(2 padding) of the period.
     MomentKernel(const Kernel &kernel, double padding);
-    /// The same for another width than that of the kernel.
-    MomentKernel(const Kernel &kernel, int width, double padding);
 
     int width() const { return m_shape.width(); }
     /// K(t), odd; zero for |t| > width/2. *Units*: t in grid cells.
