@@ -97,11 +97,13 @@ struct SpectrumEnergies::Blocks {
         constexpr int finer = 8;
         std::vector<float> bounds(std::size_t(tabledCycles * int(factorsPerCycle)) + 1, 0.0F);
         float largest = 0.0F;
-        for (int n = int(bounds.size()) * finer; n-- > 0;) {
+        // The lobe beyond the table is larger than those that follow.
+        for (int n = (int(bounds.size()) + int(factorsPerCycle)) * finer; n-- > 0;) {
             const double factor =
                 scene::reconstructionFactor(image, n / (double(factorsPerCycle) * finer));
             largest = std::max(largest, float(factor * factor));
-            bounds[std::size_t(n / finer)] = largest;
+            if (const auto at = std::size_t(n / finer); at < bounds.size())
+                bounds[at] = largest;
         }
         return bounds;
     }
