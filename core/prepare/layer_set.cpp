@@ -79,10 +79,12 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
         const std::size_t taken = held() + keptBytes;
         try {
             const auto summaries = summarise({fields, {}, scale}, scene.shading.cue);
+            // Projections of layers are kept and summed: they must not depend on the weights.
+            scene::Scene uniform = scene;
+            uniform.interpolation.isUniform = true;
             plan::RenderPlan plan =
-                plan::planRender(scene, summaries, render::FrameJob::maxChannels,
+                plan::planRender(uniform, summaries, render::FrameJob::maxChannels,
                                  {budget.bytes > taken ? budget.bytes - taken : 0});
-            plan::adaptWidths(plan, scene);
             render::EngineSpectra spectra{{}, {}, scale};
             for (std::size_t n = 0; n < count; ++n) {
                 const double done = 0.5 + 0.5 * double(n) / double(count);
@@ -90,9 +92,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
                     fourier::Spectrum::prepare(fields[n].values, plan.spectrum,
                                                progress.part(done, done + 0.5 / double(count)))));
             }
-            auto widths = adaptiveWidths(spectra, plan, progress);
             auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
-            engine->setWidths(std::move(widths));
             auto viewError = std::make_shared<const accuracy::ViewErrorModel>(plan, summaries);
             std::shared_ptr<const accuracy::DetailLoss> loss;
             if (reduction > 1) {
