@@ -25,6 +25,7 @@ namespace {
 constexpr double coherentMargin = 2.7, ///< aliases, block by block
     narrowMargin = 3.0,                ///< of a part, for narrower kernels
     spreadMargin = 2.0,                ///< the same, by area
+    sampleMargin = 1.4,                ///< narrower kernels, of which a sample is known
     detailMargin = 2.4,                ///< aliases of detail finer than the blocks
     coarsePixelMargin = 2.5,           ///< aliases in pixels larger than the blocks
     restMargin = 1.1,                  ///< rounding of cells other than the central ones
@@ -60,7 +61,8 @@ public:
           m_sums(pictureSums(context.picture, channel)),
           m_imageEnergy(m_sums.energy * m_pixelMm * m_pixelMm),
           m_centralImage(context.central.image[std::size_t(channel)]),
-          m_centralError(context.central.error[std::size_t(channel)]) {
+          m_centralError(context.central.error[std::size_t(channel)]),
+          m_narrowing(context.narrowing[std::size_t(channel)]) {
         weightBlocks(weights);
         projectBlocks();
     }
@@ -286,20 +288,20 @@ private:
         return worst;
     }
 
-    // The error of narrower kernels is where the field's energy is, as that of other detail, but
-    // tiles are so narrow that a part of it is spread over the whole picture.
+    // The error of narrower kernels follows the field's energy, but tiles are so narrow that part
+    // of it spreads over the whole picture.
     double narrowing() const {
         double area = 1.0; // the picture's share of the field's
         for (int axis = 0; axis < 2; ++axis) {
             const double lengthMm = extentMm(m_axes[axis]);
             area *= std::min(lengthMm, m_windowMm[axis]) / lengthMm;
         }
-        const double share = std::max(narrowMargin * m_blocks.inPicture / m_blocks.all,
-                                      spreadMargin * area);
-        return m_context.narrowing * std::min(1.0, share);
+        const double share =
+            std::max(narrowMargin * m_blocks.inPicture / m_blocks.all, spreadMargin * area);
+        return sampleMargin * m_narrowing * std::min(1.0, share);
     }
 
-    // Of the lattice, along a direction.
+    // The extent of the lattice along a direction.
     double extentMm(const glm::dvec3 &direction) const {
         const volume::Lattice &lattice = m_fields.lattice;
         double extent = 0.0;
@@ -330,7 +332,7 @@ private:
     glm::dvec2 m_windowMm, m_periodMm; ///< of the picture; of the slice grid
     double m_coarseMm;                 ///< pixel size of coarse planes
     PictureSums m_sums;
-    double m_imageEnergy, m_centralImage, m_centralError;
+    double m_imageEnergy, m_centralImage, m_centralError, m_narrowing;
     std::vector<double> m_mass, m_energy; ///< of blocks, without the cue
     double m_energyWithoutCue = 0.0;
     BlockSums m_blocks;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "core/accuracy/central_rounding.h"
@@ -16,9 +17,8 @@ struct PictureContext {
     const scene::ImageDefinition &image;
     const shading::Shading &shading;
     plan::SliceGrid grid;
-    CentralEnergies central; ///< of the picture
-    /// The energy of the error of narrower kernels in each channel of the whole picture, at most.
-    double narrowing = 0.0;
+    CentralEnergies central;           ///< of the picture
+    std::array<double, 3> narrowing{}; ///< see narrowingEnergies
 };
 
 /// The weights of a field's mass and energy in a channel.
@@ -34,8 +34,8 @@ struct ChannelEnergies {
 };
 
 /// Predicts the energy of the error in one channel of a picture: aliases, rounding, roll-off tails,
-/// and the error of a linear cue's moment kernels. *Shape*: one weight per field. `bound`: the
-/// plan's bound on the relative error.
+/// narrower kernels, and the error of a linear cue's moment kernels. *Shape*: one weight per field.
+/// `bound`: the plan's bound on the relative error.
 ChannelEnergies channelEnergies(const CoarseFields &fields, double bound,
                                 const PictureContext &context, int channel,
                                 std::span<const FieldWeight> weights);

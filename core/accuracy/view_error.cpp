@@ -2,6 +2,7 @@
 #include "core/accuracy/view_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 #include "core/accuracy/central_rounding.h"
 #include "core/accuracy/channel_error.h"
-#include "core/render/frame_inputs.h"
+#include "core/accuracy/narrowing_error.h"
 #include "core/shading/slice_shading.h"
 
 namespace pellucid::accuracy {
@@ -49,20 +50,6 @@ double relativeError(double energy, double error) {
     return relativeToShown / std::max(minExact, 1.0 - relativeToShown);
 }
 
-// The number of colors that are not black.
-int shownColors(std::span<const render::ChannelWeights> channelWeights,
-                const shading::Shading &shading) {
-    if (!shading.isGrey())
-        return 1; // which of them the lights show is not asked
-    int shown = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-        shown += std::any_of(channelWeights.begin(), channelWeights.end(),
-                             [&](const render::ChannelWeights &w) { return w[c] != 0.0; })
-                     ? 1
-                     : 0;
-    return std::max(1, shown);
-}
-
 } // namespace
 
 ViewErrorModel::ViewErrorModel(const plan::RenderPlan &plan,
@@ -81,15 +68,12 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
     // Without light the weights do not depend on R and the step.
     const shading::SliceShading slices = shading::sliceShading(shading, camera.axes(), {});
     const plan::SliceGrid grid = plan::sliceGrid(camera, m_fieldOfView, m_fields.lattice, image);
-    // The widths that the frame was read by. The energy is that of all shown colors together; a
-    // grey picture is one of three equal channels.
-    double narrowing = 0.0;
+    std::array<double, 3> narrowing{};
     if (engine.widths) {
         render::FrameSetup setup(m_fieldOfView, engine.widths);
-        const render::FrameInputs inputs =
-            setup.inputsFor(engine.spectra, channelWeights, camera, image, shading);
-        narrowing =
-            inputs.widths ? inputs.widths->leftEnergy / shownColors(channelWeights, shading) : 0.0;
+        narrowing = narrowingEnergies(
+            engine.spectra, setup.inputsFor(engine.spectra, channelWeights, camera, image, shading),
+            camera, image);
     }
     const PictureContext context{picture,  camera, image,
                                  shading,  grid,   centralEnergies(engine, camera, grid, shading),

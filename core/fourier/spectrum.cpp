@@ -75,13 +75,48 @@ std::complex<double> Spectrum::value(int p, int q, int r) const {
     const int x = p - c.firstX;
     const int column = std::min(x / c.step, c.columns - 1);
     const std::size_t line = c.line(column, r - c.firstZ, q - c.firstY);
-    const std::size_t at = line * CellLayout::columnCells + std::size_t(x - column * c.step);
+    return cell(line * CellLayout::columnCells + std::size_t(x - column * c.step));
+}
+
+std::complex<double> Spectrum::cell(std::size_t index) const {
     if (m_layout.storage == Storage::float32)
         return std::complex<double>(
-            reinterpret_cast<const std::complex<float> *>(m_cells.get())[at]);
-    const std::uint32_t pair = reinterpret_cast<const std::uint32_t *>(m_cells.get())[at];
+            reinterpret_cast<const std::complex<float> *>(m_cells.get())[index]);
+    const std::uint32_t pair = reinterpret_cast<const std::uint32_t *>(m_cells.get())[index];
     return m_unit * std::complex<double>(fromBinary16(std::uint16_t(pair)),
                                          fromBinary16(std::uint16_t(pair >> 16)));
+}
+
+std::complex<double> Spectrum::between(std::array<double, 3> cells,
+                                       const std::array<Kernel, 3> &kernels) const {
+    for (std::size_t d = 0; d < 3; ++d)
+        cells[d] -= m_layout.padded[int(d)] * std::round(cells[d] / m_layout.padded[int(d)]);
+    // The half with negative x is the mirrored conjugate of the other.
+    const bool isMirrored = cells[0] < 0.0;
+    const int width = kernels[0].width();
+    std::array<int, 3> first{};
+    std::array<std::array<double, Kernel::largestWidth>, 3> taps{};
+    for (std::size_t d = 0; d < 3; ++d) {
+        const double at = isMirrored ? -cells[d] : cells[d];
+        first[d] = int(std::ceil(at - 0.5 * width));
+        for (int k = 0; k < width; ++k)
+            taps[d][std::size_t(k)] = kernels[d].value(first[d] + k - at);
+    }
+    const CellLayout &c = m_cellLayout;
+    const int x = first[0] - c.firstX, column = std::min(x / c.step, c.columns - 1);
+    std::complex<double> sum = 0.0;
+    for (int r = 0; r < width; ++r)
+        for (int q = 0; q < width; ++q) {
+            const std::size_t line =
+                c.line(column, first[2] + r - c.firstZ, first[1] + q - c.firstY);
+            const std::size_t at =
+                line * CellLayout::columnCells + std::size_t(x - column * c.step);
+            std::complex<double> row = 0.0;
+            for (std::size_t p = 0; p < std::size_t(width); ++p)
+                row += taps[0][p] * cell(at + p);
+            sum += taps[1][std::size_t(q)] * taps[2][std::size_t(r)] * row;
+        }
+    return isMirrored ? std::conj(sum) : sum;
 }
 
 std::complex<double> Spectrum::rounding(int p, int q, int r) const {

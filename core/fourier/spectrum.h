@@ -85,6 +85,10 @@ public:
     /// The value at a grid index: p in -halo..padded/2 + halo, q and r within halo of
     /// +-padded/2.
     std::complex<double> value(int p, int q, int r) const;
+    /// The value at a point between the cells, as these kernels read it; periodic. *Units*: cells,
+    /// by axis. *Requires*: no kernel is wider than the layout's.
+    std::complex<double> between(std::array<double, 3> cells,
+                                 const std::array<Kernel, 3> &kernels) const;
     /// The rounding error of the stored value at a grid index: stored minus exact. Most fields have
     /// nearly all their energy in a few cells around frequency 0, whose rounding therefore
     /// dominates the error. 0 unless `keepsRounding`. *Requires*: |p|, |q| and |r| are at most
@@ -97,6 +101,7 @@ public:
 
 private:
     Spectrum(const volume::Volume &field, const SpectrumLayout &layout);
+    std::complex<double> cell(std::size_t index) const; ///< of all, in the order of the lines
 
     volume::Lattice m_lattice;
     SpectrumLayout m_layout;

@@ -15,8 +15,8 @@ namespace pellucid::plan {
 namespace {
 
 constexpr int tileColumns = WidthMap::tileColumns, tileRows = WidthMap::tileRows;
-// Of the errors by blocks, as energy: the tiles that are chosen first are those whose errors were
-// found too small.
+// Margin for the errors by blocks, as energy. A tile whose error was underestimated is among the
+// first to get a narrow kernel.
 constexpr double blockMargin = 2.0;
 
 using Errors = SpectrumEnergies::Errors;
@@ -43,8 +43,8 @@ class Tiles {
 public:
     struct Tile {
         int strip = 0, row = 0; ///< row: of the tile, from -tiles to tiles - 1
-        /// Of its frequencies together, by entry, as shares of the budget. Infinite where the
-        /// frequencies are low, which the widest kernel always reads.
+        /// The error of all its frequencies together, by entry, as shares of the budget. Infinite
+        /// where the frequencies are low, which the widest kernel always reads.
         Errors errors{};
     };
 
@@ -123,21 +123,16 @@ private:
         return patch;
     }
 
-    // Whether some point of a patch is so close to frequency 0 that blocks are too coarse for it.
+    // Whether some point of a patch is so close to frequency 0, in some source, that blocks are too
+    // coarse for it.
     bool isLow(const PlanePatch &patch) const {
-        double distance = 0.0; // the largest along any axis, at least
-        for (std::size_t d = 0; d < 3; ++d)
-            distance = std::max(distance, std::abs(middleOf(patch, d)) - reachOf(patch, d));
-        return distance < SpectrumEnergies::lowCells;
-    }
-
-    static double middleOf(const PlanePatch &patch, std::size_t d) {
-        return patch.offset[d] + (patch.firstColumn + 0.5 * patch.columns) * patch.perColumn[d] +
-               (patch.firstRow + 0.5 * patch.rows) * patch.perRow[d];
-    }
-    static double reachOf(const PlanePatch &patch, std::size_t d) {
-        return 0.5 * (std::abs(patch.perColumn[d]) * patch.columns +
-                      std::abs(patch.perRow[d]) * patch.rows);
+        return std::any_of(m_sources.begin(), m_sources.end(), [&](const Measured &measured) {
+            const PlanePatch moved = offsetBy(patch, measured.source);
+            double distance = 0.0; // the largest along any axis, at least
+            for (std::size_t d = 0; d < 3; ++d)
+                distance = std::max(distance, std::abs(moved.middle(d)) - moved.reach(d));
+            return distance < SpectrumEnergies::lowCells;
+        });
     }
 
     static PlanePatch offsetBy(PlanePatch patch, const SliceSource &source) {
@@ -182,9 +177,9 @@ private:
             if (source.perSine[c][d] == 0.0)
                 continue;
             const double perCell = 2.0 * std::numbers::pi / measured.energies->padded()[int(d)];
-            const double middle = middleOf(patch, d) + source.offset[d];
+            const double middle = patch.middle(d) + source.offset[d];
             amplitude += source.perSine[c][d] * std::min(1.0, std::abs(std::sin(perCell * middle)) +
-                                                                  perCell * reachOf(patch, d));
+                                                                  perCell * patch.reach(d));
         }
         return amplitude;
     }
@@ -252,7 +247,7 @@ WidthMap::Shares WidthMap::shares(const SlicePlane &plane) const {
     for (int column = 0; column < circle.strips; ++column)
         for (int row = -circle.sides[std::size_t(column)]; row < circle.sides[std::size_t(column)];
              ++row, all += 1.0)
-            shares[column < strips ? strip(column)[std::size_t(row + tiles)] : 0] += 1.0;
+            shares[strip(column)[std::size_t(row + tiles)]] += 1.0;
     for (double &share : shares)
         share /= all;
     return shares;
@@ -303,19 +298,26 @@ WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSo
     while (limit < errors.size() && spent + errors[limit] <= 1.0)
         spent += errors[limit++];
 
-    WidthMap map{0, circle.tiles, {}, m_tolerance * std::sqrt(spent), budget * spent};
+    WidthMap map{.tiles = circle.tiles,
+                 .left = m_tolerance * std::sqrt(spent),
+                 .unmeasuredEnergy = budget * tiles.left};
     const auto perStrip = 2 * std::size_t(circle.tiles);
     map.widths.resize(std::size_t(circle.strips) * perStrip, 0);
+    map.errors.resize(map.widths.size(), 0.0F);
     for (std::size_t n = 0; n < savings.size(); ++n) {
         const Tiles::Tile &tile = tiles.bright[n];
         int width = m_kernels->widest();
+        float error = 0.0F;
         for (const Savings::Saving &saving : savings[n].all()) {
             if (saving.price >= limit)
                 break;
             width = saving.width;
+            error += saving.error;
         }
-        map.widths[std::size_t(tile.strip) * perStrip + std::size_t(tile.row + circle.tiles)] =
-            std::uint8_t(width);
+        const std::size_t at =
+            std::size_t(tile.strip) * perStrip + std::size_t(tile.row + circle.tiles);
+        map.widths[at] = std::uint8_t(width);
+        map.errors[at] = error;
         if (width > 0)
             map.strips = std::max(map.strips, tile.strip + 1);
     }

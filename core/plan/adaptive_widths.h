@@ -38,10 +38,12 @@ struct WidthMap {
     int strips = 0;                   ///< up to the last one that is read
     int tiles = 0;                    ///< on each side of row 0
     std::vector<std::uint8_t> widths; ///< *Shape*: [strip][tile, from -tiles on]
-    double left = 0.0;                ///< the error that the choice makes, relative L2, at most
-    /// The same as energy, of red, green and blue together. *Units*: of the spectrum squared, over
-    /// mm^2: those of the picture squared, times mm^2.
-    double leftEnergy = 0.0;
+    /// A bound on the error of each tile, relative to each other. *Shape*: as `widths`.
+    std::vector<float> errors;
+    double left = 0.0; ///< a bound on the error of the choice, relative L2
+    /// A bound on the energy of the tiles that were too dark to be measured, and have no error of
+    /// their own, in red, green and blue together. *Units*: of the picture squared, times mm^2.
+    double unmeasuredEnergy = 0.0;
 
     /// Tiles of a strip; the first begins at row -tiles * tileRows.
     std::span<const std::uint8_t> strip(int strip) const {
@@ -53,14 +55,13 @@ struct WidthMap {
     Shares shares(const SlicePlane &plane) const;
 };
 
-/// Chooses for each view the widths of the kernels that read it. Most frequencies of a picture have
-/// next to no energy: a narrow kernel is accurate enough for them, or they need not be read at all.
-/// The widths that take the least time are those for which every tile saves the same time for each
-/// bit of error; a view spends the whole tolerance.
+/// Chooses the kernel widths for each view. Most frequencies of a picture have almost no energy: a
+/// narrow kernel is accurate enough for them, or they need not be read. The fastest choice within
+/// an error is the one in which every tile saves the same time per unit of error. A view uses at
+/// most the whole tolerance.
 class AdaptiveWidths {
 public:
     using Weights = std::array<double, 3>; ///< of a field in red, green and blue
-
     using Energies = std::vector<std::shared_ptr<const SpectrumEnergies>>;
 
     /// `tolerance`: the error that a view may make, relative L2. *Shape*: one gradient per field,
@@ -80,7 +81,7 @@ public:
     bool hasGradients() const { return !m_gradients.empty(); }
 
     const std::shared_ptr<const fourier::KernelsByWidth> &kernels() const { return m_kernels; }
-    /// What the energies were measured for.
+    /// The definition of the image that the energies belong to.
     const scene::ImageDefinition &image() const { return m_image; }
 
 private:

@@ -316,14 +316,14 @@ private:
     std::size_t m_minBytes = std::numeric_limits<std::size_t>::max();
 };
 
-} // namespace
-
 // Whether frames may be read by kernels of several widths.
-static bool mayAdapt(const scene::Scene &scene) {
+bool mayAdapt(const scene::Scene &scene) {
     const shading::DepthCue &cue = scene.shading.cue;
     return !scene.interpolation.isUniform &&
            !(cue.isActive() && cue.kind == shading::CueKind::linear);
 }
+
+} // namespace
 
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, const Budget &budget) {
     return planRender(scene, {&field, 1}, 1, budget);
@@ -332,14 +332,24 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, cons
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
                       const Budget &budget) {
     scene::validate(scene);
-    if (mayAdapt(scene)) {
-        // What is left for narrower kernels is worth more than a little less padding.
-        const double limit = 0.8 * scene.tolerance;
-        RenderPlan plan = Planner(scene, limit, fields, channels, budget).plan();
-        if (plan.predictedError <= limit)
-            return plan;
+    RenderPlan plan = Planner(scene, scene.tolerance, fields, channels, budget).plan();
+    // A stricter limit leaves error for narrower kernels. More padding is a small price for that; a
+    // wider kernel is not, where a field needs it for most of its frequencies.
+    constexpr double share = 0.8;
+    if (mayAdapt(scene) && plan.predictedError <= scene.tolerance &&
+        plan.predictedError > share * scene.tolerance) {
+        scene::Scene padded = scene;
+        padded.interpolation.kernel = scene.interpolation.kernel.value_or(
+            fourier::KernelChoice{.width = plan.spectrum.width()});
+        padded.interpolation.storage = plan.spectrum.storage;
+        RenderPlan stricter =
+            Planner(padded, share * scene.tolerance, fields, channels, budget).plan();
+        if (stricter.predictedError <= share * scene.tolerance) {
+            stricter.reason = plan.reason; // not that of a kernel that the user chose
+            return stricter;
+        }
     }
-    return Planner(scene, scene.tolerance, fields, channels, budget).plan();
+    return plan;
 }
 
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene) {

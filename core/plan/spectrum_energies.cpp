@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -20,6 +19,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+// Blocks have half the error at their brightest cell.
+constexpr float brightestShare = 2.0F;
 // Points of a patch are at most this far apart along each axis.
 constexpr double cellsPerPoint = 6.0;
 // Patches of fewer cells are small, see PatchPoints.
@@ -54,34 +55,6 @@ int indexOf(const glm::dvec3 &direction) {
         return std::clamp(int(0.5 * (angle + 1.0) * faceSide), 0, faceSide - 1);
     };
     return (face * faceSide + at((face + 1) % 3)) * faceSide + at((face + 2) % 3);
-}
-
-// |F|^2 between the cells of a half spectrum.
-double energyAt(const fourier::Spectrum &spectrum, glm::dvec3 cell) {
-    const fourier::SpectrumLayout &layout = spectrum.layout();
-    const int width = layout.width();
-    for (int d = 0; d < 3; ++d)
-        cell[d] -= layout.padded[d] * std::round(cell[d] / layout.padded[d]);
-    if (cell.x < 0.0)
-        cell = -cell;
-    std::array<std::array<double, fourier::Kernel::largestWidth>, 3> taps;
-    glm::ivec3 first;
-    for (int d = 0; d < 3; ++d) {
-        first[d] = int(std::ceil(cell[d] - 0.5 * width));
-        for (int k = 0; k < width; ++k)
-            taps[std::size_t(d)][std::size_t(k)] =
-                layout.kernels[std::size_t(d)].value(first[d] + k - cell[d]);
-    }
-    std::complex<double> sum = 0.0;
-    for (int z = 0; z < width; ++z)
-        for (int y = 0; y < width; ++y) {
-            std::complex<double> row = 0.0;
-            for (int x = 0; x < width; ++x)
-                row += taps[0][std::size_t(x)] *
-                       spectrum.value(first[0] + x, first[1] + y, first[2] + z);
-            sum += taps[1][std::size_t(y)] * taps[2][std::size_t(z)] * row;
-        }
-    return std::norm(sum);
 }
 
 } // namespace
@@ -180,7 +153,9 @@ SpectrumEnergies::SpectrumEnergies(const fourier::Spectrum &spectrum,
             double factor = 1.0;
             for (int d = 0; d < 3; ++d)
                 factor *= scene::reconstructionFactor(image, radius * cells[d] / made->padded[d]);
-            sum += radius * step * factor * factor * energyAt(spectrum, radius * cells);
+            const glm::dvec3 at = radius * cells;
+            sum += radius * step * factor * factor *
+                   std::norm(spectrum.between({at.x, at.y, at.z}, spectrum.layout().kernels));
         }
         m_low[std::size_t(n)] = float(sum);
     });
@@ -212,11 +187,7 @@ float SpectrumEnergies::energyBound(const PlanePatch &patch) const {
     float factor = 1.0F, energy = std::numeric_limits<float>::infinity();
     for (std::size_t d = 0; d < 3; ++d) {
         const auto padded = float(all.padded[int(d)]);
-        const auto middle = float(patch.offset[d] +
-                                  (patch.firstColumn + 0.5 * patch.columns) * patch.perColumn[d] +
-                                  (patch.firstRow + 0.5 * patch.rows) * patch.perRow[d]),
-                   reach = float(0.5 * (std::abs(patch.perColumn[d]) * patch.columns +
-                                        std::abs(patch.perRow[d]) * patch.rows));
+        const auto middle = float(patch.middle(d)), reach = float(patch.reach(d));
         const float least = std::max(0.0F, std::abs(middle) - reach);
         factor *=
             all.factors[std::size_t(std::min(lastFactor, int(least / padded * factorsPerCycle)))];
@@ -230,7 +201,16 @@ float SpectrumEnergies::energyBound(const PlanePatch &patch) const {
             most = std::max(most, slabs[cell]);
         energy = std::min(energy, most);
     }
-    return factor * energy;
+    return brightestShare * factor * energy;
+}
+
+double PlanePatch::middle(std::size_t d) const {
+    return offset[d] + (firstColumn + 0.5 * columns) * perColumn[d] +
+           (firstRow + 0.5 * rows) * perRow[d];
+}
+
+double PlanePatch::reach(std::size_t d) const {
+    return 0.5 * (std::abs(perColumn[d]) * columns + std::abs(perRow[d]) * rows);
 }
 
 PatchPoints::PatchPoints(const PlanePatch &patch) {
@@ -282,8 +262,8 @@ SpectrumEnergies::Errors SpectrumEnergies::errorsIn(const PlanePatch &patch,
     }
     Errors errors{};
     sumErrors(sum, errors.data());
-    // A line may fill a small patch, but only half of the block that it is in.
-    const float scale = points.isSmall ? 2.0F : 1.0F / float(points.count);
+    // A line may fill a small patch.
+    const float scale = points.isSmall ? brightestShare : 1.0F / float(points.count);
     for (float &error : errors)
         error *= scale;
     return errors;

@@ -22,10 +22,14 @@ struct PlanePatch {
     double columns = 0.0, rows = 0.0; ///< its size
     double firstColumn = 0.0, firstRow = 0.0;
     std::array<double, 3> offset{};
+
+    /// Its center, and half its extent, along an axis.
+    double middle(std::size_t d) const;
+    double reach(std::size_t d) const;
 };
 
 /// The points that represent patches of one size, relative to their first column and row. *Units*:
-/// cells. *Shape*: a whole number of vectors; `count` of them count.
+/// cells. *Shape*: a whole number of vectors; only the first `count` points are used.
 struct PatchPoints {
     static constexpr std::size_t vector = 16;
     /// At most `cellsPerPoint` cells apart along each axis.

@@ -29,10 +29,11 @@ const fourier::Spectrum &SliceReader::spectrumOf(const FrameSource &source) cons
                                              : m_spectra.gradients[source.field]);
 }
 
-std::array<Read, 3> SliceReader::at(const std::array<double, 3> &cells) const {
+std::array<Read, 3> SliceReader::at(const std::array<double, 3> &cells,
+                                    const std::array<fourier::Kernel, 3> &kernels) const {
     std::array<Read, 3> images{};
     for (int term = 0; term < m_shading.termCount; ++term)
-        addTerm(cells, term, images);
+        addTerm(cells, term, kernels, images);
     if (m_mixing.channels > 1)
         return images;
     // A single image is colored afterwards.
@@ -61,6 +62,7 @@ Read SliceReader::cell(const FrameSource &source, std::array<int, 3> index) cons
 
 // See FrameShading.
 void SliceReader::addTerm(const std::array<double, 3> &central, int term,
+                          const std::array<fourier::Kernel, 3> &kernels,
                           std::array<Read, 3> &images) const {
     const FrameShading::Term &shadingTerm = m_shading.terms[std::size_t(term)];
     const Complex weight(shadingTerm.weight);
@@ -73,7 +75,12 @@ void SliceReader::addTerm(const std::array<double, 3> &central, int term,
     std::array<std::array<std::array<Read, 3>, 2>, 2> reads{};
     for (const FrameSource &source : m_mixing.sources) {
         const auto kind = std::size_t(source.kind);
-        auto [plain, cued] = plainAndCued(source, at);
+        std::array<Read, 2> read;
+        if (m_shading.cued || m_rounding == Rounding::read)
+            read = plainAndCued(source, at);
+        else
+            read[0].value = read[1].value = spectrumOf(source).between(at, kernels);
+        auto &[plain, cued] = read;
         if (isExact)
             plain.error = cued.error = 0.0;
         for (std::size_t c = 0; c < std::size_t(m_mixing.sums); ++c) {

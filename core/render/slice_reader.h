@@ -8,8 +8,8 @@
 
 namespace pellucid::render {
 
-/// Reads a picture's slice at single frequencies in double precision, cue and light included. It is
-/// for the few frequencies that something has to be known about; frames read theirs in vectors.
+/// Reads a picture's slice at single frequencies in double precision, with cue and light. Frames
+/// read theirs in vector code.
 class SliceReader {
 public:
     /// A value, and the rounding error of the cells that it was read from, if it is read and the
@@ -27,18 +27,24 @@ public:
     };
 
     enum class Rounding { unknown, read };
-    /// `shading` with its moment kernels, if it has moments. Keeps references.
+    /// Keeps references to all three; a cued `shading` needs its kernels by the first read.
     SliceReader(const EngineSpectra &spectra, const Mixing &mixing, const FrameShading &shading,
                 Rounding rounding);
 
     /// The channels of the picture at a point of the central slice. *Units*: cells, by axis; the
     /// spectrum's.
-    std::array<Read, 3> at(const std::array<double, 3> &cells) const;
+    std::array<Read, 3> at(const std::array<double, 3> &cells) const {
+        return at(cells, m_layout.kernels);
+    }
+    /// The same by narrower kernels. *Requires*: neither moments nor rounding.
+    std::array<Read, 3> at(const std::array<double, 3> &cells,
+                           const std::array<fourier::Kernel, 3> &kernels) const;
     /// The value and the rounding error of a cell of a source, periodic.
     Read cell(const FrameSource &source, std::array<int, 3> index) const;
 
 private:
-    void addTerm(const std::array<double, 3> &central, int term, std::array<Read, 3> &images) const;
+    void addTerm(const std::array<double, 3> &central, int term,
+                 const std::array<fourier::Kernel, 3> &kernels, std::array<Read, 3> &images) const;
     std::array<Read, 2> plainAndCued(const FrameSource &source,
                                      const std::array<double, 3> &at) const;
     const fourier::Spectrum &spectrumOf(const FrameSource &source) const;

@@ -2,9 +2,9 @@
 #include "core/render/spectrum_slice.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
+#include <complex>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -31,33 +31,11 @@ std::vector<WeightedSpectrum> weightedSpectra(const EngineParts &engine) {
     return result;
 }
 
-// |D| at a grid coordinate. The half of the grid with negative x is the mirrored conjugate of the
-// other half, so its magnitudes are the same.
-double magnitude(const std::vector<WeightedSpectrum> &spectra, glm::dvec3 at) {
-    const fourier::SpectrumLayout &layout = spectra.front().spectrum->layout();
-    const int width = layout.width();
-    for (int d = 0; d < 3; ++d)
-        at[d] -= layout.padded[d] * std::round(at[d] / layout.padded[d]);
-    if (at.x < 0.0)
-        at = -at;
-    std::array<std::array<double, fourier::Kernel::largestWidth>, 3> taps;
-    std::array<int, 3> first;
-    for (std::size_t d = 0; d < 3; ++d) {
-        const double g = at[int(d)];
-        first[d] = int(std::ceil(g - 0.5 * width));
-        for (int k = 0; k < width; ++k)
-            taps[d][std::size_t(k)] = layout.kernels[d].value(first[d] + k - g);
-    }
+// |D| at a grid coordinate.
+double magnitude(const std::vector<WeightedSpectrum> &spectra, const glm::dvec3 &at) {
     std::complex<double> sum = 0.0;
     for (const auto &[spectrum, weight] : spectra)
-        for (int z = 0; z < width; ++z)
-            for (int y = 0; y < width; ++y) {
-                std::complex<double> row = 0.0;
-                for (int x = 0; x < width; ++x)
-                    row += taps[0][std::size_t(x)] *
-                           spectrum->value(first[0] + x, first[1] + y, first[2] + z);
-                sum += weight * taps[1][std::size_t(y)] * taps[2][std::size_t(z)] * row;
-            }
+        sum += weight * spectrum->between({at.x, at.y, at.z}, spectrum->layout().kernels);
     return std::abs(sum);
 }
 
