@@ -45,7 +45,7 @@ void endOnSignals(QObject &application) {
     });
     struct sigaction action {};
     action.sa_handler = [](int) {
-        const int before = errno; // which the interrupted code may still read
+        const int before = errno; // the interrupted code may still read it
         const char byte = 1;
         (void)!::write(signalSocket, &byte, 1);
         errno = before;

@@ -11,8 +11,8 @@ namespace pellucid::accuracy {
 /// sample of the frequencies that they read or leave out, each compared with the widest kernel.
 /// Tiles are sampled in proportion to the bounds by which their widths were chosen, so that a few
 /// bright lines are not missed. The same picture always has the same sample. All are 0 if one width
-/// reads everything. *Units*: of the picture squared, times mm^2; over all directions of the
-/// period, whatever the picture shows of it.
+/// reads everything. *Units*: of the picture squared, times mm^2, over the whole period of the
+/// slice, whatever the picture shows of it.
 std::array<double, 3> narrowingEnergies(const render::EngineSpectra &spectra,
                                         const render::FrameInputs &inputs,
                                         const scene::Camera &camera,

@@ -54,12 +54,13 @@ public:
         const SpectrumEnergies *energies = nullptr;
     };
 
-    Tiles(const SlicePlane &plane, const Circle &circle, std::vector<Measured> sources,
+    Tiles(const SlicePlane &plane, const Circle &circle, std::vector<Measured> sources, int widest,
           double budget)
         : m_circle(circle), m_sources(std::move(sources)), m_patch{plane.perColumn, plane.perRow,
                                                                    tileColumns, tileRows},
-          m_points(m_patch), m_area(2.0 * tileColumns * tileRows * plane.columnPerMm *
-                                    plane.rowPerMm * blockMargin / budget),
+          m_points(m_patch), m_entries(SpectrumEnergies::entryOf(widest)),
+          m_area(2.0 * tileColumns * tileRows * plane.columnPerMm * plane.rowPerMm * blockMargin /
+                 budget),
           m_dark(darkShare / (2.0 * circle.strips * circle.tiles)), m_errors(m_sources.size()),
           m_amplitudes(m_sources.size()) {
         for (int strip = 0; strip < circle.strips; strip += groupSide)
@@ -110,7 +111,7 @@ private:
             for (std::size_t s = 0; s < m_sources.size(); ++s)
                 m_errors[s] =
                     m_sources[s].energies->errorsIn(offsetBy(patch, m_sources[s].source), m_points);
-            for (std::size_t n = 0; n < tile.errors.size(); ++n)
+            for (std::size_t n = 0; n <= m_entries; ++n)
                 tile.errors[n] = float(sumOf(n));
         }
         bright.push_back(tile);
@@ -157,6 +158,11 @@ private:
     // Amplitudes of fields without negative samples add up, and so do those of their errors at
     // worst.
     double sumOf(std::size_t entry) const {
+        if (m_sources.size() == 1) {
+            const auto &a = m_amplitudes.front();
+            return m_area * (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) *
+                   double(m_errors.front()[entry]);
+        }
         std::array<double, 3> amplitudes{};
         for (std::size_t s = 0; s < m_sources.size(); ++s) {
             const double error = std::sqrt(double(m_errors[s][entry]));
@@ -188,7 +194,8 @@ private:
     std::vector<Measured> m_sources;
     PlanePatch m_patch;
     PatchPoints m_points;
-    double m_area; ///< of a tile in both halves of the plane, over the budget
+    std::size_t m_entries; ///< the last that is used
+    double m_area;         ///< of a tile in both halves of the plane, over the budget
     double m_dark;
     std::vector<Errors> m_errors;                    ///< by source
     std::vector<std::array<double, 3>> m_amplitudes; ///< by source, of the last patch
@@ -283,7 +290,7 @@ WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSo
     for (const SliceSource &source : sources)
         measured.push_back(
             {source, (source.isGradient ? m_gradients : m_fields)[source.field].get()});
-    const Tiles tiles(plane, circle, std::move(measured), budget);
+    const Tiles tiles(plane, circle, std::move(measured), m_kernels->widest(), budget);
     std::vector<Savings> savings;
     savings.reserve(tiles.bright.size());
     std::vector<double> errors(Savings::classes, 0.0);

@@ -121,6 +121,9 @@ public:
         return *m_best;
     }
 
+    // Of the plan, as `frameTime`; infinite if it misses the limit.
+    double time() const { return m_bestTime; }
+
 private:
     static constexpr auto leastAliasing = fourier::KernelFamily::leastAliasing;
     using Levels = std::array<std::size_t, 3>; // of padding, per axis
@@ -332,29 +335,34 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, cons
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
                       const Budget &budget) {
     scene::validate(scene);
-    RenderPlan plan = Planner(scene, scene.tolerance, fields, channels, budget).plan();
-    // A stricter limit leaves error for narrower kernels. More padding is a small price for that; a
-    // wider kernel is not, where a field needs it for most of its frequencies.
-    constexpr double share = 0.8;
-    if (mayAdapt(scene) && plan.predictedError <= scene.tolerance &&
-        plan.predictedError > share * scene.tolerance) {
+    Planner planner(scene, scene.tolerance, fields, channels, budget);
+    RenderPlan plan = planner.plan();
+    // A stricter limit leaves error for narrower kernels. A little more padding is a small price
+    // for that; a wider kernel or a larger slice is not, where a field needs it for most
+    // frequencies.
+    constexpr double share = 0.8, price = 1.1;
+    const double limit = share * scene.tolerance;
+    if (mayAdapt(scene) && plan.predictedError <= scene.tolerance && plan.predictedError > limit) {
         scene::Scene padded = scene;
         padded.interpolation.kernel = scene.interpolation.kernel.value_or(
             fourier::KernelChoice{.width = plan.spectrum.width()});
         padded.interpolation.storage = plan.spectrum.storage;
-        RenderPlan stricter =
-            Planner(padded, share * scene.tolerance, fields, channels, budget).plan();
-        if (stricter.predictedError <= share * scene.tolerance) {
-            stricter.reason = plan.reason; // not that of a kernel that the user chose
-            return stricter;
+        Planner stricter(padded, limit, fields, channels, budget);
+        RenderPlan other = stricter.plan();
+        if (stricter.time() <= price * planner.time()) {
+            other.reason = plan.reason; // not that of a kernel that the user chose
+            return other;
         }
     }
     return plan;
 }
 
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene) {
-    // Little left would save little.
+    // A small remainder saves too little time.
     constexpr double margin = 0.95, leastShare = 0.1;
+    // The error is at edges. In six real volumes and phantoms the worst pixel was off by 1.2
+    // to 10.4 times it, relative to the brightest pixel.
+    constexpr double atEdges = 12.0;
     const double tolerance = scene.tolerance, error = plan.predictedError;
     const double left = margin * std::sqrt(std::max(0.0, tolerance * tolerance - error * error));
     if (!mayAdapt(scene) || plan.spectrum.width() < 2 || left < leastShare * tolerance)
@@ -362,6 +370,7 @@ void adaptWidths(RenderPlan &plan, const scene::Scene &scene) {
     plan.adaptiveError = left;
     plan.image = scene.image;
     plan.predictedError = std::hypot(error, left);
+    plan.predictedMaximum += atEdges * left;
 }
 
 } // namespace pellucid::plan

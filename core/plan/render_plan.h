@@ -55,8 +55,8 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
                       const Budget &budget = {});
 
-/// Spends what a plan leaves of the tolerance on narrower kernels, if the scene has no linear cue,
-/// whose moments have kernels of their own.
+/// Spends the rest of the tolerance on narrower kernels. No effect with a linear cue, whose moments
+/// have kernels of their own.
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene);
 
 } // namespace pellucid::plan

@@ -54,7 +54,7 @@ struct FrameSource {
     std::size_t field = 0; ///< index in the engine's spectra
     std::array<float, 3> channelWeights{1.0F, 1.0F, 1.0F};
     FrameKind kind = FrameKind::field;
-    /// What the channel weights are to be multiplied by for the spectrum's own unit.
+    /// Converts the channel weights to the spectrum's own unit.
     double unitShare = 1.0;
 };
 

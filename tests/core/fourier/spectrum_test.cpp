@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "core/fourier/kernels_by_width.h"
 #include "core/fourier/spectrum.h"
 #include "tests/support/fields.h"
 
@@ -64,6 +65,58 @@ INSTANTIATE_TEST_SUITE_P(Storages, SpectrumCells,
                              return test.param == fourier::Storage::binary16 ? "binary16"
                                                                              : "float32";
                          });
+
+// The transform of a field at any grid coordinate.
+std::complex<double> transformAt(const classify::DensityField &field,
+                                 const fourier::SpectrumLayout &layout,
+                                 const std::array<double, 3> &cells) {
+    const volume::Lattice &lattice = field.values.lattice();
+    const volume::GridSize n = lattice.size();
+    std::complex<double> sum = 0.0;
+    for (int k = 0; k < n.k; ++k)
+        for (int j = 0; j < n.j; ++j)
+            for (int i = 0; i < n.i; ++i) {
+                const double turns = cells[0] * (i - n.i / 2) / layout.padded.i +
+                                     cells[1] * (j - n.j / 2) / layout.padded.j +
+                                     cells[2] * (k - n.k / 2) / layout.padded.k;
+                sum += double(field.values.value({i, j, k})) *
+                       std::polar(1.0, -2.0 * std::numbers::pi * turns);
+            }
+    return sum * lattice.cellVolumeMm3();
+}
+
+// By the layout's own kernels and by narrower ones, in both halves and in other periods: the
+// narrower the kernel, the larger the error, and never more than half of what is there.
+TEST(Spectrum, IsReadBetweenItsCellsByKernelsOfEveryWidth) {
+    const auto lattice = test::tiltedLattice({22, 20, 18}, {0.7, 0.9, 2.0}, 12);
+    const auto field = test::noiseField(lattice);
+    for (const int width : {4, 6, 7}) {
+        const auto kernel = fourier::Kernel::leastAliasing(width, 1.5);
+        // 54 cells along x: with width 7 the last column is nearly empty.
+        const fourier::SpectrumLayout layout{
+            {kernel, kernel, kernel}, field.support, {54, 30, 28}, fourier::Storage::float32};
+        const Spectrum spectrum = Spectrum::prepare(field.values, layout);
+        const fourier::KernelsByWidth kernels(layout);
+        ASSERT_EQ(kernels.widest(), width);
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> anywhere(-40.0, 40.0);
+        std::vector<double> errors(std::size_t(width) + 1, 0.0);
+        double energy = 0.0;
+        for (int n = 0; n < 200; ++n) {
+            const std::array<double, 3> at{n % 5 == 0 ? 26.9 : anywhere(random), anywhere(random),
+                                           anywhere(random)};
+            const auto exact = transformAt(field, layout, at);
+            energy += std::norm(exact);
+            for (int w = fourier::KernelsByWidth::narrowest; w <= width; ++w)
+                errors[std::size_t(w)] += std::norm(spectrum.between(at, kernels.of(w)) - exact);
+        }
+        EXPECT_LT(std::sqrt(errors[std::size_t(width)] / energy), width == 4 ? 5e-3 : 2e-4);
+        for (int w = fourier::KernelsByWidth::narrowest; w < width; ++w) {
+            EXPECT_GT(errors[std::size_t(w)], errors[std::size_t(w) + 1]) << w << " of " << width;
+            EXPECT_LT(errors[std::size_t(w)], 0.25 * energy) << w << " of " << width;
+        }
+    }
+}
 
 TEST(Spectrum, TakesFourBytesACellAndLittleMoreToMake) {
     const auto kernel = fourier::Kernel::leastAliasing(4, 1.5);

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/accuracy/narrowing_error.h"
+#include "core/phantom/phantom.h"
+#include "core/prepare/prepared_engine.h"
+#include "tests/support/fields.h"
+
+namespace pellucid {
+namespace {
+
+using render::ChannelWeights;
+
+class NarrowingError : public testing::TestWithParam<phantom::Kind> {
+protected:
+    struct Seen {
+        double estimated, measured;   ///< energies of all channels
+        double worstPixel, predicted; ///< relative to the largest pixel
+    };
+
+    // A picture by several widths beside that of one kernel.
+    static Seen seen(const shading::Shading &shading, const ChannelWeights &color,
+                     double tolerance) {
+        const auto lattice =
+            phantom::phantomLattice(GetParam(), {.size = volume::GridSize{96, 96, 40}});
+        const auto field =
+            classify::densityField(phantom::makePhantom(GetParam(), lattice), {-900.0, 2000.0});
+        scene::Scene scene;
+        scene.camera = scene::defaultCamera(lattice);
+        scene.camera.orientation =
+            scene::viewOrientation(scene::StandardView::front, {35.0, 20.0, 5.0});
+        scene.tolerance = tolerance;
+        scene.shading = shading;
+        const auto prepared = prepare::prepareEngine(
+            scene, classify::ShownFields{{field}, {color[0], color[1], color[2]}}, {});
+        auto parts = prepared.engine->parts();
+        const auto narrow = prepared.engine->render(scene.camera, scene.image, scene.shading);
+        render::CpuEngine whole(parts.spectra, parts.fieldOfView);
+        whole.setChannelWeights(parts.channelWeights);
+        const auto wide = whole.render(scene.camera, scene.image, scene.shading);
+        render::FrameSetup setup(parts.fieldOfView, parts.widths);
+        const auto inputs = setup.inputsFor(parts.spectra, parts.channelWeights, scene.camera,
+                                            scene.image, scene.shading);
+        const auto energies =
+            accuracy::narrowingEnergies(parts.spectra, inputs, scene.camera, scene.image);
+        Seen seen{0.0, 0.0, 0.0, prepared.plan.predictedMaximum};
+        for (int c = 0; c < narrow.channels; ++c)
+            seen.estimated += energies[std::size_t(c)];
+        double largest = 0.0;
+        for (std::size_t n = 0; n < wide.samples.size(); ++n) {
+            const double off = double(narrow.samples[n]) - double(wide.samples[n]);
+            seen.measured += off * off * scene.camera.pixelMm * scene.camera.pixelMm;
+            seen.worstPixel = std::max(seen.worstPixel, std::abs(off));
+            largest = std::max(largest, double(wide.samples[n]));
+        }
+        seen.worstPixel /= largest;
+        return seen;
+    }
+};
+
+TEST_P(NarrowingError, IsEstimatedFromASample) {
+    shading::Shading lit, sine;
+    lit.ambient = 0.4;
+    lit.lights.resize(1);
+    lit.lights[0].direction = {0.3, 0.5, 1.0};
+    lit.lights[0].color = {1.0, 0.7, 0.4};
+    sine.cue.kind = shading::CueKind::sine;
+    sine.cue.strength = 0.8;
+    for (const double tolerance : {1e-2, 1e-3})
+        for (const shading::Shading &shading : {shading::Shading(), lit, sine})
+            for (const ChannelWeights &color :
+                 {ChannelWeights{1.0, 1.0, 1.0}, {1.0, 0.0, 0.0}, {0.9, 0.4, 0.1}}) {
+                const Seen found = seen(shading, color, tolerance);
+                // 800 samples know a sum to 5 %, and the margin of the picture's figure is 40 %.
+                // The error spreads over the whole period, of which the picture shows a half or
+                // more.
+                EXPECT_GT(found.estimated, 0.75 * found.measured) << tolerance << color[1];
+                EXPECT_LT(found.estimated, 2.5 * found.measured) << tolerance << color[1];
+            }
+}
+
+TEST_P(NarrowingError, TheWorstPixelIsWithinWhatThePlanPredicts) {
+    for (const double tolerance : {3e-2, 1e-2, 1e-3}) {
+        const Seen found = seen({}, {1.0, 1.0, 1.0}, tolerance);
+        EXPECT_GT(found.worstPixel, 0.0);
+        EXPECT_LE(found.worstPixel, found.predicted) << tolerance;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Phantoms, NarrowingError,
+                         testing::Values(phantom::Kind::head, phantom::Kind::chest),
+                         [](const auto &test) {
+                             return test.param == phantom::Kind::head ? "head" : "chest";
+                         });
+
+} // namespace
+} // namespace pellucid
