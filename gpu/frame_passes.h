@@ -22,10 +22,11 @@ class CardPicture {
 public:
     int width() const { return m_width; }
     int height() const { return m_height; }
-    /// Channels of the image, 1 or 3. Three channels may be one layer times a color.
+    /// Channels of the picture, 1 or 3, and the images that they are mixed from.
     int channels() const { return m_channels; }
     int layers() const { return m_layers; }
-    const std::array<float, 3> &color() const { return m_color; }
+    using Colors = render::FrameInputs::ImageColors;
+    const Colors &colors() const { return m_colors; }
     /// The texture, for contexts that share with the device's.
     unsigned texture() const { return m_texture->id(); }
     /// Marks the current context's commands so far as readers of the picture: its texture is not
@@ -42,7 +43,9 @@ private:
     const PixelTexture *m_texture = nullptr;
     int m_width = 0, m_height = 0, m_channels = 1, m_layers = 1;
     double m_pixelMm = 1.0;
-    std::array<float, 3> m_color{1.0F, 1.0F, 1.0F};
+    Colors m_colors = white;
+    // Of a single grey image.
+    static constexpr Colors white{{{1.0F, 1.0F, 1.0F}}};
 };
 
 /// The input of a frame's passes.
@@ -56,7 +59,7 @@ struct FrameCommand {
     int width = 4, evenTerms = 1, momentTerms = 1;
     bool shaded = false, cued = false, lit = false;
     Fetch fetch = Fetch::exact;
-    std::array<float, 3> color{1.0F, 1.0F, 1.0F};
+    CardPicture::Colors colors{};
 };
 
 /// The times of a frame on the card.

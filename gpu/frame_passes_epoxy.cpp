@@ -132,11 +132,13 @@ picture::ProjectionImage CardPicture::download() const {
     }
     const std::size_t pixels = std::size_t(m_width) * std::size_t(m_height);
     image.samples.resize(3 * pixels);
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float *const plane = planes.data() + (m_layers > 1 ? c * pixels : 0);
-        for (std::size_t n = 0; n < pixels; ++n)
-            image.samples[3 * n + c] = m_color[c] * plane[n];
-    }
+    for (std::size_t n = 0; n < pixels; ++n)
+        for (std::size_t c = 0; c < 3; ++c) {
+            float sum = 0.0F;
+            for (std::size_t layer = 0; layer < std::size_t(m_layers); ++layer)
+                sum += m_colors[layer][c] * planes[layer * pixels + n];
+            image.samples[3 * n + c] = sum;
+        }
     return image;
 }
 
@@ -219,7 +221,7 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
         glQueryCounter(resources.stamps[0].name(), GL_TIMESTAMP);
         const int halfColumns = command.grid.columns / 2, rows = command.grid.rows;
         Defines defines = sliceDefines(command);
-        // Three images share their taps, so slice.comp computes their slices together.
+        // Several images share their taps, so slice.comp computes their slices together.
         const bool isFused = command.layers == 1 && rows <= transform.longestShared();
         TransformPasses::Lines lines = transform.sharedLines(block);
         int dispatches = 1;
@@ -253,7 +255,7 @@ std::shared_ptr<const CardPicture> FramePasses::render(FrameCommand &&command, C
                       dispatches};
     });
     picture->m_channels = command.channels;
-    picture->m_color = command.color;
+    picture->m_colors = command.colors;
     return picture;
 }
 

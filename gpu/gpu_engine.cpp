@@ -79,7 +79,6 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
         return m_textures->passes()->empty(camera, inputs.pictureChannels());
     }
     const fourier::SpectrumLayout &layout = m_textures->spectra().fields.front()->layout();
-    const render::ChannelWeights tint = inputs.tint();
     FrameCommand command{.camera = camera, .grid = inputs.grid};
     command.block =
         frameBlock(inputs, image, layout, m_textures->layout(), m_textures->fieldPages());
@@ -99,7 +98,7 @@ std::shared_ptr<const CardPicture> GpuEngine::renderOnCard(const scene::Camera &
     command.cued = inputs.shading.cued;
     command.lit = inputs.shading.lit;
     command.fetch = inputs.isShaded ? Fetch::exact : m_fetch;
-    command.color = {float(tint[0]), float(tint[1]), float(tint[2])};
+    command.colors = inputs.imageColors();
     if (times == nullptr)
         return m_textures->passes()->render(std::move(command), nullptr);
     auto picture = m_textures->passes()->render(std::move(command), times);

@@ -22,13 +22,13 @@ public:
     void draw(const CardPicture &picture, const picture::ToneRange &range, bool inverted) const;
 
 private:
-    void draw(unsigned texture, int layers, const std::array<float, 3> &color,
+    void draw(unsigned texture, int layers, const CardPicture::Colors &colors,
               const picture::ToneRange &range, bool inverted) const;
 
     Program m_program;
     PixelTexture m_texture;
     VertexArrayName m_vertexArray;
-    int m_range, m_inverted, m_layers, m_color;
+    int m_range, m_inverted, m_layers, m_colors;
 };
 
 } // namespace pellucid::gpu

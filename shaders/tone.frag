@@ -3,8 +3,8 @@
 #include "lib/tone.glsl"
 
 uniform sampler2DArray projection;
-uniform int layers; // 1, with one or three channels; or 3, one per channel
-uniform vec3 color;
+uniform int layers; // the images that the picture is mixed from; one may have three channels
+uniform vec3 colors[3];
 uniform vec2 range;
 uniform bool inverted;
 
@@ -12,9 +12,8 @@ in vec2 position;
 out vec4 shown;
 
 void main() {
-    vec3 value = texture(projection, vec3(position, 0.0)).rgb;
-    if (layers == 3)
-        value = vec3(value.r, texture(projection, vec3(position, 1.0)).r,
-                     texture(projection, vec3(position, 2.0)).r);
-    shown = vec4(tone(color * value, range.x, range.y, inverted), 1.0);
+    vec3 value = vec3(0.0);
+    for (int layer = 0; layer < layers; ++layer)
+        value += colors[layer] * texture(projection, vec3(position, float(layer))).rgb;
+    shown = vec4(tone(value, range.x, range.y, inverted), 1.0);
 }

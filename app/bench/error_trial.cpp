@@ -149,12 +149,12 @@ Trial trialOf(const Candidate &candidate, PictureKind pictures) {
 Verdict judge(const Trial &trial) {
     const scene::Scene &scene = trial.scene;
     const classify::ShownFields fields{{trial.field}, {}};
-    const auto shaded = prepare::shadedFields(fields.channels, scene.shading,
+    const auto shaded = prepare::shadedFields(fields, scene.shading,
                                               shading::shadingScale(trial.field.values.lattice()));
     const auto summaries = prepare::summarise(shaded, scene.shading.cue);
-    auto plan = plan::planRender(scene, summaries, prepare::imagesOf(1, scene.shading));
-    plan::adaptWidths(plan, scene);
-    const auto engine = prepare::makeEngine(shaded, {}, plan);
+    auto plan = plan::planRender(scene, summaries, prepare::compositionOf(1, scene.shading));
+    plan::adaptWidths(plan, scene, summaries);
+    const auto engine = prepare::makeEngine(shaded, plan);
     const auto image = engine->render(scene.camera, scene.image, scene.shading);
     const auto truth =
         scene.shading.isPlain()

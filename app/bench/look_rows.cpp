@@ -37,7 +37,9 @@ public:
           m_fields(shownFields()), m_mixture(classify::mixtureOf(look)),
           m_exact(reference::shadedImage(m_fields, {}, truthCamera(subject), subject.scene.image)),
           m_plain(prepare::prepareEngine(
-              subject.scene, {{classify::densityField(subject.volume, subject.window)}, {}}, {})) {}
+              subject.scene,
+              classify::ShownFields{{classify::densityField(subject.volume, subject.window)}, {}},
+              {})) {}
 
     void report(const Report &report) const {
         report(settled());

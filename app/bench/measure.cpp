@@ -208,9 +208,10 @@ void fillError(Row &row, const ImageError &error) {
 Row measure(const std::string &suite, const std::string &name, const Subject &subject, Truth &truth,
             const Measurement &how) {
     const classify::DensityField &field = subject.field;
-    auto plan = plan::planRender(how.scene, plan::summarise(field));
+    const plan::FieldSummary summary = plan::summarise(field);
+    auto plan = plan::planRender(how.scene, summary);
     if (!how.fieldOfView)
-        plan::adaptWidths(plan, how.scene);
+        plan::adaptWidths(plan, how.scene, {&summary, 1});
     Row row = plannedRow(suite, name, field.values.lattice().size(), plan, how.scene, how.threads);
     const double start = millisecondsNow();
     const auto spectrum = std::make_shared<const fourier::Spectrum>(

@@ -82,8 +82,9 @@ double raySumError(const SpatialVolume &volume, Truth &truth, double stepMm) {
 // The engines of a plan and of the plan with one width of kernel, each with threads of its own.
 struct Engines {
     Engines(const Subject &subject, const scene::Scene &scene) {
-        auto plan = plan::planRender(scene, plan::summarise(subject.field));
-        plan::adaptWidths(plan, scene);
+        const plan::FieldSummary summary = plan::summarise(subject.field);
+        auto plan = plan::planRender(scene, summary);
+        plan::adaptWidths(plan, scene, {&summary, 1});
         const auto spectrum = std::make_shared<const fourier::Spectrum>(
             fourier::Spectrum::prepare(subject.field.values, plan.spectrum));
         const auto widths = prepare::adaptiveWidths({{spectrum}, {}, {}}, plan);
@@ -93,7 +94,7 @@ struct Engines {
         one->setWidths(widths);
         scene::Scene asked = scene;
         asked.interpolation.isUniform = true;
-        const auto single = plan::planRender(asked, plan::summarise(subject.field));
+        const auto single = plan::planRender(asked, summary);
         uniform = std::make_unique<render::CpuEngine>(
             std::make_shared<const fourier::Spectrum>(
                 fourier::Spectrum::prepare(subject.field.values, single.spectrum)),

@@ -107,7 +107,7 @@ private:
         const std::size_t samples = volume().lattice().size().count();
         const std::size_t forLight =
             prepare::bytesForLight(m_scene.shading, volume().lattice().size(),
-                                   classify::mixesColors(m_scene.look) ? 3 : 1);
+                                   classify::channelsOf(m_scene.look));
         m_held = volume().bytes() + classify::peakBytes(m_scene.look, samples) + forLight +
                  (m_scene.crop.isWhole() ? 0 : samples * sizeof(float));
         if (isMemoryGiven() && m_options.memory < m_held)
@@ -229,7 +229,7 @@ private:
                             {"size", {m_scene.camera.width, m_scene.camera.height}},
                             {"pixel_mm", m_scene.camera.pixelMm},
                             {"frames", frames()},
-                            {"channels", m_renderer->channelCount()},
+                            {"channels", m_renderer->imageCount()},
                             {"volume", volumeJson()},
                             {"window", {m_window.low, m_window.high}},
                             {"shading", json::parse(shading::toJson(m_scene.shading))},

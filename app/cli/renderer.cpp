@@ -30,7 +30,7 @@ task::Error cardRefused(const task::Error &error) {
 
 prepare::ShadedFields shadedFor(const scene::Scene &scene, const classify::ShownFields &fields,
                                 const task::Progress &progress) {
-    return prepare::shadedFields(fields.channels, scene.shading,
+    return prepare::shadedFields(fields, scene.shading,
                                  shading::shadingScale(fields.channels.front().values.lattice()),
                                  progress);
 }
@@ -92,13 +92,14 @@ Renderer::Renderer(const scene::Scene &scene, const classify::ShownFields &field
                    const std::vector<plan::FieldSummary> &summaries, const plan::Budget &budget,
                    const Context &context)
     : m_scene(scene), m_fields(fields), m_progress(context.stop),
-      m_channels(std::size_t(prepare::imagesOf(fields.channels.size(), scene.shading))),
+      m_images(
+          std::size_t(prepare::compositionOf(fields.channels.size(), scene.shading).images)),
       m_fitting(
           prepare::planWithin(scene::planningScene(scene, shaded.fields.front().values.lattice()),
                               shaded, summaries, budget, m_progress)),
       m_lattice(shaded.fields.front().values.lattice()) {
     const std::size_t exactBytes = reference::ExactEngine::bytes(
-        m_lattice, summaries.front().support, m_channels, scene.camera, scene.image, scene.shading);
+        m_lattice, summaries.front().support, m_images, scene.camera, scene.image, scene.shading);
     const bool isMet = m_fitting.plan.predictedError <= scene.tolerance;
     const bool mustPlan = scene.interpolation != scene::Interpolation() ||
                           scene.plannedFor == scene::PlannedFor::volume || m_fitting.reduction > 1;
@@ -113,7 +114,7 @@ void Renderer::preparePlanned(const prepare::ShadedFields &shaded,
     const plan::RenderPlan &plan = m_fitting.plan;
     const prepare::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
     m_lattice = sources.fields.front().values.lattice();
-    m_planned = prepare::makeEngine(sources, m_fields.color, plan, m_progress);
+    m_planned = prepare::makeEngine(sources, plan, m_progress);
     m_engine = m_planned;
     if (m_fitting.reduction == 1) // otherwise every view loses detail
         m_viewModel.emplace(plan, summaries);
@@ -197,11 +198,12 @@ std::string Renderer::description() const {
 
 json Renderer::planJson(const picture::FrameTimes &last) const {
     if (isExact())
-        return exactPlanJson(m_channels, m_bytes, m_predictedError, whyExact);
-    const auto fields = int(m_fields.channels.size());
+        return exactPlanJson(m_images, m_bytes, m_predictedError, whyExact);
+    const render::EngineParts parts = m_planned->parts();
+    const auto fields = int(parts.spectra.fields.size());
     return cli::planJson(m_fitting.plan, m_scene,
-                         {fields, fields > 1 ? plan::SpectrumOf::channel : plan::SpectrumOf::look,
-                          !m_fields.isGrey()},
+                         {fields, fields > 1 ? plan::SpectrumOf::color : plan::SpectrumOf::look,
+                          render::colorsOf(parts.channelWeights)},
                          m_lattice, last.widthShares);
 }
 

@@ -53,7 +53,7 @@ public:
     std::string description() const;
     /// `last`: the times of the last image.
     nlohmann::json planJson(const picture::FrameTimes &last) const;
-    std::size_t channelCount() const { return m_channels; }
+    std::size_t imageCount() const { return m_images; }
     std::size_t bytes() const { return m_bytes; }
     bool isReduced() const { return m_fitting.reduction > 1; }
     /// Whether the exact reference makes the pictures.
@@ -91,7 +91,7 @@ private:
     const scene::Scene &m_scene;
     const classify::ShownFields &m_fields;
     task::Progress m_progress;
-    std::size_t m_channels, m_bytes = 0;
+    std::size_t m_images, m_bytes = 0;
     prepare::FittingPlan m_fitting;
     volume::Lattice m_lattice; ///< of the rendered fields
     double m_predictedError = 0.0;

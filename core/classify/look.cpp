@@ -15,11 +15,21 @@ std::vector<TissueClass> visibleClasses(const Look &look) {
     return shown;
 }
 
-bool mixesColors(const Look &look) {
-    const auto shown = visibleClasses(look);
-    return std::any_of(shown.begin(), shown.end(), [&](const TissueClass &tissue) {
-        return tissue.color != shown.front().color;
-    });
+ColorBasis colorBasisOf(const Look &look) {
+    std::vector<ColorBasis::Rgb> colors;
+    for (const TissueClass &tissue : visibleClasses(look))
+        colors.push_back({tissue.color.red, tissue.color.green, tissue.color.blue});
+    // Black classes show nothing.
+    const ColorBasis::Rgb black{}, white{1.0, 1.0, 1.0};
+    if (std::all_of(colors.begin(), colors.end(), [&](const auto &c) { return c == black; })) {
+        const std::vector<ColorBasis::Rgb> amounts(colors.size());
+        return {{colors.empty() ? white : black}, amounts};
+    }
+    return colorBasis(colors);
+}
+
+std::size_t channelsOf(const Look &look) {
+    return colorBasisOf(look).colors.size();
 }
 
 bool isGrey(const Look &look) {

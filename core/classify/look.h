@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/classify/color_basis.h"
 #include "core/classify/tissue_class.h"
 
 namespace pellucid::classify {
@@ -25,8 +26,11 @@ void validate(const Look &look);
 /// The classes with a nonzero weight; the others cost nothing.
 std::vector<TissueClass> visibleClasses(const Look &look);
 
-/// Whether the picture of a look needs three channels; whether it has no color at all.
-bool mixesColors(const Look &look);
+/// Of the colors of the visible classes, one entry each; of white if there are none.
+ColorBasis colorBasisOf(const Look &look);
+/// The number of fields that the picture of a look needs: the rank of its colors.
+std::size_t channelsOf(const Look &look);
+/// Whether the picture has no color.
 bool isGrey(const Look &look);
 
 } // namespace pellucid::classify

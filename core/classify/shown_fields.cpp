@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include "core/classify/value_curve.h"
 #include "core/task/error.h"
 
@@ -21,28 +24,31 @@ std::function<double(double)> shapeOf(const std::optional<TransferFunction> &fun
     return [f = *function](double density) { return f.at(density); };
 }
 
+// `amounts`: of the class in each sum.
 WeightedCurve curveOf(const TissueClass &tissue, const FieldWindow &window, DensityKind density,
-                      bool oneColor) {
+                      const ColorBasis::Rgb &amounts) {
     const double w = tissue.weight;
-    const Color &c = tissue.color;
     return {ValueCurve(window, density, tissue, shapeOf(tissue.transferFunction)),
-            oneColor ? std::array{w, w, w} : std::array{w * c.red, w * c.green, w * c.blue}};
+            std::array{w * amounts[0], w * amounts[1], w * amounts[2]}};
 }
 
-// The sums of the classes. All classes without steps share one pass over the volume.
+// The sums of the classes. All classes without steps share one pass over the volume. *Shape*: one
+// entry of `amounts` for each class.
 void addClasses(const volume::Volume &volume, const FieldWindow &window,
-                const std::vector<TissueClass> &shown, bool oneColor, StepRunner *runner,
-                std::vector<std::vector<float>> &sums, const task::Progress &progress) {
+                const std::vector<TissueClass> &shown, const std::vector<ColorBasis::Rgb> &amounts,
+                StepRunner *runner, std::vector<std::vector<float>> &sums,
+                const task::Progress &progress) {
     std::vector<WeightedCurve> together;
     double done = 0.0;
-    for (const TissueClass &tissue : shown) {
+    for (std::size_t n = 0; n < shown.size(); ++n) {
+        const TissueClass &tissue = shown[n];
         if (tissue.steps.empty()) {
-            together.push_back(curveOf(tissue, window, DensityKind::window, oneColor));
+            together.push_back(curveOf(tissue, window, DensityKind::window, amounts[n]));
             continue;
         }
         const double next = done + 0.9 / double(shown.size());
         const ClassSamples samples = samplesOf(volume, tissue, runner, progress.part(done, next));
-        const WeightedCurve curve = curveOf(tissue, window, samples.density, oneColor);
+        const WeightedCurve curve = curveOf(tissue, window, samples.density, amounts[n]);
         addCurves(samples.values, samples.regions.get(), {&curve, 1}, sums);
         done = next;
     }
@@ -66,8 +72,7 @@ std::size_t peakBytes(const Look &look, std::size_t samples) {
     const bool hasSteps = std::any_of(shown.begin(), shown.end(), [](const TissueClass &tissue) {
         return !tissue.steps.empty();
     });
-    const std::size_t floats =
-        (mixesColors(look) ? 3 : 1) + (hasSteps ? stepFloats : std::size_t(0));
+    const std::size_t floats = channelsOf(look) + (hasSteps ? stepFloats : std::size_t(0));
     return floats * samples * sizeof(float);
 }
 
@@ -76,24 +81,52 @@ ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window,
     if (look.classes.empty() && look.transferFunction.isPlain())
         return {{densityField(volume, window, progress)}, {}};
     const std::vector<TissueClass> shown = visibleClasses(look);
-    const bool oneColor = !mixesColors(look);
+    const ColorBasis basis = colorBasisOf(look);
     ShownFields result;
+    for (std::size_t n = 0; n < basis.colors.size(); ++n)
+        result.colors[n] = {basis.colors[n][0], basis.colors[n][1], basis.colors[n][2]};
     task::orOutOfMemory(task::because::noMemoryForTheClassFields, [&] {
         std::vector<std::vector<float>> sums(
-            oneColor ? 1 : 3, std::vector<float>(volume.lattice().size().count(), 0.0F));
+            basis.colors.size(), std::vector<float>(volume.lattice().size().count(), 0.0F));
         if (look.classes.empty()) {
             const WeightedCurve curve{ValueCurve(window, DensityKind::window, std::nullopt,
                                                  shapeOf(look.transferFunction))};
             addCurves(volume, nullptr, {&curve, 1}, sums, progress);
         } else {
-            addClasses(volume, window, shown, oneColor, runner, sums, progress);
+            addClasses(volume, window, shown, basis.amounts, runner, sums, progress);
         }
         for (auto &samples : sums)
             result.channels.push_back(fieldOf(volume, std::move(samples)));
     });
-    if (oneColor && !shown.empty())
-        result.color = shown.front().color;
     return result;
+}
+
+ShownFields inPrimaries(ShownFields fields) {
+    if (fields.channels.size() != 2)
+        return fields;
+    return task::orOutOfMemory(task::because::noMemoryForTheClassFields, [&] {
+        const volume::Volume &first = fields.channels[0].values, &second = fields.channels[1].values;
+        const auto mixed = [&](double a, double b) {
+            std::vector<float> samples(first.lattice().size().count());
+            const auto mix = [&](const auto &from, const auto &with) {
+                tbb::parallel_for(
+                    tbb::blocked_range<std::size_t>(0, samples.size(), 1U << 16U),
+                    [&](const tbb::blocked_range<std::size_t> &range) {
+                        for (std::size_t n = range.begin(); n < range.end(); ++n)
+                            samples[n] = float(a * double(from[n]) + b * double(with[n]));
+                    });
+            };
+            first.visit(
+                [&](const auto &from) { second.visit([&](const auto &with) { mix(from, with); }); });
+            return fieldOf(first, std::move(samples));
+        };
+        const Color &a = fields.colors[0], &b = fields.colors[1];
+        ShownFields result{{}, primaries};
+        result.channels.push_back(mixed(a.red, b.red));
+        result.channels.push_back(mixed(a.green, b.green));
+        result.channels.push_back(mixed(a.blue, b.blue));
+        return result;
+    });
 }
 
 DensityField classField(const volume::Volume &volume, const FieldWindow &window,

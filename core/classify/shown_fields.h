@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/classify/class_samples.h"
@@ -9,15 +10,21 @@
 
 namespace pellucid::classify {
 
-/// The fields whose projections make the picture of a look: one times a color, or one each for
-/// red, green and blue if colors mix. Projection is linear: the sum of the fields is projected
-/// once, whatever the number of classes. *Source*: Cheng 2007, eq. 32 and 34.
+inline constexpr std::array<Color, 3> primaries{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+
+/// The fields whose projections make the picture of a look: as many as its colors have rank, each
+/// times a color. Projection is linear: the sum of the fields is projected once, whatever the number
+/// of classes. *Source*: Cheng 2007, eq. 32 and 34.
 struct ShownFields {
-    std::vector<DensityField> channels; ///< one or three
-    Color color;                        ///< of a single channel
+    std::vector<DensityField> channels; ///< one to three
+    std::array<Color, 3> colors;        ///< one for each channel
     /// Whether the picture is grey.
-    bool isGrey() const { return channels.size() == 1 && color == Color{}; }
+    bool isGrey() const { return channels.size() == 1 && colors.front() == Color{}; }
 };
+
+/// Fields of two colors as fields of red, green and blue; others as they are. *Throws*
+/// Error{outOfMemory}.
+ShownFields inPrimaries(ShownFields fields);
 
 /// The largest number of bytes held at once while the fields of a look of this many samples are
 /// made, including the result.

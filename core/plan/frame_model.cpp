@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/plan/frame_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,12 +25,11 @@ FrameModel modelFrame(const RenderPlan &plan, const scene::Scene &scene, const F
         shading::sliceShading(shading, scene.camera.axes(), shading::shadingScale(lattice));
     model.slices = spectra * int(slices.terms.size());
     // Fields of one color add up before the transform, as their slices do.
-    const bool hasChannels =
-        (fields.count > 1 && fields.isColored) || (shading.isLit() && !shading.isGrey());
-    model.images = hasChannels ? 3 : 1;
-    model.combination = hasChannels        ? Combination::channels
-                        : fields.isColored ? Combination::tinted
-                                           : Combination::one;
+    model.images = shading.isLit() && !shading.isGrey() ? 3 : std::max(1, fields.colors);
+    model.combination = model.images == 3   ? Combination::channels
+                        : model.images == 2 ? Combination::mixed
+                        : fields.colors > 0 ? Combination::tinted
+                                            : Combination::one;
     double taps = 0.0;
     for (std::size_t width = 0; width < widthShares.size(); ++width)
         taps += widthShares[width] * std::pow(double(width), 3.0);
@@ -60,8 +60,8 @@ std::string spectrumText(SpectrumOf what) {
     switch (what) {
     case SpectrumOf::look:
         return "density of the whole look";
-    case SpectrumOf::channel:
-        return "density of red, green or blue";
+    case SpectrumOf::color:
+        return "density of one of the colors that the look is mixed from";
     case SpectrumOf::layer:
         return "density of a class or a point of the transfer function";
     case SpectrumOf::gradient:
@@ -74,8 +74,8 @@ std::string reasonText(SpectrumOf what) {
     switch (what) {
     case SpectrumOf::look:
         return "everything has the same color, so it adds up to one field";
-    case SpectrumOf::channel:
-        return "colors are mixed, so each channel has its own field";
+    case SpectrumOf::color:
+        return "the look is mixed from two or three colors, and each has its own field";
     case SpectrumOf::layer:
         return "the weights may change, so each layer has its own spectrum, and the slices are "
                "added";
@@ -109,6 +109,8 @@ std::string combinationText(Combination how) {
         return "one grey image";
     case Combination::tinted:
         return "one image, tinted pixel by pixel";
+    case Combination::mixed:
+        return "two images in two colors, added pixel by pixel";
     case Combination::channels:
         return "one image each for red, green and blue";
     }

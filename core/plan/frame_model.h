@@ -14,6 +14,7 @@ namespace pellucid::plan {
 enum class Combination {
     one,     ///< one spectrum, one grey image
     tinted,  ///< one image, colored pixel by pixel
+    mixed,   ///< two images in two colors, added pixel by pixel
     channels ///< one image each for red, green and blue, from weighted sums of slices
 };
 
@@ -30,7 +31,7 @@ enum class LeftOut {
 /// What a spectrum represents, and therefore why it is needed.
 enum class SpectrumOf {
     look,    ///< the density of the whole look
-    channel, ///< the density of one color channel
+    color,   ///< the density of a color that the look's colors are mixed from
     layer,   ///< a class or a control point of the transfer function, whose weight may change
     gradient ///< the length of the gradient of one of the others
 };
@@ -39,7 +40,7 @@ enum class SpectrumOf {
 struct FrameFields {
     int count = 1;
     SpectrumOf of = SpectrumOf::look;
-    bool isColored = false; ///< the look is not grey
+    int colors = 0; ///< the rank of the look's colors; 0: the look is grey
 };
 
 /// The parts of a frame of a plan, and their cost.

@@ -29,16 +29,17 @@ struct PlannedGrid {
     double cells() const { return double(grid.columns) * grid.rows; }
 };
 
-// The slice grids worth trying, smallest first.
-std::vector<PlannedGrid> planGrids(const scene::Scene &scene,
-                                   std::span<const FieldSummary> fields) {
+// The slice grids worth trying, smallest first. `added`: the error of the picture over that of the
+// worst field.
+std::vector<PlannedGrid> planGrids(const scene::Scene &scene, std::span<const FieldSummary> fields,
+                                   double added) {
     const scene::Camera &camera = scene.camera;
     FieldOfView fieldOfView;
     for (const FieldSummary &field : fields)
         fieldOfView.spreads.push_back(field.energy.spread);
     std::vector<PlannedGrid> grids;
     for (const double share : {0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
-        fieldOfView.aliasingLimit = share * scene.tolerance;
+        fieldOfView.aliasingLimit = share * scene.tolerance / added;
         const SliceGrid grid = sliceGrid(camera, fieldOfView, fields.front().lattice, scene.image);
         if (!grids.empty() && grid == grids.back().grid)
             continue;
@@ -46,7 +47,7 @@ std::vector<PlannedGrid> planGrids(const scene::Scene &scene,
         for (const auto &spread : fieldOfView.spreads)
             folded = std::max(
                 folded, predictFoldedTails(scene.image, camera, grid.columns, grid.rows, *spread));
-        grids.push_back({grid, fieldOfView, folded});
+        grids.push_back({grid, fieldOfView, added * folded});
     }
     return grids;
 }
@@ -87,8 +88,9 @@ class Planner {
 public:
     // `limit`: the error that a plan may predict.
     Planner(const scene::Scene &scene, double limit, std::span<const FieldSummary> fields,
-            int channels, const Budget &budget)
-        : m_scene(scene), m_limit(limit), m_fields(fields), m_channels(channels), m_budget(budget),
+            const Composition &composition, const Budget &budget)
+        : m_scene(scene), m_limit(limit), m_fields(fields), m_composition(composition),
+          m_added(std::sqrt(composition.together)), m_budget(budget),
           m_kernels(
               choices<fourier::KernelChoice>(scene.interpolation.kernel, {{leastAliasing, 3},
                                                                           {leastAliasing, 4},
@@ -102,7 +104,7 @@ public:
           m_axes{KernelCandidates(0, fields, cueOf(scene)),
                  KernelCandidates(1, fields, cueOf(scene)),
                  KernelCandidates(2, fields, cueOf(scene))},
-          m_grids(planGrids(scene, fields)), m_imageShare(imageShare(scene.camera, fields)) {}
+          m_grids(planGrids(scene, fields, m_added)), m_imageShare(imageShare(scene.camera, fields)) {}
 
     RenderPlan plan() {
         // The first pass skips kernels that no padding makes good enough, because making a kernel
@@ -170,7 +172,7 @@ private:
         for (const FieldSummary &field : m_fields)
             worst = std::max(worst, predictRelativeError(layout.errors, layout.spectrum.storage,
                                                          field.energy, m_imageShare, weight));
-        return worst;
+        return m_added * worst;
     }
     double maximumError(const Layout &layout) const {
         const CueWeight weight = weightOf(layout.spectrum);
@@ -178,7 +180,7 @@ private:
         for (const FieldSummary &field : m_fields)
             worst = std::max(worst, predictMaximum(layout.errors, layout.spectrum.storage,
                                                    field.energy, weight));
-        return worst;
+        return m_composition.together * worst;
     }
     double cardFilterError(const fourier::SpectrumLayout &layout) const {
         double added = 0.0;
@@ -261,12 +263,12 @@ private:
     // While the last spectrum is prepared, the others exist already.
     std::size_t bytesOf(const fourier::SpectrumLayout &layout, const SliceGrid &grid) const {
         const scene::Camera &camera = m_scene.camera;
-        const auto channels = std::size_t(m_channels);
-        // Channels are joined into a separate picture.
-        const std::size_t joined =
-            channels > 1 ? channels * camera.width * camera.height * sizeof(float) : 0;
+        // Two images are mixed into a picture of three channels.
+        const std::size_t mixed =
+            m_composition.images == 2 ? std::size_t(camera.width) * camera.height * sizeof(float)
+                                      : 0;
         return layout.peakBytes() + (m_fields.size() - 1) * layout.bytes() +
-               channels * frameBytes(grid, camera) + joined;
+               std::size_t(m_composition.images) * frameBytes(grid, camera) + mixed;
     }
 
     // Keeps the plan if it is the best so far: the fastest within the tolerance, or, if there is
@@ -303,7 +305,8 @@ private:
     const scene::Scene &m_scene;
     double m_limit;
     std::span<const FieldSummary> m_fields; ///< on one lattice, in one box
-    int m_channels;
+    Composition m_composition;
+    double m_added; ///< the error of the picture over that of the worst field
     Budget m_budget;
     std::vector<fourier::KernelChoice> m_kernels;
     std::vector<double> m_paddings;
@@ -319,6 +322,14 @@ private:
     std::size_t m_minBytes = std::numeric_limits<std::size_t>::max();
 };
 
+// The largest of any field: 1.1 for white noise, .01 to .03 for most scans, see EnergySpread.
+double roughnessOf(std::span<const FieldSummary> fields) {
+    double roughness = 0.0;
+    for (const FieldSummary &field : fields)
+        roughness = std::max(roughness, field.energy.spread->roughness);
+    return roughness;
+}
+
 // Whether frames may be read by kernels of several widths.
 bool mayAdapt(const scene::Scene &scene) {
     const shading::DepthCue &cue = scene.shading.cue;
@@ -329,27 +340,25 @@ bool mayAdapt(const scene::Scene &scene) {
 } // namespace
 
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, const Budget &budget) {
-    return planRender(scene, {&field, 1}, 1, budget);
+    return planRender(scene, {&field, 1}, Composition{}, budget);
 }
 
-RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
-                      const Budget &budget) {
+RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields,
+                      const Composition &composition, const Budget &budget) {
     scene::validate(scene);
-    Planner planner(scene, scene.tolerance, fields, channels, budget);
+    Planner planner(scene, scene.tolerance, fields, composition, budget);
     RenderPlan plan = planner.plan();
-    // A stricter limit leaves error for narrower kernels. A little more padding is a small price
-    // for that; a wider kernel or a larger slice is not, where a field needs it for most
-    // frequencies.
-    constexpr double share = 0.8, price = 1.1;
-    const double limit = share * scene.tolerance;
+    // A stricter limit leaves error for narrower kernels. More padding or a wider kernel is a fair
+    // price for that where they read most frequencies, in smooth fields.
+    constexpr double share = 0.8;
+    const double limit = share * scene.tolerance,
+                 price = 1.1 + 0.9 * std::max(0.0, 1.0 - 3.0 * roughnessOf(fields));
     if (mayAdapt(scene) && plan.predictedError <= scene.tolerance && plan.predictedError > limit) {
-        scene::Scene padded = scene;
-        padded.interpolation.kernel = scene.interpolation.kernel.value_or(
-            fourier::KernelChoice{.width = plan.spectrum.width()});
-        padded.interpolation.storage = plan.spectrum.storage;
-        Planner stricter(padded, limit, fields, channels, budget);
+        scene::Scene alike = scene;
+        alike.interpolation.storage = plan.spectrum.storage;
+        Planner stricter(alike, limit, fields, composition, budget);
         RenderPlan other = stricter.plan();
-        if (stricter.time() <= price * planner.time()) {
+        if (stricter.time() < price * planner.time()) {
             other.reason = plan.reason; // not that of a kernel that the user chose
             return other;
         }
@@ -357,7 +366,13 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
     return plan;
 }
 
-void adaptWidths(RenderPlan &plan, const scene::Scene &scene) {
+void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
+                 std::span<const FieldSummary> fields) {
+    // Noise has the same energy in every tile, up to the limit of its samples.
+    constexpr double asNoise = 0.5, ofTheSteps = 0.75;
+    if (roughnessOf(fields) > asNoise &&
+        scene.camera.pixelMm > ofTheSteps * fields.front().lattice.shortestStepMm())
+        return;
     // A small remainder saves too little time.
     constexpr double margin = 0.95, leastShare = 0.1;
     // The error is at edges. In six real volumes and phantoms the worst pixel was off by 1.2

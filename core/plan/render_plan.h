@@ -49,14 +49,23 @@ struct RenderPlan {
 RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
                       const Budget &budget = {});
 
-/// The same for fields whose spectra share a layout, so that a slice can be their weighted sum. The
-/// errors are those of the worst field; the bytes are the sum. *Shape*: they make `channels`
-/// images.
-RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields, int channels,
-                      const Budget &budget = {});
+/// How the images of fields make a picture.
+struct Composition {
+    int images = 1; ///< transforms in a frame
+    /// The largest number of fields that add up in a channel. Their errors may be alike where their
+    /// images are not: without negative samples, the relative error of n of them is at most sqrt(n)
+    /// times that of the worst.
+    int together = 1;
+};
 
-/// Spends the rest of the tolerance on narrower kernels. No effect with a linear cue, whose moments
-/// have kernels of their own.
-void adaptWidths(RenderPlan &plan, const scene::Scene &scene);
+/// The same for fields whose spectra share a layout, so that a slice can be their weighted sum. The
+/// errors are those of the worst field, for the composition; the bytes are the sum.
+RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields,
+                      const Composition &composition, const Budget &budget = {});
+
+/// Spends the rest of the tolerance on narrower kernels. No effect where one width is as fast: with
+/// a linear cue, whose moments have kernels of their own, and for noise. *Shape*: the fields of the
+/// plan.
+void adaptWidths(RenderPlan &plan, const scene::Scene &scene, std::span<const FieldSummary> fields);
 
 } // namespace pellucid::plan

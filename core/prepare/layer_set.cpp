@@ -83,7 +83,7 @@ std::shared_ptr<LayerSet> LayerSet::prepare(const scene::Scene &scene, std::size
             scene::Scene uniform = scene;
             uniform.interpolation.isUniform = true;
             plan::RenderPlan plan =
-                plan::planRender(uniform, summaries, render::FrameJob::maxChannels,
+                plan::planRender(uniform, summaries, {render::FrameJob::maxChannels, 1},
                                  {budget.bytes > taken ? budget.bytes - taken : 0});
             render::EngineSpectra spectra{{}, {}, scale};
             for (std::size_t n = 0; n < count; ++n) {

@@ -36,19 +36,20 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                        const task::Progress &progress) {
     scene::validate(scene);
     const std::vector<classify::DensityField> &fields = shaded.fields;
-    const int channels = imagesOf(fields.size(), scene.shading);
+    const plan::Composition composition = compositionOf(fields.size(), scene.shading);
     // If the image itself is too large for the memory, a coarser field does not help.
     const plan::SliceGrid least =
         plan::sliceGrid(scene.camera, {{summaries.front().energy.spread}, 1.0},
                         summaries.front().lattice, scene.image);
-    const std::size_t frame = std::size_t(channels) * plan::frameBytes(least, scene.camera);
+    const std::size_t frame =
+        std::size_t(composition.images) * plan::frameBytes(least, scene.camera);
     if (frame > budget.bytes)
         throw task::Error(task::ErrorCode::outOfMemory,
                           task::because::imageNeedsMemory(scene.camera.width, scene.camera.height,
                                                           (frame >> 20) + 1, budget.bytes >> 20));
     try {
-        FittingPlan fitting{plan::planRender(scene, summaries, channels, budget), {}, 1};
-        plan::adaptWidths(fitting.plan, scene);
+        FittingPlan fitting{plan::planRender(scene, summaries, composition, budget), {}, 1};
+        plan::adaptWidths(fitting.plan, scene, summaries);
         return fitting;
     } catch (const task::Error &error) {
         if (error.code() != task::ErrorCode::outOfMemory)
@@ -66,7 +67,8 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                 lost = std::max(lost, lostDetail(field, reduced.back()));
             }
             // The gradient is that of the means, so that no sample becomes darker than black.
-            ShadedFields coarse = shadedFields(std::move(reduced), scene.shading, shaded.scale);
+            ShadedFields coarse =
+                shadedFields({std::move(reduced), shaded.colors}, scene.shading, shaded.scale);
             for (const auto *const samples : {&coarse.fields, &coarse.gradients})
                 for (const classify::DensityField &field : *samples)
                     held += field.values.bytes();
@@ -80,7 +82,7 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                 scene::Scene uniform = scene; // its error is that of the lost detail
                 uniform.interpolation.isUniform = true;
                 FittingPlan fitting{plan::planRender(uniform, summarise(coarse, scene.shading.cue),
-                                                     channels, {budget.bytes - held}),
+                                                     composition, {budget.bytes - held}),
                                     std::move(coarse), reduction};
                 plan::RenderPlan &plan = fitting.plan;
                 plan.predictedError = std::hypot(plan.predictedError, lost);
@@ -119,7 +121,6 @@ std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineS
 }
 
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
-                                              const classify::Color &color,
                                               const plan::RenderPlan &plan,
                                               const task::Progress &progress) {
     render::EngineSpectra spectra{{}, {}, channels.scale};
@@ -138,27 +139,28 @@ std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
     auto widths = adaptiveWidths(spectra, plan, progress);
     auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
     engine->setWidths(std::move(widths));
-    if (channels.fields.size() == 1)
-        engine->setChannelWeights({{color.red, color.green, color.blue}});
-    else
-        engine->setChannelWeights({{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}});
+    std::vector<render::ChannelWeights> weights;
+    for (std::size_t n = 0; n < channels.fields.size(); ++n) {
+        const classify::Color &color = channels.colors[n];
+        weights.push_back({color.red, color.green, color.blue});
+    }
+    engine->setChannelWeights(std::move(weights));
     return engine;
 }
 
 PreparedEngine prepareEngine(const scene::Scene &scene, const ShadedFields &fields,
-                             const classify::Color &color, const plan::Budget &budget,
+                             const plan::Budget &budget,
                              const task::Progress &progress) {
     const auto summaries = summarise(fields, scene.shading.cue);
     FittingPlan fitting = planWithin(scene, fields, summaries, budget, progress);
     std::shared_ptr<const accuracy::ViewErrorModel> viewError;
     if (!fitting.reduced)
         viewError = std::make_shared<const accuracy::ViewErrorModel>(fitting.plan, summaries);
-    auto engine =
-        makeEngine(fitting.reduced ? *fitting.reduced : fields, color, fitting.plan, progress);
+    auto engine = makeEngine(fitting.reduced ? *fitting.reduced : fields, fitting.plan, progress);
     const std::size_t bytes = engine->bytes();
     const bool canBeLit = engine->canBeLit();
     const plan::SpectrumOf of =
-        fields.fields.size() > 1 ? plan::SpectrumOf::channel : plan::SpectrumOf::look;
+        fields.fields.size() > 1 ? plan::SpectrumOf::color : plan::SpectrumOf::look;
     return {std::move(engine),
             std::move(fitting.plan),
             bytes,
@@ -174,11 +176,10 @@ PreparedEngine prepareEngine(const scene::Scene &scene, const classify::ShownFie
                              const std::optional<shading::ShadingScale> &scale) {
     const volume::Lattice &lattice = fields.channels.front().values.lattice();
     const ShadedFields shaded =
-        shadedFields(fields.channels, scene.shading, scale.value_or(shading::shadingScale(lattice)),
+        shadedFields(fields, scene.shading, scale.value_or(shading::shadingScale(lattice)),
                      progress.part(0.0, 0.1));
     const std::size_t light = bytesForLight(scene.shading, lattice.size(), fields.channels.size());
-    return prepareEngine(scene, shaded, fields.color,
-                         {budget.bytes > light ? budget.bytes - light : 0},
+    return prepareEngine(scene, shaded, {budget.bytes > light ? budget.bytes - light : 0},
                          progress.part(0.1, 1.0));
 }
 

@@ -60,13 +60,12 @@ std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineS
 /// Makes an engine for the channels of a look from spectra that were prepared by one plan and share
 /// a layout.
 std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
-                                              const classify::Color &color,
                                               const plan::RenderPlan &plan,
                                               const task::Progress &progress = {});
 
 /// Plans within the budget and prepares the spectra. *Throws* Error{outOfMemory}, Cancelled.
 PreparedEngine prepareEngine(const scene::Scene &scene, const ShadedFields &fields,
-                             const classify::Color &color, const plan::Budget &budget,
+                             const plan::Budget &budget,
                              const task::Progress &progress = {});
 /// First computes what the scene's light needs. `scale`: that of the volume, if the fields come
 /// from a coarser one. *Throws* as above.

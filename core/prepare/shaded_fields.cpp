@@ -7,10 +7,11 @@
 
 namespace pellucid::prepare {
 
-ShadedFields shadedFields(std::vector<classify::DensityField> fields,
-                          const shading::Shading &shading, const shading::ShadingScale &scale,
-                          const task::Progress &progress) {
-    ShadedFields result{std::move(fields), {}, scale};
+ShadedFields shadedFields(classify::ShownFields fields, const shading::Shading &shading,
+                          const shading::ShadingScale &scale, const task::Progress &progress) {
+    if (shading.isLit())
+        fields = classify::inPrimaries(std::move(fields));
+    ShadedFields result{std::move(fields.channels), {}, scale, fields.colors};
     if (!shading.isLit())
         return result;
     if (!std::all_of(result.fields.begin(), result.fields.end(), shading::holdsGradient))
@@ -28,7 +29,9 @@ ShadedFields shadedFields(std::vector<classify::DensityField> fields,
 std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSize &size,
                           std::size_t channels) {
     const volume::GridSize larger{size.i + 2, size.j + 2, size.k + 2};
-    return shading.isLit() ? 2 * channels * larger.count() * sizeof(float) : 0;
+    // Two fields become three.
+    const std::size_t fields = channels == 2 ? 6 + 1 : 2 * channels;
+    return shading.isLit() ? fields * larger.count() * sizeof(float) : 0;
 }
 
 std::vector<plan::FieldSummary> summarise(const ShadedFields &fields,
@@ -45,8 +48,10 @@ std::vector<plan::FieldSummary> summarise(const ShadedFields &fields,
     return summaries;
 }
 
-int imagesOf(std::size_t fields, const shading::Shading &shading) {
-    return shading.isLit() && !shading.isGrey() ? 3 : int(fields);
+plan::Composition compositionOf(std::size_t fields, const shading::Shading &shading) {
+    if (shading.isLit()) // red, green and blue have a field each
+        return {fields > 1 || !shading.isGrey() ? 3 : 1, 1};
+    return {int(fields), fields == 2 ? 2 : 1};
 }
 
 } // namespace pellucid::prepare

@@ -66,25 +66,34 @@ std::vector<double> joinedPlanes(std::vector<std::vector<double>> planes,
                                  const classify::ShownFields &fields) {
     if (planes.size() == 1 && fields.isGrey())
         return std::move(planes.front());
-    // The channels of a look are colored already.
-    const classify::Color color = fields.channels.size() == 1 ? fields.color : classify::Color{};
-    const std::array<double, 3> factors{color.red, color.green, color.blue};
-    std::vector<double> result;
-    result.reserve(factors.size() * planes.front().size());
-    for (std::size_t n = 0; n < planes.front().size(); ++n)
-        for (std::size_t c = 0; c < factors.size(); ++c)
-            result.push_back(factors[c] * planes[std::min(c, planes.size() - 1)][n]);
+    const std::size_t pixels = planes.front().size();
+    const auto componentsOf = [&](std::size_t field) {
+        const classify::Color &color = fields.colors[field];
+        return std::array{color.red, color.green, color.blue};
+    };
+    std::vector<double> result(3 * pixels, 0.0);
+    for (std::size_t n = 0; n < pixels; ++n)
+        if (planes.size() > fields.channels.size()) // one field in colored light
+            for (std::size_t c = 0; c < 3; ++c)
+                result[3 * n + c] = componentsOf(0)[c] * planes[c][n];
+        else
+            for (std::size_t p = 0; p < planes.size(); ++p)
+                for (std::size_t c = 0; c < 3; ++c)
+                    result[3 * n + c] += componentsOf(p)[c] * planes[p][n];
     return result;
 }
 
-std::vector<double> shadedImage(const classify::ShownFields &fields,
+std::vector<double> shadedImage(const classify::ShownFields &shown,
                                 const shading::Shading &shading, const scene::Camera &camera,
                                 const scene::ImageDefinition &image,
                                 const task::Progress &progress) {
-    const auto scale = shading::shadingScale(fields.channels.front().values.lattice());
+    const auto scale = shading::shadingScale(shown.channels.front().values.lattice());
+    // Light is not linear in the fields: it shades those of red, green and blue.
+    const classify::ShownFields fields = shading.isLit() ? classify::inPrimaries(shown) : shown;
     std::vector<std::vector<double>> planes;
-    // The channels of one field in grey light differ only by its color.
-    const std::size_t count = fields.channels.size() == 1 && shading.isGrey() ? 1 : 3;
+    // The channels of a field in grey light differ only by its color.
+    const std::size_t count =
+        shading.isGrey() ? fields.channels.size() : std::size_t(3);
     for (std::size_t c = 0; c < count; ++c) {
         const auto shaded = shadedField(fields.channels[std::min(c, fields.channels.size() - 1)],
                                         shading, camera.axes(), int(c), scale, progress);

@@ -23,7 +23,7 @@ struct FrameBuffers {
         : team(threads), setup(fieldOfView), scratch(team.slots()) {}
 
     // Prepares for a frame.
-    void fit(const FrameInputs &inputs, const scene::Camera &camera, double rollOffShare) {
+    void fit(const FrameInputs &inputs, double rollOffShare) {
         takeTables(inputs.grid, rollOffShare);
         strips = std::span(tables->strips);
         if (inputs.widths)
@@ -33,9 +33,6 @@ struct FrameBuffers {
         const int channels = inputs.mixing.channels;
         if (need != allocated || channels > allocatedChannels)
             allocate(need, std::max(channels, allocatedChannels));
-        if (!inputs.mixing.grey)
-            for (int c = 0; c < channels; ++c)
-                planes[std::size_t(c)].resize(std::size_t(camera.width) * camera.height);
     }
 
     void takeTables(const plan::SliceGrid &grid, double rollOffShare) {
@@ -121,7 +118,6 @@ struct FrameBuffers {
     std::shared_ptr<std::byte[]> columnPhase, batches;
     std::vector<std::shared_ptr<std::byte[]>> lines, stripMemory;
     std::span<const StripBounds> strips; ///< of the tables, as many as the frame reads
-    std::array<std::vector<float>, FrameJob::maxChannels> planes; ///< of color pictures
     std::vector<Complex> rowPhase;
 };
 
@@ -148,6 +144,7 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.rows = inputs.grid.rows;
     job.imageColumns = result.width;
     job.imageRows = result.height;
+    job.pictureChannels = result.channels;
     job.cellsPerColumn = geometry.cellsPerColumn;
     job.cellsPerRow = geometry.cellsPerRow;
     job.edgeSlack = geometry.edgeSlack;
@@ -164,36 +161,31 @@ FrameJob jobFor(const FrameInputs &inputs, const fourier::Spectrum &spectrum,
     job.alongRows = &tables.alongRows;
     job.halfColumns = &tables.halfColumns;
     job.unpackReal = tables.unpackReal.data();
-    for (std::size_t c = 0; c < std::size_t(job.channels); ++c) {
+    for (std::size_t c = 0; c < std::size_t(job.channels); ++c)
         job.lines[c] = reinterpret_cast<float *>(buffers.lines[c].get());
-        job.samples[c] = mixing.grey ? result.samples.data() : buffers.planes[c].data();
-    }
     job.zero = inputs.zero;
+    job.imageColors = inputs.imageColors();
+    job.samples = result.samples.data();
     return job;
 }
 
 // Runs the phases of a frame one after the other, and records when each part ran.
 class FrameRun {
 public:
-    // `pixels`: height x width x 3 of a color picture, else null. `tint`: the color of a single
-    // image.
-    FrameRun(const FrameJob &job, std::vector<FrameScratch> &scratch, const ChannelWeights &tint,
-             float *pixels)
-        : m_job(job), m_scratch(scratch), m_tint{float(tint[0]), float(tint[1]), float(tint[2])},
-          m_pixels(pixels) {
+    FrameRun(const FrameJob &job, std::vector<FrameScratch> &scratch)
+        : m_job(job), m_scratch(scratch) {
         for (FrameScratch &slot : m_scratch)
             slot.sliceSeconds = slot.stripSeconds = 0.0;
     }
 
     void runOn(task::WorkerTeam &team) {
         using Phase = task::WorkerTeam::Phase;
-        const std::array<Phase, 4> phases{
+        const std::array<Phase, 3> phases{
             Phase{m_job.stripCount, runPart<&FrameRun::sliceStripOf>, this},
             Phase{1, runPart<&FrameRun::noteRowsStart>, this},
-            Phase{m_job.channels * stripsOf(std::min(m_job.imageRows, m_job.rows)),
-                  runPart<&FrameRun::finishRowsOf>, this},
-            Phase{stripsOf(m_job.imageRows), runPart<&FrameRun::joinChannels>, this}};
-        team.run(std::span(phases).first(m_pixels == nullptr ? 3 : 4));
+            Phase{stripsOf(std::min(m_job.imageRows, m_job.rows)),
+                  runPart<&FrameRun::finishRowsOf>, this}};
+        team.run(phases);
     }
 
     // The times of a frame that began at `start` and has just ended. Strips are transformed as soon
@@ -220,25 +212,11 @@ private:
     void sliceStripOf(int part, int slot) { sliceStrip(m_job, part, m_scratch[std::size_t(slot)]); }
     void noteRowsStart(int, int) { m_rowsStart = frameClockSeconds(); }
     void finishRowsOf(int part, int slot) {
-        finishRows(m_job, part % m_job.channels, part / m_job.channels,
-                   m_scratch[std::size_t(slot)]);
-    }
-    // Joins 16 rows of the planes into pixels of red, green and blue.
-    void joinChannels(int part, int) {
-        const std::size_t first = std::size_t(part) * stripLanes * m_job.imageColumns;
-        const std::size_t last =
-            std::min(std::size_t(part + 1) * stripLanes, std::size_t(m_job.imageRows)) *
-            m_job.imageColumns;
-        const auto plane = [&](std::size_t c) {
-            return m_job.samples[m_job.channels > 1 ? c : 0] + first;
-        };
-        joinPlanes({plane(0), plane(1), plane(2)}, m_tint, last - first, m_pixels + 3 * first);
+        finishRows(m_job, part, m_scratch[std::size_t(slot)]);
     }
 
     const FrameJob &m_job;
     std::vector<FrameScratch> &m_scratch;
-    std::array<float, 3> m_tint;
-    float *m_pixels;
     double m_rowsStart = 0.0;
 };
 
@@ -292,7 +270,7 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
         camera.width, camera.height, camera.pixelMm, {}, inputs.pictureChannels()};
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {
         if (!inputs.isEmpty())
-            buffers.fit(inputs, camera, image.rollOff);
+            buffers.fit(inputs, image.rollOff);
         result.samples.resize(std::size_t(camera.width) * camera.height *
                               std::size_t(result.channels));
     });
@@ -304,8 +282,7 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
     }
     buffers.setPhases(inputs);
     const FrameJob job = jobFor(inputs, *m_parts.spectra.fields.front(), image, buffers, result);
-    FrameRun run(job, buffers.scratch, inputs.tint(),
-                 inputs.mixing.grey ? nullptr : result.samples.data());
+    FrameRun run(job, buffers.scratch);
     run.runOn(buffers.team);
     if (times != nullptr) {
         *times = run.timesSince(start);

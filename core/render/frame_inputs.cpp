@@ -28,21 +28,23 @@ std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs) {
             plan::SliceSource source{.field = from.field,
                                      .isGradient = from.kind == FrameKind::gradient,
                                      .offset = term.cells};
-            // A single image is colored afterwards: one channel has the amplitudes of all three.
-            const double color =
-                mixing.channels > 1 ? 1.0
-                                    : std::hypot(mixing.color[0], mixing.color[1], mixing.color[2]);
-            for (std::size_t c = 0; c < std::size_t(mixing.channels); ++c) {
-                const FrameShading::Image &shade = inputs.shading.images[c];
-                const double share = from.channelWeights[mixing.sums > 1 ? c : 0] * from.unitShare;
-                const double weight = std::abs(double(std::abs(term.weight)) * color * share);
-                if (source.isGradient) {
-                    source.amplitude[c] = weight * std::abs(double(shade.magnitude));
-                    continue;
+            for (std::size_t image = 0; image < std::size_t(mixing.channels); ++image) {
+                const FrameShading::Image &shade = inputs.shading.images[image];
+                const double share =
+                    from.channelWeights[mixing.sums > 1 ? image : 0] * from.unitShare;
+                ChannelWeights color = mixing.imageColor(image);
+                // Of a single image, one channel has the amplitudes of all three.
+                if (mixing.channels == 1)
+                    color = {std::hypot(color[0], color[1], color[2]), 0.0, 0.0};
+                for (std::size_t c = 0; c < color.size(); ++c) {
+                    const double weight =
+                        std::abs(double(std::abs(term.weight)) * color[c] * share);
+                    source.amplitude[c] += weight * std::abs(double(source.isGradient
+                                                                        ? shade.magnitude
+                                                                        : shade.ambient));
+                    for (std::size_t d = 0; d < 3 && !source.isGradient; ++d)
+                        source.perSine[c][d] += weight * std::abs(shade.gradient[d]);
                 }
-                source.amplitude[c] = weight * std::abs(double(shade.ambient));
-                for (std::size_t d = 0; d < 3; ++d)
-                    source.perSine[c][d] = weight * std::abs(shade.gradient[d]);
             }
             sources.push_back(source);
         }
@@ -85,7 +87,7 @@ double lowEnergy(const FrameInputs &inputs, const EngineSpectra &spectra,
 } // namespace
 
 double FrameInputs::unit() const {
-    return geometry.cellArea * mixing.unit * (mixing.grey ? mixing.color[0] : 1.0);
+    return geometry.cellArea * mixing.unit * (mixing.grey ? mixing.imageColor(0)[0] : 1.0);
 }
 
 plan::WidthMap::Shares FrameInputs::widthShares(const scene::Camera &camera,
@@ -97,8 +99,12 @@ plan::WidthMap::Shares FrameInputs::widthShares(const scene::Camera &camera,
     return all;
 }
 
-ChannelWeights FrameInputs::tint() const {
-    return !mixing.grey && mixing.channels == 1 ? mixing.color : ChannelWeights{1.0, 1.0, 1.0};
+FrameInputs::ImageColors FrameInputs::imageColors() const {
+    ImageColors colors{};
+    for (std::size_t image = 0; image < std::size_t(mixing.channels); ++image)
+        for (std::size_t c = 0; c < 3; ++c)
+            colors[image][c] = float(mixing.grey ? 1.0 : mixing.imageColor(image)[c]);
+    return colors;
 }
 
 plan::SlicePlane slicePlane(const scene::Camera &camera, const plan::SliceGrid &grid,

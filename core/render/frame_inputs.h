@@ -29,10 +29,11 @@ struct FrameInputs {
     /// See `picture::FrameTimes`.
     plan::WidthMap::Shares widthShares(const scene::Camera &camera,
                                        const fourier::SpectrumLayout &layout) const;
-    /// The factor of the sums. A single grey image also has its channel weight in it.
+    /// The factor of the sums. The image of a grey picture also has its channel weight in it.
     double unit() const;
-    /// The color of the single image of a color picture; three images already have theirs.
-    ChannelWeights tint() const;
+    /// The colors of the images of a color picture, whose sum is the picture.
+    using ImageColors = std::array<std::array<float, 3>, FrameJob::maxChannels>;
+    ImageColors imageColors() const;
 };
 
 /// The plane of a slice as `plan::AdaptiveWidths` sees it.

@@ -94,13 +94,13 @@ using ZeroSums = std::array<std::array<ZeroSum, 3>, 2>;
 /// The data that the parts of a frame share. All threads read it; each part writes only its own
 /// output.
 struct FrameJob {
-    static constexpr int maxChannels = 3;
+    static constexpr int maxChannels = 3; ///< images, or channels of the picture
 
     const fourier::SpectrumLayout *layout = nullptr; ///< of all sources
     const fourier::CellLayout *cellLayout = nullptr;
     const FrameSource *sources = nullptr;
     int sourceCount = 1;
-    /// The number of images: one or three.
+    /// The number of images: as many as the picture's colors have rank.
     int channels = 1;
     /// The number of sums of the sources: one for all images, or one each.
     int sums = 1;
@@ -109,7 +109,7 @@ struct FrameJob {
     bool wraps = false; ///< some |a_d.s| of the disc exceeds 1/2
 
     int columns = 0, rows = 0; ///< of the frequency grid, hence of the periodic image
-    int imageColumns = 0, imageRows = 0;
+    int imageColumns = 0, imageRows = 0, pictureChannels = 1;
     /// Grid cells of the spectrum per column and per row of the slice, by axis.
     std::array<double, 3> cellsPerColumn{}, cellsPerRow{};
     std::array<float, 3> edgeSlack{}; ///< see FrameGeometry
@@ -134,7 +134,9 @@ struct FrameJob {
     /// rows][column][strip], of each channel.
     std::array<float *, maxChannels> lines{};
     ZeroSums zero{};
-    std::array<float *, maxChannels> samples{}; ///< imageRows x imageColumns each
+    /// A color picture is the sum of the images in these colors.
+    std::array<std::array<float, 3>, maxChannels> imageColors{};
+    float *samples = nullptr; ///< imageRows x imageColumns x pictureChannels
 };
 
 /// Scratch of one thread: an array of `length` strips for each channel, one more strip array, and a
@@ -152,12 +154,8 @@ double frameClockSeconds();
 
 /// Interpolates one strip of the slice and transforms it along the rows.
 void sliceStrip(const FrameJob &job, int strip, FrameScratch &scratch);
-/// Transforms 16 image rows of a channel along the columns and stores their part in the image.
-void finishRows(const FrameJob &job, int channel, int group, FrameScratch &scratch);
-/// Joins three planes, each times a color, into pixels of red, green and blue. *Shape*: count
-/// samples each.
-void joinPlanes(const std::array<const float *, 3> &planes, const std::array<float, 3> &color,
-                std::size_t count, float *pixels);
+/// Transforms 16 rows of every image along the columns and stores them in the picture.
+void finishRows(const FrameJob &job, int group, FrameScratch &scratch);
 /// The instruction set in use.
 const char *instructionSet();
 

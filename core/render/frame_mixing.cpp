@@ -7,7 +7,13 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/classify/color_basis.h"
+
 namespace pellucid::render {
+
+int colorsOf(std::span<const ChannelWeights> channelWeights) {
+    return areGrey(channelWeights) ? 0 : int(classify::colorBasis(channelWeights).colors.size());
+}
 
 Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelWeights> &channelWeights,
                const shading::SliceShading &shading, bool greyLight)
@@ -20,22 +26,26 @@ Mixing::Mixing(const EngineSpectra &spectra, const std::vector<ChannelWeights> &
         return;
     const fourier::Spectrum &first = *spectra.fields[shown.front()];
     unit = first.unit();
-    // A single spectrum needs one slice, whatever its color: the image is colored afterwards.
-    const bool alone = shown.size() == 1;
-    sums = alone || areGrey(channelWeights) ? 1 : FrameJob::maxChannels;
-    channels = sums > 1 || !shading.isGrey() ? FrameJob::maxChannels : 1;
-    if (alone)
-        color = channelWeights[shown.front()];
+    std::vector<ChannelWeights> weights;
+    for (const std::size_t n : shown)
+        weights.push_back(channelWeights[n]);
+    classify::ColorBasis basis = classify::colorBasis(weights);
+    if (!shading.isGrey() && basis.colors.size() > 1)
+        basis = {{primaries.begin(), primaries.end()}, weights};
+    sums = int(basis.colors.size());
+    channels = shading.isGrey() ? sums : FrameJob::maxChannels;
+    std::copy(basis.colors.begin(), basis.colors.end(), colors.begin());
     const bool isLit =
         std::any_of(shading.channels.begin(), shading.channels.end(),
                     [](const shading::SliceShading::Channel &c) { return c.magnitude != 0.0; });
     for (const FrameKind kind : {FrameKind::field, FrameKind::gradient}) {
         if (kind == FrameKind::gradient && !isLit)
             break;
-        for (const std::size_t n : shown) {
+        for (std::size_t s = 0; s < shown.size(); ++s) {
+            const std::size_t n = shown[s];
             const fourier::Spectrum &spectrum =
                 kind == FrameKind::field ? *spectra.fields[n] : *spectra.gradients[n];
-            add(spectrum, kind, n, alone ? ChannelWeights{1.0, 1.0, 1.0} : channelWeights[n]);
+            add(spectrum, kind, n, basis.amounts[s]);
         }
     }
 }
@@ -91,9 +101,9 @@ FrameShading frameShading(const shading::SliceShading &shading, const Mixing &mi
         image.magnitude = float(shading.channels[c].magnitude);
         // Opposite lights cancel in the gradient, but their magnitudes add up.
         frame.lit = frame.lit || image.magnitude != 0.0F;
-        // Images of one sum are colored here, unless a single image is colored afterwards.
-        if (mixing.sums == 1 && mixing.channels > 1) {
-            const double share = mixing.color[c];
+        // The images of one sum are colored here.
+        if (mixing.channels > mixing.sums) {
+            const double share = mixing.colors.front()[c];
             image.ambient *= float(share);
             image.magnitude *= float(share);
             for (std::size_t d = 0; d < 3; ++d) {

@@ -16,8 +16,14 @@ struct Mixing {
     std::vector<FrameSource> sources;
     bool grey; ///< the picture has one channel
     int sums = 1, channels = 1;
-    double unit = 1.0;                   ///< of the sums
-    ChannelWeights color{1.0, 1.0, 1.0}; ///< of a single source
+    double unit = 1.0; ///< of the sums
+    /// The colors of the sums. The picture needs as many sums as its colors have rank, see
+    /// classify::ColorBasis; colored light needs one sum, or red, green and blue.
+    std::array<ChannelWeights, 3> colors{primaries};
+    /// The color of an image. Colored light gives one sum three images, which have theirs already.
+    const ChannelWeights &imageColor(std::size_t image) const {
+        return channels > sums ? primaries[image] : colors[image];
+    }
     /// The sums at frequency 0, and their first moments in samples from the wrap voxel.
     struct Dc {
         double value = 0.0;
@@ -26,6 +32,9 @@ struct Mixing {
     std::array<std::array<Dc, 3>, 2> dc; ///< by kind and sum
 
 private:
+    static constexpr std::array<ChannelWeights, 3> primaries{
+        {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+    // `share`: in each sum.
     void add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,
              const ChannelWeights &share);
 };

@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 // foreach_target must come first.
 #include <algorithm>
+#include <array>
 #include <hwy/highway.h>
 #include <utility>
 
@@ -19,13 +20,16 @@ using fourier::StripTransform;
 #include "core/fourier/transforms/strip_transform_hwy.inc"
 #include "core/fourier/transforms/transpose_hwy.inc"
 
+// Sixteen rows of an image, [column][16 rows]. The result is in `strip` or in `spare`.
+//
 // x[2n] + i x[2n+1] is the transform of half the length of
 //   (X_k + conj X_(h-k)) + i exp(+i 2 pi k/columns) (X_k - conj X_(h-k)), h = columns/2.
-void finishSixteenRows(const FrameJob &job, int channel, int group, FrameScratch &scratch) {
+const float *transformedRows(const FrameJob &job, std::size_t image, int group, float *strip,
+                             float *spare) {
     const StripTag d;
     const int half = job.columns / 2, known = std::min(half, job.stripCount * stripLanes);
-    const float *const lines = job.lines[std::size_t(channel)] +
-                               std::size_t(group) * job.stripCount * stripLanes * stripFloats;
+    const float *const lines =
+        job.lines[image] + std::size_t(group) * job.stripCount * stripLanes * stripFloats;
     for (int k = 0; k <= half / 2; ++k) {
         const int other = half - k;
         for (std::size_t lane = 0; lane < stripLanes; lane += hn::Lanes(d)) {
@@ -43,59 +47,95 @@ void finishSixteenRows(const FrameJob &job, int channel, int group, FrameScratch
             const StripComplex difference =
                 rotated({hn::Sub(a.re, b.re), hn::Add(a.im, b.im)},
                         hn::Set(d, job.unpackReal[k].real()), hn::Set(d, job.unpackReal[k].imag()));
-            float *const to = scratch.strips[0] + std::size_t(k) * stripFloats + lane;
+            float *const to = strip + std::size_t(k) * stripFloats + lane;
             hn::Store(hn::Sub(sum.re, difference.im), d, to);
             hn::Store(hn::Add(sum.im, difference.re), d, to + stripLanes);
             if (k == 0 || other == k)
                 continue;
-            float *const mirrored = scratch.strips[0] + std::size_t(other) * stripFloats + lane;
+            float *const mirrored = strip + std::size_t(other) * stripFloats + lane;
             hn::Store(hn::Add(sum.re, difference.im), d, mirrored);
             hn::Store(hn::Sub(difference.re, sum.im), d, mirrored + stripLanes);
         }
     }
-    // [column][16 rows]: the real and imaginary parts of a strip are adjacent columns.
-    const float *const image = runTransform(*job.halfColumns, scratch.strips[0], scratch.spare);
-    const int firstRow = group * stripLanes;
-    const int rowCount = std::min(stripLanes, std::min(job.imageRows, job.rows) - firstRow);
-    const int width = std::min(job.imageColumns, job.columns);
-    float *const all = job.samples[std::size_t(channel)];
-    float *const samples = all + std::size_t(firstRow) * job.imageColumns;
-    for (int column = 0; column < width; column += stripLanes) {
-        const float *const from = image + std::size_t(column) * stripLanes;
-        const int columnCount = std::min(stripLanes, width - column);
-        if (rowCount == stripLanes && columnCount == stripLanes) {
-            transpose(from, stripLanes, samples + column, std::size_t(job.imageColumns));
-            continue;
-        }
-        HWY_ALIGN float block[stripLanes * stripLanes];
-        transpose(from, stripLanes, block, stripLanes);
-        for (int row = 0; row < rowCount; ++row)
-            std::copy_n(block + row * stripLanes, columnCount,
-                        samples + std::size_t(row) * job.imageColumns + column);
-    }
-    // An image larger than the period repeats the empty part of it.
-    for (int row = 0; row < rowCount; ++row) {
-        float *const line = samples + std::size_t(row) * job.imageColumns;
-        for (int column = width; column < job.imageColumns; column += job.columns)
-            std::copy_n(line, std::min(job.columns, job.imageColumns - column), line + column);
-        for (int copy = firstRow + row + job.rows; copy < job.imageRows; copy += job.rows)
-            std::copy_n(line, job.imageColumns, all + std::size_t(copy) * job.imageColumns);
+    // The real and imaginary parts of a strip are adjacent columns.
+    return runTransform(*job.halfColumns, strip, spare);
+}
+
+// Sixteen by sixteen samples of each image, rows in order.
+using Blocks = float[FrameJob::maxChannels][stripLanes * stripLanes];
+
+// Sixteen pixels of red, green and blue: a row of the blocks.
+HWY_INLINE void colorPixels(const FrameJob &job, const Blocks &blocks, std::size_t row,
+                            float *pixels) {
+    const StripTag d;
+    const std::size_t first = row * stripLanes;
+    for (std::size_t lane = 0; lane < stripLanes; lane += hn::Lanes(d)) {
+        const auto samples = [&](std::size_t image) {
+            return hn::Load(d, blocks[image] + first + lane);
+        };
+        const auto channel = [&](std::size_t c) {
+            if (job.channels == FrameJob::maxChannels) // red, green and blue
+                return samples(c);
+            auto sum = hn::Mul(samples(0), hn::Set(d, job.imageColors[0][c]));
+            if (job.channels == 2)
+                sum = hn::MulAdd(samples(1), hn::Set(d, job.imageColors[1][c]), sum);
+            return sum;
+        };
+        hn::StoreInterleaved3(channel(0), channel(1), channel(2), d, pixels + 3 * lane);
     }
 }
 
-void joinThreePlanes(const std::array<const float *, 3> &planes, const std::array<float, 3> &color,
-                     std::size_t count, float *pixels) {
-    const hn::ScalableTag<float> d;
-    const std::size_t lanes = hn::Lanes(d);
-    std::size_t n = 0;
-    for (; n + lanes <= count; n += lanes)
-        hn::StoreInterleaved3(hn::Mul(hn::LoadU(d, planes[0] + n), hn::Set(d, color[0])),
-                              hn::Mul(hn::LoadU(d, planes[1] + n), hn::Set(d, color[1])),
-                              hn::Mul(hn::LoadU(d, planes[2] + n), hn::Set(d, color[2])), d,
-                              pixels + 3 * n);
-    for (; n < count; ++n)
-        for (std::size_t c = 0; c < 3; ++c)
-            pixels[3 * n + c] = planes[c][n] * color[c];
+void finishSixteenRows(const FrameJob &job, int group, FrameScratch &scratch) {
+    // The transform of an image frees one array for the next one.
+    std::array<const float *, FrameJob::maxChannels> images{};
+    float *spare = scratch.spare;
+    for (std::size_t image = 0; image < std::size_t(job.channels); ++image) {
+        images[image] = transformedRows(job, image, group, scratch.strips[image], spare);
+        if (images[image] == spare)
+            spare = scratch.strips[image];
+    }
+    const int firstRow = group * stripLanes;
+    const int rowCount = std::min(stripLanes, std::min(job.imageRows, job.rows) - firstRow);
+    const int width = std::min(job.imageColumns, job.columns);
+    const auto channels = std::size_t(job.pictureChannels);
+    const std::size_t stride = std::size_t(job.imageColumns) * channels;
+    float *const samples = job.samples + std::size_t(firstRow) * stride;
+    HWY_ALIGN Blocks blocks;
+    HWY_ALIGN float pixels[3 * stripLanes];
+    for (int column = 0; column < width; column += stripLanes) {
+        const int columnCount = std::min(stripLanes, width - column);
+        const bool isWhole = rowCount == stripLanes && columnCount == stripLanes;
+        const auto from = [&](std::size_t image) {
+            return images[image] + std::size_t(column) * stripLanes;
+        };
+        if (channels == 1 && isWhole) {
+            transpose(from(0), stripLanes, samples + column, stride);
+            continue;
+        }
+        for (std::size_t image = 0; image < std::size_t(job.channels); ++image)
+            transpose(from(image), stripLanes, blocks[image], stripLanes);
+        for (std::size_t row = 0; row < std::size_t(rowCount); ++row) {
+            float *const to = samples + row * stride + std::size_t(column) * channels;
+            if (channels == 1) {
+                std::copy_n(blocks[0] + row * stripLanes, columnCount, to);
+            } else if (columnCount == stripLanes) {
+                colorPixels(job, blocks, row, to);
+            } else {
+                colorPixels(job, blocks, row, pixels);
+                std::copy_n(pixels, 3 * columnCount, to);
+            }
+        }
+    }
+    // A picture larger than the period repeats the empty part of it.
+    for (int row = 0; row < rowCount; ++row) {
+        float *const line = samples + std::size_t(row) * stride;
+        for (int column = width; column < job.imageColumns; column += job.columns)
+            std::copy_n(line,
+                        std::size_t(std::min(job.columns, job.imageColumns - column)) * channels,
+                        line + std::size_t(column) * channels);
+        for (int copy = firstRow + row + job.rows; copy < job.imageRows; copy += job.rows)
+            std::copy_n(line, stride, job.samples + std::size_t(copy) * stride);
+    }
 }
 
 } // namespace pellucid::render::HWY_NAMESPACE
@@ -105,15 +145,9 @@ HWY_AFTER_NAMESPACE();
 namespace pellucid::render {
 
 HWY_EXPORT(finishSixteenRows);
-HWY_EXPORT(joinThreePlanes);
 
-void finishRows(const FrameJob &job, int channel, int group, FrameScratch &scratch) {
-    HWY_DYNAMIC_DISPATCH(finishSixteenRows)(job, channel, group, scratch);
-}
-
-void joinPlanes(const std::array<const float *, 3> &planes, const std::array<float, 3> &color,
-                std::size_t count, float *pixels) {
-    HWY_DYNAMIC_DISPATCH(joinThreePlanes)(planes, color, count, pixels);
+void finishRows(const FrameJob &job, int group, FrameScratch &scratch) {
+    HWY_DYNAMIC_DISPATCH(finishSixteenRows)(job, group, scratch);
 }
 
 } // namespace pellucid::render

@@ -25,6 +25,9 @@ inline bool areGrey(std::span<const ChannelWeights> channelWeights) {
         [](const ChannelWeights &share) { return share[0] == share[1] && share[1] == share[2]; });
 }
 
+/// The rank of the weights; 0 if all are grey.
+int colorsOf(std::span<const ChannelWeights> channelWeights);
+
 /// The spectra that an engine slices; all have the same layout.
 struct EngineSpectra {
     using Spectra = std::vector<std::shared_ptr<const fourier::Spectrum>>;

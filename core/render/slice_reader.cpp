@@ -34,13 +34,11 @@ std::array<Read, 3> SliceReader::at(const std::array<double, 3> &cells,
     std::array<Read, 3> images{};
     for (int term = 0; term < m_shading.termCount; ++term)
         addTerm(cells, term, kernels, images);
-    if (m_mixing.channels > 1)
-        return images;
-    // A single image is colored afterwards.
-    const Read grey = images[0];
-    for (std::size_t c = 0; c < 3; ++c)
-        images[c] = Complex(m_mixing.color[c]) * grey;
-    return images;
+    std::array<Read, 3> channels{};
+    for (std::size_t image = 0; image < std::size_t(m_mixing.channels); ++image)
+        for (std::size_t c = 0; c < 3; ++c)
+            channels[c] += Complex(m_mixing.imageColor(image)[c]) * images[image];
+    return channels;
 }
 
 Read SliceReader::cell(const FrameSource &source, std::array<int, 3> index) const {

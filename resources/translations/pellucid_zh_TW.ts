@@ -515,8 +515,8 @@
         <translation>顯示的內容只有一種顏色，因此合成一個場</translation>
     </message>
     <message>
-        <source>Colors are mixed, so red, green and blue each have a field</source>
-        <translation>顏色互相混合，因此紅、綠、藍各有一個場</translation>
+        <source>The look is mixed from two or three colors, and each has a field</source>
+        <translation>外觀由兩種或三種顏色混合而成，每種各有一個場</translation>
     </message>
     <message>
         <source>Weights are changing, so each layer keeps its own spectrum</source>

@@ -2,7 +2,7 @@
 // The slice at a frequency, with or without cue and light, as in core/render/frame_*_hwy.inc.
 // FIELD_PAGES: number of textures ("pages") of fields; PAGES: the same plus those of gradients,
 // which follow. A page holds one or more stacked spectra, or one of the SLABS slabs of a spectrum.
-// SUMS, CHANNELS: 1 or 3; SHADED, CUED, LIT: 0 or 1.
+// SUMS, CHANNELS: 1 to 3; SHADED, CUED, LIT: 0 or 1.
 layout(binding = FIRST_SPECTRUM) uniform sampler3D pages[PAGES];
 
 // The last row of each column inside the disc of the band.

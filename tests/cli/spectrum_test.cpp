@@ -69,10 +69,12 @@ TEST_F(Cli, TheSpectrumHoldsTheDecibelsThatTheExactReferenceConfirms) {
                                       (double(column - 24) * axes[0] - double(row - 24) * axes[1]));
         std::vector<std::complex<double>> truth(frequencies.size()), one(frequencies.size());
         const auto fields = classify::shownFields(volume, window, c.look, nullptr);
-        for (const auto &field : fields.channels) {
+        for (std::size_t channel = 0; channel < fields.channels.size(); ++channel) {
+            const auto &field = fields.channels[channel];
+            const classify::Color &color = fields.colors[channel];
             reference::WideKernel(field.values, field.support).sample(frequencies, one);
             for (std::size_t n = 0; n < one.size(); ++n)
-                truth[n] += one[n];
+                truth[n] += (color.red + color.green + color.blue) * one[n];
         }
         int compared = 0;
         for (std::size_t n = 0; n < decibels.size(); ++n) {

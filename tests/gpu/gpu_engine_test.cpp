@@ -155,15 +155,19 @@ TEST_F(GpuEngine, CuesAndLights) {
         }
 }
 
-// Three channels of their own, a single field in a color, and both under colored light.
+// Three channels of their own, two fields in two colors, one in a color, and all under colored
+// light.
 TEST_F(GpuEngine, Colors) {
     const auto lattice = test::tiltedLattice({36, 30, 21}, {0.8, 1.0, 2.1}, 20.0);
     const classify::ShownFields channels{
         {test::noiseField(lattice, 1), test::noiseField(lattice, 2), test::noiseField(lattice, 3)},
-        {}};
-    const classify::ShownFields colored{{test::noiseField(lattice, 1)}, {1.0, 0.4, 0.1}};
+        classify::primaries};
+    const classify::ShownFields mixed{
+        {test::noiseField(lattice, 1), test::noiseField(lattice, 2)},
+        {{{1.0, 0.4, 0.1}, {0.2, 0.3, 0.9}}}};
+    const classify::ShownFields colored{{test::noiseField(lattice, 1)}, {{{1.0, 0.4, 0.1}}}};
     const std::vector<shading::Light> light{{{1, 0, 0.3}, {0.2, 1.0, 0.7}}};
-    for (const auto &fields : {channels, colored})
+    for (const auto &fields : {channels, mixed, colored})
         for (const Shading &shading :
              {Shading{}, Shading{.cue = {CueKind::linear, 1.0}}, Shading{.lights = light}}) {
             scene::Scene scene = sceneOf(fields);
@@ -181,7 +185,7 @@ TEST_F(GpuEngine, LayersWithMovingShares) {
         fields.push_back(test::noiseField(lattice, n));
     scene::Scene scene{.camera = scene::defaultCamera(lattice)};
     scene.interpolation.kernel = fourier::kernelFromName("LS4"); // as in sceneOf
-    const auto plan = plan::planRender(scene, plan::summarise(fields), 3);
+    const auto plan = plan::planRender(scene, plan::summarise(fields), {3});
     render::EngineSpectra spectra;
     for (const auto &field : fields)
         spectra.fields.push_back(std::make_shared<const fourier::Spectrum>(

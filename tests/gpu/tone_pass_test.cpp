@@ -87,20 +87,23 @@ TEST_F(TonePass, DrawsWhatComposeComputes) {
 
 class CardTone : public test::CardTest {};
 
-// One layer, one layer in a color, and three.
+// One layer, one in a color, two in two colors, and three.
 TEST_F(CardTone, DrawsPicturesOfTheCard) {
     const auto lattice = volume::Lattice::centred({20, 21, 22}, {1, 1, 1});
     const classify::ShownFields grey{{test::noiseField(lattice)}, {}};
-    const classify::ShownFields colored{{test::noiseField(lattice)}, {1.0, 0.4, 0.1}};
+    const classify::ShownFields colored{{test::noiseField(lattice)}, {{{1.0, 0.4, 0.1}}}};
+    const classify::ShownFields mixed{
+        {test::noiseField(lattice, 1), test::noiseField(lattice, 2)},
+        {{{1.0, 0.4, 0.1}, {0.2, 0.3, 0.9}}}};
     const classify::ShownFields three{
         {test::noiseField(lattice, 1), test::noiseField(lattice, 2), test::noiseField(lattice, 3)},
-        {}};
-    for (const auto &fields : {grey, colored, three}) {
+        classify::primaries};
+    for (const auto &fields : {grey, colored, mixed, three}) {
         const scene::Scene scene{.camera = scene::defaultCamera(lattice)};
         const auto prepared = prepare::prepareEngine(scene, fields, {});
         const auto engine = gpu::copyToCard(card, *prepared.engine);
         const auto picture = engine->renderOnCard(scene.camera, scene.image);
-        EXPECT_EQ(picture->layers(), fields.channels.size() == 3 ? 3 : 1);
+        EXPECT_EQ(picture->layers(), int(fields.channels.size()));
         const auto image = picture->download();
         const scene::Tone tone{2.0, 15.0, false};
         std::vector<std::uint8_t> found;

@@ -143,7 +143,7 @@ private slots:
         scene::Scene scene;
         scene.camera = scene::defaultCamera(lattice);
         const auto prepared =
-            prepare::prepareEngine(scene, {{classify::densityField(volume, {-900, 2000})}, {}}, {});
+            prepare::prepareEngine(scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}, {});
         auto lost = std::make_shared<std::atomic<bool>>(false);
         const auto card = std::make_shared<gpu::FramePasses>(
             std::make_shared<gpu::Device>(std::make_unique<FragileContext>(lost)));

@@ -64,12 +64,11 @@ public:
             makeCoarse();
         const auto fields = fieldsOf(m_source.volume, m_progress.part(0.1, 0.3));
         const plan::Budget budget = budgetFor(fields);
-        const auto shaded = prepare::shadedFields(fields.channels, m_scene.shading, m_scale,
+        const auto shaded = prepare::shadedFields(fields, m_scene.shading, m_scale,
                                                   m_progress.part(0.3, 0.35));
         if (m_coarse)
-            addErrorOfCoarse(shaded, fields.channels.size());
-        m_take(prepare::prepareEngine(m_scene, shaded, fields.color, budget,
-                                      m_progress.part(0.35, 1.0)),
+            addErrorOfCoarse(shaded);
+        m_take(prepare::prepareEngine(m_scene, shaded, budget, m_progress.part(0.35, 1.0)),
                Detail::full);
     }
 
@@ -79,7 +78,7 @@ private:
         const classify::Look &look = m_source.wanted.look;
         const std::size_t needed =
             classify::peakBytes(look, size.count()) +
-            prepare::bytesForLight(m_scene.shading, size, classify::mixesColors(look) ? 3 : 1);
+            prepare::bytesForLight(m_scene.shading, size, classify::channelsOf(look));
         if (needed > system::availableMemoryBytes())
             throw task::Error(task::ErrorCode::outOfMemory,
                               task::because::fieldsNeedMemory(needed >> 20));
@@ -103,8 +102,8 @@ private:
     // The steps of classes take no time on a small volume.
     void makeCoarse() {
         const auto fields = fieldsOf(classify::coarseVolume(m_source.volume, coarseSide), {});
-        const auto shaded = prepare::shadedFields(fields.channels, m_scene.shading, m_scale);
-        m_coarse = prepare::prepareEngine(m_scene, shaded, fields.color, budgetFor(fields),
+        const auto shaded = prepare::shadedFields(fields, m_scene.shading, m_scale);
+        m_coarse = prepare::prepareEngine(m_scene, shaded, budgetFor(fields),
                                           m_progress.part(0.0, 0.1));
         m_coarse->isCoarse = true;
         m_take(*m_coarse, Detail::coarse);
@@ -112,9 +111,10 @@ private:
     }
 
     // Meanwhile the coarse picture is on the screen.
-    void addErrorOfCoarse(const prepare::ShadedFields &shaded, std::size_t channels) {
+    void addErrorOfCoarse(const prepare::ShadedFields &shaded) {
         m_coarse->detailLoss = std::make_shared<const accuracy::DetailLoss>(
-            projectionsOf(shaded, m_progress), m_coarseProjections, channels, m_scale.stepMm);
+            projectionsOf(shaded, m_progress), m_coarseProjections, shaded.fields.size(),
+            m_scale.stepMm);
         m_take(*m_coarse, Detail::coarse);
     }
 

@@ -41,7 +41,7 @@ QString spectraName(plan::SpectrumOf what) {
     switch (what) {
     case plan::SpectrumOf::look:
         return QObject::tr("look %1");
-    case plan::SpectrumOf::channel:
+    case plan::SpectrumOf::color:
         return QObject::tr("colors %1");
     case plan::SpectrumOf::layer:
         return QObject::tr("layers %1");
@@ -55,8 +55,8 @@ QString whySpectra(plan::SpectrumOf what) {
     switch (what) {
     case plan::SpectrumOf::look:
         return QObject::tr("Everything shown has one color, so it adds up to one field");
-    case plan::SpectrumOf::channel:
-        return QObject::tr("Colors are mixed, so red, green and blue each have a field");
+    case plan::SpectrumOf::color:
+        return QObject::tr("The look is mixed from two or three colors, and each has a field");
     case plan::SpectrumOf::layer:
         return QObject::tr("Weights are changing, so each layer keeps its own spectrum");
     case plan::SpectrumOf::gradient:
@@ -311,7 +311,7 @@ void QualityPanel::showPlan(const ShownEngine &shown, EngineStage stage) {
     const render::EngineParts parts = shown.prepared.engine->parts();
     m_shownFrame = {plan,
                     {int(parts.spectra.fields.size()), shown.prepared.of,
-                     !render::areGrey(parts.channelWeights)},
+                     render::colorsOf(parts.channelWeights)},
                     !parts.spectra.gradients.empty()};
     showModel();
     const QString reason = translated(plan.reason);

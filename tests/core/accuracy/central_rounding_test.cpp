@@ -65,13 +65,13 @@ TEST_P(CentralRounding, IsTheDifferenceThat16BitCellsMake) {
     }
     scene.shading = p.shading;
     scene.interpolation = {fourier::kernelFromName("LS4"), 1.5, fourier::Storage::binary16};
-    const auto shaded = prepare::shadedFields({field}, scene.shading,
+    const auto shaded = prepare::shadedFields({{field}, {}}, scene.shading,
                                               shading::shadingScale(field.values.lattice()));
     const auto summaries = prepare::summarise(shaded, scene.shading.cue);
     const auto engineWith = [&](fourier::Storage storage) {
         scene.interpolation.storage = storage;
-        const auto plan = plan::planRender(scene, summaries, prepare::imagesOf(1, scene.shading));
-        return std::pair(prepare::makeEngine(shaded, {}, plan), plan);
+        const auto plan = plan::planRender(scene, summaries, prepare::compositionOf(1, scene.shading));
+        return std::pair(prepare::makeEngine(shaded, plan), plan);
     };
     const auto [rounded, plan] = engineWith(fourier::Storage::binary16);
     const auto [exact, floatPlan] = engineWith(fourier::Storage::float32);

@@ -74,7 +74,7 @@ TEST(ShownFields, AWindowWithoutWidthShowsNothingWhateverTheValue) {
         EXPECT_EQ(bent.channels[0].values.value({i, 0, 0}), 0.0);
 }
 
-TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
+TEST(ShownFields, AreAsManyAsTheColorsHaveRank) {
     const TissueClass low{"low", -500, 0, 100, 0.5, Color{1.0, 0.5, 0.0}};
     const TissueClass high{"high", 200, 900, 100, 2.0, Color{0.0, 0.5, 1.0}};
     TissueClass alike = high;
@@ -82,7 +82,7 @@ TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
     const volume::Volume volume = ramp();
     const auto one = classify::shownFields(volume, window, {{}, {low, alike}}, nullptr);
     ASSERT_EQ(one.channels.size(), 1U);
-    EXPECT_EQ(one.color, low.color);
+    EXPECT_EQ(one.colors.front(), low.color);
     EXPECT_FALSE(one.isGrey());
     EXPECT_FALSE(classify::isGrey({{}, {low, alike}}));
     EXPECT_FALSE(classify::isGrey({{}, {low, high}}));
@@ -91,7 +91,18 @@ TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
     EXPECT_TRUE(classify::isGrey({{}, {white}}));
     EXPECT_TRUE(classify::isGrey({}));
     const auto mixed = classify::shownFields(volume, window, {{}, {low, high}}, nullptr);
-    ASSERT_EQ(mixed.channels.size(), 3U);
+    ASSERT_EQ(mixed.channels.size(), 2U);
+    EXPECT_EQ(mixed.colors[0], low.color);
+    EXPECT_EQ(mixed.colors[1], high.color);
+    const auto primary = classify::inPrimaries(mixed);
+    ASSERT_EQ(primary.channels.size(), 3U);
+    TissueClass third{"third", -100, 400, 100, 1.0, Color{0.5, 0.5, 0.5}};
+    // Half of each of the others, in a plane with them.
+    EXPECT_EQ(classify::channelsOf({{}, {low, high, third}}), 2U);
+    third.color.green = 0.6;
+    const auto three = classify::shownFields(volume, window, {{}, {low, high, third}}, nullptr);
+    ASSERT_EQ(three.channels.size(), 3U);
+    EXPECT_EQ(three.colors, classify::primaries);
     const auto a = classify::classField(volume, window, low, nullptr);
     const auto b = classify::classField(volume, window, high, nullptr);
     for (int i = 0; i < 30; ++i) {
@@ -99,8 +110,10 @@ TEST(ShownFields, OneColorIsOneChannelAndMixedColorsAreThree) {
         const double la = 0.5 * a.values.value(at), lb = 2.0 * b.values.value(at);
         EXPECT_NEAR(one.channels[0].values.value(at), la + lb, 1e-6);
         EXPECT_NEAR(mixed.channels[0].values.value(at), la, 1e-6);
-        EXPECT_NEAR(mixed.channels[1].values.value(at), 0.5 * (la + lb), 1e-6);
-        EXPECT_NEAR(mixed.channels[2].values.value(at), lb, 1e-6);
+        EXPECT_NEAR(mixed.channels[1].values.value(at), lb, 1e-6);
+        EXPECT_NEAR(primary.channels[0].values.value(at), la, 1e-6);
+        EXPECT_NEAR(primary.channels[1].values.value(at), 0.5 * (la + lb), 1e-6);
+        EXPECT_NEAR(primary.channels[2].values.value(at), lb, 1e-6);
     }
 }
 

@@ -67,11 +67,15 @@ TEST_F(FrameModel, LightTakesASpectrumOfTheGradientAndASineCueTwoMoreSlices) {
     EXPECT_FALSE(isLeftOut(cued, plan::LeftOut::depthCue));
 }
 
-TEST_F(FrameModel, ColorsTakeThreeImagesAndATintTakesNone) {
-    const auto tinted = model({1, SpectrumOf::look, true});
+TEST_F(FrameModel, ColorsTakeAnImageForEachThatTheyAreMixedFromAndATintTakesNone) {
+    const auto tinted = model({1, SpectrumOf::look, 1});
     EXPECT_EQ(tinted.combination, plan::Combination::tinted);
     EXPECT_EQ(tinted.images, 1);
-    const auto colored = model({3, SpectrumOf::channel, true});
+    const auto mixed = model({2, SpectrumOf::color, 2});
+    EXPECT_EQ(mixed.combination, plan::Combination::mixed);
+    EXPECT_EQ(mixed.images, 2);
+    EXPECT_EQ(mixed.slices, 2);
+    const auto colored = model({3, SpectrumOf::color, 3});
     EXPECT_EQ(colored.combination, plan::Combination::channels);
     EXPECT_EQ(colored.images, 3);
     EXPECT_EQ(colored.slices, 3);
@@ -79,16 +83,17 @@ TEST_F(FrameModel, ColorsTakeThreeImagesAndATintTakesNone) {
     EXPECT_DOUBLE_EQ(colored.transformOperations, 3.0 * model().transformOperations);
 }
 
-// Slices of layers add up before the transform: two or five grey ones make one image, and colored
-// ones three.
+// Slices of layers add up before the transform: two or five grey ones make one image, and those of
+// two or three colors two or three.
 TEST_F(FrameModel, LayersTakeASliceEachAndNoImage) {
     for (const int count : {2, 5}) {
-        const auto grey = model({count, SpectrumOf::layer, false});
+        const auto grey = model({count, SpectrumOf::layer, 0});
         EXPECT_EQ(grey.spectra.front().of, SpectrumOf::layer);
         EXPECT_EQ(grey.slices, count);
         EXPECT_EQ(grey.images, 1);
         EXPECT_TRUE(isLeftOut(grey, plan::LeftOut::color));
-        EXPECT_EQ(model({count, SpectrumOf::layer, true}).images, 3);
+        for (const int colors : {2, 3})
+            EXPECT_EQ(model({count, SpectrumOf::layer, colors}).images, colors);
     }
 }
 

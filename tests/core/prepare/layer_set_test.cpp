@@ -74,7 +74,7 @@ TEST_P(Layers, AllWeightsOneIsThePlainProjection) {
     const auto plain = classify::densityField(head(), window);
     // The layers' own plan: aliasing is linear too and cancels in the comparison.
     const auto engine = prepare::makeEngine(
-        {{plain}, {}, shading::shadingScale(plain.values.lattice())}, {}, layers->plan());
+        {{plain}, {}, shading::shadingScale(plain.values.lattice()), {}}, layers->plan());
     const auto expected = engine->render(scene.camera, scene.image).samples;
     const std::vector<ChannelWeights> ones(6, {1.0, 1.0, 1.0});
     const auto summed = layers->render(scene.camera, scene.image, {}, ones);
@@ -123,8 +123,9 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
     const auto layers = layersOf(scene, look);
     const auto fresh = [&](const Look &of, const prepare::LayerSet &like) {
         const auto fields = classify::shownFields(head(), window, of, nullptr);
-        return prepare::makeEngine({fields.channels, {}, shading::shadingScale(head().lattice())},
-                                   fields.color, like.plan())
+        return prepare::makeEngine({fields.channels, {}, shading::shadingScale(head().lattice()),
+                                    fields.colors},
+                                   like.plan())
             ->render(scene.camera, scene.image);
     };
     const double allowed = GetParam() == fourier::Storage::binary16 ? 3e-4 : 1e-5;

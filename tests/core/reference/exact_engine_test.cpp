@@ -31,7 +31,7 @@ constexpr double rounding = 1e-7;
 
 TEST(ExactEngine, MakesTheDirectSumInGreyAndInAColor) {
     for (const Color &color : {Color{}, Color{1.0, 0.5, 0.25}}) {
-        const ShownFields fields{{field(1)}, color};
+        const ShownFields fields{{field(1)}, {color}};
         const auto camera = cameraFor(fields);
         const auto truth =
             reference::directSumImage(fields.channels.front().values, camera, definition);
@@ -52,7 +52,7 @@ TEST(ExactEngine, MakesTheDirectSumInGreyAndInAColor) {
 }
 
 TEST(ExactEngine, MakesAnImageForEachChannel) {
-    const ShownFields fields{{field(1), field(2), field(3)}, {}};
+    const ShownFields fields{{field(1), field(2), field(3)}, classify::primaries};
     const auto camera = cameraFor(fields);
     const auto image = reference::ExactEngine(fields, {}).render(camera, definition);
     ASSERT_EQ(image.channels, 3);

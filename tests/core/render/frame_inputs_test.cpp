@@ -19,7 +19,7 @@ protected:
         scene::Scene scene;
         scene.camera = camera;
         scene.shading = shading;
-        return prepare::prepareEngine(scene, {{field}, {}}, {}).engine->parts();
+        return prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {}).engine->parts();
     }
     render::FrameInputs inputsOf(const render::EngineParts &parts,
                                  const shading::Shading &shading) {
@@ -56,15 +56,37 @@ TEST_F(FrameInputs, OneColorIsGivenToTheOneImage) {
     render::EngineParts parts = partsFor({});
     parts.channelWeights = {{0.5, 0.5, 0.5}};
     const render::FrameInputs grey = inputsOf(parts, {});
-    EXPECT_EQ(grey.tint(), (render::ChannelWeights{1.0, 1.0, 1.0}));
+    EXPECT_EQ(grey.imageColors().front(), (std::array{1.0F, 1.0F, 1.0F}));
     EXPECT_EQ(grey.unit(), 0.5 * grey.geometry.cellArea * grey.mixing.unit);
     parts.channelWeights = {{1.0, 0.5, 0.25}};
     const render::FrameInputs colored = inputsOf(parts, {});
     EXPECT_EQ(colored.pictureChannels(), 3);
     EXPECT_EQ(colored.mixing.channels, 1);
-    EXPECT_EQ(colored.tint(), parts.channelWeights.front());
+    EXPECT_EQ(colored.imageColors().front(), (std::array{1.0F, 0.5F, 0.25F}));
     EXPECT_EQ(colored.unit(), colored.geometry.cellArea * colored.mixing.unit);
     EXPECT_FALSE(colored.isShaded);
+}
+
+// Grey, of one hue, in a plane, and of three colors.
+TEST_F(FrameInputs, HaveAsManyImagesAsTheColorsHaveRank) {
+    render::EngineParts parts = partsFor({});
+    parts.spectra.fields.resize(4, parts.spectra.fields.front());
+    const render::ChannelWeights white{1.0, 1.0, 1.0}, red{1.0, 0.2, 0.1}, blue{0.1, 0.3, 0.8},
+        green{0.1, 0.9, 0.0}, dark{0.5, 0.1, 0.05}, both{1.3, 0.54, 0.92};
+    const auto imagesOf = [&](const std::vector<render::ChannelWeights> &weights,
+                              const shading::Shading &shading = {}) {
+        parts.channelWeights = weights;
+        const render::FrameInputs inputs = inputsOf(parts, shading);
+        EXPECT_EQ(inputs.mixing.sources.size(), 4U);
+        return std::pair(inputs.mixing.channels, inputs.pictureChannels());
+    };
+    using Images = std::pair<int, int>;
+    EXPECT_EQ(imagesOf({white, white, {0.5, 0.5, 0.5}, white}), Images(1, 1));
+    EXPECT_EQ(imagesOf({red, red, dark, red}), Images(1, 3));
+    EXPECT_EQ(imagesOf({red, blue, dark, both}), Images(2, 3)); // 1.2 red and blue
+    EXPECT_EQ(imagesOf({red, blue, green, dark}), Images(3, 3));
+    EXPECT_EQ(imagesOf({red, blue, dark, both}, {.cue = {shading::CueKind::sine, 1.0}}),
+              Images(2, 3));
 }
 
 TEST_F(FrameInputs, TheMomentKernelsAreKeptFromFrameToFrame) {

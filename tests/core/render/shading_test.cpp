@@ -82,10 +82,11 @@ struct Subject {
     // Of one channel of the look and of the lights.
     std::vector<double> truth(const glm::dquat &view, std::size_t channel = 0) {
         scene.camera.orientation = view;
-        const auto &field = fields.channels[std::min(channel, fields.channels.size() - 1)];
-        const auto shaded = reference::shadedField(field, scene.shading, scene.camera.axes(),
-                                                   int(channel), scale());
-        return exactImage(shaded);
+        // Light shades the fields of red, green and blue.
+        const classify::ShownFields shaded = classify::inPrimaries(fields);
+        const auto &field = shaded.channels[std::min(channel, shaded.channels.size() - 1)];
+        return exactImage(reference::shadedField(field, scene.shading, scene.camera.axes(),
+                                                 int(channel), scale()));
     }
     std::vector<double> exactImage(const classify::DensityField &field) const {
         return reference::WideKernel(field.values, field.support).image(scene.camera, scene.image);
@@ -283,7 +284,7 @@ TEST(Shading, ColoredLightsShineOnColoredTissue) {
         Subject subject(classify::shownFields(head, window, look, nullptr), colored);
         const auto image = subject.image(someViews().front());
         ASSERT_EQ(image.channels, 3);
-        const classify::Color &c = subject.fields.color;
+        const classify::Color &c = subject.fields.colors.front();
         const std::array<double, 3> tissue = subject.fields.channels.size() == 1
                                                  ? std::array{c.red, c.green, c.blue}
                                                  : std::array{1.0, 1.0, 1.0};
