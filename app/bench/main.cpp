@@ -61,7 +61,7 @@ pellucid::bench::Subject readSubject(const std::string &path) {
 struct Options {
     std::vector<std::string> suites{"quick"};
     double minutes = 1.0;
-    int pictures = 300;
+    int pictures = 300, fields = 200;
     std::uint64_t seed = 1;
     std::string volume, json, csv, reportFolder;
 };
@@ -99,6 +99,10 @@ const std::vector<std::pair<std::string, RunSuite>> &suites() {
          [](const Report &report, const Subject *, const Options &options) {
              runPicturesSuite(report, options.pictures, options.seed);
          }},
+        {"sweep",
+         [](const Report &report, const Subject *, const Options &options) {
+             runSweepSuite(report, options.fields, options.seed);
+         }},
     };
     return all;
 }
@@ -115,7 +119,9 @@ void addOptions(CLI::App &app, Options &options) {
         ->check(CLI::Range(0.01, 10000.0));
     app.add_option("--pictures", options.pictures, "Number of pictures for --suite pictures")
         ->check(CLI::Range(1, 100000));
-    app.add_option("--seed", options.seed, "Random seed of the suites search and pictures");
+    app.add_option("--fields", options.fields, "Number of fields for --suite sweep")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--seed", options.seed, "Random seed of the suites search, pictures and sweep");
     app.add_option("--volume", options.volume,
                    "An NRRD volume to measure in the suites kernels and scaling");
     app.add_option("--json", options.json, "Write the rows as JSON");

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "app/bench/error_search.h"
+#include "app/bench/error_sweep.h"
 #include "app/bench/suites.h"
 
 namespace pellucid::bench {
@@ -42,6 +47,53 @@ void runPicturesSuite(const Report &report, int pictures, std::uint64_t seed) {
     at("the median", factors.size() / 2);
     at("95 % are below", (factors.size() - 1) * 95 / 100);
     at("the largest", factors.size() - 1);
+}
+
+void runSweepSuite(const Report &report, int fields, std::uint64_t seed) {
+    struct Tolerance {
+        int pictures = 0, missed = 0;
+        double worst = 0.0, leastPlanned = std::numeric_limits<double>::infinity();
+        std::vector<double> stated; // over the measured
+    };
+    std::map<double, Tolerance, std::greater<>> tolerances;
+    const auto row = [&](const std::string &name, const SweptPicture &picture,
+                         const std::string &note) {
+        Row one;
+        one.suite = "sweep";
+        one.name = name;
+        one.predictedError = picture.stated;
+        one.relativeL2 = picture.measured;
+        one.note = note;
+        report(one);
+    };
+    sweep(fields, seed, [&](const SweptPicture &picture) {
+        Tolerance &at = tolerances[picture.tolerance];
+        ++at.pictures;
+        if (picture.planned > picture.tolerance)
+            ++at.missed;
+        else
+            at.worst = std::max(at.worst, picture.measured / picture.tolerance);
+        if (picture.measured > 0.0) {
+            at.leastPlanned = std::min(at.leastPlanned, picture.planned / picture.measured);
+            at.stated.push_back(picture.stated / picture.measured);
+        }
+        if (picture.measured > picture.stated)
+            row(picture.name, picture, "the stated error is too low");
+        if (picture.measured > picture.planned)
+            row(picture.name, picture, "the plan's bound is too low");
+    });
+    for (auto &[tolerance, at] : tolerances) {
+        std::sort(at.stated.begin(), at.stated.end());
+        const auto share = [&](double part) {
+            return at.stated[std::size_t(part * double(at.stated.size() - 1))];
+        };
+        row(fmt::format("tolerance {:.2g}", tolerance), {},
+            fmt::format("{} pictures, {} without a plan within it; measured at most {:.2f} of it; "
+                        "stated over measured: least {:.2f}, median {:.2f}, 95 % below {:.2f}, "
+                        "most {:.1f}; the plan's bound at least {:.2f}",
+                        at.pictures, at.missed, at.worst, share(0.0), share(0.5), share(0.95),
+                        share(1.0), at.leastPlanned));
+    }
 }
 
 } // namespace pellucid::bench

@@ -28,7 +28,10 @@ std::size_t SpectrumLayout::bytes() const {
 }
 
 std::size_t SpectrumLayout::peakBytes() const {
-    return bytes() + intermediateBytes(*this);
+    // Columns are stored while those of the first pass are released.
+    const auto columns = std::size_t(CellLayout(*this).columns);
+    const std::size_t slabs = columns * ColumnSlabs::bytes(*this);
+    return std::max(slabs, bytes()) + (slabs + bytes()) / columns + planeBytes(*this);
 }
 
 Spectrum::Spectrum(const volume::Volume &field, const SpectrumLayout &layout)
@@ -41,14 +44,17 @@ Spectrum::Spectrum(const volume::Volume &field, const SpectrumLayout &layout)
     std::memset(m_cells.get() + layout.bytes() - 64, 0, 64);
 }
 
-Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &layout,
+Spectrum Spectrum::prepare(volume::Volume field, const SpectrumLayout &layout,
                            const task::Progress &progress) {
     assert(field.isFloat() && layout.addressable());
     Spectrum spectrum(field, layout);
-    const auto memory = system::allocatePages(intermediateBytes(layout), task::because::aTransform);
-    auto *const intermediate = reinterpret_cast<float *>(memory.get());
-    const FieldSums sums = transformPlanes(field, layout, intermediate, progress);
-    progress.report(0.5);
+    const CellLayout &cells = spectrum.m_cellLayout;
+    ColumnSlabs slabs(layout, cells);
+    constexpr double firstPass = 0.3;
+    const FieldSums sums =
+        transformRows(field, layout, cells, slabs, progress.part(0.0, firstPass));
+    field = {};
+    progress.report(firstPass);
     spectrum.m_dc = sums.dc;
     spectrum.m_moments = sums.moments;
     CellOutput out{spectrum.m_cells.get()};
@@ -65,8 +71,7 @@ Spectrum Spectrum::prepare(const volume::Volume &field, const SpectrumLayout &la
             out.rounding = spectrum.m_rounding.data();
         }
     }
-    transformRows(layout, spectrum.m_cellLayout, intermediate, out, progress);
-    progress.report(1.0);
+    transformColumns(layout, cells, slabs, out, progress.part(firstPass, 1.0));
     return spectrum;
 }
 

@@ -64,8 +64,9 @@ struct CellLayout {
 /// follows the lattice's own steps: tilted and anisotropic volumes are not resampled.
 class Spectrum {
 public:
-    /// *Shape*: the field is float32. *Throws* Error{outOfMemory}, Cancelled.
-    static Spectrum prepare(const volume::Volume &field, const SpectrumLayout &layout,
+    /// The field is released after the first of two passes: its memory is free if this was the last
+    /// reference. *Shape*: the field is float32. *Throws* Error{outOfMemory}, Cancelled.
+    static Spectrum prepare(volume::Volume field, const SpectrumLayout &layout,
                             const task::Progress &progress = {});
 
     const SpectrumLayout &layout() const { return m_layout; }

@@ -37,10 +37,6 @@ private:
     tbb::enumerable_thread_specific<std::shared_ptr<std::byte[]>> m_memory;
 };
 
-int blocksOf(GridSize padded) {
-    return (padded.i / 2 + stripLanes) / stripLanes;
-}
-
 // 1/h along one axis for the samples of the box, with the wrap voxel in the middle.
 std::vector<float> premultiplier(const Kernel &kernel, int samples, int padded) {
     std::vector<float> factors(samples);
@@ -64,13 +60,6 @@ void placeStrips(const float *from, int count, float *strips, int padded) {
                 std::size_t(middle) * stripFloats * sizeof(float));
 }
 
-std::uint32_t conjugate(std::uint32_t cell) {
-    return cell ^ 0x80000000U;
-}
-Complex conjugate(Complex cell) {
-    return std::conj(cell);
-}
-
 std::complex<float> asComplex(std::uint32_t cell) {
     return {fromBinary16(std::uint16_t(cell)), fromBinary16(std::uint16_t(cell >> 16))};
 }
@@ -78,27 +67,41 @@ Complex asComplex(Complex cell) {
     return cell;
 }
 
-// Transforms along x and y plane by plane, so that a plane stays in the cache; rows and planes of
-// padding are skipped. Sample n goes to (n - middle) modulo padded.
-class PlaneTransform {
+// Transforms the rows of planes along x. Sample n goes to (n - middle) modulo padded. The cells to
+// the left and right of the half follow from those inside: F(-s) = conj F(s) for the rows of a real
+// field.
+class RowTransform {
 public:
-    PlaneTransform(const volume::Lattice &lattice, const SpectrumLayout &layout,
-                   float *intermediate)
+    RowTransform(const volume::Lattice &lattice, const SpectrumLayout &layout,
+                 const CellLayout &cells, const ColumnSlabs &slabs)
         : m_lattice(lattice.size()), m_box(layout.box), m_size(layout.box.size()),
-          m_padded(layout.padded), m_intermediate(intermediate), m_cellMm3(lattice.cellVolumeMm3()),
-          m_blocks(blocksOf(layout.padded)), m_rowCells(std::size_t(m_blocks) * stripLanes),
+          m_padded(layout.padded), m_cells(cells), m_slabs(slabs),
+          m_cellMm3(lattice.cellVolumeMm3()),
+          m_rowCells(std::size_t(cells.step) * (cells.columns - 1) + CellLayout::columnCells),
           m_hx(premultiplier(layout.kernels[0], m_size.i, m_padded.i)),
           m_hy(premultiplier(layout.kernels[1], m_size.j, m_padded.j)),
           m_hz(premultiplier(layout.kernels[2], m_size.k, m_padded.k)), m_alongX(m_padded.i),
-          m_alongY(m_padded.j), m_planeSums(std::size_t(m_size.k)), m_realRows(m_padded.i),
-          m_planes(std::size_t(m_size.j) * m_rowCells),
-          m_strips((std::size_t(m_size.j) + 2 * std::size_t(m_padded.j)) * stripFloats) {}
+          m_planeSums(std::size_t(m_size.k)), m_realRows(m_padded.i),
+          m_halves(std::size_t(m_padded.i) / 2 + 1), m_rows(m_rowCells), m_strips(stripFloats) {}
 
     // Transforms plane k of the box. Thread-safe.
     template <class T> void run(const T *samples, int k) {
-        Complex *const plane = m_planes.local();
-        transformAlongX(samples, k, plane);
-        transformAlongY(plane, k);
+        float *const real = m_realRows.local();
+        Complex *const half = m_halves.local(), *const row = m_rows.local();
+        std::fill(real, real + m_padded.i, 0.0F);
+        const auto cell = float(m_cellMm3);
+        PlaneSums sums;
+        for (int j = 0; j < m_size.j; ++j) {
+            const T *const in =
+                samples + m_lattice.offsetOf(m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k);
+            sums.magnitudes += double(placeRow(in, cell * m_hz[k] * m_hy[j], real));
+            addRow(in, j, sums);
+            m_alongX.run(real, half);
+            extend(half, row);
+            writeStrips(row, k, j);
+        }
+        finishStreaming();
+        m_planeSums[std::size_t(k)] = sums;
     }
 
     // The sums of all planes so far.
@@ -119,23 +122,6 @@ private:
     struct PlaneSums {
         double all = 0.0, alongI = 0.0, alongJ = 0.0, magnitudes = 0.0;
     };
-
-    template <class T> void transformAlongX(const T *samples, int k, Complex *plane) {
-        float *const real = m_realRows.local();
-        std::fill(real, real + m_padded.i, 0.0F);
-        const auto cell = float(m_cellMm3);
-        PlaneSums sums;
-        for (int j = 0; j < m_size.j; ++j) {
-            const T *const in =
-                samples + m_lattice.offsetOf(m_box.lo.i, j + m_box.lo.j, k + m_box.lo.k);
-            sums.magnitudes += double(placeRow(in, cell * m_hz[k] * m_hy[j], real));
-            addRow(in, j, sums);
-            Complex *const row = plane + std::size_t(j) * m_rowCells;
-            m_alongX.run(real, row);
-            std::fill(row + m_padded.i / 2 + 1, row + m_rowCells, Complex());
-        }
-        m_planeSums[std::size_t(k)] = sums;
-    }
 
     // Returns the sum of the magnitudes.
     template <class T> float placeRow(const T *in, float factor, float *real) const {
@@ -166,180 +152,194 @@ private:
         sums.alongJ += sum * (j - m_size.j / 2);
     }
 
-    void transformAlongY(const Complex *plane, int k) {
-        float *const placed = m_strips.local();
-        float *const column = placed + std::size_t(m_size.j) * stripFloats;
-        float *const scratch = column + std::size_t(m_padded.j) * stripFloats;
-        for (int block = 0; block < m_blocks; ++block) {
-            for (int j = 0; j < m_size.j; ++j)
-                loadExchanged(plane + std::size_t(j) * m_rowCells + block * stripLanes,
-                              placed + std::size_t(j) * stripFloats);
-            placeStrips(placed, m_size.j, column, m_padded.j);
-            const float *const result = m_alongY.run(column, scratch);
-            for (int y = 0; y < m_padded.j; ++y)
-                std::memcpy(m_intermediate +
-                                ((std::size_t(y) * m_blocks + block) * m_size.k + k) * stripFloats,
-                            result + std::size_t(y) * stripFloats, stripFloats * sizeof(float));
+    void extend(const Complex *half, Complex *row) const {
+        const int last = m_padded.i / 2, halo = m_cells.halo;
+        for (int m = 1; m <= halo; ++m) {
+            row[halo - m] = std::conj(half[m]);
+            row[halo + last + m] = std::conj(half[last - m]);
+        }
+        std::copy_n(half, last + 1, row + halo);
+        std::fill(row + 2 * halo + last + 1, row + m_rowCells, Complex());
+    }
+
+    void writeStrips(const Complex *row, int k, int j) {
+        float *const strip = m_strips.local();
+        for (int column = 0; column < m_cells.columns; ++column) {
+            loadExchanged(row + std::size_t(column) * m_cells.step, strip);
+            streamLine(strip, m_slabs.of(column) + (std::size_t(k) * m_size.j + j) * stripFloats,
+                       stripFloats * sizeof(float));
         }
     }
 
     GridSize m_lattice;
     volume::VoxelBox m_box;
     GridSize m_size, m_padded;
-    float *m_intermediate;
+    const CellLayout &m_cells;
+    const ColumnSlabs &m_slabs;
     double m_cellMm3;
-    int m_blocks; ///< blocks of 16 x
     std::size_t m_rowCells;
     std::vector<float> m_hx, m_hy, m_hz;
     ForwardTransform1d m_alongX;
-    StripTransform m_alongY;
     std::vector<PlaneSums> m_planeSums;
     Scratch<float> m_realRows;
-    Scratch<Complex> m_planes;
+    Scratch<Complex> m_halves, m_rows;
     Scratch<float> m_strips;
 };
 
-// The transform along z of the rows y and -y, which contain each other's cells beyond the half, and
-// their lines in the final layout.
-template <class Cell> class RowPair {
+// Transforms x columns along y, then along z, and stores their cells; rows and planes of padding
+// are skipped. All threads work on one column, so that its result of the first step is the only one
+// in memory.
+template <class Cell> class ColumnTransform {
 public:
-    RowPair(const SpectrumLayout &layout, const CellLayout &cells, const float *intermediate,
-            const CellOutput &out)
-        : m_layout(layout), m_cells(cells), m_transform(layout.padded.k),
-          m_intermediate(intermediate), m_out(out),
-          m_rowCells(std::size_t(cells.step) * (cells.columns - 1) + 2 * CellLayout::columnCells +
-                     std::size_t(cells.halo)),
-          m_strips(2 * std::size_t(layout.padded.k) * stripFloats),
-          m_rows(2 * std::size_t(layout.padded.k) * m_rowCells) {}
+    ColumnTransform(const SpectrumLayout &layout, const CellLayout &cells, const CellOutput &out)
+        : m_size(layout.box.size()), m_padded(layout.padded), m_cells(cells), m_out(out),
+          m_alongY(layout.padded.j), m_alongZ(layout.padded.k),
+          m_planes(system::allocatePages(planeBytes(layout), task::because::aTransform)),
+          m_strips(2 * std::size_t(std::max(m_padded.j, m_padded.k)) * stripFloats),
+          m_lines(std::size_t(rowsTogether) * m_padded.k * CellLayout::columnCells) {}
 
-    void run(int y) {
-        const GridSize padded = m_layout.padded;
-        const int mirrored = (padded.j - y) % padded.j;
-        Cell *const first = m_rows.local();
-        Cell *const second = mirrored == y ? first : first + std::size_t(padded.k) * m_rowCells;
-        transformRow(y, first);
-        if (second != first)
-            transformRow(mirrored, second);
-        addHalo(first, second);
-        if (second != first)
-            addHalo(second, first);
-        writeLines(y, first);
-        if (second != first)
-            writeLines(mirrored, second);
+    // `slab`: [k][j][strip]; after that, it is no longer needed.
+    void alongY(const float *slab, const task::Progress &progress) {
+        tbb::parallel_for(0, m_size.k, [&](int k) {
+            progress.check();
+            float *const strips = m_strips.local();
+            placeStrips(slab + std::size_t(k) * m_size.j * stripFloats, m_size.j, strips,
+                        m_padded.j);
+            const float *const result =
+                m_alongY.run(strips, strips + std::size_t(m_padded.j) * stripFloats);
+            for (int y = 0; y < m_padded.j; ++y)
+                streamLine(result + std::size_t(y) * stripFloats, planes(y, k),
+                           stripFloats * sizeof(float));
+            finishStreaming();
+        });
+    }
+
+    void alongZ(int column, const task::Progress &progress) {
+        tbb::parallel_for(0, (m_padded.j + rowsTogether - 1) / rowsTogether, [&](int group) {
+            progress.check();
+            Cell *const lines = m_lines.local();
+            const int first = group * rowsTogether,
+                      count = std::min(rowsTogether, m_padded.j - first);
+            for (int y = first; y < first + count; ++y)
+                transformRow(column, y, lines + std::size_t(y - first) * rowCells());
+            writeLines(column, first, count, lines);
+        });
     }
 
 private:
-    void transformRow(int y, Cell *rows) {
-        const int depth = m_layout.box.size().k, padded = m_layout.padded.k;
+    // Their lines are neighbours: see CellLayout.
+    static constexpr int rowsTogether = 4;
+
+    float *planes(int y, int k) const {
+        return reinterpret_cast<float *>(m_planes.get()) +
+               (std::size_t(y) * m_size.k + k) * stripFloats;
+    }
+    std::size_t rowCells() const { return std::size_t(m_padded.k) * CellLayout::columnCells; }
+
+    // `lines`: [z][16 cells].
+    void transformRow(int column, int y, Cell *lines) {
         float *const strips = m_strips.local();
-        float *const scratch = strips + std::size_t(padded) * stripFloats;
-        const int blocks = blocksOf(m_layout.padded);
-        for (int block = 0; block < blocks; ++block) {
-            placeStrips(m_intermediate + (std::size_t(y) * blocks + block) * depth * stripFloats,
-                        depth, strips, padded);
-            const float *const result = m_transform.run(strips, scratch);
-            storeExchanged(result, padded, m_out.scale, rows + m_cells.halo + block * stripLanes,
-                           m_rowCells);
-            if (block == 0)
-                keepRounding(y, result, rows);
-        }
+        placeStrips(planes(y, 0), m_size.k, strips, m_padded.k);
+        const float *const result =
+            m_alongZ.run(strips, strips + std::size_t(m_padded.k) * stripFloats);
+        storeExchanged(result, m_padded.k, m_out.scale, lines, CellLayout::columnCells);
+        if (column == 0)
+            keepRounding(y, result, lines);
     }
 
     // Each row has its own range of the output.
-    void keepRounding(int y, const float *exact, const Cell *rows) const {
+    void keepRounding(int y, const float *exact, const Cell *lines) const {
         constexpr int reach = Spectrum::roundingReach, side = 2 * reach + 1;
-        const int q = y <= m_layout.padded.j / 2 ? y : y - m_layout.padded.j;
+        const int q = y <= m_padded.j / 2 ? y : y - m_padded.j;
         if (m_out.rounding == nullptr || std::abs(q) > reach)
             return;
         for (int r = -reach; r <= reach; ++r) {
-            const int z = modulo(r, m_layout.padded.k);
+            const auto z = std::size_t(modulo(r, m_padded.k));
             for (int p = 0; p <= reach; ++p) {
-                const float *const cell = exact + std::size_t(z) * stripFloats + p;
+                const int lane = p - m_cells.firstX;
+                const float *const cell = exact + z * stripFloats + lane;
                 const std::complex<float> stored =
-                    asComplex(rows[std::size_t(z) * m_rowCells + m_cells.halo + p]);
-                // Real and imaginary parts are swapped.
+                    asComplex(lines[z * CellLayout::columnCells + std::size_t(lane)]);
+                // Real and imaginary parts are exchanged.
                 m_out.rounding[((q + reach) * side + r + reach) * (reach + 1) + p] =
                     stored - m_out.scale * std::complex<float>(cell[stripLanes], cell[0]);
             }
         }
     }
 
-    // F(-s) = conj F(s) gives the cells to the left and right of the half.
-    void addHalo(Cell *rows, const Cell *mirrored) const {
-        const int half = m_layout.padded.i / 2, depth = m_layout.padded.k, halo = m_cells.halo;
-        for (int z = 0; z < depth; ++z) {
-            Cell *const row = rows + std::size_t(z) * m_rowCells + halo;
-            const Cell *const other =
-                mirrored + std::size_t((depth - z) % depth) * m_rowCells + halo;
-            for (int m = 1; m <= halo; ++m) {
-                row[-m] = conjugate(other[m]);
-                row[half + m] = conjugate(other[half - m]);
-            }
-            std::fill(row + half + halo + 1, row - halo + m_rowCells, Cell());
-        }
-    }
-
-    void writeLines(int y, const Cell *rows) const {
+    void writeLines(int column, int first, int count, const Cell *lines) const {
         constexpr std::size_t lineBytes = CellLayout::columnCells * sizeof(Cell);
-        for (int row = modulo(y - m_cells.firstY, m_layout.padded.j); row < m_cells.rows;
-             row += m_layout.padded.j)
-            for (int column = 0; column < m_cells.columns; ++column)
-                for (int plane = 0; plane < m_cells.planes; ++plane) {
-                    const int z = modulo(plane + m_cells.firstZ, m_layout.padded.k);
-                    const std::size_t line = m_cells.line(column, plane, row);
-                    streamLine(rows + std::size_t(z) * m_rowCells +
-                                   std::size_t(column) * m_cells.step,
-                               m_out.cells + line * lineBytes, lineBytes);
-                }
+        constexpr int together = CellLayout::planesTogether;
+        for (int group = 0; group < m_cells.planes; group += together)
+            for (int y = first; y < first + count; ++y)
+                for (int row = modulo(y - m_cells.firstY, m_padded.j); row < m_cells.rows;
+                     row += m_padded.j)
+                    for (int plane = group; plane < group + together; ++plane) {
+                        const int z = modulo(plane + m_cells.firstZ, m_padded.k);
+                        streamLine(lines + std::size_t(y - first) * rowCells() +
+                                       std::size_t(z) * CellLayout::columnCells,
+                                   m_out.cells + m_cells.line(column, plane, row) * lineBytes,
+                                   lineBytes);
+                    }
         finishStreaming();
     }
 
-    const SpectrumLayout &m_layout;
+    GridSize m_size, m_padded;
     const CellLayout &m_cells;
-    StripTransform m_transform;
-    const float *m_intermediate;
     CellOutput m_out;
-    std::size_t m_rowCells;
+    StripTransform m_alongY, m_alongZ;
+    std::shared_ptr<std::byte[]> m_planes; ///< of a column: [y][k][strip]
     Scratch<float> m_strips;
-    Scratch<Cell> m_rows;
+    Scratch<Cell> m_lines;
 };
 
 template <class Cell>
-void transformAllRows(const SpectrumLayout &layout, const CellLayout &cells,
-                      const float *intermediate, const CellOutput &out,
-                      const task::Progress &progress) {
-    RowPair<Cell> rowPair(layout, cells, intermediate, out);
-    tbb::parallel_for(0, layout.padded.j / 2 + 1, [&](int y) {
-        progress.check();
-        rowPair.run(y);
-    });
+void transformAllColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnSlabs &slabs,
+                         const CellOutput &out, const task::Progress &progress) {
+    ColumnTransform<Cell> transform(layout, cells, out);
+    for (int column = 0; column < cells.columns; ++column) {
+        transform.alongY(slabs.of(column), progress);
+        slabs.release(column);
+        transform.alongZ(column, progress);
+        progress.report(double(column + 1) / cells.columns);
+    }
 }
 
 } // namespace
 
-std::size_t intermediateBytes(const SpectrumLayout &layout) {
-    return std::size_t(layout.padded.j) * blocksOf(layout.padded) * layout.box.size().k *
-           stripFloats * sizeof(float);
+ColumnSlabs::ColumnSlabs(const SpectrumLayout &layout, const CellLayout &cells) {
+    for (int column = 0; column < cells.columns; ++column)
+        m_slabs.push_back(system::allocatePages(bytes(layout), task::because::aTransform));
 }
 
-FieldSums transformPlanes(const volume::Volume &field, const SpectrumLayout &layout,
-                          float *intermediate, const task::Progress &progress) {
-    PlaneTransform planes(field.lattice(), layout, intermediate);
+std::size_t ColumnSlabs::bytes(const SpectrumLayout &layout) {
+    const GridSize size = layout.box.size();
+    return std::size_t(size.k) * size.j * stripFloats * sizeof(float);
+}
+
+std::size_t planeBytes(const SpectrumLayout &layout) {
+    return std::size_t(layout.padded.j) * layout.box.size().k * stripFloats * sizeof(float);
+}
+
+FieldSums transformRows(const volume::Volume &field, const SpectrumLayout &layout,
+                        const CellLayout &cells, const ColumnSlabs &slabs,
+                        const task::Progress &progress) {
+    RowTransform rows(field.lattice(), layout, cells, slabs);
     field.visit([&](auto samples) {
         tbb::parallel_for(0, layout.box.size().k, [&](int k) {
             progress.check();
-            planes.run(samples.data(), k);
+            rows.run(samples.data(), k);
         });
     });
-    return planes.sums();
+    return rows.sums();
 }
 
-void transformRows(const SpectrumLayout &layout, const CellLayout &cells, const float *intermediate,
-                   const CellOutput &out, const task::Progress &progress) {
+void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnSlabs &slabs,
+                      const CellOutput &out, const task::Progress &progress) {
     if (layout.storage == Storage::binary16)
-        transformAllRows<std::uint32_t>(layout, cells, intermediate, out, progress);
+        transformAllColumns<std::uint32_t>(layout, cells, slabs, out, progress);
     else
-        transformAllRows<Complex>(layout, cells, intermediate, out, progress);
+        transformAllColumns<Complex>(layout, cells, slabs, out, progress);
 }
 
 } // namespace pellucid::fourier

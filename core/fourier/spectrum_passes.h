@@ -4,18 +4,34 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <memory>
+#include <vector>
 
 #include "core/fourier/spectrum.h"
 
 namespace pellucid::fourier {
 
-// A spectrum is prepared in two passes: planes of the field along x and y, then rows of the result
-// along z.
+// A spectrum is prepared in two passes: rows of the field along x, then columns of the result along
+// y and z. A column is what a CellLayout calls one: it is stored when it is finished, and its part
+// of the intermediate result is released, so that little more than one of the two is in memory.
 
-/// The size of the intermediate result of the first pass: [y][block of 16 x][k][strip], so that the
-/// transform along z reads one contiguous run. It contains planes of the field only: the padding
-/// along z is zero.
-std::size_t intermediateBytes(const SpectrumLayout &layout);
+/// The result of the first pass, by column: [k][j][strip] of the field's own rows.
+class ColumnSlabs {
+public:
+    /// *Throws* Error{outOfMemory}.
+    ColumnSlabs(const SpectrumLayout &layout, const CellLayout &cells);
+    float *of(int column) const {
+        return reinterpret_cast<float *>(m_slabs[std::size_t(column)].get());
+    }
+    void release(int column) { m_slabs[std::size_t(column)].reset(); }
+    static std::size_t bytes(const SpectrumLayout &layout); ///< of a column
+
+private:
+    std::vector<std::shared_ptr<std::byte[]>> m_slabs;
+};
+
+/// The size of a column between its transforms along y and along z.
+std::size_t planeBytes(const SpectrumLayout &layout);
 
 /// Sums that are computed while a field is transformed.
 struct FieldSums {
@@ -24,10 +40,10 @@ struct FieldSums {
     double magnitudes = 0.0;         ///< of the transformed samples: an upper bound on every cell
 };
 
-/// The first pass. *Shape*: the field is float32; `intermediate`: see `intermediateBytes`.
-/// *Throws* Error{outOfMemory}, Cancelled.
-FieldSums transformPlanes(const volume::Volume &field, const SpectrumLayout &layout,
-                          float *intermediate, const task::Progress &progress);
+/// The first pass. *Throws* Error{outOfMemory}, Cancelled.
+FieldSums transformRows(const volume::Volume &field, const SpectrumLayout &layout,
+                        const CellLayout &cells, const ColumnSlabs &slabs,
+                        const task::Progress &progress);
 
 /// The output of the second pass.
 struct CellOutput {
@@ -38,7 +54,7 @@ struct CellOutput {
 };
 
 /// The second pass. *Throws* Error{outOfMemory}, Cancelled.
-void transformRows(const SpectrumLayout &layout, const CellLayout &cells, const float *intermediate,
-                   const CellOutput &out, const task::Progress &progress);
+void transformColumns(const SpectrumLayout &layout, const CellLayout &cells, ColumnSlabs &slabs,
+                      const CellOutput &out, const task::Progress &progress);
 
 } // namespace pellucid::fourier

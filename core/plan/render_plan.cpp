@@ -86,10 +86,9 @@ task::Reason reasonFor(const RenderPlan &plan, const scene::Scene &scene, bool o
 // The search for the best plan: kernels, storages, paddings and slice grids, each tried in turn.
 class Planner {
 public:
-    // `limit`: the error that a plan may predict.
-    Planner(const scene::Scene &scene, double limit, std::span<const FieldSummary> fields,
+    Planner(const scene::Scene &scene, std::span<const FieldSummary> fields,
             const Composition &composition, const Budget &budget)
-        : m_scene(scene), m_limit(limit), m_fields(fields), m_composition(composition),
+        : m_scene(scene), m_limit(scene.tolerance), m_fields(fields), m_composition(composition),
           m_added(std::sqrt(composition.together)), m_budget(budget),
           m_kernels(
               choices<fourier::KernelChoice>(scene.interpolation.kernel, {{leastAliasing, 3},
@@ -109,24 +108,38 @@ public:
     RenderPlan plan() {
         // The first pass skips kernels that no padding makes good enough, because making a kernel
         // takes milliseconds.
-        for (const bool thorough : {false, true}) {
-            if (thorough && !std::isinf(m_bestTime))
-                break;
-            for (const auto storage : m_storages)
-                for (const auto &choice : m_kernels)
-                    if (mayBeFaster(choice, storage) && (thorough || !isHopeless(choice, storage)))
-                        considerPaddings(choice, storage);
-        }
+        search(false);
+        if (std::isinf(m_bestTime))
+            search(true);
         requirePlan();
-        m_best->filterError = cardFilterError(m_best->spectrum);
-        m_best->reason = reasonFor(*m_best, m_scene, m_isOverBudget);
-        return *m_best;
+        return finished();
     }
 
-    // Of the plan, as `frameTime`; infinite if it misses the limit.
-    double time() const { return m_bestTime; }
+    // The fastest plan of the same storage that predicts at most `limit`, if it takes less than
+    // `price` times the time of the last one. The candidates are those of all plans.
+    std::optional<RenderPlan> stricter(double limit, double price) {
+        m_limit = limit;
+        m_storages = {m_best->spectrum.storage};
+        m_bestTime *= price;
+        m_best.reset();
+        search(false);
+        return m_best ? std::optional(finished()) : std::nullopt;
+    }
 
 private:
+    void search(bool thorough) {
+        for (const auto storage : m_storages)
+            for (const auto &choice : m_kernels)
+                if (mayBeFaster(choice, storage) && (thorough || !isHopeless(choice, storage)))
+                    considerPaddings(choice, storage);
+    }
+    RenderPlan finished() const {
+        RenderPlan plan = *m_best;
+        plan.filterError = cardFilterError(plan.spectrum);
+        plan.reason = reasonFor(plan, m_scene, m_isOverBudget);
+        return plan;
+    }
+
     static constexpr auto leastAliasing = fourier::KernelFamily::leastAliasing;
     using Levels = std::array<std::size_t, 3>; // of padding, per axis
 
@@ -303,7 +316,7 @@ private:
     }
 
     const scene::Scene &m_scene;
-    double m_limit;
+    double m_limit; ///< the error that a plan may predict
     std::span<const FieldSummary> m_fields; ///< on one lattice, in one box
     Composition m_composition;
     double m_added; ///< the error of the picture over that of the worst field
@@ -346,7 +359,7 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field, cons
 RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> fields,
                       const Composition &composition, const Budget &budget) {
     scene::validate(scene);
-    Planner planner(scene, scene.tolerance, fields, composition, budget);
+    Planner planner(scene, fields, composition, budget);
     RenderPlan plan = planner.plan();
     // A stricter limit leaves error for narrower kernels. More padding or a wider kernel is a fair
     // price for that where they read most frequencies, in smooth fields.
@@ -354,14 +367,8 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
     const double limit = share * scene.tolerance,
                  price = 1.1 + 0.9 * std::max(0.0, 1.0 - 3.0 * roughnessOf(fields));
     if (mayAdapt(scene) && plan.predictedError <= scene.tolerance && plan.predictedError > limit) {
-        scene::Scene alike = scene;
-        alike.interpolation.storage = plan.spectrum.storage;
-        Planner stricter(alike, limit, fields, composition, budget);
-        RenderPlan other = stricter.plan();
-        if (stricter.time() < price * planner.time()) {
-            other.reason = plan.reason; // not that of a kernel that the user chose
-            return other;
-        }
+        if (auto stricter = planner.stricter(limit, price))
+            return std::move(*stricter);
     }
     return plan;
 }

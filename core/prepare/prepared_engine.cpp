@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/classify/coarse_field.h"
 #include "core/task/error.h"
@@ -120,21 +121,20 @@ std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineS
                                                         plan.adaptiveError);
 }
 
-std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
-                                              const plan::RenderPlan &plan,
+std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan::RenderPlan &plan,
                                               const task::Progress &progress) {
     render::EngineSpectra spectra{{}, {}, channels.scale};
     const double count = double(channels.fields.size() + channels.gradients.size());
     double done = 0.0;
-    const auto prepare = [&](const classify::DensityField &field) {
+    const auto prepare = [&](classify::DensityField &field) {
         const task::Progress part = progress.part(done / count, (done + 1.0) / count);
         done += 1.0;
-        return std::make_shared<const fourier::Spectrum>(
-            fourier::Spectrum::prepare(field.values, plan.spectrum, part));
+        return std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
+            std::exchange(field.values, {}), plan.spectrum, part));
     };
-    for (const classify::DensityField &field : channels.fields)
+    for (classify::DensityField &field : channels.fields)
         spectra.fields.push_back(prepare(field));
-    for (const classify::DensityField &gradient : channels.gradients)
+    for (classify::DensityField &gradient : channels.gradients)
         spectra.gradients.push_back(prepare(gradient));
     auto widths = adaptiveWidths(spectra, plan, progress);
     auto engine = std::make_shared<render::CpuEngine>(std::move(spectra), plan.fieldOfView);
@@ -148,7 +148,7 @@ std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
     return engine;
 }
 
-PreparedEngine prepareEngine(const scene::Scene &scene, const ShadedFields &fields,
+PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
                              const plan::Budget &budget,
                              const task::Progress &progress) {
     const auto summaries = summarise(fields, scene.shading.cue);
@@ -156,11 +156,13 @@ PreparedEngine prepareEngine(const scene::Scene &scene, const ShadedFields &fiel
     std::shared_ptr<const accuracy::ViewErrorModel> viewError;
     if (!fitting.reduced)
         viewError = std::make_shared<const accuracy::ViewErrorModel>(fitting.plan, summaries);
-    auto engine = makeEngine(fitting.reduced ? *fitting.reduced : fields, fitting.plan, progress);
-    const std::size_t bytes = engine->bytes();
-    const bool canBeLit = engine->canBeLit();
     const plan::SpectrumOf of =
         fields.fields.size() > 1 ? plan::SpectrumOf::color : plan::SpectrumOf::look;
+    if (fitting.reduced)
+        fields = std::move(*fitting.reduced);
+    auto engine = makeEngine(std::move(fields), fitting.plan, progress);
+    const std::size_t bytes = engine->bytes();
+    const bool canBeLit = engine->canBeLit();
     return {std::move(engine),
             std::move(fitting.plan),
             bytes,
@@ -175,11 +177,11 @@ PreparedEngine prepareEngine(const scene::Scene &scene, const classify::ShownFie
                              const plan::Budget &budget, const task::Progress &progress,
                              const std::optional<shading::ShadingScale> &scale) {
     const volume::Lattice &lattice = fields.channels.front().values.lattice();
-    const ShadedFields shaded =
+    ShadedFields shaded =
         shadedFields(fields, scene.shading, scale.value_or(shading::shadingScale(lattice)),
                      progress.part(0.0, 0.1));
     const std::size_t light = bytesForLight(scene.shading, lattice.size(), fields.channels.size());
-    return prepareEngine(scene, shaded, {budget.bytes > light ? budget.bytes - light : 0},
+    return prepareEngine(scene, std::move(shaded), {budget.bytes > light ? budget.bytes - light : 0},
                          progress.part(0.1, 1.0));
 }
 

@@ -58,13 +58,13 @@ std::shared_ptr<const plan::AdaptiveWidths> adaptiveWidths(const render::EngineS
                                                            const task::Progress &progress = {});
 
 /// Makes an engine for the channels of a look from spectra that were prepared by one plan and share
-/// a layout.
-std::shared_ptr<render::CpuEngine> makeEngine(const ShadedFields &channels,
-                                              const plan::RenderPlan &plan,
+/// a layout. Each field is released as soon as its samples are transformed.
+std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan::RenderPlan &plan,
                                               const task::Progress &progress = {});
 
-/// Plans within the budget and prepares the spectra. *Throws* Error{outOfMemory}, Cancelled.
-PreparedEngine prepareEngine(const scene::Scene &scene, const ShadedFields &fields,
+/// Plans within the budget and prepares the spectra; the fields are released as by `makeEngine`.
+/// *Throws* Error{outOfMemory}, Cancelled.
+PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
                              const plan::Budget &budget,
                              const task::Progress &progress = {});
 /// First computes what the scene's light needs. `scale`: that of the volume, if the fields come

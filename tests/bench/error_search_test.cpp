@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/bench/error_search.h"
+#include "app/bench/error_sweep.h"
 #include "core/phantom/phantom.h"
 #include "core/plan/render_plan.h"
 #include "core/reference/wide_kernel.h"
@@ -48,6 +49,18 @@ TEST(ErrorSearch, TheErrorOfAFreshPictureIsCloseToWhatIsMeasured) {
     const auto factors = bench::picturePredictionFactors(10, seed);
     EXPECT_GE(factors.front().factor, 1.0) << "seed " << seed << ", " << factors.front().name;
     EXPECT_LE(factors[factors.size() / 2].factor, 5.5) << "seed " << seed;
+}
+
+// Five kinds of field; the bench takes 200 fields.
+TEST(ErrorSweep, EveryToleranceIsKeptAndNoErrorIsHigherThanStated) {
+    const std::uint64_t seed = test::freshSeed();
+    int pictures = 0;
+    bench::sweep(5, seed, [&](const bench::SweptPicture &picture) {
+        ++pictures;
+        EXPECT_LE(picture.measured, picture.stated) << "seed " << seed << ", " << picture.name;
+        EXPECT_LE(picture.measured, picture.planned) << "seed " << seed << ", " << picture.name;
+    });
+    EXPECT_EQ(pictures, 5 * 5 * 6);
 }
 
 scene::Scene sceneFor(const volume::Lattice &lattice, const glm::dquat &view, double tolerance) {

@@ -64,8 +64,11 @@ TEST_F(Cli, ClassesAndTransferFunctionsAgainstTheExactReference) {
         for (std::size_t n = 0; n < fields.channels.size(); ++n) {
             const auto &field = fields.channels[n];
             const auto plane = reference::WideKernel(field.values, field.support).image(camera, {});
+            const classify::Color &color = fields.colors[n];
+            const std::array<double, 3> parts{color.red, color.green, color.blue};
             for (std::size_t p = 0; p < plane.size(); ++p)
-                truth[p * std::size_t(channels) + n] = plane[p];
+                for (std::size_t c = 0; c < std::size_t(channels); ++c)
+                    truth[p * std::size_t(channels) + c] += parts[c] * plane[p];
         }
         const double error = test::relativeL2(image, truth);
         EXPECT_LE(error, 1.1e-3) << c.options;

@@ -62,13 +62,14 @@ public:
         requireMemory();
         if (first == Detail::coarse && isLarge(m_source.volume))
             makeCoarse();
-        const auto fields = fieldsOf(m_source.volume, m_progress.part(0.1, 0.3));
+        auto fields = fieldsOf(m_source.volume, m_progress.part(0.1, 0.3));
         const plan::Budget budget = budgetFor(fields);
-        const auto shaded = prepare::shadedFields(fields, m_scene.shading, m_scale,
-                                                  m_progress.part(0.3, 0.35));
+        auto shaded = prepare::shadedFields(std::move(fields), m_scene.shading, m_scale,
+                                            m_progress.part(0.3, 0.35));
         if (m_coarse)
             addErrorOfCoarse(shaded);
-        m_take(prepare::prepareEngine(m_scene, shaded, budget, m_progress.part(0.35, 1.0)),
+        m_take(prepare::prepareEngine(m_scene, std::move(shaded), budget,
+                                      m_progress.part(0.35, 1.0)),
                Detail::full);
     }
 
