@@ -17,9 +17,9 @@ struct SweptPicture {
     double measured = 0.0; ///< against the exact picture
 };
 
-/// Pictures of random fields, one kind after the other, each at five tolerances from 1e-2 to 1e-4 in six views:
-/// the worst that is known of its kind, two along axes, and three random ones. `each`: called for
-/// every picture.
+/// Pictures of random fields, one kind after the other, each at five tolerances from 1e-2 to 1e-4
+/// in six views: the worst that is known of its kind, two along axes, and three random ones.
+/// `each`: called for every picture.
 void sweep(int fields, std::uint64_t seed, const std::function<void(const SweptPicture &)> &each);
 
 } // namespace pellucid::bench

@@ -105,9 +105,8 @@ private:
         Stopwatch watch;
         m_window = windowFor(m_scene, volume());
         const std::size_t samples = volume().lattice().size().count();
-        const std::size_t forLight =
-            prepare::bytesForLight(m_scene.shading, volume().lattice().size(),
-                                   classify::channelsOf(m_scene.look));
+        const std::size_t forLight = prepare::bytesForLight(
+            m_scene.shading, volume().lattice().size(), classify::channelsOf(m_scene.look));
         m_held = volume().bytes() + classify::peakBytes(m_scene.look, samples) + forLight +
                  (m_scene.crop.isWhole() ? 0 : samples * sizeof(float));
         if (isMemoryGiven() && m_options.memory < m_held)
@@ -117,6 +116,7 @@ private:
                                              (m_held >> 20) + 1, m_options.memory >> 20)),
                 m_options.input.path);
         m_fields = fieldsFor(m_scene, volume(), m_context);
+        m_whyEmpty = whyEmpty(m_scene, volume(), m_fields);
         // If the program asked for more than is available, the system would kill it.
         m_budget.bytes = system::availableMemoryBytes();
         m_budget.bytes -= std::min(m_budget.bytes, forLight); // not allocated yet
@@ -129,7 +129,10 @@ private:
         Stopwatch watch;
         try {
             m_renderer.reset();
-            m_renderer.emplace(m_planned, m_fields, m_budget, m_context);
+            if (m_fields.channels.empty()) // this is not the first plan
+                m_fields = fieldsFor(m_scene, volume(), m_context);
+            m_renderer.emplace(m_planned, std::move(m_fields), m_budget, m_context);
+            m_fields = {};
             m_renderer->use(m_card);
         } catch (const Error &error) {
             if (error.code() != ErrorCode::outOfMemory || !isMemoryGiven())
@@ -148,8 +151,8 @@ private:
             warn(m_renderer->reason());
         for (const std::string &text : lookWarnings(m_command, m_preset, m_scene, volume()))
             warn(text);
-        if (const std::string why = whyEmpty(m_scene, volume(), m_fields); !why.empty())
-            warn(why);
+        if (!m_whyEmpty.empty())
+            warn(m_whyEmpty);
         // `reference` selects the exact method; its nominal tolerance is no target.
         if (m_renderer->predictedError() > m_scene.tolerance &&
             !(m_renderer->isExact() && m_scene.tolerance == scene::referenceTolerance))
@@ -276,8 +279,9 @@ private:
     scene::Scene m_scene;
     scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one
     classify::FieldWindow m_window;
-    std::size_t m_held = 0; ///< bytes of the volume, its fields and their preparation
-    classify::ShownFields m_fields;
+    std::size_t m_held = 0;         ///< bytes of the volume, its fields and their preparation
+    classify::ShownFields m_fields; ///< until the renderer takes them
+    std::string m_whyEmpty;         ///< a warning, or empty
     plan::Budget m_budget;
     std::optional<Renderer> m_renderer; ///< refers to the planned scene and the fields
     double m_fieldMs = 0.0, m_prepareMs = 0.0, m_writeMs = 0.0;

@@ -28,13 +28,6 @@ task::Error cardRefused(const task::Error &error) {
             task::because::inWords("--engine gpu: " + error.reason().english())};
 }
 
-prepare::ShadedFields shadedFor(const scene::Scene &scene, const classify::ShownFields &fields,
-                                const task::Progress &progress) {
-    return prepare::shadedFields(fields, scene.shading,
-                                 shading::shadingScale(fields.channels.front().values.lattice()),
-                                 progress);
-}
-
 // The error of the exact reference: rounding (about 1e-10 in double precision, or that of a shaded
 // field's float samples) and the tails of the roll-off that fold back from its period.
 double exactError(const scene::Scene &scene, const std::vector<plan::FieldSummary> &summaries) {
@@ -76,57 +69,62 @@ CardChoice chooseCard(const std::string &engine, int frames) {
     return choice;
 }
 
-Renderer::Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
+Renderer::Renderer(const scene::Scene &scene, classify::ShownFields &&fields,
                    const plan::Budget &budget, const Context &context)
-    : Renderer(scene, fields, shadedFor(scene, fields, task::Progress(context.stop)), budget,
+    : Renderer(scene, sourcesOf(scene, std::move(fields), task::Progress(context.stop)), budget,
                context) {}
 
-Renderer::Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
-                   const prepare::ShadedFields &shaded, const plan::Budget &budget,
+Renderer::Renderer(const scene::Scene &scene, Sources sources, const plan::Budget &budget,
                    const Context &context)
-    : Renderer(scene, fields, shaded, prepare::summarise(shaded, scene.shading.cue), budget,
-               context) {}
-
-Renderer::Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
-                   const prepare::ShadedFields &shaded,
-                   const std::vector<plan::FieldSummary> &summaries, const plan::Budget &budget,
-                   const Context &context)
-    : m_scene(scene), m_fields(fields), m_progress(context.stop),
-      m_images(
-          std::size_t(prepare::compositionOf(fields.channels.size(), scene.shading).images)),
-      m_fitting(
-          prepare::planWithin(scene::planningScene(scene, shaded.fields.front().values.lattice()),
-                              shaded, summaries, budget, m_progress)),
-      m_lattice(shaded.fields.front().values.lattice()) {
-    const std::size_t exactBytes = reference::ExactEngine::bytes(
-        m_lattice, summaries.front().support, m_images, scene.camera, scene.image, scene.shading);
+    : m_scene(scene), m_progress(context.stop),
+      m_images(std::size_t(
+          prepare::compositionOf(sources.fields.channels.size(), scene.shading).images)),
+      m_fitting(prepare::planWithin(
+          scene::planningScene(scene, sources.shaded.fields.front().values.lattice()),
+          sources.shaded, sources.summaries, budget, m_progress)),
+      m_lattice(sources.shaded.fields.front().values.lattice()) {
+    const std::size_t exactBytes =
+        reference::ExactEngine::bytes(m_lattice, sources.summaries.front().support, m_images,
+                                      scene.camera, scene.image, scene.shading);
     const bool isMet = m_fitting.plan.predictedError <= scene.tolerance;
     const bool mustPlan = scene.interpolation != scene::Interpolation() ||
                           scene.plannedFor == scene::PlannedFor::volume || m_fitting.reduction > 1;
     if (isMet || mustPlan || exactBytes > budget.bytes)
-        preparePlanned(shaded, summaries);
+        preparePlanned(std::move(sources));
     else
-        prepareExact(summaries, exactBytes);
+        prepareExact(std::move(sources), exactBytes);
 }
 
-void Renderer::preparePlanned(const prepare::ShadedFields &shaded,
-                              const std::vector<plan::FieldSummary> &summaries) {
+Renderer::Sources Renderer::sourcesOf(const scene::Scene &scene, classify::ShownFields fields,
+                                      const task::Progress &progress) {
+    auto shaded = prepare::shadedFields(
+        fields, scene.shading, shading::shadingScale(fields.channels.front().values.lattice()),
+        progress);
+    auto summaries = prepare::summarise(shaded, scene.shading.cue);
+    return {std::move(fields), std::move(shaded), std::move(summaries)};
+}
+
+void Renderer::preparePlanned(Sources sources) {
+    sources.fields = {};
     const plan::RenderPlan &plan = m_fitting.plan;
-    const prepare::ShadedFields &sources = m_fitting.reduced ? *m_fitting.reduced : shaded;
-    m_lattice = sources.fields.front().values.lattice();
-    m_planned = prepare::makeEngine(sources, plan, m_progress);
+    if (m_fitting.reduced) {
+        sources.shaded = std::move(*m_fitting.reduced);
+        m_fitting.reduced.reset();
+    }
+    m_lattice = sources.shaded.fields.front().values.lattice();
+    m_planned = prepare::makeEngine(std::move(sources.shaded), plan, m_progress);
     m_engine = m_planned;
     if (m_fitting.reduction == 1) // otherwise every view loses detail
-        m_viewModel.emplace(plan, summaries);
-    m_fitting.reduced.reset();
+        m_viewModel.emplace(plan, sources.summaries);
     m_bytes = plan.bytes;
     m_predictedError = plan.predictedError;
 }
 
-void Renderer::prepareExact(const std::vector<plan::FieldSummary> &summaries, std::size_t bytes) {
-    m_engine = std::make_shared<reference::ExactEngine>(m_fields, m_scene.shading, m_progress);
+void Renderer::prepareExact(Sources sources, std::size_t bytes) {
+    m_engine = std::make_shared<reference::ExactEngine>(std::move(sources.fields), m_scene.shading,
+                                                        m_progress);
     m_bytes = bytes;
-    m_predictedError = exactError(m_scene, summaries);
+    m_predictedError = exactError(m_scene, sources.summaries);
 }
 
 void Renderer::use(const CardChoice &card) {

@@ -33,9 +33,10 @@ CardChoice chooseCard(const std::string &engine, int frames);
 /// or the plan is for the whole volume.
 class Renderer {
 public:
-    /// The scene and the fields must outlive it. *Throws* Error{outOfMemory}, Cancelled.
-    Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
-             const plan::Budget &budget, const Context &context);
+    /// The scene must outlive it. The fields are released as soon as they are transformed. *Throws*
+    /// Error{outOfMemory}, Cancelled.
+    Renderer(const scene::Scene &scene, classify::ShownFields &&fields, const plan::Budget &budget,
+             const Context &context);
 
     /// Makes the images on the card from now on. *Throws* Error{noSuchDevice}, Error{outOfMemory}
     /// with the reason if the user requires the card and it cannot be used.
@@ -75,21 +76,23 @@ public:
     std::optional<double> predictedMaximum() const;
 
 private:
-    Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
-             const prepare::ShadedFields &shaded, const plan::Budget &budget,
+    // The fields, and what is made from them for cue and light.
+    struct Sources {
+        classify::ShownFields fields;
+        prepare::ShadedFields shaded;
+        std::vector<plan::FieldSummary> summaries;
+    };
+    static Sources sourcesOf(const scene::Scene &scene, classify::ShownFields fields,
+                             const task::Progress &progress);
+    Renderer(const scene::Scene &scene, Sources sources, const plan::Budget &budget,
              const Context &context);
-    Renderer(const scene::Scene &scene, const classify::ShownFields &fields,
-             const prepare::ShadedFields &shaded, const std::vector<plan::FieldSummary> &summaries,
-             const plan::Budget &budget, const Context &context);
-    void prepareExact(const std::vector<plan::FieldSummary> &summaries, std::size_t bytes);
-    void preparePlanned(const prepare::ShadedFields &shaded,
-                        const std::vector<plan::FieldSummary> &summaries);
+    void prepareExact(Sources sources, std::size_t bytes);
+    void preparePlanned(Sources sources);
     std::optional<picture::ProjectionImage> imageOfCard(const scene::Camera &camera,
                                                         picture::FrameTimes &times);
     void judge(const picture::ProjectionImage &image, const scene::Camera &camera);
 
     const scene::Scene &m_scene;
-    const classify::ShownFields &m_fields;
     task::Progress m_progress;
     std::size_t m_images, m_bytes = 0;
     prepare::FittingPlan m_fitting;

@@ -31,9 +31,8 @@ ColorBasis ofOneHue(std::span<const ColorBasis::Rgb> colors) {
     const glm::dvec3 basis = vectorOf(brightest);
     ColorBasis result{{brightest}, {}};
     for (const ColorBasis::Rgb &color : colors)
-        result.amounts.push_back({color == brightest ? 1.0
-                                                     : glm::dot(vectorOf(color), basis) /
-                                                           glm::dot(basis, basis)});
+        result.amounts.push_back(
+            {color == brightest ? 1.0 : glm::dot(vectorOf(color), basis) / glm::dot(basis, basis)});
     return result;
 }
 
@@ -59,7 +58,8 @@ ColorBasis colorBasis(std::span<const ColorBasis::Rgb> colors) {
         return std::abs(glm::dot(directionOf(color), glm::normalize(normal))) <= tolerance;
     });
     if (!isPlane)
-        return {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, {colors.begin(), colors.end()}};
+        return {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}},
+                {colors.begin(), colors.end()}};
     ColorBasis result{{*first, *second}, {}};
     for (const ColorBasis::Rgb &color : colors) {
         const glm::dvec3 c = vectorOf(color);

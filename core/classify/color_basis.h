@@ -19,8 +19,9 @@ struct ColorBasis {
 };
 
 /// Colors of one hue are mixed from the brightest. Colors in a plane through black are mixed from
-/// the two that are farthest apart, others from red, green and blue. Colors within 1e-7 of a line or
-/// plane are in it, which no single-precision picture shows. *Requires*: a color that is not black.
+/// the two that are farthest apart, others from red, green and blue. Colors within 1e-7 of a line
+/// or plane are in it, which no single-precision picture shows. *Requires*: a color that is not
+/// black.
 ColorBasis colorBasis(std::span<const ColorBasis::Rgb> colors);
 
 } // namespace pellucid::classify

@@ -105,19 +105,21 @@ ShownFields inPrimaries(ShownFields fields) {
     if (fields.channels.size() != 2)
         return fields;
     return task::orOutOfMemory(task::because::noMemoryForTheClassFields, [&] {
-        const volume::Volume &first = fields.channels[0].values, &second = fields.channels[1].values;
+        const volume::Volume &first = fields.channels[0].values,
+                             &second = fields.channels[1].values;
         const auto mixed = [&](double a, double b) {
             std::vector<float> samples(first.lattice().size().count());
             const auto mix = [&](const auto &from, const auto &with) {
-                tbb::parallel_for(
-                    tbb::blocked_range<std::size_t>(0, samples.size(), 1U << 16U),
-                    [&](const tbb::blocked_range<std::size_t> &range) {
-                        for (std::size_t n = range.begin(); n < range.end(); ++n)
-                            samples[n] = float(a * double(from[n]) + b * double(with[n]));
-                    });
+                tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 1U << 16U),
+                                  [&](const tbb::blocked_range<std::size_t> &range) {
+                                      for (std::size_t n = range.begin(); n < range.end(); ++n)
+                                          samples[n] =
+                                              float(a * double(from[n]) + b * double(with[n]));
+                                  });
             };
-            first.visit(
-                [&](const auto &from) { second.visit([&](const auto &with) { mix(from, with); }); });
+            first.visit([&](const auto &from) {
+                second.visit([&](const auto &with) { mix(from, with); });
+            });
             return fieldOf(first, std::move(samples));
         };
         const Color &a = fields.colors[0], &b = fields.colors[1];

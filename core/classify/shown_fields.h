@@ -10,11 +10,12 @@
 
 namespace pellucid::classify {
 
-inline constexpr std::array<Color, 3> primaries{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+inline constexpr std::array<Color, 3> primaries{
+    {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
 
 /// The fields whose projections make the picture of a look: as many as its colors have rank, each
-/// times a color. Projection is linear: the sum of the fields is projected once, whatever the number
-/// of classes. *Source*: Cheng 2007, eq. 32 and 34.
+/// times a color. Projection is linear: the sum of the fields is projected once, whatever the
+/// number of classes. *Source*: Cheng 2007, eq. 32 and 34.
 struct ShownFields {
     std::vector<DensityField> channels; ///< one to three
     std::array<Color, 3> colors;        ///< one for each channel

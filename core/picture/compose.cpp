@@ -2,8 +2,11 @@
 #include "core/picture/compose.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
+
+#include <tbb/parallel_for.h>
+
+#include "core/picture/tone_pixels.h"
 
 namespace pellucid::picture {
 
@@ -21,54 +24,44 @@ Samples brightness(const ProjectionImage &image) {
     return most;
 }
 
-ToneRange rangeOf(std::span<const float> pixels, const scene::Tone &tone) {
-    ToneRange range{tone.low.value_or(0.0), tone.high.value_or(0.0)};
-    if (!tone.high) {
-        // Pixels outside the patient are no measure of the patient's brightness.
-        float brightest = 0.0F;
-        for (const float p : pixels)
-            brightest = std::max(brightest, p);
-        std::vector<float> inside;
-        for (const float p : pixels)
-            if (p > 1e-3F * brightest)
-                inside.push_back(p);
-        if (!inside.empty()) {
-            const auto at = inside.begin() + std::ptrdiff_t(0.998 * double(inside.size() - 1));
-            std::nth_element(inside.begin(), at, inside.end());
-            range.high = *at;
-        }
-    }
-    if (!(range.high > range.low))
-        range.high = range.low + 1.0;
-    return range;
+double automaticHigh(std::span<const float> pixels) {
+    // Pixels outside the patient are no measure of the patient's brightness.
+    float brightest = 0.0F;
+    for (const float p : pixels)
+        brightest = std::max(brightest, p);
+    std::vector<float> inside;
+    for (const float p : pixels)
+        if (p > 1e-3F * brightest)
+            inside.push_back(p);
+    if (inside.empty())
+        return 0.0;
+    const auto at = inside.begin() + std::ptrdiff_t(0.998 * double(inside.size() - 1));
+    std::nth_element(inside.begin(), at, inside.end());
+    return *at;
 }
 
 } // namespace
 
 ToneRange toneRange(const ProjectionImage &image, const scene::Tone &tone) {
-    return rangeOf(brightness(image), tone);
+    ToneRange range{tone.low.value_or(0.0),
+                    tone.high ? *tone.high : automaticHigh(brightness(image))};
+    if (!(range.high > range.low))
+        range.high = range.low + 1.0;
+    return range;
 }
 
-std::vector<std::uint8_t> compose(const ProjectionImage &image, const scene::Tone &tone) {
-    const Samples pixels = brightness(image);
-    const ToneRange range = rangeOf(pixels, tone);
-    const auto low = float(range.low), scale = float(1.0 / (range.high - range.low));
-    const float lift = std::min(0.0F, low);
-    std::vector<std::uint8_t> rgba(pixels.size() * 4, 255);
-    for (std::size_t n = 0; n < pixels.size(); ++n) {
-        const float most =
-            std::pow(std::clamp((pixels[n] - low) * scale, 0.0F, 1.0F), float(toneExponent));
-        const float largest = std::max(0.0F, pixels[n]);
-        for (int c = 0; c < 3; ++c) {
-            float x = most;
-            // A range that starts below zero raises empty pixels to a grey without hue.
-            if (image.channels == 3 && largest > lift)
-                x *= (std::max(0.0F, image.samples[3 * n + std::size_t(c)]) - lift) /
-                     (largest - lift);
-            rgba[4 * n + std::size_t(c)] =
-                std::uint8_t(std::lround(255.0F * (tone.inverted ? 1.0F - x : x)));
-        }
-    }
+Pixels compose(const ProjectionImage &image, const scene::Tone &tone) {
+    const ToneRange range = toneRange(image, tone);
+    const ToneCurve curve{float(range.low), float(1.0 / (range.high - range.low)), tone.inverted};
+    const auto channels = std::size_t(image.channels);
+    const std::size_t pixels = image.samples.size() / channels;
+    Pixels rgba(4 * pixels);
+    constexpr std::size_t block = 1U << 14U;
+    tbb::parallel_for(std::size_t(0), (pixels + block - 1) / block, [&](std::size_t n) {
+        const std::size_t first = n * block;
+        tonePixels(image.samples.data() + channels * first, std::min(block, pixels - first),
+                   image.channels, curve, rgba.data() + 4 * first);
+    });
     return rgba;
 }
 

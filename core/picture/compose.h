@@ -27,6 +27,7 @@ inline constexpr double toneExponent = 1.0 / 1.4;
 /// and the others keep their ratio to it, so that bright colors keep their hue; inverted colors
 /// are the negative. Values below the range are black, including those below zero, where a sharp
 /// band limit undershoots. *Shape*: height x width x 4, opaque.
-std::vector<std::uint8_t> compose(const ProjectionImage &image, const scene::Tone &tone);
+using Pixels = std::vector<std::uint8_t, system::RecycledAllocator<std::uint8_t>>;
+Pixels compose(const ProjectionImage &image, const scene::Tone &tone);
 
 } // namespace pellucid::picture

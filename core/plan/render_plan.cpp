@@ -103,7 +103,8 @@ public:
           m_axes{KernelCandidates(0, fields, cueOf(scene)),
                  KernelCandidates(1, fields, cueOf(scene)),
                  KernelCandidates(2, fields, cueOf(scene))},
-          m_grids(planGrids(scene, fields, m_added)), m_imageShare(imageShare(scene.camera, fields)) {}
+          m_grids(planGrids(scene, fields, m_added)),
+          m_imageShare(imageShare(scene.camera, fields)) {}
 
     RenderPlan plan() {
         // The first pass skips kernels that no padding makes good enough, because making a kernel
@@ -277,8 +278,8 @@ private:
     std::size_t bytesOf(const fourier::SpectrumLayout &layout, const SliceGrid &grid) const {
         const scene::Camera &camera = m_scene.camera;
         // Two images are mixed into a picture of three channels.
-        const std::size_t mixed =
-            m_composition.images == 2 ? std::size_t(camera.width) * camera.height * sizeof(float)
+        const std::size_t mixed = m_composition.images == 2
+                                      ? std::size_t(camera.width) * camera.height * sizeof(float)
                                       : 0;
         return layout.peakBytes() + (m_fields.size() - 1) * layout.bytes() +
                std::size_t(m_composition.images) * frameBytes(grid, camera) + mixed;
@@ -316,7 +317,7 @@ private:
     }
 
     const scene::Scene &m_scene;
-    double m_limit; ///< the error that a plan may predict
+    double m_limit;                         ///< the error that a plan may predict
     std::span<const FieldSummary> m_fields; ///< on one lattice, in one box
     Composition m_composition;
     double m_added; ///< the error of the picture over that of the worst field

@@ -129,8 +129,8 @@ std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan:
     const auto prepare = [&](classify::DensityField &field) {
         const task::Progress part = progress.part(done / count, (done + 1.0) / count);
         done += 1.0;
-        return std::make_shared<const fourier::Spectrum>(fourier::Spectrum::prepare(
-            std::exchange(field.values, {}), plan.spectrum, part));
+        return std::make_shared<const fourier::Spectrum>(
+            fourier::Spectrum::prepare(std::exchange(field.values, {}), plan.spectrum, part));
     };
     for (classify::DensityField &field : channels.fields)
         spectra.fields.push_back(prepare(field));
@@ -149,8 +149,7 @@ std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan:
 }
 
 PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
-                             const plan::Budget &budget,
-                             const task::Progress &progress) {
+                             const plan::Budget &budget, const task::Progress &progress) {
     const auto summaries = summarise(fields, scene.shading.cue);
     FittingPlan fitting = planWithin(scene, fields, summaries, budget, progress);
     std::shared_ptr<const accuracy::ViewErrorModel> viewError;
@@ -181,7 +180,8 @@ PreparedEngine prepareEngine(const scene::Scene &scene, const classify::ShownFie
         shadedFields(fields, scene.shading, scale.value_or(shading::shadingScale(lattice)),
                      progress.part(0.0, 0.1));
     const std::size_t light = bytesForLight(scene.shading, lattice.size(), fields.channels.size());
-    return prepareEngine(scene, std::move(shaded), {budget.bytes > light ? budget.bytes - light : 0},
+    return prepareEngine(scene, std::move(shaded),
+                         {budget.bytes > light ? budget.bytes - light : 0},
                          progress.part(0.1, 1.0));
 }
 

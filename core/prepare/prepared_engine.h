@@ -65,8 +65,7 @@ std::shared_ptr<render::CpuEngine> makeEngine(ShadedFields channels, const plan:
 /// Plans within the budget and prepares the spectra; the fields are released as by `makeEngine`.
 /// *Throws* Error{outOfMemory}, Cancelled.
 PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
-                             const plan::Budget &budget,
-                             const task::Progress &progress = {});
+                             const plan::Budget &budget, const task::Progress &progress = {});
 /// First computes what the scene's light needs. `scale`: that of the volume, if the fields come
 /// from a coarser one. *Throws* as above.
 PreparedEngine prepareEngine(const scene::Scene &scene, const classify::ShownFields &fields,

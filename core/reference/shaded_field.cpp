@@ -83,17 +83,15 @@ std::vector<double> joinedPlanes(std::vector<std::vector<double>> planes,
     return result;
 }
 
-std::vector<double> shadedImage(const classify::ShownFields &shown,
-                                const shading::Shading &shading, const scene::Camera &camera,
-                                const scene::ImageDefinition &image,
+std::vector<double> shadedImage(const classify::ShownFields &shown, const shading::Shading &shading,
+                                const scene::Camera &camera, const scene::ImageDefinition &image,
                                 const task::Progress &progress) {
     const auto scale = shading::shadingScale(shown.channels.front().values.lattice());
     // Light is not linear in the fields: it shades those of red, green and blue.
     const classify::ShownFields fields = shading.isLit() ? classify::inPrimaries(shown) : shown;
     std::vector<std::vector<double>> planes;
     // The channels of a field in grey light differ only by its color.
-    const std::size_t count =
-        shading.isGrey() ? fields.channels.size() : std::size_t(3);
+    const std::size_t count = shading.isGrey() ? fields.channels.size() : std::size_t(3);
     for (std::size_t c = 0; c < count; ++c) {
         const auto shaded = shadedField(fields.channels[std::min(c, fields.channels.size() - 1)],
                                         shading, camera.axes(), int(c), scale, progress);

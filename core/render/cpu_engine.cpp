@@ -183,8 +183,8 @@ public:
         const std::array<Phase, 3> phases{
             Phase{m_job.stripCount, runPart<&FrameRun::sliceStripOf>, this},
             Phase{1, runPart<&FrameRun::noteRowsStart>, this},
-            Phase{stripsOf(std::min(m_job.imageRows, m_job.rows)),
-                  runPart<&FrameRun::finishRowsOf>, this}};
+            Phase{stripsOf(std::min(m_job.imageRows, m_job.rows)), runPart<&FrameRun::finishRowsOf>,
+                  this}};
         team.run(phases);
     }
 
@@ -211,9 +211,7 @@ private:
 
     void sliceStripOf(int part, int slot) { sliceStrip(m_job, part, m_scratch[std::size_t(slot)]); }
     void noteRowsStart(int, int) { m_rowsStart = frameClockSeconds(); }
-    void finishRowsOf(int part, int slot) {
-        finishRows(m_job, part, m_scratch[std::size_t(slot)]);
-    }
+    void finishRowsOf(int part, int slot) { finishRows(m_job, part, m_scratch[std::size_t(slot)]); }
 
     const FrameJob &m_job;
     std::vector<FrameScratch> &m_scratch;

@@ -39,9 +39,9 @@ std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs) {
                 for (std::size_t c = 0; c < color.size(); ++c) {
                     const double weight =
                         std::abs(double(std::abs(term.weight)) * color[c] * share);
-                    source.amplitude[c] += weight * std::abs(double(source.isGradient
-                                                                        ? shade.magnitude
-                                                                        : shade.ambient));
+                    source.amplitude[c] +=
+                        weight *
+                        std::abs(double(source.isGradient ? shade.magnitude : shade.ambient));
                     for (std::size_t d = 0; d < 3 && !source.isGradient; ++d)
                         source.perSine[c][d] += weight * std::abs(shade.gradient[d]);
                 }

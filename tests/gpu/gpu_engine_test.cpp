@@ -162,9 +162,8 @@ TEST_F(GpuEngine, Colors) {
     const classify::ShownFields channels{
         {test::noiseField(lattice, 1), test::noiseField(lattice, 2), test::noiseField(lattice, 3)},
         classify::primaries};
-    const classify::ShownFields mixed{
-        {test::noiseField(lattice, 1), test::noiseField(lattice, 2)},
-        {{{1.0, 0.4, 0.1}, {0.2, 0.3, 0.9}}}};
+    const classify::ShownFields mixed{{test::noiseField(lattice, 1), test::noiseField(lattice, 2)},
+                                      {{{1.0, 0.4, 0.1}, {0.2, 0.3, 0.9}}}};
     const classify::ShownFields colored{{test::noiseField(lattice, 1)}, {{{1.0, 0.4, 0.1}}}};
     const std::vector<shading::Light> light{{{1, 0, 0.3}, {0.2, 1.0, 0.7}}};
     for (const auto &fields : {channels, mixed, colored})

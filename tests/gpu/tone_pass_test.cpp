@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <functional>
 #include <random>
+#include <span>
 
 #include <epoxy/gl.h>
 
@@ -59,7 +60,7 @@ std::vector<std::uint8_t> drawn(const picture::ProjectionImage &image, const sce
     });
 }
 
-int largestDifference(const std::vector<std::uint8_t> &a, const std::vector<std::uint8_t> &b) {
+int largestDifference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
     int largest = 0;
     for (std::size_t n = 0; n < a.size(); ++n)
         largest = std::max(largest, std::abs(int(a[n]) - int(b[n])));
@@ -80,7 +81,8 @@ TEST_F(TonePass, DrawsWhatComposeComputes) {
                                       {colored, scene::Tone{}},
                                       {colored, scene::Tone{10.0, 70.0, true}},
                                       {colored, scene::Tone{-60.0, 70.0, false}}}) {
-        const auto expected = picture::compose(shown, tone), found = drawn(shown, tone);
+        const auto expected = picture::compose(shown, tone);
+        const auto found = drawn(shown, tone);
         EXPECT_LE(largestDifference(expected, found), 1); // rounding to eight bits
     }
 }
@@ -92,9 +94,8 @@ TEST_F(CardTone, DrawsPicturesOfTheCard) {
     const auto lattice = volume::Lattice::centred({20, 21, 22}, {1, 1, 1});
     const classify::ShownFields grey{{test::noiseField(lattice)}, {}};
     const classify::ShownFields colored{{test::noiseField(lattice)}, {{{1.0, 0.4, 0.1}}}};
-    const classify::ShownFields mixed{
-        {test::noiseField(lattice, 1), test::noiseField(lattice, 2)},
-        {{{1.0, 0.4, 0.1}, {0.2, 0.3, 0.9}}}};
+    const classify::ShownFields mixed{{test::noiseField(lattice, 1), test::noiseField(lattice, 2)},
+                                      {{{1.0, 0.4, 0.1}, {0.2, 0.3, 0.9}}}};
     const classify::ShownFields three{
         {test::noiseField(lattice, 1), test::noiseField(lattice, 2), test::noiseField(lattice, 3)},
         classify::primaries};

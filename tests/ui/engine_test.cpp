@@ -142,8 +142,8 @@ private slots:
         const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
         scene::Scene scene;
         scene.camera = scene::defaultCamera(lattice);
-        const auto prepared =
-            prepare::prepareEngine(scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}, {});
+        const auto prepared = prepare::prepareEngine(
+            scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}, {});
         auto lost = std::make_shared<std::atomic<bool>>(false);
         const auto card = std::make_shared<gpu::FramePasses>(
             std::make_shared<gpu::Device>(std::make_unique<FragileContext>(lost)));
@@ -310,10 +310,17 @@ private:
     QString engineText() { return find<QLabel>("engineLabel")->text(); }
     bool isOnCard() { return engineText().startsWith("GPU engine, "); }
     QString path(const char *name) { return QString::fromStdString((m_folder / name).string()); }
+    // A software renderer draws only the card's pictures; the others are drawn by the processor.
     QImage canvas() {
-        return find<QOpenGLWidget>("projectionCanvas")
-            ->grabFramebuffer()
-            .convertToFormat(QImage::Format_RGBA8888);
+        for (auto *const widget : projection()->findChildren<QWidget *>("projectionCanvas")) {
+            if (!widget->isVisible())
+                continue;
+            auto *const onCard = qobject_cast<QOpenGLWidget *>(widget);
+            const QImage shown =
+                onCard != nullptr ? onCard->grabFramebuffer() : widget->grab().toImage();
+            return shown.convertToFormat(QImage::Format_RGBA8888);
+        }
+        return {};
     }
     QImage byCommandLine(const QString &engine) {
         const QString scene = path("scene.json"), out = path("picture.png");

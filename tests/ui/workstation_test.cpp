@@ -164,8 +164,8 @@ private slots:
         const auto volume = phantom::makePhantom(phantom::Kind::head, lattice);
         scene::Scene scene;
         scene.camera = scene::defaultCamera(lattice);
-        const auto engine =
-            prepare::prepareEngine(scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}, {});
+        const auto engine = prepare::prepareEngine(
+            scene, classify::ShownFields{{classify::densityField(volume, {-900, 2000})}, {}}, {});
         ui::KeptStudies kept;
         ui::KeptStudy study{
             .volume = volume, .scene = scene, .preparedFor = ui::PreparedFor(), .engine = engine};

@@ -68,9 +68,9 @@ public:
                                             m_progress.part(0.3, 0.35));
         if (m_coarse)
             addErrorOfCoarse(shaded);
-        m_take(prepare::prepareEngine(m_scene, std::move(shaded), budget,
-                                      m_progress.part(0.35, 1.0)),
-               Detail::full);
+        m_take(
+            prepare::prepareEngine(m_scene, std::move(shaded), budget, m_progress.part(0.35, 1.0)),
+            Detail::full);
     }
 
 private:
@@ -104,8 +104,8 @@ private:
     void makeCoarse() {
         const auto fields = fieldsOf(classify::coarseVolume(m_source.volume, coarseSide), {});
         const auto shaded = prepare::shadedFields(fields, m_scene.shading, m_scale);
-        m_coarse = prepare::prepareEngine(m_scene, shaded, budgetFor(fields),
-                                          m_progress.part(0.0, 0.1));
+        m_coarse =
+            prepare::prepareEngine(m_scene, shaded, budgetFor(fields), m_progress.part(0.0, 0.1));
         m_coarse->isCoarse = true;
         m_take(*m_coarse, Detail::coarse);
         m_coarseProjections = projectionsOf(shaded, m_progress);

@@ -5,6 +5,7 @@
 #include <QOpenGLFunctions>
 #include <QOpenGLWidget>
 #include <QPainter>
+#include <QStackedLayout>
 
 #include "core/task/error.h"
 #include "gpu/tone_pass.h"
@@ -28,15 +29,15 @@ public:
     }
 
     QWidget *widget() override { return this; }
-    void setImage(const picture::ProjectionImage &image) override {
-        m_image = image;
+    void setImage(Image image) override {
+        m_image = std::move(image);
         m_picture.reset();
         m_fresh = true;
         update();
     }
     void setPicture(std::shared_ptr<const gpu::CardPicture> picture) override {
         m_picture = std::move(picture);
-        m_image = {};
+        m_image.reset();
         update();
     }
     void setTone(const picture::ToneRange &range, bool inverted) override {
@@ -68,16 +69,16 @@ protected:
         }
         if (m_picture)
             readBack();
-        if (m_image.samples.empty())
+        if (!m_image)
             return;
         if (!m_pass) {
-            const auto rgba = picture::compose(m_image, {m_range.low, m_range.high, m_inverted});
-            QPainter(this).drawImage(rect(), QImage(rgba.data(), m_image.width, m_image.height,
-                                                    QImage::Format_RGBA8888));
+            const auto rgba = picture::compose(*m_image, {m_range.low, m_range.high, m_inverted});
+            QPainter(this).drawImage(rect(), QImage(rgba.data(), m_image->width, m_image->height,
+                                                    QImage::Format_RGBX8888));
             return;
         }
         if (m_fresh)
-            m_pass->upload(m_image);
+            m_pass->upload(*m_image);
         m_fresh = false;
         m_pass->draw(m_range, m_inverted);
     }
@@ -93,7 +94,7 @@ private:
 
     void readBack() {
         try {
-            m_image = m_picture->download();
+            m_image = std::make_shared<const picture::ProjectionImage>(m_picture->download());
             m_fresh = true;
         } catch (const task::Error &) {
             // The card has failed; the next frame comes from the processor.
@@ -102,7 +103,7 @@ private:
     }
 
     std::unique_ptr<gpu::TonePass> m_pass;
-    picture::ProjectionImage m_image;
+    Image m_image;
     std::shared_ptr<const gpu::CardPicture> m_picture;
     picture::ToneRange m_range;
     bool m_inverted = false, m_fresh = false;
@@ -113,14 +114,14 @@ public:
     explicit RasterCanvas(QWidget *parent) : QWidget(parent) { setObjectName("projectionCanvas"); }
 
     QWidget *widget() override { return this; }
-    void setImage(const picture::ProjectionImage &image) override {
-        m_image = image;
+    void setImage(Image image) override {
+        m_image = std::move(image);
         m_stale = true;
         update();
     }
     void setPicture(std::shared_ptr<const gpu::CardPicture> picture) override {
         try {
-            setImage(picture->download());
+            setImage(std::make_shared<const picture::ProjectionImage>(picture->download()));
         } catch (const task::Error &) {
             // The card has failed; the next frame comes from the processor.
         }
@@ -147,17 +148,61 @@ private:
     void compose() {
         m_stale = false;
         m_picture = {};
-        if (m_image.samples.empty())
+        if (!m_image)
             return;
-        const auto rgba = picture::compose(m_image, m_tone);
+        m_pixels = picture::compose(*m_image, m_tone);
+        // All pixels are opaque, and a painter need not blend them.
         m_picture =
-            QImage(rgba.data(), m_image.width, m_image.height, QImage::Format_RGBA8888).copy();
+            QImage(m_pixels.data(), m_image->width, m_image->height, QImage::Format_RGBX8888);
     }
 
-    picture::ProjectionImage m_image;
+    Image m_image;
     scene::Tone m_tone;
+    picture::Pixels m_pixels; ///< of `m_picture`
     QImage m_picture;
     bool m_stale = false;
+};
+
+// Draws on the processor. A software renderer would take ten times as long to upload a picture, run
+// the tone pass and join the window; it draws only what it has made itself.
+class SoftwareCanvas final : public QWidget, public ProjectionCanvas {
+public:
+    explicit SoftwareCanvas(QWidget *parent)
+        : QWidget(parent), m_raster(new RasterCanvas(this)), m_stack(new QStackedLayout(this)) {
+        m_stack->addWidget(m_raster);
+    }
+
+    QWidget *widget() override { return this; }
+    void setImage(Image image) override {
+        m_raster->setImage(std::move(image));
+        m_stack->setCurrentWidget(m_raster);
+        if (m_gl != nullptr)
+            m_gl->setImage(nullptr);
+    }
+    void setPicture(std::shared_ptr<const gpu::CardPicture> picture) override {
+        if (m_gl == nullptr) {
+            m_gl = new GlCanvas(this);
+            m_stack->addWidget(m_gl);
+            m_gl->setTone(m_range, m_inverted);
+        }
+        m_gl->setPicture(std::move(picture));
+        m_stack->setCurrentWidget(m_gl);
+        m_raster->setImage(nullptr);
+    }
+    void setTone(const picture::ToneRange &range, bool inverted) override {
+        m_range = range;
+        m_inverted = inverted;
+        m_raster->setTone(range, inverted);
+        if (m_gl != nullptr)
+            m_gl->setTone(range, inverted);
+    }
+
+private:
+    RasterCanvas *m_raster;
+    GlCanvas *m_gl = nullptr; ///< made for the first picture of the card
+    QStackedLayout *m_stack;
+    picture::ToneRange m_range;
+    bool m_inverted = false;
 };
 
 } // namespace
@@ -165,9 +210,11 @@ private:
 std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent) {
     // Qt may silently create a context of a lower version than requested.
     const auto &capabilities = windowCapabilities();
-    if (capabilities && capabilities->canShowImages())
-        return std::make_unique<GlCanvas>(parent);
-    return std::make_unique<RasterCanvas>(parent);
+    if (!capabilities || !capabilities->canShowImages())
+        return std::make_unique<RasterCanvas>(parent);
+    if (capabilities->software)
+        return std::make_unique<SoftwareCanvas>(parent);
+    return std::make_unique<GlCanvas>(parent);
 }
 
 } // namespace pellucid::ui

@@ -15,15 +15,17 @@ class ProjectionCanvas {
 public:
     virtual ~ProjectionCanvas() = default;
     virtual QWidget *widget() = 0;
-    /// An empty image shows black.
-    virtual void setImage(const picture::ProjectionImage &image) = 0;
+    /// Null shows black.
+    using Image = std::shared_ptr<const picture::ProjectionImage>;
+    virtual void setImage(Image image) = 0;
     /// Shows a picture that is on the graphics card; a canvas that cannot draw it there downloads
     /// it.
     virtual void setPicture(std::shared_ptr<const gpu::CardPicture> picture) = 0;
     virtual void setTone(const picture::ToneRange &range, bool inverted) = 0;
 };
 
-/// A canvas on OpenGL 3.3 or newer with the GLSL tone pass; on the processor if there is no OpenGL.
+/// A canvas on OpenGL 3.3 or newer with the GLSL tone pass; on the processor if there is no OpenGL,
+/// or only a software renderer.
 std::unique_ptr<ProjectionCanvas> makeProjectionCanvas(QWidget *parent);
 
 } // namespace pellucid::ui

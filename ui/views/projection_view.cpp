@@ -87,7 +87,7 @@ void ProjectionView::forgetVolume() {
     m_frame.reset();
     m_drawnShading = {};
     m_message = m_document.volume() ? tr("Preparing the projection") : QString();
-    m_canvas->setImage({});
+    m_canvas->setImage(nullptr);
     showTexts();
 }
 
@@ -262,7 +262,7 @@ void ProjectionView::takeFrame(const std::shared_ptr<const RenderedFrame> &frame
     if (frame->onCard)
         m_canvas->setPicture(frame->onCard);
     else
-        m_canvas->setImage(frame->image);
+        m_canvas->setImage({frame, &frame->image});
     updateTone();
     showTexts();
     emit frameShown(frame->times, frame->draft);
@@ -293,10 +293,11 @@ void ProjectionView::updateTone() {
 QImage ProjectionView::picture() const {
     if (!m_frame)
         return {};
-    const picture::ProjectionImage image =
-        m_frame->onCard ? m_frame->onCard->download() : m_frame->image;
-    const auto rgba = picture::compose(image, shownTone());
-    return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
+    const auto shown = [&](const picture::ProjectionImage &image) {
+        const auto rgba = picture::compose(image, shownTone());
+        return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();
+    };
+    return m_frame->onCard ? shown(m_frame->onCard->download()) : shown(m_frame->image);
 }
 
 bool ProjectionView::showsWhatIsAskedFor() const {

@@ -70,7 +70,8 @@ TEST_P(CentralRounding, IsTheDifferenceThat16BitCellsMake) {
     const auto summaries = prepare::summarise(shaded, scene.shading.cue);
     const auto engineWith = [&](fourier::Storage storage) {
         scene.interpolation.storage = storage;
-        const auto plan = plan::planRender(scene, summaries, prepare::compositionOf(1, scene.shading));
+        const auto plan =
+            plan::planRender(scene, summaries, prepare::compositionOf(1, scene.shading));
         return std::pair(prepare::makeEngine(shaded, plan), plan);
     };
     const auto [rounded, plan] = engineWith(fourier::Storage::binary16);

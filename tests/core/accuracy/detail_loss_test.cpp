@@ -150,7 +150,8 @@ TEST(DetailLossUnderLight, BoundsWhatCoarsePicturesMeasure) {
     shading.lights.push_back({{-1.0, 1.0, 0.5}});
     const shading::ShadingScale scale = shading::shadingScale(fine.lattice());
     const auto shadedOf = [&](const volume::Volume &volume) {
-        return prepare::shadedFields({{classify::densityField(volume, window)}, {}}, shading, scale);
+        return prepare::shadedFields({{classify::densityField(volume, window)}, {}}, shading,
+                                     scale);
     };
     const auto fineFields = shadedOf(fine), coarseFields = shadedOf(coarse);
     const accuracy::DetailLoss loss(

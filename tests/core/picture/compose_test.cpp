@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "core/picture/compose.h"
 
@@ -29,6 +31,38 @@ TEST(Compose, TheAutomaticRangeIgnoresTheBackground) {
     EXPECT_EQ(range.low, 0.0);
     EXPECT_EQ(range.high, 99.0); // rank 0.998 * 99 of the hundred pixels inside
     EXPECT_EQ(picture::toneRange({2, 1, 1.0, {0.0F, 0.0F}}, {}).high, 1.0);
+}
+
+// Each pixel is that of the definition, or the next level at a tie; the number of pixels is no
+// multiple of a vector.
+TEST(Compose, EveryPixelIsOnTheCurve) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> values(-3.0F, 13.0F);
+    for (const int channels : {1, 3})
+        for (const bool inverted : {false, true}) {
+            picture::ProjectionImage image{20011, 1, 1.0, {}, channels};
+            for (int n = 0; n < image.width * channels; ++n)
+                image.samples.push_back(values(random));
+            image.samples[0] = 0.0F;
+            const double low = 0.5, high = 10.0;
+            const auto shown = picture::compose(image, {low, high, inverted});
+            int ties = 0;
+            for (std::size_t n = 0; n < std::size_t(image.width); ++n) {
+                const float *const pixel = image.samples.data() + n * std::size_t(channels);
+                const double most = *std::max_element(pixel, pixel + channels);
+                const double curved =
+                    std::pow(std::clamp((most - low) / (high - low), 0.0, 1.0), 1.0 / 1.4);
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double value = channels == 1 ? most : double(pixel[c]);
+                    const double x = most > 0.0 ? curved * std::max(0.0, value) / most : curved;
+                    const double level = 255.0 * (inverted ? 1.0 - x : x);
+                    ASSERT_NEAR(shown[4 * n + c], level, 0.5 + 1e-4) << n;
+                    ties += shown[4 * n + c] != std::lround(level) ? 1 : 0;
+                }
+                ASSERT_EQ(shown[4 * n + 3], 255);
+            }
+            EXPECT_LT(ties, 20);
+        }
 }
 
 // Bright colors stay what they are: the channels keep their ratio up to and beyond the range.

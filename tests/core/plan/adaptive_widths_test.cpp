@@ -97,7 +97,8 @@ std::vector<glm::dquat> views(unsigned seed) {
 class Narrowed {
 public:
     Narrowed(const scene::Scene &scene, const classify::DensityField &field)
-        : m_scene(scene), m_whole(prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {}).engine),
+        : m_scene(scene),
+          m_whole(prepare::prepareEngine(scene, classify::ShownFields{{field}, {}}, {}).engine),
           m_parts(m_whole->parts()) {
         const fourier::SpectrumLayout &layout = m_parts.spectra.fields.front()->layout();
         m_kernels = std::make_shared<const fourier::KernelsByWidth>(layout);

@@ -123,9 +123,9 @@ TEST_P(Layers, RecombinedImagesAreFreshlyRenderedOnes) {
     const auto layers = layersOf(scene, look);
     const auto fresh = [&](const Look &of, const prepare::LayerSet &like) {
         const auto fields = classify::shownFields(head(), window, of, nullptr);
-        return prepare::makeEngine({fields.channels, {}, shading::shadingScale(head().lattice()),
-                                    fields.colors},
-                                   like.plan())
+        return prepare::makeEngine(
+                   {fields.channels, {}, shading::shadingScale(head().lattice()), fields.colors},
+                   like.plan())
             ->render(scene.camera, scene.image);
     };
     const double allowed = GetParam() == fourier::Storage::binary16 ? 3e-4 : 1e-5;

@@ -41,8 +41,7 @@ TEST(MixedColors, AreWithinTheToleranceOfTheExactPicture) {
             EXPECT_EQ(prepared.engine->parts().spectra.fields.size(), shading.isLit() ? 3U : 2U);
             const auto picture = prepared.engine->render(scene.camera, scene.image, shading);
             ASSERT_EQ(picture.channels, 3);
-            const auto exact =
-                reference::shadedImage(fields, shading, scene.camera, scene.image);
+            const auto exact = reference::shadedImage(fields, shading, scene.camera, scene.image);
             const double error = test::relativeL2(picture.samples, exact);
             EXPECT_LE(error, prepared.plan.predictedError) << width << " " << toJson(shading);
             EXPECT_LE(prepared.plan.predictedError, scene.tolerance);
