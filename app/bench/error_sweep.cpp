@@ -46,7 +46,7 @@ void sweepField(const Trial &trial, std::uint64_t seed,
                 .tolerance = tolerance,
                 .planned = prepared.plan.predictedError};
             swept.stated =
-                prepare::errorOf(prepared, picture, scene.camera, scene.image, {}).value_or(0.0);
+                prepare::errorOf(prepared, picture, scene.camera, scene.image, {}).value();
             swept.measured = compare(picture.samples, truths[view]).relativeL2;
             each(swept);
         }

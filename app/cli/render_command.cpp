@@ -43,6 +43,11 @@ struct Options {
 
 // Whether the last picture misses the tolerance although the plan keeps it, and a closer plan may
 // help.
+bool hasSteps(const classify::Look &look) {
+    return std::any_of(look.classes.begin(), look.classes.end(),
+                       [](const classify::TissueClass &tissue) { return !tissue.steps.empty(); });
+}
+
 bool mayPlanCloser(const Renderer &renderer, const scene::Scene &scene) {
     return renderer.lastViewError() > scene.tolerance &&
            renderer.predictedError() <= scene.tolerance && !renderer.isReduced() &&
@@ -131,8 +136,11 @@ private:
             m_renderer.reset();
             if (m_fields.channels.empty()) // this is not the first plan
                 m_fields = fieldsFor(m_scene, volume(), m_context);
-            m_renderer.emplace(m_planned, std::move(m_fields), m_budget, m_context);
-            m_fields = {};
+            // Another plan may need them, and steps of classes take long.
+            classify::ShownFields fields = m_fields;
+            if (!hasSteps(m_scene.look))
+                m_fields = {};
+            m_renderer.emplace(m_planned, std::move(fields), m_budget, m_context);
             m_renderer->use(m_card);
         } catch (const Error &error) {
             if (error.code() != ErrorCode::outOfMemory || !isMemoryGiven())
@@ -280,10 +288,10 @@ private:
     scene::Scene m_planned; ///< with a smaller tolerance, if a part of the volume needs one
     classify::FieldWindow m_window;
     std::size_t m_held = 0;         ///< bytes of the volume, its fields and their preparation
-    classify::ShownFields m_fields; ///< until the renderer takes them
+    classify::ShownFields m_fields; ///< until the renderer takes them; with steps, longer
     std::string m_whyEmpty;         ///< a warning, or empty
     plan::Budget m_budget;
-    std::optional<Renderer> m_renderer; ///< refers to the planned scene and the fields
+    std::optional<Renderer> m_renderer; ///< refers to the planned scene
     double m_fieldMs = 0.0, m_prepareMs = 0.0, m_writeMs = 0.0;
     picture::FrameTimes m_times; ///< of the last frame
     // For all frames together.

@@ -30,7 +30,8 @@ task::Error cardRefused(const task::Error &error) {
 
 // The error of the exact reference: rounding (about 1e-10 in double precision, or that of a shaded
 // field's float samples) and the tails of the roll-off that fold back from its period.
-double exactError(const scene::Scene &scene, const std::vector<plan::FieldSummary> &summaries) {
+double exactError(const scene::Scene &scene, const std::vector<plan::FieldSummary> &summaries,
+                  const plan::Composition &composition) {
     const double rounding = scene.shading.isPlain() ? 1e-10 : 6e-8;
     double worst = 0.0;
     for (const plan::FieldSummary &summary : summaries) {
@@ -40,7 +41,7 @@ double exactError(const scene::Scene &scene, const std::vector<plan::FieldSummar
                                                       period.rows, *summary.energy.spread);
         worst = std::max(worst, std::hypot(rounding, tails));
     }
-    return worst;
+    return composition.errorFactor() * worst;
 }
 
 } // namespace
@@ -121,10 +122,12 @@ void Renderer::preparePlanned(Sources sources) {
 }
 
 void Renderer::prepareExact(Sources sources, std::size_t bytes) {
+    const plan::Composition composition =
+        prepare::compositionOf(sources.fields.channels.size(), m_scene.shading);
     m_engine = std::make_shared<reference::ExactEngine>(std::move(sources.fields), m_scene.shading,
                                                         m_progress);
     m_bytes = bytes;
-    m_predictedError = exactError(m_scene, sources.summaries);
+    m_predictedError = exactError(m_scene, sources.summaries, composition);
 }
 
 void Renderer::use(const CardChoice &card) {

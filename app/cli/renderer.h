@@ -60,8 +60,7 @@ public:
     /// Whether the exact reference makes the pictures.
     bool isExact() const { return m_planned == nullptr; }
     std::string reason() const { return m_fitting.plan.reason.english(); }
-    /// An upper bound on the error of any view of the whole volume. It is the worst channel's
-    /// bound; the error of the picture, all channels taken together, is no larger.
+    /// An upper bound on the error of any view of the whole volume.
     double predictedError() const { return m_predictedError; }
     /// The predicted error of the last picture, for its own view and crop; `predictedError` if the
     /// picture has none of its own.

@@ -55,7 +55,7 @@ double relativeError(double energy, double error) {
 ViewErrorModel::ViewErrorModel(const plan::RenderPlan &plan,
                                std::span<const plan::FieldSummary> fields)
     : m_fields(coarseFields(plan, fields)), m_fieldOfView(plan.fieldOfView),
-      m_bound(plan.predictedError) {}
+      m_bound(plan.predictedError), m_together(plan.together) {}
 
 PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
                                      const scene::Camera &camera,
@@ -79,7 +79,7 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
                                  shading,  grid,   centralEnergies(engine, camera, grid, shading),
                                  narrowing};
     double energy = 0.0, error = 0.0;
-    bool isWhole = true, hasOneFieldEach = true; // the plan's bound holds for these only
+    bool isWhole = true, isAsPlanned = true; // the plan's bound holds for these only
     for (int channel = 0; channel < picture.channels; ++channel) {
         const auto c = std::size_t(channel);
         const ChannelEnergies energies =
@@ -89,11 +89,11 @@ PictureError ViewErrorModel::errorOf(const picture::ProjectionImage &picture,
         error += energies.error;
         const auto isShown = [&](const render::ChannelWeights &share) { return share[c] != 0.0; };
         isWhole = isWhole && energies.isWhole;
-        hasOneFieldEach = hasOneFieldEach &&
-                          std::count_if(channelWeights.begin(), channelWeights.end(), isShown) <= 1;
+        isAsPlanned = isAsPlanned && std::count_if(channelWeights.begin(), channelWeights.end(),
+                                                   isShown) <= m_together;
     }
     const double estimate = relativeError(energy, error);
-    return {isWhole && hasOneFieldEach ? std::min(m_bound, estimate) : estimate, isWhole};
+    return {isWhole && isAsPlanned ? std::min(m_bound, estimate) : estimate, isWhole};
 }
 
 } // namespace pellucid::accuracy

@@ -26,8 +26,7 @@ public:
 
     /// The error of a picture made by an engine of this plan, with cue and light. It is predicted
     /// from the projected energies and aliases of this view, in the picture's window. For a whole
-    /// picture with one field per channel it is at most the plan's bound, which holds for whole
-    /// pictures only.
+    /// picture in which no more fields add up than were planned, it is at most the plan's bound.
     PictureError errorOf(const picture::ProjectionImage &picture, const scene::Camera &camera,
                          const scene::ImageDefinition &image, const render::EngineParts &engine,
                          const shading::Shading &shading) const;
@@ -36,6 +35,7 @@ private:
     CoarseFields m_fields;
     plan::FieldOfView m_fieldOfView;
     double m_bound;
+    int m_together; ///< see plan::Composition
 };
 
 } // namespace pellucid::accuracy

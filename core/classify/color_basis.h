@@ -12,10 +12,11 @@ namespace pellucid::classify {
 struct ColorBasis {
     using Rgb = std::array<double, 3>;
     std::vector<Rgb> colors; ///< one to three
-    /// Of each color of the basis, the amount in each color of the look. Not negative, except that
-    /// rounding may leave -1e-16, if no component of a color is. *Shape*: one entry for each color
-    /// of the look; beyond the basis, 0.
-    std::vector<Rgb> amounts;
+    /// The amount of each basis color in each color of the look. Not negative, except that rounding
+    /// may leave -1e-16, if no component of a color is. *Shape*: one entry for each color of the
+    /// look; beyond the basis, 0.
+    using Amounts = std::array<double, 3>;
+    std::vector<Amounts> amounts;
 };
 
 /// Colors of one hue are mixed from the brightest. Colors in a plane through black are mixed from

@@ -26,7 +26,8 @@ void validate(const Look &look);
 /// The classes with a nonzero weight; the others cost nothing.
 std::vector<TissueClass> visibleClasses(const Look &look);
 
-/// Of the colors of the visible classes, one entry each; of white if there are none.
+/// The basis of the visible classes' colors, with one entry of amounts per class; white if there
+/// are none.
 ColorBasis colorBasisOf(const Look &look);
 /// The number of fields that the picture of a look needs: the rank of its colors.
 std::size_t channelsOf(const Look &look);

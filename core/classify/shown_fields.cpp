@@ -101,7 +101,7 @@ ShownFields shownFields(const volume::Volume &volume, const FieldWindow &window,
     return result;
 }
 
-ShownFields inPrimaries(ShownFields fields) {
+ShownFields inPrimaries(ShownFields fields, const task::Progress &progress) {
     if (fields.channels.size() != 2)
         return fields;
     return task::orOutOfMemory(task::because::noMemoryForTheClassFields, [&] {
@@ -112,6 +112,7 @@ ShownFields inPrimaries(ShownFields fields) {
             const auto mix = [&](const auto &from, const auto &with) {
                 tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), 1U << 16U),
                                   [&](const tbb::blocked_range<std::size_t> &range) {
+                                      progress.check();
                                       for (std::size_t n = range.begin(); n < range.end(); ++n)
                                           samples[n] =
                                               float(a * double(from[n]) + b * double(with[n]));

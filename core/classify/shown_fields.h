@@ -24,8 +24,8 @@ struct ShownFields {
 };
 
 /// Fields of two colors as fields of red, green and blue; others as they are. *Throws*
-/// Error{outOfMemory}.
-ShownFields inPrimaries(ShownFields fields);
+/// Error{outOfMemory}, Cancelled.
+ShownFields inPrimaries(ShownFields fields, const task::Progress &progress = {});
 
 /// The largest number of bytes held at once while the fields of a look of this many samples are
 /// made, including the result.

@@ -12,8 +12,8 @@
 namespace pellucid::fourier {
 
 // A spectrum is prepared in two passes: rows of the field along x, then columns of the result along
-// y and z. A column is what a CellLayout calls one: it is stored when it is finished, and its part
-// of the intermediate result is released, so that little more than one of the two is in memory.
+// y and z. Columns are those of CellLayout: each is stored when it is finished, and its slab is
+// released, so that little more than one of the two is in memory.
 
 /// The result of the first pass, by column: [k][j][strip] of the field's own rows.
 class ColumnSlabs {

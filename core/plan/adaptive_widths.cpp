@@ -38,7 +38,7 @@ struct Circle {
     std::vector<int> sides; ///< of them within the circle, by strip
 };
 
-// The tiles that are worth being read.
+// Finds the tiles that are worth being read.
 class Tiles {
 public:
     struct Tile {
@@ -54,6 +54,15 @@ public:
         const SpectrumEnergies *energies = nullptr;
     };
 
+    // The tiles of a few strips.
+    struct Found {
+        std::vector<Tile> bright;
+        double left = 0.0; ///< the errors of the others, which are left out
+        // By source, of the last patch.
+        std::vector<Errors> errors;
+        std::vector<std::array<double, 3>> amplitudes;
+    };
+
     Tiles(const SlicePlane &plane, const Circle &circle, std::vector<Measured> sources, int widest,
           double budget)
         : m_circle(circle), m_sources(std::move(sources)), m_patch{plane.perColumn, plane.perRow,
@@ -61,15 +70,21 @@ public:
           m_points(m_patch), m_entries(SpectrumEnergies::entryOf(widest)),
           m_area(2.0 * tileColumns * tileRows * plane.columnPerMm * plane.rowPerMm * blockMargin /
                  budget),
-          m_dark(darkShare / (2.0 * circle.strips * circle.tiles)), m_errors(m_sources.size()),
-          m_amplitudes(m_sources.size()) {
-        for (int strip = 0; strip < circle.strips; strip += groupSide)
-            for (int row = -circle.tiles; row < circle.tiles; row += groupSide)
-                addGroup(strip, row);
-    }
+          m_dark(darkShare / (2.0 * circle.strips * circle.tiles)) {}
 
-    std::vector<Tile> bright;
-    double left = 0.0; ///< the errors of the others, which are left out
+    int parts() const { return (m_circle.strips + groupSide - 1) / groupSide; }
+    // Room for the tiles of a part: `find` takes no more memory.
+    Found room() const {
+        Found found;
+        found.bright.reserve(2 * std::size_t(groupSide) * std::size_t(m_circle.tiles));
+        found.errors.resize(m_sources.size());
+        found.amplitudes.resize(m_sources.size());
+        return found;
+    }
+    void find(int part, Found &found) const {
+        for (int row = -m_circle.tiles; row < m_circle.tiles; row += groupSide)
+            addGroup(part * groupSide, row, found);
+    }
 
 private:
     // Tiles that together take less than this share of the budget are not measured.
@@ -77,7 +92,7 @@ private:
     // Tiles are tried together first.
     static constexpr int groupSide = 4;
 
-    void addGroup(int firstStrip, int firstRow) {
+    void addGroup(int firstStrip, int firstRow, Found &found) const {
         const int lastStrip = std::min(firstStrip + groupSide, m_circle.strips);
         const int side = m_circle.sides[std::size_t(firstStrip)];
         if (firstRow >= side || firstRow + groupSide <= -side)
@@ -86,8 +101,8 @@ private:
         group.columns *= groupSide;
         group.rows *= groupSide;
         if (!isLow(group)) {
-            if (const double bound = boundOf(group); bound <= m_dark) {
-                left += groupSide * groupSide * bound;
+            if (const double bound = boundOf(group, found); bound <= m_dark) {
+                found.left += groupSide * groupSide * bound;
                 return;
             }
         }
@@ -95,26 +110,26 @@ private:
             const int tiles = m_circle.sides[std::size_t(strip)];
             for (int row = std::max(firstRow, -tiles); row < std::min(firstRow + groupSide, tiles);
                  ++row)
-                addTile(strip, row);
+                addTile(strip, row, found);
         }
     }
 
-    void addTile(int strip, int row) {
+    void addTile(int strip, int row, Found &found) const {
         Tile tile{strip, row, {}};
         const PlanePatch patch = patchAt(strip, row);
         if (isLow(patch)) {
             tile.errors.fill(std::numeric_limits<float>::infinity());
-        } else if (const double bound = boundOf(patch); bound <= m_dark) {
-            left += bound;
+        } else if (const double bound = boundOf(patch, found); bound <= m_dark) {
+            found.left += bound;
             return;
         } else {
             for (std::size_t s = 0; s < m_sources.size(); ++s)
-                m_errors[s] =
+                found.errors[s] =
                     m_sources[s].energies->errorsIn(offsetBy(patch, m_sources[s].source), m_points);
             for (std::size_t n = 0; n <= m_entries; ++n)
-                tile.errors[n] = float(sumOf(n));
+                tile.errors[n] = float(sumOf(n, found));
         }
-        bright.push_back(tile);
+        found.bright.push_back(tile);
     }
 
     PlanePatch patchAt(int strip, int row) const {
@@ -141,33 +156,29 @@ private:
         return patch;
     }
 
-    double boundOf(const PlanePatch &patch) {
-        for (std::size_t s = 0; s < m_sources.size(); ++s)
-            m_errors[s][0] =
+    double boundOf(const PlanePatch &patch, Found &found) const {
+        for (std::size_t s = 0; s < m_sources.size(); ++s) {
+            found.errors[s][0] =
                 m_sources[s].energies->energyBound(offsetBy(patch, m_sources[s].source));
-        setAmplitudes(patch);
-        return sumOf(0);
-    }
-
-    void setAmplitudes(const PlanePatch &patch) {
-        for (std::size_t s = 0; s < m_sources.size(); ++s)
             for (std::size_t c = 0; c < 3; ++c)
-                m_amplitudes[s][c] = amplitudeOf(m_sources[s], patch, c);
+                found.amplitudes[s][c] = amplitudeOf(m_sources[s], patch, c);
+        }
+        return sumOf(0, found);
     }
 
     // Amplitudes of fields without negative samples add up, and so do those of their errors at
     // worst.
-    double sumOf(std::size_t entry) const {
+    double sumOf(std::size_t entry, const Found &found) const {
         if (m_sources.size() == 1) {
-            const auto &a = m_amplitudes.front();
+            const auto &a = found.amplitudes.front();
             return m_area * (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) *
-                   double(m_errors.front()[entry]);
+                   double(found.errors.front()[entry]);
         }
         std::array<double, 3> amplitudes{};
         for (std::size_t s = 0; s < m_sources.size(); ++s) {
-            const double error = std::sqrt(double(m_errors[s][entry]));
+            const double error = std::sqrt(double(found.errors[s][entry]));
             for (std::size_t c = 0; c < 3; ++c)
-                amplitudes[c] += m_amplitudes[s][c] * error;
+                amplitudes[c] += found.amplitudes[s][c] * error;
         }
         double sum = 0.0;
         for (const double amplitude : amplitudes)
@@ -197,8 +208,6 @@ private:
     std::size_t m_entries; ///< the last that is used
     double m_area;         ///< of a tile in both halves of the plane, over the budget
     double m_dark;
-    std::vector<Errors> m_errors;                    ///< by source
-    std::vector<std::array<double, 3>> m_amplitudes; ///< by source, of the last patch
 };
 
 // The widths of a tile that save time at a price, from the widest kernel on, each at a higher price
@@ -260,8 +269,13 @@ WidthMap::Shares WidthMap::shares(const SlicePlane &plane) const {
     return shares;
 }
 
+void inOrder(int count, const std::function<void(int)> &work) {
+    for (int n = 0; n < count; ++n)
+        work(n);
+}
+
 WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
-                                std::span<const Weights> weights) const {
+                                std::span<const Weights> weights, const ForEach &forEach) const {
     double least = 0.0;
     std::vector<SliceSource> sources;
     for (std::size_t f = 0; f < m_fields.size(); ++f) {
@@ -277,11 +291,11 @@ WidthMap AdaptiveWidths::mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
             source.amplitude = {std::hypot(weights[f][0], weights[f][1], weights[f][2]), 0.0, 0.0};
         sources.push_back(source);
     }
-    return mapFor(plane, sources, least);
+    return mapFor(plane, sources, least, forEach);
 }
 
 WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSource> sources,
-                                double least) const {
+                                double least, const ForEach &forEach) const {
     const Circle circle(plane);
     // Where little is known to be in the picture, everything is read.
     const double budget =
@@ -291,43 +305,59 @@ WidthMap AdaptiveWidths::mapFor(const SlicePlane &plane, std::span<const SliceSo
         measured.push_back(
             {source, (source.isGradient ? m_gradients : m_fields)[source.field].get()});
     const Tiles tiles(plane, circle, std::move(measured), m_kernels->widest(), budget);
-    std::vector<Savings> savings;
-    savings.reserve(tiles.bright.size());
+    struct Part {
+        Tiles::Found found;
+        std::vector<Savings> savings; ///< of the bright tiles
+    };
+    std::vector<Part> parts(std::size_t(tiles.parts()));
+    for (Part &part : parts) {
+        part.found = tiles.room();
+        part.savings.reserve(part.found.bright.capacity());
+    }
+    forEach(tiles.parts(), [&](int n) {
+        Part &part = parts[std::size_t(n)];
+        tiles.find(n, part.found);
+        for (const Tiles::Tile &tile : part.found.bright)
+            part.savings.emplace_back(m_kernels->widest(), tile.errors);
+    });
     std::vector<double> errors(Savings::classes, 0.0);
-    for (const Tiles::Tile &tile : tiles.bright) {
-        savings.emplace_back(m_kernels->widest(), tile.errors);
-        for (const Savings::Saving &saving : savings.back().all())
-            errors[saving.price] += double(saving.error);
+    double left = 0.0;
+    for (const Part &part : parts) {
+        left += part.found.left;
+        for (const Savings &savings : part.savings)
+            for (const Savings::Saving &saving : savings.all())
+                errors[saving.price] += double(saving.error);
     }
     // The first class that the budget does not pay in full.
-    double spent = tiles.left;
+    double spent = left;
     std::size_t limit = 0;
     while (limit < errors.size() && spent + errors[limit] <= 1.0)
         spent += errors[limit++];
 
     WidthMap map{.tiles = circle.tiles,
                  .left = m_tolerance * std::sqrt(spent),
-                 .unmeasuredEnergy = budget * tiles.left};
+                 .unmeasuredEnergy = budget * left};
     const auto perStrip = 2 * std::size_t(circle.tiles);
     map.widths.resize(std::size_t(circle.strips) * perStrip, 0);
     map.errors.resize(map.widths.size(), 0.0F);
-    for (std::size_t n = 0; n < savings.size(); ++n) {
-        const Tiles::Tile &tile = tiles.bright[n];
-        int width = m_kernels->widest();
-        float error = 0.0F;
-        for (const Savings::Saving &saving : savings[n].all()) {
-            if (saving.price >= limit)
-                break;
-            width = saving.width;
-            error += saving.error;
+    for (const Part &part : parts)
+        for (std::size_t n = 0; n < part.savings.size(); ++n) {
+            const Tiles::Tile &tile = part.found.bright[n];
+            int width = m_kernels->widest();
+            float error = 0.0F;
+            for (const Savings::Saving &saving : part.savings[n].all()) {
+                if (saving.price >= limit)
+                    break;
+                width = saving.width;
+                error += saving.error;
+            }
+            const std::size_t at =
+                std::size_t(tile.strip) * perStrip + std::size_t(tile.row + circle.tiles);
+            map.widths[at] = std::uint8_t(width);
+            map.errors[at] = error;
+            if (width > 0)
+                map.strips = std::max(map.strips, tile.strip + 1);
         }
-        const std::size_t at =
-            std::size_t(tile.strip) * perStrip + std::size_t(tile.row + circle.tiles);
-        map.widths[at] = std::uint8_t(width);
-        map.errors[at] = error;
-        if (width > 0)
-            map.strips = std::max(map.strips, tile.strip + 1);
-    }
     return map;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -55,6 +56,10 @@ struct WidthMap {
     Shares shares(const SlicePlane &plane) const;
 };
 
+/// Runs `work(n)` for n = 0..count-1, in any order and on any threads. The work does not throw.
+using ForEach = std::function<void(int count, const std::function<void(int)> &work)>;
+void inOrder(int count, const std::function<void(int)> &work);
+
 /// Chooses the kernel widths for each view. Most frequencies of a picture have almost no energy: a
 /// narrow kernel is accurate enough for them, or they need not be read. The fastest choice within
 /// an error is the one in which every tile saves the same time per unit of error. A view uses at
@@ -71,13 +76,14 @@ public:
         : m_kernels(std::move(kernels)), m_fields(std::move(fields)),
           m_gradients(std::move(gradients)), m_image(image), m_tolerance(tolerance) {}
 
-    /// For plain frames. *Shape*: one weight for each field. `axes`: columns U, V and W.
+    /// For plain frames. *Shape*: one weight for each field. `axes`: columns U, V and W. The map
+    /// does not depend on `forEach`.
     WidthMap mapFor(const glm::dmat3 &axes, const SlicePlane &plane,
-                    std::span<const Weights> weights) const;
+                    std::span<const Weights> weights, const ForEach &forEach = inOrder) const;
     /// For frames with cue or light. `least`: the energy of low frequencies of the picture; the
     /// whole has more. *Units*: of the spectrum squared, over mm^2.
-    WidthMap mapFor(const SlicePlane &plane, std::span<const SliceSource> sources,
-                    double least) const;
+    WidthMap mapFor(const SlicePlane &plane, std::span<const SliceSource> sources, double least,
+                    const ForEach &forEach = inOrder) const;
     bool hasGradients() const { return !m_gradients.empty(); }
 
     const std::shared_ptr<const fourier::KernelsByWidth> &kernels() const { return m_kernels; }

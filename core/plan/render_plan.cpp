@@ -29,17 +29,16 @@ struct PlannedGrid {
     double cells() const { return double(grid.columns) * grid.rows; }
 };
 
-// The slice grids worth trying, smallest first. `added`: the error of the picture over that of the
-// worst field.
+// The slice grids worth trying, smallest first.
 std::vector<PlannedGrid> planGrids(const scene::Scene &scene, std::span<const FieldSummary> fields,
-                                   double added) {
+                                   double errorFactor) {
     const scene::Camera &camera = scene.camera;
     FieldOfView fieldOfView;
     for (const FieldSummary &field : fields)
         fieldOfView.spreads.push_back(field.energy.spread);
     std::vector<PlannedGrid> grids;
     for (const double share : {0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1}) {
-        fieldOfView.aliasingLimit = share * scene.tolerance / added;
+        fieldOfView.aliasingLimit = share * scene.tolerance / errorFactor;
         const SliceGrid grid = sliceGrid(camera, fieldOfView, fields.front().lattice, scene.image);
         if (!grids.empty() && grid == grids.back().grid)
             continue;
@@ -47,7 +46,7 @@ std::vector<PlannedGrid> planGrids(const scene::Scene &scene, std::span<const Fi
         for (const auto &spread : fieldOfView.spreads)
             folded = std::max(
                 folded, predictFoldedTails(scene.image, camera, grid.columns, grid.rows, *spread));
-        grids.push_back({grid, fieldOfView, added * folded});
+        grids.push_back({grid, fieldOfView, errorFactor * folded});
     }
     return grids;
 }
@@ -89,7 +88,7 @@ public:
     Planner(const scene::Scene &scene, std::span<const FieldSummary> fields,
             const Composition &composition, const Budget &budget)
         : m_scene(scene), m_limit(scene.tolerance), m_fields(fields), m_composition(composition),
-          m_added(std::sqrt(composition.together)), m_budget(budget),
+          m_errorFactor(composition.errorFactor()), m_budget(budget),
           m_kernels(
               choices<fourier::KernelChoice>(scene.interpolation.kernel, {{leastAliasing, 3},
                                                                           {leastAliasing, 4},
@@ -103,7 +102,7 @@ public:
           m_axes{KernelCandidates(0, fields, cueOf(scene)),
                  KernelCandidates(1, fields, cueOf(scene)),
                  KernelCandidates(2, fields, cueOf(scene))},
-          m_grids(planGrids(scene, fields, m_added)),
+          m_grids(planGrids(scene, fields, m_errorFactor)),
           m_imageShare(imageShare(scene.camera, fields)) {}
 
     RenderPlan plan() {
@@ -117,7 +116,8 @@ public:
     }
 
     // The fastest plan of the same storage that predicts at most `limit`, if it takes less than
-    // `price` times the time of the last one. The candidates are those of all plans.
+    // `price` times the time of the last one. *Requires*: `plan` has met the tolerance; called
+    // once.
     std::optional<RenderPlan> stricter(double limit, double price) {
         m_limit = limit;
         m_storages = {m_best->spectrum.storage};
@@ -186,7 +186,7 @@ private:
         for (const FieldSummary &field : m_fields)
             worst = std::max(worst, predictRelativeError(layout.errors, layout.spectrum.storage,
                                                          field.energy, m_imageShare, weight));
-        return m_added * worst;
+        return m_errorFactor * worst;
     }
     double maximumError(const Layout &layout) const {
         const CueWeight weight = weightOf(layout.spectrum);
@@ -205,7 +205,7 @@ private:
                                                     field.energy.axis[d]));
             added += worst;
         }
-        return std::sqrt(added);
+        return m_errorFactor * std::sqrt(added);
     }
 
     // More taps and wider cells cost time that nothing else can save.
@@ -300,6 +300,7 @@ private:
                                 maximumError(layout) + planned.folded,
                                 0.0,
                                 bytes};
+            m_best->together = m_composition.together;
             if (meets)
                 m_bestTime = time;
         }
@@ -320,7 +321,7 @@ private:
     double m_limit;                         ///< the error that a plan may predict
     std::span<const FieldSummary> m_fields; ///< on one lattice, in one box
     Composition m_composition;
-    double m_added; ///< the error of the picture over that of the worst field
+    double m_errorFactor;
     Budget m_budget;
     std::vector<fourier::KernelChoice> m_kernels;
     std::vector<double> m_paddings;
@@ -362,8 +363,9 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
     scene::validate(scene);
     Planner planner(scene, fields, composition, budget);
     RenderPlan plan = planner.plan();
-    // A stricter limit leaves error for narrower kernels. More padding or a wider kernel is a fair
-    // price for that where they read most frequencies, in smooth fields.
+    // A stricter limit leaves error for narrower kernels. In smooth fields they read most
+    // frequencies, so that more padding or a wider kernel pays off: on three scans and two phantoms
+    // up to twice the time of one width, on noise none of it.
     constexpr double share = 0.8;
     const double limit = share * scene.tolerance,
                  price = 1.1 + 0.9 * std::max(0.0, 1.0 - 3.0 * roughnessOf(fields));
@@ -377,9 +379,9 @@ RenderPlan planRender(const scene::Scene &scene, std::span<const FieldSummary> f
 void adaptWidths(RenderPlan &plan, const scene::Scene &scene,
                  std::span<const FieldSummary> fields) {
     // Noise has the same energy in every tile, up to the limit of its samples.
-    constexpr double asNoise = 0.5, ofTheSteps = 0.75;
-    if (roughnessOf(fields) > asNoise &&
-        scene.camera.pixelMm > ofTheSteps * fields.front().lattice.shortestStepMm())
+    constexpr double noiseRoughness = 0.5, fewestSteps = 0.75;
+    if (roughnessOf(fields) > noiseRoughness &&
+        scene.camera.pixelMm > fewestSteps * fields.front().lattice.shortestStepMm())
         return;
     // A small remainder saves too little time.
     constexpr double margin = 0.95, leastShare = 0.1;

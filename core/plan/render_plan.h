@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -40,6 +41,7 @@ struct RenderPlan {
     /// AdaptiveWidths; 0: one kernel reads every frequency.
     double adaptiveError = 0.0;
     scene::ImageDefinition image; ///< for which that is
+    int together = 1;             ///< of the composition
 };
 
 /// The cheapest choice of kernel, padding of each axis, storage and slice grid whose predicted
@@ -52,10 +54,14 @@ RenderPlan planRender(const scene::Scene &scene, const FieldSummary &field,
 /// How the images of fields make a picture.
 struct Composition {
     int images = 1; ///< transforms in a frame
-    /// The largest number of fields that add up in a channel. Their errors may be alike where their
-    /// images are not: without negative samples, the relative error of n of them is at most sqrt(n)
-    /// times that of the worst.
+    /// The largest number of fields that add up in a channel of a picture that the plan's error is
+    /// for. Their errors may be alike where their images are not: without negative samples, the
+    /// relative error of n of them is at most sqrt(n) times that of the worst. Layers whose weights
+    /// move are planned one by one; their sum has an error of its own, see
+    /// accuracy::ViewErrorModel.
     int together = 1;
+    /// The error of a picture over that of its worst field.
+    double errorFactor() const { return std::sqrt(double(together)); }
 };
 
 /// The same for fields whose spectra share a layout, so that a slice can be their weighted sum. The

@@ -86,8 +86,10 @@ FittingPlan planWithin(const scene::Scene &scene, const ShadedFields &shaded,
                                                      composition, {budget.bytes - held}),
                                     std::move(coarse), reduction};
                 plan::RenderPlan &plan = fitting.plan;
-                plan.predictedError = std::hypot(plan.predictedError, lost);
-                plan.predictedMaximum = std::max(plan.predictedMaximum, lost);
+                plan.predictedError =
+                    std::hypot(plan.predictedError, composition.errorFactor() * lost);
+                plan.predictedMaximum =
+                    std::max(plan.predictedMaximum, composition.together * lost);
                 plan.bytes += held;
                 const volume::GridSize size =
                     fitting.reduced->fields.front().values.lattice().size();
@@ -172,14 +174,14 @@ PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
             of};
 }
 
-PreparedEngine prepareEngine(const scene::Scene &scene, const classify::ShownFields &fields,
+PreparedEngine prepareEngine(const scene::Scene &scene, classify::ShownFields fields,
                              const plan::Budget &budget, const task::Progress &progress,
                              const std::optional<shading::ShadingScale> &scale) {
-    const volume::Lattice &lattice = fields.channels.front().values.lattice();
-    ShadedFields shaded =
-        shadedFields(fields, scene.shading, scale.value_or(shading::shadingScale(lattice)),
-                     progress.part(0.0, 0.1));
+    const volume::Lattice lattice = fields.channels.front().values.lattice();
     const std::size_t light = bytesForLight(scene.shading, lattice.size(), fields.channels.size());
+    ShadedFields shaded =
+        shadedFields(std::move(fields), scene.shading,
+                     scale.value_or(shading::shadingScale(lattice)), progress.part(0.0, 0.1));
     return prepareEngine(scene, std::move(shaded),
                          {budget.bytes > light ? budget.bytes - light : 0},
                          progress.part(0.1, 1.0));

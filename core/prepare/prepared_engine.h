@@ -68,7 +68,7 @@ PreparedEngine prepareEngine(const scene::Scene &scene, ShadedFields fields,
                              const plan::Budget &budget, const task::Progress &progress = {});
 /// First computes what the scene's light needs. `scale`: that of the volume, if the fields come
 /// from a coarser one. *Throws* as above.
-PreparedEngine prepareEngine(const scene::Scene &scene, const classify::ShownFields &fields,
+PreparedEngine prepareEngine(const scene::Scene &scene, classify::ShownFields fields,
                              const plan::Budget &budget, const task::Progress &progress = {},
                              const std::optional<shading::ShadingScale> &scale = std::nullopt);
 

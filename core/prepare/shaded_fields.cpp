@@ -10,7 +10,7 @@ namespace pellucid::prepare {
 ShadedFields shadedFields(classify::ShownFields fields, const shading::Shading &shading,
                           const shading::ShadingScale &scale, const task::Progress &progress) {
     if (shading.isLit())
-        fields = classify::inPrimaries(std::move(fields));
+        fields = classify::inPrimaries(std::move(fields), progress);
     ShadedFields result{std::move(fields.channels), {}, scale, fields.colors};
     if (!shading.isLit())
         return result;
@@ -29,8 +29,8 @@ ShadedFields shadedFields(classify::ShownFields fields, const shading::Shading &
 std::size_t bytesForLight(const shading::Shading &shading, const volume::GridSize &size,
                           std::size_t channels) {
     const volume::GridSize larger{size.i + 2, size.j + 2, size.k + 2};
-    // Two fields become three.
-    const std::size_t fields = channels == 2 ? 6 + 1 : 2 * channels;
+    // Two fields become three, each with a gradient.
+    const std::size_t fields = channels == 2 ? 6 : 2 * channels;
     return shading.isLit() ? fields * larger.count() * sizeof(float) : 0;
 }
 

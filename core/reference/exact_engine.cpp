@@ -10,7 +10,9 @@ namespace pellucid::reference {
 
 ExactEngine::ExactEngine(classify::ShownFields fields, const shading::Shading &shading,
                          const task::Progress &progress)
-    : m_fields(std::move(fields)), m_progress(progress) {
+    : m_fields(shading.isLit() ? classify::inPrimaries(std::move(fields), progress)
+                               : std::move(fields)),
+      m_progress(progress) {
     if (shading.isPlain())
         for (const classify::DensityField &field : m_fields.channels)
             m_spectra.emplace_back(field.values, field.support, m_progress);

@@ -88,7 +88,8 @@ std::vector<double> shadedImage(const classify::ShownFields &shown, const shadin
                                 const task::Progress &progress) {
     const auto scale = shading::shadingScale(shown.channels.front().values.lattice());
     // Light is not linear in the fields: it shades those of red, green and blue.
-    const classify::ShownFields fields = shading.isLit() ? classify::inPrimaries(shown) : shown;
+    const classify::ShownFields fields =
+        shading.isLit() ? classify::inPrimaries(shown, progress) : shown;
     std::vector<std::vector<double>> planes;
     // The channels of a field in grey light differ only by its color.
     const std::size_t count = shading.isGrey() ? fields.channels.size() : std::size_t(3);

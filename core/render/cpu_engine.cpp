@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 
 #include "core/render/frame_inputs.h"
@@ -218,6 +219,16 @@ private:
     double m_rowsStart = 0.0;
 };
 
+void runOn(task::WorkerTeam &team, int count, const std::function<void(int)> &work) {
+    const task::WorkerTeam::Phase phase{
+        count,
+        [](void *context, int part, int) {
+            (*static_cast<const std::function<void(int)> *>(context))(part);
+        },
+        const_cast<std::function<void(int)> *>(&work)};
+    team.run({&phase, 1});
+}
+
 } // namespace
 
 CpuEngine::CpuEngine(std::shared_ptr<const fourier::Spectrum> spectrum,
@@ -263,7 +274,10 @@ picture::ProjectionImage CpuEngine::render(const scene::Camera &camera,
     const double start = frameClockSeconds();
     FrameBuffers &buffers = *m_buffers;
     const FrameInputs inputs =
-        buffers.setup.inputsFor(m_parts.spectra, m_parts.channelWeights, camera, image, shading);
+        buffers.setup.inputsFor(m_parts.spectra, m_parts.channelWeights, camera, image, shading,
+                                [&](int count, const std::function<void(int)> &work) {
+                                    runOn(buffers.team, count, work);
+                                });
     picture::ProjectionImage result{
         camera.width, camera.height, camera.pixelMm, {}, inputs.pictureChannels()};
     task::orOutOfMemory(task::because::noMemoryForAnImage, [&] {

@@ -120,7 +120,7 @@ plan::SlicePlane slicePlane(const scene::Camera &camera, const plan::SliceGrid &
 FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
                                   const std::vector<ChannelWeights> &channelWeights,
                                   const scene::Camera &camera, const scene::ImageDefinition &image,
-                                  const shading::Shading &shading) {
+                                  const shading::Shading &shading, const plan::ForEach &forEach) {
     const fourier::Spectrum &spectrum = *spectra.fields.front();
     const glm::dmat3 axes = camera.axes();
     const shading::Shading active = activeShading(shading, spectra);
@@ -143,8 +143,9 @@ FrameInputs FrameSetup::inputsFor(const EngineSpectra &spectra,
         (!inputs.shading.lit || m_widths->hasGradients())) {
         const plan::SlicePlane plane = slicePlane(camera, inputs.grid, inputs.geometry);
         inputs.widths = inputs.isShaded ? m_widths->mapFor(plane, sliceSources(inputs),
-                                                           lowEnergy(inputs, spectra, plane))
-                                        : m_widths->mapFor(axes, plane, channelWeights);
+                                                           lowEnergy(inputs, spectra, plane),
+                                                           forEach)
+                                        : m_widths->mapFor(axes, plane, channelWeights, forEach);
         inputs.kernels = m_widths->kernels();
     }
     inputs.zero = zeroSums(inputs.mixing, inputs.shading, spectrum.layout());

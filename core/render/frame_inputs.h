@@ -59,7 +59,8 @@ public:
     FrameInputs inputsFor(const EngineSpectra &spectra,
                           const std::vector<ChannelWeights> &channelWeights,
                           const scene::Camera &camera, const scene::ImageDefinition &image,
-                          const shading::Shading &shading);
+                          const shading::Shading &shading,
+                          const plan::ForEach &forEach = plan::inOrder);
 
 private:
     plan::FieldOfView m_fieldOfView;

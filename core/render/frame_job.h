@@ -51,8 +51,8 @@ enum class FrameKind { field, gradient };
 /// A spectrum and its weight in each channel of the slice.
 struct FrameSource {
     const std::byte *cells = nullptr;
-    std::size_t field = 0; ///< index in the engine's spectra
-    std::array<float, 3> channelWeights{1.0F, 1.0F, 1.0F};
+    std::size_t field = 0;                                 ///< index in the engine's spectra
+    std::array<float, 3> channelWeights{1.0F, 1.0F, 1.0F}; ///< in each sum
     FrameKind kind = FrameKind::field;
     /// Converts the channel weights to the spectrum's own unit.
     double unitShare = 1.0;
@@ -100,7 +100,7 @@ struct FrameJob {
     const fourier::CellLayout *cellLayout = nullptr;
     const FrameSource *sources = nullptr;
     int sourceCount = 1;
-    /// The number of images: as many as the picture's colors have rank.
+    /// The number of images: as many as the picture's colors have rank; in colored light three.
     int channels = 1;
     /// The number of sums of the sources: one for all images, or one each.
     int sums = 1;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "app/bench/measure.h"
 
 namespace pellucid {
@@ -10,8 +13,8 @@ namespace {
 // The default frame is worth its trouble: a floor that a slow machine does not reach by being slow,
 // for both sides run on it. They take turns in blocks, because the ray sum's threads wait for more
 // work for a while after each, on the processors of the frame. Measured: 9 to 22 times the ray sum
-// at 128^3 on two threads of AVX-512. A neighbour on the machine takes a part of that, but hardly
-// in every one of four rounds.
+// at 128^3 on two threads of AVX-512. Other processes slow some rounds, so the second best of four
+// counts.
 TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
     const bench::Subject subject = bench::noiseSphere(128);
     const volume::Lattice &lattice = subject.field.values.lattice();
@@ -33,13 +36,14 @@ TEST(Performance, TheDefaultFrameBeatsTheRaySum) {
         }
         return bench::median(times);
     };
-    double best = 0.0;
-    for (int round = 0; round < 4; ++round) {
+    std::array<double, 4> ratios{};
+    for (double &ratio : ratios) {
         const double frame = medianOf([&] { engine.render(camera, scene.image); }),
                      cast = medianOf([&] { bench::raySum(inSpace, camera, 1.0); });
-        best = std::max(best, cast / frame);
+        ratio = cast / frame;
     }
-    EXPECT_GT(best, 5.0);
+    std::sort(ratios.begin(), ratios.end());
+    EXPECT_GT(ratios[2], 5.0);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 // and shows the same picture afterwards. A hundred operations at every build, a thousand with
 // PELLUCID_LONG_TESTS.
 #include "tests/ui/workstation.h"
+#include "ui/engine/gl_probe.h"
 
 #include <algorithm>
 #include <fstream>
@@ -193,7 +194,9 @@ private slots:
         // None is the aim; a busy machine takes the processor away now and then.
         QVERIFY2(above(m_effort.waitMs) <= spans.size() / 1000, "operations block the window");
 #endif
-        QVERIFY(glObjects > 0);
+        // A software renderer draws nothing while the processor makes the pictures.
+        const auto &window = ui::windowCapabilities();
+        QVERIFY(glObjects > 0 || !window || window->software);
         // A pane that was never shown before makes its own.
         QVERIFY2(sharedGlObjects() <= glObjects + 8, "objects of OpenGL stay");
         QCOMPARE(failed.size(), 0);

@@ -41,8 +41,8 @@ QImage pictureOf(const volume::Volume &volume, const classify::FieldWindow &wind
                  const task::Progress &progress) {
     scene::Scene scene = pictureScene(volume.lattice());
     scene.shading = shading;
-    const auto fields = classify::shownFields(volume, window, look, &steps, progress);
-    const auto prepared = prepare::prepareEngine(scene, fields, {}, progress, scale);
+    auto fields = classify::shownFields(volume, window, look, &steps, progress);
+    const auto prepared = prepare::prepareEngine(scene, std::move(fields), {}, progress, scale);
     const auto image = prepared.engine->render(scene.camera, scene.image, scene.shading);
     const auto rgba = picture::compose(image, {});
     return QImage(rgba.data(), image.width, image.height, QImage::Format_RGBA8888).copy();

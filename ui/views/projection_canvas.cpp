@@ -163,8 +163,8 @@ private:
     bool m_stale = false;
 };
 
-// Draws on the processor. A software renderer would take ten times as long to upload a picture, run
-// the tone pass and join the window; it draws only what it has made itself.
+// Draws on the processor. Uploading, toning and compositing with a software renderer take ten times
+// as long. OpenGL draws only pictures that it rendered itself.
 class SoftwareCanvas final : public QWidget, public ProjectionCanvas {
 public:
     explicit SoftwareCanvas(QWidget *parent)

@@ -15,8 +15,8 @@ class ProjectionCanvas {
 public:
     virtual ~ProjectionCanvas() = default;
     virtual QWidget *widget() = 0;
-    /// Null shows black.
     using Image = std::shared_ptr<const picture::ProjectionImage>;
+    /// Null shows black.
     virtual void setImage(Image image) = 0;
     /// Shows a picture that is on the graphics card; a canvas that cannot draw it there downloads
     /// it.

@@ -125,8 +125,10 @@ TEST(Spectrum, TakesFourBytesACellAndLittleMoreToMake) {
     const double cells = 193.0 * 384 * 384;
     // Columns overlap by three of sixteen cells and have a halo: 4 bytes a cell, times 1.4.
     EXPECT_LT(double(layout.bytes()), 1.4 * 4.0 * cells);
-    layout.storage = fourier::Storage::float32;
-    EXPECT_LT(double(layout.peakBytes()), 2.2 * double(layout.bytes()));
+    for (const auto storage : {fourier::Storage::binary16, fourier::Storage::float32}) {
+        layout.storage = storage;
+        EXPECT_LT(double(layout.peakBytes()), 1.25 * double(layout.bytes()));
+    }
 }
 
 TEST(Spectrum, StopsWhenCancelled) {

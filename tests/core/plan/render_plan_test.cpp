@@ -87,6 +87,58 @@ TEST(RenderPlan, TighterTolerancesTakeMoreTapsAndThenFloatCells) {
     }
 }
 
+// Two fields of one channel may err alike; their images need not overlap.
+TEST(RenderPlan, FieldsThatAddUpCostTheirErrorTimesTheRootOfTheirNumber) {
+    const volume::Lattice lattice = volume::Lattice::centred({24, 24, 24}, {1, 1, 1});
+    const std::vector<classify::DensityField> fields{test::noiseField(lattice, 1),
+                                                     test::noiseField(lattice, 2)};
+    const auto summaries = plan::summarise(std::span(fields));
+    auto scene = sceneFor(lattice);
+    scene.tolerance = 0.1;
+    scene.image.rollOff = 1.0; // negligible tails
+    scene.interpolation = {fourier::kernelFromName("LS4"), 1.5, fourier::Storage::float32};
+    const auto apart = plan::planRender(scene, summaries, {2, 1}),
+               together = plan::planRender(scene, summaries, {2, 2});
+    EXPECT_NEAR(together.predictedError, std::sqrt(2.0) * apart.predictedError,
+                1e-3 * apart.predictedError);
+    EXPECT_GT(together.predictedMaximum, 1.9 * apart.predictedMaximum);
+    EXPECT_EQ(together.together, 2);
+}
+
+// Noise has no dark frequencies, unless the pixels are finer than the samples.
+TEST(RenderPlan, OnlySmoothFieldsAndFinePixelsLeaveErrorForNarrowKernels) {
+    const volume::Lattice lattice = volume::Lattice::centred({40, 40, 40}, {1, 1, 1});
+    const auto adaptiveErrorOf = [&](const classify::DensityField &field, double pixelMm) {
+        auto scene = sceneFor(lattice);
+        scene.camera.pixelMm = pixelMm;
+        scene.camera.width = scene.camera.height = int(64 / pixelMm);
+        scene.tolerance = 1e-2;
+        scene.interpolation = {fourier::kernelFromName("LS5"), 2.0, fourier::Storage::float32};
+        const auto summary = plan::summarise(field);
+        auto plan = plan::planRender(scene, summary);
+        plan::adaptWidths(plan, scene, {&summary, 1});
+        EXPECT_LE(plan.predictedError, scene.tolerance);
+        return plan.adaptiveError;
+    };
+    std::mt19937 random(6);
+    std::normal_distribution<float> normal; // without a mean, which would be smooth
+    std::vector<float> white(lattice.size().count());
+    for (float &sample : white)
+        sample = normal(random);
+    const classify::DensityField noise =
+        classify::fieldOf(test::noiseField(lattice).values, std::move(white));
+    EXPECT_EQ(adaptiveErrorOf(noise, 1.0), 0.0);
+    EXPECT_GT(adaptiveErrorOf(noise, 0.5), 0.0);
+    std::vector<float> ball(lattice.size().count());
+    for (int k = 0; k < 40; ++k)
+        for (int j = 0; j < 40; ++j)
+            for (int i = 0; i < 40; ++i)
+                ball[lattice.size().offsetOf(i, j, k)] = float(std::exp(
+                    -0.02 * (std::pow(i - 20, 2) + std::pow(j - 20, 2) + std::pow(k - 20, 2))));
+    const classify::DensityField smooth = classify::fieldOf(noise.values, std::move(ball));
+    EXPECT_GT(adaptiveErrorOf(smooth, 1.0), 0.0);
+}
+
 // The framing of a picture: pixel size in shortest steps, side in pixels (0: the default), pan in
 // pixels.
 struct Framing {

@@ -49,6 +49,7 @@ TEST(MixedColors, AreWithinTheToleranceOfTheExactPicture) {
                 prepare::errorOf(prepared, picture, scene.camera, scene.image, shading);
             ASSERT_TRUE(stated);
             EXPECT_LE(error, *stated) << width << " " << toJson(shading);
+            EXPECT_LE(*stated, prepared.plan.predictedError) << width << " " << toJson(shading);
         }
 }
 
