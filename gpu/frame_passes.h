@@ -44,7 +44,7 @@ private:
     int m_width = 0, m_height = 0, m_channels = 1, m_layers = 1;
     double m_pixelMm = 1.0;
     Colors m_colors = white;
-    // Of a single grey image.
+    // A single grey image has no color of its own.
     static constexpr Colors white{{{1.0F, 1.0F, 1.0F}}};
 };
 

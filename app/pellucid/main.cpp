@@ -45,7 +45,7 @@ void endOnSignals(QObject &application) {
     });
     struct sigaction action {};
     action.sa_handler = [](int) {
-        const int before = errno; // the interrupted code may still read it
+        const int before = errno; // of the interrupted code
         const char byte = 1;
         (void)!::write(signalSocket, &byte, 1);
         errno = before;

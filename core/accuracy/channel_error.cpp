@@ -242,8 +242,10 @@ private:
                                                         std::max(0.0, whole - m_centralImage)
                                                   : 0.0,
                      partRounding = alike * std::max(pointShare, part) * known * rest;
-        return {(isLit ? litPointMargin : pointMargin) * pointRounding +
-                    (representAll ? 0.0 : partOfPointsMargin * partRounding),
+        // The view may pass through the few of them that round best: then their mean counts.
+        return {representAll ? std::max((isLit ? litPointMargin : pointMargin) * pointRounding,
+                                        alike * part * known * rest)
+                             : partOfPointsMargin * partRounding,
                 (isKnown ? restMargin : unknownRoundingMargin) * part * rest *
                     (representAll ? 1.0 - alike : 1.0)};
     }

@@ -33,7 +33,7 @@ std::vector<plan::SliceSource> sliceSources(const FrameInputs &inputs) {
                 const double share =
                     from.channelWeights[mixing.sums > 1 ? image : 0] * from.unitShare;
                 ChannelWeights color = mixing.imageColor(image);
-                // Of a single image, one channel has the amplitudes of all three.
+                // A single image needs one channel, with the amplitudes of all three.
                 if (mixing.channels == 1)
                     color = {std::hypot(color[0], color[1], color[2]), 0.0, 0.0};
                 for (std::size_t c = 0; c < color.size(); ++c) {
