@@ -58,7 +58,7 @@ ColorBasis colorBasis(std::span<const ColorBasis::Rgb> colors) {
         return std::abs(glm::dot(directionOf(color), glm::normalize(normal))) <= tolerance;
     });
     if (!isPlane)
-        return {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}},
+        return {{ColorBasis::primaries.begin(), ColorBasis::primaries.end()},
                 {colors.begin(), colors.end()}};
     ColorBasis result{{*first, *second}, {}};
     for (const ColorBasis::Rgb &color : colors) {

@@ -11,6 +11,8 @@ namespace pellucid::classify {
 /// picture needs one image for each, whatever the number of classes.
 struct ColorBasis {
     using Rgb = std::array<double, 3>;
+    static constexpr std::array<Rgb, 3> primaries{
+        {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     std::vector<Rgb> colors; ///< one to three
     /// The amount of each basis color in each color of the look. Not negative, except that rounding
     /// may leave -1e-16, if no component of a color is. *Shape*: one entry for each color of the

@@ -7,8 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/classify/color_basis.h"
-
 namespace pellucid::render {
 
 int colorsOf(std::span<const ChannelWeights> channelWeights) {

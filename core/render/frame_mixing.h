@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/classify/color_basis.h"
 #include "core/render/frame_job.h"
 #include "core/render/projection_engine.h"
 
@@ -32,8 +33,7 @@ struct Mixing {
     std::array<std::array<Dc, 3>, 2> dc; ///< by kind and sum
 
 private:
-    static constexpr std::array<ChannelWeights, 3> primaries{
-        {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+    static constexpr auto &primaries = classify::ColorBasis::primaries;
     // `share`: in each sum.
     void add(const fourier::Spectrum &spectrum, FrameKind kind, std::size_t field,
              const ChannelWeights &share);

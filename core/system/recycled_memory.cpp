@@ -11,8 +11,8 @@ namespace {
 
 // Small arrays cost the allocator next to nothing.
 constexpr std::size_t smallest = std::size_t(256) << 10;
-// A picture on the screen, the next one, and those of a study beside.
-constexpr std::size_t mostKept = 4, mostBytes = std::size_t(256) << 20;
+// A picture on the screen, the next one, its pixels, and those of a study beside.
+constexpr std::size_t mostKept = 6, mostBytes = std::size_t(256) << 20;
 
 class Kept {
 public:
